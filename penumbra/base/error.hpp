@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+namespace penumbra {
+
+/// The user's input is at fault. The message is one line that names the file, the element, what is
+/// wrong and what would be right. The command line prints it and exits with status 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace penumbra

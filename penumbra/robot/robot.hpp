@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/triangle_mesh.hpp>
+
+namespace penumbra {
+
+enum class Geometry { collision, visual };
+
+/// What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]).
+struct RobotOptions {
+  std::map<std::string, std::filesystem::path> packages;  ///< package://NAME -> folder
+  Geometry geometry = Geometry::collision;
+  std::map<std::string, Geometry> geometry_of_links;  ///< pattern -> geometry, before `geometry`
+  bool geometry_fallback = false;  ///< take the other geometry for a link that lacks the chosen one
+  std::vector<std::string> ignore_links;  ///< patterns of links that are not drawn
+  std::vector<std::string> only_links;    ///< if not empty: patterns of the links that are drawn
+  std::map<std::string, double> margins;  ///< pattern -> surface offset, metres; negative shrinks
+  bool allow_missing_meshes = false;  ///< go on without unreadable meshes; the report names them
+};
+
+/// What became of a link's geometry.
+struct LinkReport {
+  std::string link;
+  bool drawn = false;
+  bool missing = false;  ///< geometry was wanted and could not be read (allow_missing_meshes)
+  std::string reason;    ///< why it is not drawn, or what was chosen; one line
+  std::vector<std::string> sources;  ///< each element's file or primitive
+  std::size_t triangles = 0;
+  bool watertight = false;     ///< every mesh of the link is closed
+  double margin = 0.0;         ///< metres
+  Eigen::AlignedBox3d bounds;  ///< in the link's frame, metres; empty if not drawn
+  double load_ms = 0.0;
+};
+
+enum class JointType { revolute, continuous, prismatic, fixed, planar, floating };
+
+/// A joint of the tree. Its frame is the child link's frame at position 0.
+struct Joint {
+  std::string name;
+  JointType type = JointType::fixed;
+  std::size_t parent = 0;                                    ///< link index
+  std::size_t child = 0;                                     ///< link index
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< T_parent_joint
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           ///< unit, in the joint's frame
+  std::optional<double> lower, upper;                        ///< limits, rad or m
+
+  /// First of this joint's values in the position vector; not set for a fixed joint. A mimicking
+  /// joint's value is multiplier * positions[variable] + offset, chains folded.
+  std::optional<std::size_t> variable;
+  double multiplier = 1.0;
+  double offset = 0.0;
+  bool mimics = false;
+};
+
+/// A URDF's links, joints and geometry, ready to be posed. Immutable, cheap to move.
+class Robot {
+ public:
+  /// Reads a URDF and its meshes. Throws InputError naming file, line and element for anything that
+  /// is neither understood nor known to be irrelevant, and for a mesh that cannot be read.
+  [[nodiscard]] static Robot load(const std::filesystem::path& urdf,
+                                  const RobotOptions& options = {});
+
+  /// The same from text; relative mesh paths start at `folder`.
+  [[nodiscard]] static Robot parse(std::string_view xml, const std::filesystem::path& folder,
+                                   const RobotOptions& options = {});
+
+  Robot(Robot&&) noexcept;
+  Robot& operator=(Robot&&) noexcept;
+  ~Robot();
+
+  [[nodiscard]] const std::string& name() const;
+
+  /// Link names in an order in which parents stand before children; index 0 is the root.
+  [[nodiscard]] std::span<const std::string> links() const;
+  [[nodiscard]] std::optional<std::size_t> find_link(std::string_view name) const;
+
+  /// In the order of the links: joints()[i].child == i + 1.
+  [[nodiscard]] std::span<const Joint> joints() const;
+
+  /// Names of the independent position values: joint names for one value; NAME/x, NAME/y, NAME/yaw
+  /// for planar, NAME/x .. NAME/qw for floating joints. Mimicking joints have none.
+  [[nodiscard]] std::span<const std::string> variables() const;
+  [[nodiscard]] std::optional<std::size_t> find_variable(std::string_view name) const;
+
+  /// Positions of every variable at rest: 0, and the unit quaternion.
+  [[nodiscard]] std::vector<double> rest_positions() const;
+
+  /// Triangles of link i in its own frame, margins included; empty if it is not drawn.
+  [[nodiscard]] std::span<const TriangleMesh> meshes(std::size_t link) const;
+
+  [[nodiscard]] std::span<const LinkReport> report() const;
+
+  /// One line for each package found without being given ("package NAME: taken from ...").
+  [[nodiscard]] std::span<const std::string> notes() const;
+
+  /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, all
+  /// finite; T_root_link one per link. Allocates nothing. Quaternions are normalised.
+  void forward_kinematics(std::span<const double> positions,
+                          std::span<Eigen::Isometry3d> T_root_link) const;
+
+ private:
+  struct Model;
+  explicit Robot(std::unique_ptr<const Model> model);
+  std::unique_ptr<const Model> model_;
+};
+
+}  // namespace penumbra
