@@ -63,7 +63,7 @@ class DepthRenderer {
  private:
   Intrinsics intrinsics_;
   std::size_t body_count_;
-  std::size_t triangle_count_;
+  std::size_t triangle_count_ = 0;
   RendererInfo info_;
 };
 
