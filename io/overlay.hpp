@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/occlusion/labels.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::io {
+
+/// What the augmented view shows. All images that are given have one size.
+struct OverlayInput {
+  ImageView<const Rgb8> color;  ///< the scene; empty: depth is drawn in grey instead
+  DepthView depth;              ///< used only without colour; may be empty
+  LabelView labels;             ///< empty: no robot could be drawn; `message` says why
+  std::int64_t index = 0;
+  std::optional<std::int64_t> stamp;  ///< nanoseconds
+  std::string_view message;  ///< a line below the title, such as what is wrong; may be empty
+};
+
+/// The color that stands for a label; told apart by people with any common color blindness.
+[[nodiscard]] Rgb8 label_color(Label label);
+
+/// Draws the scene with labels over it, the robot's outline and a legend with each label's pixels.
+/// At least one of color, depth and labels must not be empty. `out` gets their size; its buffer is
+/// kept where the size stays.
+void draw_overlay(const OverlayInput& input, Image<Rgb8>& out);
+
+}  // namespace penumbra::io

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <io/frame_pattern.hpp>
+
+namespace penumbra::io {
+
+/// What verdicts make of the label "beyond".
+enum class BeyondMeans { occluded, visible };
+
+/// The camera of a recording. What is not set was not written there.
+struct RecordingCamera {
+  Camera camera;  ///< `range` holds camera.range where that is written
+  bool rectified = false;
+  std::string parent;                  ///< the link that the camera sits on
+  Eigen::Isometry3d T_parent_camera;   ///< pose of the optical frame in the parent link
+  std::optional<DepthRange> range;     ///< metres
+  std::optional<Tolerance> tolerance;  ///< of LabelRule
+  std::optional<int> front_min_width;  ///< of LabelRule, pixels
+  std::optional<BeyondMeans> beyond;
+};
+
+/// Where the frames' files are.
+struct RecordingFrames {
+  std::filesystem::path joints;
+  FramePattern depth;
+  std::optional<FramePattern> color;
+};
+
+/// A recording folder's description (DESIGN section 4), read and checked. Paths are ready to use.
+struct Recording {
+  std::filesystem::path file;  ///< the recording.yaml
+  std::filesystem::path urdf;
+  RobotOptions robot;
+  RecordingCamera camera;
+  RecordingFrames frames;
+
+  /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. Throws
+  /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or
+  /// values, a pose that is not rigid, and for what is not supported yet.
+  [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
+};
+
+/// Reads 4 x 4 comma-separated numbers, row-major, metres. Rotations off by no more than 1e-4 are
+/// projected to the nearest one. Throws InputError for anything else.
+[[nodiscard]] Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file);
+
+}  // namespace penumbra::io
