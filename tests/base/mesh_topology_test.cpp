@@ -207,7 +207,8 @@ TEST(MeshTopology, AgreesWithAFloodOnRandomSoups) {
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < vertices; ++i)
       mesh.vertices.emplace_back(float(random() % 9), float(random() % 9), float(random() % 9));
-    for (std::size_t i = 0; i < 1 + random() % 40; ++i)
+    const std::size_t triangles = 1 + random() % 60;
+    for (std::size_t i = 0; i < triangles; ++i)
       mesh.triangles.push_back({static_cast<std::uint32_t>(random() % vertices),
                                 static_cast<std::uint32_t>(random() % vertices),
                                 static_cast<std::uint32_t>(random() % vertices)});
