@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The one home of Debian package names.
+#   scripts/packages.sh GROUP...            prints the packages of the groups
+#   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
+# Groups: build (library and command line), test, bench, lint.
+set -euo pipefail
+
+build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev
+       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev)
+test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev)
+bench=(libbenchmark-dev libembree-dev libegl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri)
+lint=(clang-format clang-tidy)
+
+install=false
+if [[ ${1:-} == --install ]]; then
+  install=true
+  shift
+fi
+if (($# == 0)); then
+  sed -n '3,6s/^# \{0,1\}//p' "$0" >&2
+  exit 2
+fi
+
+packages=()
+for group in "$@"; do
+  case $group in
+    build | test | bench | lint)
+      declare -n of_group=$group
+      packages+=("${of_group[@]}")
+      ;;
+    *)
+      echo "packages.sh: unknown group '$group' (build, test, bench, lint)" >&2
+      exit 2
+      ;;
+  esac
+done
+
+if ! $install; then
+  printf '%s\n' "${packages[@]}" | sort -u
+  exit
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $state == installed ]] || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+echo "installing: ${missing[*]}" >&2
+as_root=()
+((EUID == 0)) || as_root=(sudo)
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

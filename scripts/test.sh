@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds with warnings as errors, runs every test, then the sanitizers, the format and clang-tidy.
+#   scripts/test.sh         under 15 minutes on two cores
+#   scripts/test.sh --full  all tests under all sanitizers, long fuzzing and soaks, benchmarks
+# The last line is "N passed, N failed[, N skipped]"; the exit status is 0 if none failed.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+full=false
+case ${1:-} in
+  "") ;;
+  --full) full=true ;;
+  *)
+    sed -n '3,6s/^# //p' "$0" >&2
+    exit 2
+    ;;
+esac
+
+passed=0 failed=0 skipped=0
+finish() {
+  local line="$passed passed, $failed failed"
+  ((skipped == 0)) || line+=", $skipped skipped"
+  echo "$line"
+  ((failed == 0 && passed > 0)) || exit 1
+}
+trap finish EXIT
+
+# check NAME COMMAND...: a step that passes or fails as a whole.
+check() {
+  local name=$1 start=$SECONDS
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+    echo "== $name: passed ($((SECONDS - start)) s)"
+  else
+    failed=$((failed + 1))
+    echo "== $name: FAILED ($((SECONDS - start)) s)"
+    return 1
+  fi
+}
+
+# build PRESET TARGET [CMAKE OPTION...]: configures and compiles.
+build() {
+  local preset=$1 target=$2
+  shift 2
+  cmake --preset "$preset" "$@" >/dev/null &&
+    cmake --build --preset "$preset" --target "$target" -j "$(nproc)"
+}
+
+# count ATTRIBUTE FILE: a number of the <testsuite> of a JUnit file.
+count() {
+  tr '\n' ' ' <"$2" | sed -nE "s/.*<testsuite [^>]*[[:space:]]$1=\"([0-9]+)\".*/\1/p"
+}
+
+# run_tests PRESET [CTEST OPTION...]: runs the tests and adds their counts.
+run_tests() {
+  local preset=$1 start=$SECONDS junit=$PWD/build/$1/junit.xml
+  shift
+  rm -f "$junit"
+  ctest --preset "$preset" -j "$(nproc)" --output-junit "$junit" "$@" >"build/$preset/ctest.log" 2>&1 ||
+    sed -n '/\*\*\*Failed/,/^ *[0-9]*\/[0-9]* Test/p; /tests failed/,$p' "build/$preset/ctest.log"
+  if [[ ! -s $junit ]]; then
+    failed=$((failed + 1))
+    echo "== tests ($preset): FAILED: ctest did not run, see build/$preset/ctest.log"
+    return 1
+  fi
+  local all fails skips
+  all=$(count tests "$junit") fails=$(count failures "$junit")
+  skips=$(($(count skipped "$junit") + $(count disabled "$junit")))
+  passed=$((passed + all - fails - skips)) failed=$((failed + fails)) skipped=$((skipped + skips))
+  echo "== tests ($preset): $((all - fails - skips)) passed, $fails failed, $skips skipped" \
+    "($((SECONDS - start)) s)"
+}
+
+check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror; }
+
+# check_tidy FOLDERS: clang-tidy on the sources of folders joined by |.
+check_tidy() {
+  run-clang-tidy -quiet -j "$(nproc)" -p build/release "^$PWD/($1)/.*\.cpp\$" \
+    >build/release/tidy.log 2>/dev/null || { grep -E 'error:|warning:' build/release/tidy.log | sort -u; false; }
+}
+
+groups=(build test lint)
+! $full || groups+=(bench)
+check packages scripts/packages.sh --install "${groups[@]}" || exit
+
+sanitizer_scope=(-DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
+tidy_scope='penumbra|io|apps'
+if $full; then
+  export PENUMBRA_FULL=1
+  sanitizer_scope=(-DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
+  tidy_scope+='|tests|examples|bench'
+fi
+
+check format check_format
+if check "build (release)" build release all -DPENUMBRA_BUILD_BENCHMARKS="$($full && echo ON || echo OFF)"; then
+  run_tests release
+  check clang-tidy check_tidy "$tidy_scope"
+fi
+if check "build (asan)" build asan all "${sanitizer_scope[@]}"; then
+  run_tests asan
+fi
+if $full; then
+  check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
+else
+  check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" && run_tests tsan -L threaded
+fi

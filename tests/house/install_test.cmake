@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the build tree into an empty prefix, then configures, builds and runs the consumer there.
+function(step)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed: ${ARGN}\n${text}")
+  endif()
+  set(output "${text}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${work})
+step(${CMAKE_COMMAND} --install ${build} --prefix ${work}/prefix)
+step(${CMAKE_COMMAND} -S ${source} -B ${work}/build -G Ninja -D CMAKE_BUILD_TYPE=${type}
+     -D CMAKE_PREFIX_PATH=${work}/prefix)
+step(${CMAKE_COMMAND} --build ${work}/build)
+step(${work}/build/consumer)
+if(NOT output MATCHES "penumbra ${version}: 2 links")
+  message(FATAL_ERROR "the consumer said: ${output}")
+endif()

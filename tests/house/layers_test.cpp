@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// The house has floors: each part of the code uses only those below it.
+#include "source_tree.hpp"
+
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+using Names = std::set<std::string>;
+
+const std::map<std::string, Names>& allowed_rooms() {
+  static const Names core{"base", "camera", "robot", "render", "occlusion", "tracking", "pipeline"};
+  static const std::map<std::string, Names> rooms{
+      {"penumbra/base", {"base"}},
+      {"penumbra/camera", {"base", "camera"}},
+      {"penumbra/robot", {"base", "robot"}},
+      {"penumbra/render", {"base", "camera", "render"}},
+      {"penumbra/occlusion", {"base", "camera", "occlusion"}},
+      {"penumbra/tracking", {"base", "camera", "occlusion", "tracking"}},
+      {"penumbra/pipeline", core},
+      {"io", core},
+      {"apps", core}};
+  return rooms;
+}
+
+/// How many shipped files may include a library, and in which folder they stand.
+struct Library {
+  std::string include;  // what the include starts with
+  std::string folder;
+  std::size_t files;
+};
+
+const std::vector<Library>& libraries() {
+  static const std::vector<Library> all{{"tinyxml2", "penumbra/robot", 1},
+                                        {"assimp/", "penumbra/robot", 1},
+                                        {"hwy/", "penumbra", 8},
+                                        {"yaml-cpp/", "io", 2},
+                                        {"png.h", "io", 1},
+                                        {"nlohmann/", "io", 2},
+                                        {"CLI/", "apps", 6}};
+  return all;
+}
+
+std::string room_of(const std::string& path) {
+  const auto first = path.find('/');
+  const std::string top = path.substr(0, first);
+  return top == "penumbra" ? path.substr(0, path.find('/', first + 1)) : top;
+}
+
+bool is_standard(const std::string& include) {
+  static const std::regex pattern("[a-z_]+");
+  return std::regex_match(include, pattern);
+}
+
+std::vector<SourceFile> shipped() {
+  return source_files({"penumbra", "io", "apps"}, {".cpp", ".hpp"});
+}
+
+TEST(Layers, IncludesPointDown) {
+  const auto files = shipped();
+  ASSERT_GT(files.size(), 10U);
+  for (const auto& file : files) {
+    const auto rule = allowed_rooms().find(room_of(file.path));
+    ASSERT_NE(rule, allowed_rooms().end()) << file.path << " stands in a folder without a rule";
+    for (const auto& include : includes(file)) {
+      if (include.starts_with("penumbra/")) {
+        const std::string room = room_of(include).substr(std::string("penumbra/").size());
+        EXPECT_TRUE(rule->second.contains(room)) << file.path << " includes " << include;
+      }
+      if (include.starts_with("io/")) {
+        EXPECT_FALSE(file.path.starts_with("penumbra/")) << file.path << " includes " << include;
+      }
+      if (include.starts_with("apps/")) {
+        EXPECT_TRUE(file.path.starts_with("apps/")) << file.path << " includes " << include;
+      }
+    }
+  }
+}
+
+TEST(Layers, LibrariesStayInFewFiles) {
+  for (const auto& library : libraries()) {
+    Names users;
+    for (const auto& file : shipped()) {
+      for (const auto& include : includes(file)) {
+        if (!include.starts_with(library.include)) continue;
+        users.insert(file.path);
+        EXPECT_TRUE(file.path.starts_with(library.folder + "/"))
+            << file.path << " includes " << include << ", which belongs in " << library.folder;
+      }
+    }
+    EXPECT_LE(users.size(), library.files)
+        << library.include << " is included by " << testing::PrintToString(users);
+  }
+}
+
+TEST(Layers, EveryLibraryIsKnown) {
+  for (const auto& file : shipped()) {
+    for (const auto& include : includes(file)) {
+      const bool ours = include.starts_with("penumbra/") || include.starts_with("io/") ||
+                        include.starts_with("apps/");
+      const bool system = is_standard(include) || include.starts_with("Eigen/") ||
+                          include.starts_with("sys/") || include == "unistd.h";
+      const bool known =
+          std::any_of(libraries().begin(), libraries().end(),
+                      [&](const auto& library) { return include.starts_with(library.include); });
+      EXPECT_TRUE(ours || system || known) << file.path << " includes " << include;
+    }
+  }
+}
+
+TEST(Layers, InstalledHeadersNeedOnlyTheStandardLibraryAndEigen) {
+  for (const auto& file : source_files({"penumbra"}, {".hpp"})) {
+    if (file.ends_with("-inl.hpp")) continue;
+    for (const auto& include : includes(file)) {
+      const bool ours = include.starts_with("penumbra/") && !include.ends_with("-inl.hpp");
+      EXPECT_TRUE(ours || is_standard(include) || include.starts_with("Eigen/"))
+          << file.path << " includes " << include;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
