@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/random.hpp"
+#include "lens_samples.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/distortion.hpp>
+
+namespace penumbra {
+namespace {
+
+using test::Lens;
+
+constexpr double focal = 1000;  // pixels: turns points of the plane z = 1 into pixels
+constexpr double round_trip_px = 1e-9;
+// As close to the edge as 1e-9 pixels can be asked for: the derivative there is still some 1e-3,
+// and the inverse magnifies rounding by its reciprocal.
+constexpr double near_the_edge = 0.999;
+
+/// Derivative of distort() by central differences.
+Eigen::Matrix2d derivative_at(const Distortion& lens, const Eigen::Vector2d& p) {
+  constexpr double h = 1e-6;
+  Eigen::Matrix2d j;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(i);
+    j.col(i) = (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
+  }
+  return j;
+}
+
+void expect_round_trip(const Lens& sample, const Distortion& lens, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d distorted = lens.distort(p);
+  const auto back = lens.undistort(distorted);
+  ASSERT_TRUE(back) << sample.name << ' ' << p.transpose();
+  EXPECT_LT(focal * (lens.distort(*back) - distorted).norm(), round_trip_px)
+      << sample.name << ' ' << p.transpose();
+  // Seen as pixels of the raw image: what the inverse is off times the least magnification.
+  EXPECT_LT(focal * (derivative_at(lens, p) * (*back - p)).norm(), round_trip_px)
+      << sample.name << ' ' << p.transpose();
+}
+
+TEST(Distortion, NoneChangesNothing) {
+  const Distortion none;
+  EXPECT_TRUE(none.is_none());
+  EXPECT_EQ(none.distort({3, -4}), Eigen::Vector2d(3, -4));
+  EXPECT_EQ(none.undistort({3, -4}).value(), Eigen::Vector2d(3, -4));
+  EXPECT_EQ(none.max_radius(), std::numeric_limits<double>::infinity());
+}
+
+TEST(Distortion, KnowsRosNames) {
+  const std::vector<double> five(5, 0.1), eight(8, 0.1), four(4, 0.1);
+  EXPECT_EQ(Distortion("plumb_bob", five).model(), DistortionModel::plumb_bob);
+  EXPECT_EQ(Distortion("plumb_bob", four).model(), DistortionModel::plumb_bob);
+  EXPECT_EQ(Distortion("rational_polynomial", eight).model(), DistortionModel::rational_polynomial);
+  for (const char* name : {"equidistant", "fisheye", "kannala_brandt4"})
+    EXPECT_EQ(Distortion(name, four).model(), DistortionModel::equidistant) << name;
+  EXPECT_TRUE(Distortion("", {}).is_none());
+  EXPECT_TRUE(Distortion("none", std::vector<double>(5, 0.0)).is_none());
+  EXPECT_TRUE(Distortion("plumb_bob", std::vector<double>(5, 0.0)).is_none());
+  EXPECT_TRUE(Distortion("rational_polynomial", std::vector<double>(14, 0.0)).is_none());
+  // All 0 is the ideal fisheye, not no distortion.
+  EXPECT_EQ(Distortion("equidistant", std::vector<double>(4, 0.0)).model(),
+            DistortionModel::equidistant);
+  EXPECT_EQ(to_string(DistortionModel::rational_polynomial), "rational_polynomial");
+}
+
+TEST(Distortion, CoefficientsOfOpenCvBeyondTheEighthMayBeZero) {
+  const std::vector<double> eight{0.1, 0.2, 0.01, 0.02, 0.3, 0.1, 0.1, 0.1};
+  std::vector<double> fourteen = eight;
+  fourteen.resize(14, 0.0);
+  const Eigen::Vector2d p(0.3, 0.2);
+  EXPECT_EQ(Distortion("rational_polynomial", fourteen).distort(p),
+            Distortion("rational_polynomial", eight).distort(p));
+}
+
+std::string message_of(const std::string& model, const std::vector<double>& k) {
+  try {
+    const Distortion lens(model, k);
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << model << " was accepted";
+  return {};
+}
+
+TEST(Distortion, RefusesWhatItDoesNotKnow) {
+  const auto has = [](const std::string& text, const std::string& part) {
+    return testing::AssertionResult(text.find(part) != std::string::npos) << text;
+  };
+  const std::string unknown = message_of("division", {0.1});
+  EXPECT_TRUE(has(unknown, "division"));
+  for (const char* known : {"plumb_bob", "rational_polynomial", "equidistant"})
+    EXPECT_TRUE(has(unknown, known));
+  EXPECT_TRUE(has(message_of("plumb_bob", {0.1, 0.2}), "2 coefficients"));
+  EXPECT_TRUE(has(message_of("plumb_bob", {}), "0 coefficients"));
+  EXPECT_TRUE(has(message_of("rational_polynomial", std::vector<double>(5, 0.1)), "needs 8"));
+  EXPECT_TRUE(has(message_of("equidistant", std::vector<double>(5, 0.1)), "needs 4"));
+  EXPECT_TRUE(has(message_of("", {0.1}), "no coefficients"));
+  std::vector<double> thin_prism(12, 0.0);
+  thin_prism[9] = 0.01;
+  EXPECT_TRUE(has(message_of("rational_polynomial", thin_prism), "thin prism"));
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_TRUE(has(message_of("plumb_bob", {0.1, bad, 0, 0, 0}), "coefficient 2"));
+}
+
+TEST(Distortion, FollowsItsFormula) {
+  // x' = x (1 + k1 r^2) / (1 + k4 r^2) + 2 p1 x y + p2 (r^2 + 2 x^2), by hand for (1, 2), r^2 = 5
+  const Distortion lens("rational_polynomial",
+                        std::vector<double>{0.2, 0, 0.1, 0.01, 0, 0.6, 0, 0});
+  const Eigen::Vector2d p = lens.distort({1, 2});
+  EXPECT_DOUBLE_EQ(p.x(), 1 * 2.0 / 4.0 + 2 * 0.1 * 2 + 0.01 * 7);
+  EXPECT_DOUBLE_EQ(p.y(), 2 * 2.0 / 4.0 + 0.1 * (5 + 8) + 2 * 0.01 * 2);
+}
+
+TEST(Distortion, IdealFisheyeHasAClosedFormInverse) {
+  const Distortion lens("equidistant", std::vector<double>(4, 0.0));
+  for (const double degrees : {0.0, 1e-6, 1.0, 45.0, 80.0, 89.9}) {
+    const double theta = degrees * std::numbers::pi / 180;
+    const auto p = lens.undistort({theta, 0});
+    ASSERT_TRUE(p) << degrees;
+    EXPECT_DOUBLE_EQ(p->x(), std::tan(theta));
+    EXPECT_EQ(p->y(), 0);
+  }
+  EXPECT_FALSE(lens.undistort({std::numbers::pi / 2 + 1e-12, 0}));
+  EXPECT_FALSE(lens.undistort({0, -2}));
+}
+
+TEST(Distortion, BarrelFoldsWhereItsDerivativeIsZero) {
+  // d/dr (r - 0.3 r^3) = 0 at r = sqrt(1 / 0.9), where the image reaches 2/3 of that radius
+  const Distortion lens("plumb_bob", std::vector<double>{-0.3, 0, 0, 0, 0});
+  const double fold = std::sqrt(1 / 0.9);
+  EXPECT_NEAR(lens.max_radius(), fold, 2e-9);
+  EXPECT_TRUE(lens.undistort({0, fold * 2 / 3 - 1e-8}));
+  EXPECT_FALSE(lens.undistort({0, fold * 2 / 3 + 1e-8}));
+}
+
+TEST(Distortion, MonotoneRadiusIsFoundWhereRootsHide) {
+  const auto radius = [](const std::string& model, const std::vector<double>& k) {
+    return Distortion(model, k).max_radius();
+  };
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  constexpr double precise = 1e-8;  // the radius or angle stays 1e-9 of itself off the root
+  EXPECT_EQ(radius("plumb_bob", {0.3, 0.1, 0, 0, 0}), inf);
+  // the derivative touches 0: 1 - 60 s + 900 s^2 = (1 - 30 s)^2
+  EXPECT_NEAR(radius("plumb_bob", {-20, 180, 0, 0, 0}), std::sqrt(1.0 / 30), precise);
+  // ... and just does not: 1 - 59.99 s + 900 s^2
+  EXPECT_EQ(radius("plumb_bob", {-59.99 / 3, 180, 0, 0, 0}), inf);
+  // a dip between s = 1 and s = 1.002, and growth again: (s - 1) (s - 1.002) / 1.002
+  EXPECT_NEAR(radius("plumb_bob", {-2.002 / 1.002 / 3, 1 / 1.002 / 5, 0, 0, 0}), 1, precise);
+  // a pole at r^2 = 2 before which the model grows
+  EXPECT_NEAR(radius("rational_polynomial", {0, 0, 0, 0, 0, -0.5, 0, 0}), std::sqrt(2), precise);
+  // r / (1 + r^2): grows up to 1
+  EXPECT_NEAR(radius("rational_polynomial", {0, 0, 0, 0, 0, 1, 0, 0}), 1, precise);
+  // r (1 + r^2) / (1 + r^2)
+  EXPECT_EQ(radius("rational_polynomial", {1, 0, 0, 0, 0, 1, 0, 0}), inf);
+  // far away: 1 - 3e-12 s
+  EXPECT_NEAR(radius("plumb_bob", {-1e-12, 0, 0, 0, 0}) * std::sqrt(3e-12), 1, precise);
+  // equidistant counts angles: 1 - 3 theta^2 / 3
+  EXPECT_NEAR(radius("equidistant", {-1.0 / 3, 0, 0, 0}), std::tan(1.0), precise);
+  EXPECT_EQ(radius("equidistant", {-0.1, 0, 0, 0}), inf);  // the fold lies at 105 degrees
+}
+
+TEST(Distortion, AbsurdCoefficientsMapNothingOrSomethingButDoNotHang) {
+  auto random = test::seeded_random(2);
+  std::uniform_real_distribution<double> exponent(-320, 308);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<double> k(8);
+    for (double& c : k) c = (random() % 2 != 0 ? 1 : -1) * std::pow(10, exponent(random));
+    const Distortion lens("rational_polynomial", k);
+    EXPECT_GE(lens.max_radius(), 0);
+    for (const double reach : {1e-300, 1e-3, 1.0, 1e300})
+      if (const auto p = lens.undistort({reach, reach})) {
+        EXPECT_LE(p->norm(), lens.max_radius() * (1 + 1e-12));
+      }
+  }
+  EXPECT_FALSE(
+      Distortion("plumb_bob", std::vector<double>{0.1, 0, 0, 0, 0}).undistort({std::nan(""), 0}));
+}
+
+TEST(Distortion, UndistortUndoesDistortOnTypicalLenses) {
+  auto random = test::seeded_random(3);
+  for (const Lens& sample : test::typical_lenses()) {
+    const Distortion lens = sample.distortion();
+    std::cout << sample.name << ": maps up to "
+              << std::atan(lens.max_radius()) * 180 / std::numbers::pi << " degrees\n";
+    EXPECT_EQ(lens.undistort({0, 0}).value(), Eigen::Vector2d(0, 0));
+    for (int i = 0; i < 2000; ++i)
+      expect_round_trip(sample, lens, test::random_point_inside(lens, near_the_edge, random));
+  }
+}
+
+TEST(Distortion, UndistortUndoesDistortOnRandomLenses) {
+  auto random = test::seeded_random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const Lens sample = test::random_lens(random);
+    const Distortion lens = sample.distortion();
+    ASSERT_GT(lens.max_radius(), 0.1);
+    for (int j = 0; j < 20; ++j)
+      expect_round_trip(sample, lens, test::random_point_inside(lens, near_the_edge, random));
+  }
+}
+
+// Inside the radius no fold: the derivative keeps a positive determinant. And what lies outside of
+// the image of the disc is refused, also with tangential terms: such points have no inverse within
+// the radius, as a dense search finds.
+TEST(Distortion, IsOneToOneInsideAndSilentOutside) {
+  auto random = test::seeded_random(5);
+  std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
+  for (int i = 0; i < 300; ++i) {
+    const Lens sample = test::random_lens(random);
+    const Distortion lens = sample.distortion();
+    for (int j = 0; j < 50; ++j) {
+      const Eigen::Vector2d p = test::random_point_inside(lens, near_the_edge, random);
+      EXPECT_GT(derivative_at(lens, p).determinant(), 0) << sample.model;
+    }
+    if (!(lens.max_radius() < 1e3)) continue;
+    const double a = angle(random);
+    const Eigen::Vector2d rim = lens.max_radius() * Eigen::Vector2d(std::cos(a), std::sin(a));
+    const Eigen::Vector2d edge = lens.distort(rim);
+    if (!(edge.norm() < 1e3)) continue;  // a pole: the image has no edge
+    EXPECT_FALSE(lens.undistort(edge * 1.000001)) << sample.model << ' ' << edge.transpose();
+    EXPECT_TRUE(lens.undistort(edge * 0.999999)) << sample.model << ' ' << edge.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace penumbra

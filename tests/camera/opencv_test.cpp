@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenCV as the oracle of the lens models.
+#include "../support/random.hpp"
+#include "lens_samples.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+
+#include <penumbra/camera/distortion.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr double same_px = 1e-9;  // both compute the same formula in double, in another order
+constexpr double focal = 1000;
+
+std::vector<cv::Point2d> project_by_opencv(const test::Lens& sample, const Distortion& lens,
+                                           const std::vector<cv::Point3d>& points) {
+  const cv::Mat k = (cv::Mat_<double>(3, 3) << focal, 0, 0, 0, focal, 0, 0, 0, 1);
+  const cv::Vec3d none(0, 0, 0);
+  std::vector<cv::Point2d> pixels;
+  if (lens.model() == DistortionModel::equidistant)
+    cv::fisheye::projectPoints(points, pixels, none, none, k, sample.coefficients);
+  else
+    cv::projectPoints(points, none, none, k, sample.coefficients, pixels);
+  return pixels;
+}
+
+void compare(const test::Lens& sample, std::mt19937_64& random) {
+  const Distortion lens = sample.distortion();
+  std::vector<Eigen::Vector2d> rays;
+  std::vector<cv::Point3d> points;
+  for (int i = 0; i < 200; ++i) {
+    rays.push_back(test::random_point_inside(lens, 0.99, random));
+    points.emplace_back(rays.back().x(), rays.back().y(), 1.0);
+  }
+  const auto expected = project_by_opencv(sample, lens, points);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Eigen::Vector2d pixel = focal * lens.distort(rays[i]);
+    const double scale = std::max(1.0, pixel.norm() / focal);  // beside a pole pixels are far away
+    EXPECT_LT((pixel - Eigen::Vector2d(expected[i].x, expected[i].y)).norm(), same_px * scale)
+        << sample.name << ' ' << sample.model << ' ' << rays[i].transpose();
+  }
+}
+
+TEST(DistortionAgainstOpenCv, TypicalLenses) {
+  auto random = test::seeded_random(11);
+  for (const test::Lens& sample : test::typical_lenses()) compare(sample, random);
+}
+
+TEST(DistortionAgainstOpenCv, RandomLenses) {
+  auto random = test::seeded_random(12);
+  for (int i = 0; i < 500; ++i) compare(test::random_lens(random), random);
+}
+
+}  // namespace
+}  // namespace penumbra
