@@ -23,8 +23,9 @@ class FramePattern {
   [[nodiscard]] bool has_extension(std::string_view extension) const;
 
  private:
+  std::filesystem::path folder_;
   std::string before_, after_;
-  int digits_ = 0;  // 0: as many as the number has
+  std::size_t digits_ = 0;  // 0: as many as the number has
 };
 
 }  // namespace penumbra::io

@@ -12,6 +12,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/frame_pattern.hpp>
+#include <io/pose_file.hpp>
 
 namespace penumbra::io {
 
@@ -50,9 +51,5 @@ struct Recording {
   /// values, a pose that is not rigid, and for what is not supported yet.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
 };
-
-/// Reads 4 x 4 comma-separated numbers, row-major, metres. Rotations off by no more than 1e-4 are
-/// projected to the nearest one. Throws InputError for anything else.
-[[nodiscard]] Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file);
 
 }  // namespace penumbra::io

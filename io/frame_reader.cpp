@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <type_traits>
+#include <utility>
+
+#include <io/frame_reader.hpp>
+#include <io/npy.hpp>
+
+namespace penumbra::io {
+namespace {
+
+template <typename T>
+Image<T>& depth_as(FrameData& frame) {
+  if (!std::holds_alternative<Image<T>>(frame.depth)) frame.depth.emplace<Image<T>>();
+  return std::get<Image<T>>(frame.depth);
+}
+
+FileResult read_depth(const FramePattern& pattern, ImageSize size, FrameData& frame) {
+  const std::filesystem::path file = pattern.file(frame.index);
+  return pattern.has_extension(".npy") ? read_npy(file, depth_as<float>(frame), size)
+                                       : read_png(file, depth_as<std::uint16_t>(frame), size);
+}
+
+}  // namespace
+
+std::string_view to_string(FrameStatus status) {
+  switch (status) {
+    case FrameStatus::ok:
+      return "ok";
+    case FrameStatus::missing_joints:
+      return "missing_joints";
+    case FrameStatus::missing_depth:
+      return "missing_depth";
+    case FrameStatus::bad_depth:
+      break;
+  }
+  return "bad_depth";
+}
+
+DepthView FrameData::depth_view() const {
+  return std::visit([](const auto& image) { return DepthView(image.view()); }, depth);
+}
+
+FrameReader::FrameReader(const Recording& recording, const Robot& robot)
+    : size_{recording.camera.camera.intrinsics.width(),
+            recording.camera.camera.intrinsics.height()},
+      files_(recording.frames),
+      rows_(read_joint_file(recording.frames.joints, robot)) {}
+
+void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
+  const JointRow& row = rows_[i];
+  frame.index = row.index;
+  frame.stamp = row.stamp;
+  frame.positions = row.positions;
+  frame.status = row.fault.empty() ? FrameStatus::ok : FrameStatus::missing_joints;
+  frame.message = row.fault;
+
+  if (const FileResult depth = read_depth(files_.depth, size_, frame); !depth.ok()) {
+    std::visit([](auto& image) { image = std::remove_reference_t<decltype(image)>(); },
+               frame.depth);
+    if (frame.status == FrameStatus::ok)
+      frame.status =
+          depth.status == FileStatus::missing ? FrameStatus::missing_depth : FrameStatus::bad_depth;
+    frame.message += (frame.message.empty() ? "" : "; ") + depth.message;
+  }
+
+  frame.color_message.clear();
+  if (with_color && files_.color) {
+    frame.color_message = read_png(files_.color->file(row.index), frame.color, size_).message;
+    if (frame.color_message.empty()) return;
+  }
+  frame.color = Image<Rgb8>();
+}
+
+}  // namespace penumbra::io
