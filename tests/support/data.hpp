@@ -17,6 +17,6 @@ inline std::filesystem::path data_folder() {
 }  // namespace penumbra::test
 
 /// Skips the running test where the data is absent.
-#define PENUMBRA_REQUIRE_DATA()                                       \
+#define PENUMBRA_REQUIRE_DATA()                                      \
   if (!std::filesystem::is_directory(penumbra::test::data_folder())) \
   GTEST_SKIP() << "skipped: no data"
