@@ -10,6 +10,13 @@
 // get a bias above their rounding error, some 1e-6 of the triangle's size, so that a pixel on a
 // shared edge belongs to one of its triangles at least. The depth buffer takes the maximum of 1/z:
 // covering a pixel twice is harmless.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
 #include <penumbra/render/cpu/kernel.hpp>
 #include <penumbra/render/cpu/scratch-inl.hpp>
 
@@ -495,8 +502,8 @@ HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
                      hn::Mul(left, hn::Set(di, kLanes)));
   b.width = hn::Add(hn::Sub(right, left), hn::Set(di, 1));
   b.height = hn::Add(hn::Sub(bottom, top), hn::Set(di, 1));
-  const auto small = hn::And(hn::Le(b.width, hn::Set(di, Scratch::small_width)),
-                             hn::Le(b.height, hn::Set(di, Scratch::small_height)));
+  const auto small = hn::And(hn::Lt(b.width, hn::Set(di, Scratch::small_width + 1)),
+                             hn::Lt(b.height, hn::Set(di, Scratch::small_height + 1)));
   const auto row = hn::Mul(hn::Sub(b.height, hn::Set(di, 1)), hn::Set(di, Scratch::small_width));
   b.bin = hn::IfThenElse(small, hn::Add(row, hn::Sub(b.width, hn::Set(di, 1))),
                          hn::Set(di, static_cast<std::int32_t>(Scratch::large_bin)));
