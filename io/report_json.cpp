@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <penumbra/base/version.hpp>
+
+#include <io/disk_file.hpp>
+#include <io/report_json.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t write_size = std::size_t{1} << 16;  // bytes gathered before they are written
+constexpr double ns_per_ms = 1e6;
+
+/// Names come from files and may hold bytes that are no UTF-8: those are replaced.
+std::string dump(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json list(std::span<const std::string> names) {
+  Json array = Json::array();
+  for (const std::string& name : names) array.push_back(name);
+  return array;
+}
+
+Json renderer_json(const RendererInfo& info) {
+  return {{"backend", to_string(info.backend)}, {"isa", info.isa}, {"threads", info.threads}};
+}
+
+Json pixels_json(const PixelCounts& pixels) {
+  return {{"robot", or_null(pixels.robot)},
+          {"front", pixels.front},
+          {"occluded", pixels.occluded},
+          {"unknown", pixels.unknown},
+          {"beyond", pixels.beyond}};
+}
+
+Json frame_json(const FrameReport& report) {
+  Json timing;
+  for (const Stage& stage : stages) timing[stage.name] = or_null(report.timing.*stage.time);
+  const Json age =
+      report.joint_age ? Json(static_cast<double>(*report.joint_age) / ns_per_ms) : Json(nullptr);
+  return {{"index", report.index},
+          {"stamp_ns", or_null(report.stamp)},
+          {"joint_age_ms", age},
+          {"status", to_string(report.status)},
+          {"pixels", pixels_json(report.pixels)},
+          {"timing_ms", std::move(timing)},
+          {"targets", Json::array()}};
+}
+
+Json faults_json(const Statistics& statistics) {
+  Json faults = Json::array();
+  for (const Fault& fault : statistics.faults())
+    faults.push_back({{"status", to_string(fault.status)},
+                      {"frames", fault.frames},
+                      {"first_index", fault.first},
+                      {"first_message", fault.message}});
+  return faults;
+}
+
+Json summary_json(const Statistics& statistics, const Json& missing_links) {
+  Json timing;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const auto q = statistics.timing(i);
+    timing[stages[i].name] =
+        q ? Json{{"median", q->median}, {"p99", q->p99}, {"max", q->max}} : Json(nullptr);
+  }
+  Json pixels = pixels_json(statistics.pixels());
+  pixels["uncovered"] = statistics.pixels().uncovered;
+  return {{"frames", statistics.frames()},     {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},    {"pixels", std::move(pixels)},
+          {"faults", faults_json(statistics)}, {"missing_links", missing_links}};
+}
+
+Json link_json(const LinkReport& link) {
+  Json size = nullptr;
+  if (!link.bounds.isEmpty())
+    size = {link.bounds.sizes().x(), link.bounds.sizes().y(), link.bounds.sizes().z()};
+  return {{"name", link.link},
+          {"drawn", link.drawn},
+          {"missing", link.missing},
+          {"reason", link.reason},
+          {"sources", link.sources},
+          {"triangles", link.triangles},
+          {"watertight", link.drawn ? Json(link.watertight) : Json(nullptr)},
+          {"margin_m", link.margin},
+          {"size_m", std::move(size)},
+          {"load_ms", link.load_ms}};
+}
+
+std::string_view type_name(JointType type) {
+  constexpr std::array<std::string_view, 6> names = {"revolute", "continuous", "prismatic",
+                                                     "fixed",    "planar",     "floating"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+Json joint_json(const Robot& robot, const Joint& joint) {
+  Json mimic = nullptr;
+  if (joint.mimics && joint.variable)
+    mimic = {{"variable", robot.variables()[*joint.variable]},
+             {"multiplier", joint.multiplier},
+             {"offset", joint.offset}};
+  return {{"name", joint.name},
+          {"type", type_name(joint.type)},
+          {"parent", robot.links()[joint.parent]},
+          {"child", robot.links()[joint.child]},
+          {"lower", or_null(joint.lower)},
+          {"upper", or_null(joint.upper)},
+          {"mimic", std::move(mimic)}};
+}
+
+}  // namespace
+
+struct ReportWriter::State {
+  explicit State(std::filesystem::path file_)
+      : file(std::move(file_)), part(file.string() + ".part"), output(part) {}
+
+  void write(std::string_view text, bool now = false) {
+    waiting += text;
+    if (!now && waiting.size() < write_size) return;
+    output.write(waiting.data(), waiting.size());
+    waiting.clear();
+  }
+
+  std::filesystem::path file;
+  std::filesystem::path part;
+  OutputFile output;
+  std::string waiting;
+  Json missing_links;
+  bool first = true;
+  bool finished = false;
+};
+
+ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& head)
+    : state_(std::make_unique<State>(file)) {
+  std::error_code gone;
+  std::filesystem::remove(file, gone);
+  state_->missing_links = list(head.missing_links);
+  state_->write("{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
+                ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
+                ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [");
+}
+
+ReportWriter::~ReportWriter() {
+  std::error_code ignored;
+  if (!state_->finished) std::filesystem::remove(state_->part, ignored);
+}
+
+void ReportWriter::add(const FrameReport& report) {
+  state_->write((state_->first ? "\n" : ",\n") + dump(frame_json(report)));
+  state_->first = false;
+}
+
+void ReportWriter::finish(const Statistics& statistics) {
+  State& s = *state_;
+  s.write("\n],\n\"summary\": " + dump(summary_json(statistics, s.missing_links)) + "}\n", true);
+  s.output.close();
+  std::error_code error;
+  std::filesystem::rename(s.part, s.file, error);
+  if (error)
+    throw InputError(s.file.string() + ": cannot be written (" + error.message() +
+                     "); choose another output folder");
+  s.finished = true;
+}
+
+std::string render_json(const RenderResult& result) {
+  Json json = {{"triangles", result.triangles}, {"robot_pixels", result.robot_pixels}};
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (stages[i].name == "targets") continue;
+    const auto q = result.statistics.timing(i);
+    json[std::string(stages[i].name) + "_ms"] =
+        q ? Json{{"min", q->min}, {"median", q->median}, {"p99", q->p99}} : Json(nullptr);
+  }
+  json["renderer"] = renderer_json(result.renderer);
+  Json joints = Json::object();
+  for (std::size_t i = 0; i < result.variables.size(); ++i)
+    joints[result.variables[i]] = result.positions[i];
+  json["joints"] = std::move(joints);
+  return dump(json, 2);
+}
+
+std::string robot_json(const Robot& robot) {
+  Json links = Json::array();
+  for (const LinkReport& link : robot.report()) links.push_back(link_json(link));
+  Json joints = Json::array();
+  for (const Joint& joint : robot.joints()) joints.push_back(joint_json(robot, joint));
+  return dump(Json{{"robot", robot.name()},
+                   {"links", std::move(links)},
+                   {"joints", std::move(joints)},
+                   {"variables", list(robot.variables())},
+                   {"notes", list(robot.notes())}},
+              2);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/statistics.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra::io {
+
+/// What a report says before its frames.
+struct ReportHead {
+  std::string input;
+  RendererInfo renderer;
+  std::span<const std::string> links;          ///< names, in the order of link images
+  std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
+};
+
+/// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file
+/// appears under its name when it is complete: until then it ends in ".part", and a report of that
+/// name from before is removed. Members throw InputError where the file cannot be written.
+class ReportWriter {
+ public:
+  ReportWriter(const std::filesystem::path& file, const ReportHead& head);
+  ~ReportWriter();
+  ReportWriter(const ReportWriter&) = delete;
+  ReportWriter& operator=(const ReportWriter&) = delete;
+
+  void add(const FrameReport& report);
+  void finish(const Statistics& statistics);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What `render --json` prints.
+struct RenderResult {
+  std::size_t triangles = 0;
+  std::size_t robot_pixels = 0;
+  RendererInfo renderer;
+  std::span<const std::string> variables;  ///< names of the joint positions
+  std::span<const double> positions;       ///< in their order, rad and m
+  Statistics statistics;                   ///< timings of the repeats
+};
+
+[[nodiscard]] std::string render_json(const RenderResult& result);
+
+/// What `inspect --json` prints: every link, every joint, where packages were found.
+[[nodiscard]] std::string robot_json(const Robot& robot);
+
+}  // namespace penumbra::io

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/robot/joint_buffer.hpp>
+
+namespace penumbra {
+
+/// Whether a frame can be relied on, and if not, why. The first that applies, in the order of
+/// `missing_joints`, `stale_joints`, `missing_transform`, `missing_depth`, `bad_depth`,
+/// `missing_link`.
+enum class FrameStatus {
+  ok,
+  missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
+  stale_joints,       ///< a joint was not seen near the stamp: the robot's pose is unknown
+  missing_link,       ///< drawn without a link whose mesh could not be read
+  missing_depth,      ///< no depth image: every robot pixel is unknown
+  bad_depth,          ///< a depth image that cannot be used: every robot pixel is unknown
+  missing_transform,  ///< the camera's pose is unknown
+};
+
+/// The status's name in report.json.
+[[nodiscard]] std::string_view to_string(FrameStatus status);
+
+/// Whether the robot's pose in the camera is known in a frame of this status.
+[[nodiscard]] bool has_pose(FrameStatus status);
+
+/// Where the joints are at the instant of the depth image. Refers to the caller's memory.
+struct JointInput {
+  std::span<const double> positions;  ///< order of Robot::variables(), rad and m
+  JointStatus status = JointStatus::missing;
+  std::optional<std::int64_t> age;  ///< nanoseconds; nothing where the positions have no stamp
+  std::span<const JointGap> gaps;   ///< what is missing or stale, where it is known
+
+  JointInput() = default;
+  JointInput(std::span<const double> all)  // NOLINT(google-explicit-constructor)
+      : positions(all), status(JointStatus::ok) {}
+  JointInput(const std::vector<double>& all)  // NOLINT(google-explicit-constructor)
+      : JointInput(std::span<const double>(all)) {}
+  JointInput(const JointAnswer& answer);  // NOLINT(google-explicit-constructor)
+};
+
+/// What goes into Pipeline::process. Refers to the caller's memory, needed during the call only.
+struct Frame {
+  std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
+  DepthView depth = {};                    ///< of the camera's size; empty: missing_depth
+  JointInput joints = {};
+
+  /// What the frame's source knows to be wrong with it, and one line that says so. What the
+  /// pipeline finds on its own is added.
+  FrameStatus source_status = FrameStatus::ok;
+  std::string_view source_message = {};
+  std::optional<std::size_t> index = {};  ///< in its source; nothing: the pipeline counts its calls
+};
+
+/// How many pixels of the label image have each label.
+struct PixelCounts {
+  std::optional<std::size_t> robot;  ///< VDI > 0; nothing where the robot's pose is unknown
+  std::size_t front = 0;
+  std::size_t occluded = 0;
+  std::size_t unknown = 0;  ///< robot without measurement, and `uncovered`
+  std::size_t beyond = 0;
+  std::size_t uncovered = 0;  ///< of `unknown`: pixels that the lens model does not reach
+};
+
+/// Wall time of the stages, milliseconds; nothing for a stage that did not run.
+struct StageTimes {
+  std::optional<double> kinematics;
+  std::optional<double> render;  ///< and mapping to the raw image
+  std::optional<double> classify;
+  std::optional<double> targets;
+};
+
+/// What the pipeline says of one frame. Views are valid until the next call of the pipeline.
+struct FrameReport {
+  std::size_t index = 0;
+  std::optional<std::int64_t> stamp;      ///< nanoseconds
+  std::optional<std::int64_t> joint_age;  ///< nanoseconds
+  FrameStatus status = FrameStatus::ok;
+  std::string message;  ///< one line for every status but ok
+  PixelCounts pixels;
+  StageTimes timing;
+
+  /// Of this frame; all views empty where the robot's pose is unknown.
+  VirtualDepthView virtual_depth;
+
+  /// Label values; all `unknown` where the robot's pose is unknown.
+  ImageView<const std::uint8_t> labels;
+
+  std::span<const std::string> links;          ///< names: links[i] stands as i + 1 in link images
+  std::span<const std::string> missing_links;  ///< links drawn without (all of) their geometry
+};
+
+}  // namespace penumbra

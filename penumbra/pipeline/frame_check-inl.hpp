@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// Judges what goes into a frame before anything is computed from it.
+class FrameCheck {
+ public:
+  FrameCheck(const Robot& robot, int width, int height, std::span<const std::string> missing_links);
+
+  /// The frame's status; `message` says all that is wrong, in one line. Allocates nothing for a
+  /// good frame.
+  FrameStatus operator()(const Frame& frame, std::string& message) const;
+
+ private:
+  FrameStatus check_source(const Frame& frame, std::string& message) const;
+  FrameStatus check_joints(const JointInput& joints, std::string& message) const;
+  FrameStatus check_depth(const Frame& frame, std::string& message) const;
+  [[nodiscard]] std::string describe(std::span<const JointGap> gaps) const;
+
+  const Robot& robot_;
+  int width_;
+  int height_;
+  std::string missing_links_;
+};
+
+/// Whether the frame's depth image can be compared.
+[[nodiscard]] inline bool has_depth(FrameStatus status) {
+  return status == FrameStatus::ok || status == FrameStatus::missing_link;
+}
+
+}  // namespace penumbra

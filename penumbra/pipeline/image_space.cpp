@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <variant>
+
+#include <penumbra/pipeline/image_space-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+template <typename T>
+void clear(const TileMask& tiles, Image<T>& image) {
+  tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v)
+      std::fill(image.view().row(v) + u0, image.view().row(v) + u1, T{0});
+  });
+}
+
+}  // namespace
+
+PixelMap::PixelMap(ImageView<const std::int32_t> indices, int source_width)
+    : sources_(indices.width, indices.height) {
+  for (int v = 0; v < indices.height; ++v) {
+    for (int u = 0; u < indices.width; ++u) {
+      const std::int32_t index = indices(u, v);
+      if (index == Rectification::no_pixel) continue;
+      sources_(u, v) = {static_cast<std::uint16_t>(index % source_width),
+                        static_cast<std::uint16_t>(index / source_width)};
+    }
+  }
+}
+
+RawImages::RawImages(const Rectification& rectification)
+    : rectification_(rectification),
+      map_(rectification.raw_to_pinhole(), rectification.pinhole().width()),
+      depth_(map_.width(), map_.height()),
+      links_(map_.width(), map_.height()),
+      touched_(map_.width(), map_.height()),
+      uncovered_(map_.width(), map_.height()),
+      labels_touched_(touched_) {
+  for (int v = 0; v < map_.height(); ++v) {
+    for (int u = 0; u < map_.width(); ++u) {
+      if (map_.covers(u, v)) continue;
+      uncovered_(u, v) = static_cast<std::uint8_t>(Label::unknown);
+      ++uncovered_count_;
+    }
+  }
+  labels_ = uncovered_;
+}
+
+VirtualDepthView RawImages::virtual_depth(const VirtualDepthView& pinhole) {
+  clear(touched_, depth_);
+  clear(touched_, links_);
+  rectification_.touched_raw(*pinhole.touched, touched_);
+  touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
+    map_.gather(pinhole.depth, u0, u1, v0, v1, depth_.view());
+    map_.gather(pinhole.links, u0, u1, v0, v1, links_.view());
+  });
+  return {depth_.view(), links_.view(), &touched_};
+}
+
+LabelView RawImages::labels(const LabelView& labels) {
+  labels_touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v)
+      std::copy(uncovered_.view().row(v) + u0, uncovered_.view().row(v) + u1,
+                labels_.view().row(v) + u0);
+  });
+  labels.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
+    // An uncovered pixel has no virtual depth and so label 0: "or" puts unknown there alone.
+    for (int v = v0; v < v1; ++v)
+      for (int u = u0; u < u1; ++u)
+        labels_(u, v) = static_cast<std::uint8_t>(labels.labels(u, v) | uncovered_(u, v));
+  });
+  labels_touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
+  LabelView covered{labels_.view(), labels.pixels, nullptr};
+  covered.pixels[static_cast<std::size_t>(Label::clear)] -= uncovered_count_;
+  covered.pixels[static_cast<std::size_t>(Label::unknown)] += uncovered_count_;
+  return covered;
+}
+
+RectifiedDepth::RectifiedDepth(const Rectification& rectification)
+    : map_(rectification.pinhole_to_raw(), rectification.raw_to_pinhole().width) {}
+
+DepthView RectifiedDepth::rectify(const DepthView& raw, const TileMask& touched) {
+  if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&raw))
+    return rectify_into(millimetres_, *millimetres, touched);
+  return rectify_into(metres_, std::get<ImageView<const float>>(raw), touched);
+}
+
+template <typename T>
+DepthView RectifiedDepth::rectify_into(Image<T>& image, ImageView<const T> raw,
+                                       const TileMask& touched) {
+  if (image.empty()) image = Image<T>(map_.width(), map_.height());
+  touched.for_each_span(
+      [&](int u0, int u1, int v0, int v1) { map_.gather(raw, u0, u1, v0, v1, image.view()); });
+  return ImageView<const T>(image.view());
+}
+
+}  // namespace penumbra

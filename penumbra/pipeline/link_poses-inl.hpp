@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// Poses of a robot's links in the optical frame of a camera that sits on one of them.
+class LinkPoses {
+ public:
+  /// Links farther than this from the camera, metres, are called a fault of the positions: float32
+  /// depths of them would mean nothing.
+  static constexpr double max_distance = 1e6;
+
+  /// Throws InputError for a parent that is no link and a camera pose that is no rigid transform.
+  LinkPoses(const Robot& robot, const PipelineConfig& config);
+
+  /// Computes T_camera_link of every link; nothing is at fault with the positions if it answers
+  /// nothing, else the index of a link that they put nowhere near.
+  std::optional<std::size_t> update(std::span<const double> positions);
+
+  [[nodiscard]] std::span<const Eigen::Isometry3d> T_camera_link() const { return T_camera_link_; }
+
+ private:
+  const Robot& robot_;
+  std::size_t parent_;
+  Eigen::Isometry3d T_camera_parent_;
+  std::vector<Eigen::Isometry3d> T_root_link_;
+  std::vector<Eigen::Isometry3d> T_camera_link_;
+};
+
+}  // namespace penumbra

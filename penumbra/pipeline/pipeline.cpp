@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/frame_check-inl.hpp>
+#include <penumbra/pipeline/image_space-inl.hpp>
+#include <penumbra/pipeline/link_poses-inl.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Writes the wall time of its scope, milliseconds.
+class StageTimer {
+ public:
+  explicit StageTimer(std::optional<double>& to) : to_(to), start_(Clock::now()) {}
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+  ~StageTimer() { to_ = std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<double>& to_;
+  Clock::time_point start_;
+};
+
+std::vector<Body> bodies_of(const Robot& robot) {
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < robot.links().size(); ++i)
+    bodies.push_back({robot.links()[i], robot.meshes(i)});
+  return bodies;
+}
+
+std::vector<std::string> missing_links_of(const Robot& robot) {
+  std::vector<std::string> links;
+  for (const LinkReport& link : robot.report())
+    if (link.missing) links.push_back(link.link);
+  return links;
+}
+
+Camera checked(const Camera& camera) {
+  camera.check();
+  return camera;
+}
+
+std::optional<Rectification> rectification_of(const Camera& camera) {
+  if (camera.distortion.is_none()) return std::nullopt;
+  return std::optional<Rectification>(std::in_place, camera);
+}
+
+LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
+  LabelRule rule = config.rule;
+  rule.range.near = std::max(rule.range.near, camera.range.near);
+  rule.range.far = std::min(rule.range.far, camera.range.far);
+  return rule;
+}
+
+}  // namespace
+
+struct Pipeline::State {
+  State(Robot robot_, const Camera& camera_, const PipelineConfig& config);
+
+  void begin(const Frame& frame);
+  std::optional<std::span<const Eigen::Isometry3d>> pose_links(std::span<const double> positions);
+  VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
+  LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
+  DepthView seen_depth(const VirtualDepthView& virtual_depth, const DepthView& measured);
+  const FrameReport& without_pose(FrameStatus status);
+  const FrameReport& finish(FrameStatus status, const VirtualDepthView& virtual_depth,
+                            const LabelView& labels);
+
+  Robot robot;
+  Camera camera;
+  std::optional<Rectification> rectification;  // nothing without lens distortion
+  Intrinsics render_intrinsics;
+  Intrinsics output_intrinsics;
+  std::vector<std::string> missing_links;
+  FrameCheck check;
+  LinkPoses poses;
+  CameraInsideCheck camera_inside;
+  std::unique_ptr<DepthRenderer> renderer;
+  std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
+  std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
+  Classifier classifier;
+  std::vector<std::uint8_t> unknown_row;    // stands for every row of an image (stride 0)
+  std::vector<std::uint16_t> no_depth_row;  // likewise
+  std::size_t calls = 0;
+  FrameReport report;
+};
+
+Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig& config)
+    : robot(std::move(robot_)),
+      camera(checked(camera_)),
+      rectification(rectification_of(camera)),
+      render_intrinsics(rectification ? rectification->pinhole() : camera.intrinsics),
+      output_intrinsics(config.image == ImageSpace::raw ? camera.intrinsics : render_intrinsics),
+      missing_links(missing_links_of(robot)),
+      check(robot, camera.intrinsics.width(), camera.intrinsics.height(), missing_links),
+      poses(robot, config),
+      camera_inside(bodies_of(robot)),
+      renderer(make_depth_renderer(config.backend, render_intrinsics, bodies_of(robot),
+                                   config.renderer)),
+      classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
+                 config.backend == Backend::reference ? "scalar" : config.renderer.isa),
+      unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
+                  static_cast<std::uint8_t>(Label::unknown)),
+      no_depth_row(unknown_row.size()) {
+  if (rectification && config.image == ImageSpace::raw) raw_images.emplace(*rectification);
+  if (rectification && config.image == ImageSpace::rectified)
+    rectified_depth.emplace(*rectification);
+  report.links = robot.links();
+  report.missing_links = missing_links;
+}
+
+Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config)
+    : state_(std::make_unique<State>(std::move(robot), camera, config)) {}
+Pipeline::~Pipeline() = default;
+Pipeline::Pipeline(Pipeline&&) noexcept = default;
+Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
+
+const Robot& Pipeline::robot() const { return state_->robot; }
+const RendererInfo& Pipeline::renderer() const { return state_->renderer->info(); }
+std::size_t Pipeline::triangle_count() const { return state_->renderer->triangle_count(); }
+const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
+const Rectification* Pipeline::rectification() const {
+  return state_->rectified_depth ? &*state_->rectification : nullptr;
+}
+std::span<const std::string> Pipeline::missing_links() const { return state_->missing_links; }
+
+const FrameReport& Pipeline::process(const Frame& frame) {
+  State& s = *state_;
+  s.begin(frame);
+  const FrameStatus status = s.check(frame, s.report.message);
+  if (!has_pose(status)) return s.without_pose(status);
+
+  const auto T_camera_link = s.pose_links(frame.joints.positions);
+  if (!T_camera_link) return s.without_pose(FrameStatus::missing_joints);
+
+  const VirtualDepthView virtual_depth = s.render(*T_camera_link);
+  const LabelView labels = s.classify(virtual_depth, has_depth(status) ? frame.depth : DepthView{});
+  return s.finish(status, virtual_depth, labels);
+}
+
+void Pipeline::State::begin(const Frame& frame) {
+  report.index = frame.index.value_or(calls);
+  ++calls;
+  report.stamp = frame.stamp;
+  report.joint_age = frame.joints.age;
+  report.pixels = {};
+  report.timing = {};
+  report.virtual_depth = {};
+  report.labels = {};
+}
+
+std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(
+    std::span<const double> positions) {
+  const StageTimer timer(report.timing.kinematics);
+  const auto lost = poses.update(positions);
+  if (!lost) return poses.T_camera_link();
+  report.message =
+      "joint positions put link '" + robot.links()[*lost] + "' more than 1000 km from the camera";
+  return std::nullopt;
+}
+
+VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
+  const StageTimer timer(report.timing.render);
+  if (const auto link = camera_inside.find(T_camera_link))
+    throw InputError("the camera's centre lies inside of link '" + robot.links()[*link] +
+                     "': correct the camera's pose, or name the link in ignore_links if it is the "
+                     "camera's own housing");
+  const VirtualDepthView rendered = renderer->render(T_camera_link);
+  return raw_images ? raw_images->virtual_depth(rendered) : rendered;
+}
+
+LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,
+                                    const DepthView& measured) {
+  const StageTimer timer(report.timing.classify);
+  const LabelView labels = classifier.classify(virtual_depth, seen_depth(virtual_depth, measured));
+  return raw_images ? raw_images->labels(labels) : labels;
+}
+
+DepthView Pipeline::State::seen_depth(const VirtualDepthView& virtual_depth,
+                                      const DepthView& measured) {
+  if (std::visit([](const auto& view) { return view.empty(); }, measured))
+    return ImageView<const std::uint16_t>{no_depth_row.data(), output_intrinsics.width(),
+                                          output_intrinsics.height(), 0};
+  if (rectified_depth) return rectified_depth->rectify(measured, *virtual_depth.touched);
+  return measured;
+}
+
+const FrameReport& Pipeline::State::without_pose(FrameStatus status) {
+  report.status = status;
+  report.labels = {unknown_row.data(), output_intrinsics.width(), output_intrinsics.height(), 0};
+  report.pixels.unknown = unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height());
+  return report;
+}
+
+const FrameReport& Pipeline::State::finish(FrameStatus status,
+                                           const VirtualDepthView& virtual_depth,
+                                           const LabelView& labels) {
+  const auto count = [&](Label label) { return labels.pixels[static_cast<std::size_t>(label)]; };
+  PixelCounts& pixels = report.pixels;
+  pixels.front = count(Label::front);
+  pixels.occluded = count(Label::occluded);
+  pixels.unknown = count(Label::unknown);
+  pixels.beyond = count(Label::beyond);
+  pixels.uncovered = raw_images ? raw_images->uncovered() : 0;
+  pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond - pixels.uncovered;
+  report.status = status;
+  report.virtual_depth = virtual_depth;
+  report.labels = labels.labels;
+  return report;
+}
+
+}  // namespace penumbra

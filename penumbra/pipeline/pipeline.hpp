@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// Which image VDI, labels and links are given in. Without lens distortion both are the same.
+enum class ImageSpace {
+  raw,       ///< the camera's image as it comes
+  rectified  ///< the pinhole image that covers it: Pipeline::intrinsics()
+};
+
+struct PipelineConfig {
+  Backend backend = Backend::cpu;
+  RendererOptions renderer;  ///< threads and SIMD target of the cpu backend
+  LabelRule rule;            ///< its range and the camera's both apply
+  ImageSpace image = ImageSpace::raw;
+  std::string camera_parent;  ///< link that the camera sits on; empty: the root
+  /// Pose of the optical frame in that link's frame, metres.
+  Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
+};
+
+/// The whole method, one call per frame: poses, virtual depth, labels. Allocates nothing per frame
+/// after the first of its kind. One instance serves one thread at a time.
+class Pipeline {
+ public:
+  /// Throws InputError for a camera parent that is no link, a camera pose that is no rigid
+  /// transform, and what Camera, LabelRule and make_depth_renderer refuse.
+  Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
+  ~Pipeline();
+  Pipeline(Pipeline&&) noexcept;
+  Pipeline& operator=(Pipeline&&) noexcept;
+
+  /// Judges one frame; the report is valid until the next call. Whatever is wrong with the frame is
+  /// its status: an image of another frame never shows. Throws InputError if the camera's centre
+  /// lies inside of a closed link.
+  const FrameReport& process(const Frame& frame);
+
+  [[nodiscard]] const Robot& robot() const;
+  [[nodiscard]] const RendererInfo& renderer() const;
+  [[nodiscard]] std::size_t triangle_count() const;
+
+  /// Size and projection of the report's images; in the raw image of a lens with distortion the
+  /// projection is that of its pinhole part.
+  [[nodiscard]] const Intrinsics& intrinsics() const;
+
+  /// Brings images of the camera to the report's; null where the report's images are the camera's.
+  [[nodiscard]] const Rectification* rectification() const;
+
+  /// Links whose geometry could not be read (RobotOptions::allow_missing_meshes).
+  [[nodiscard]] std::span<const std::string> missing_links() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra

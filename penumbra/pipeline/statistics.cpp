@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <penumbra/pipeline/statistics.hpp>
+
+namespace penumbra {
+
+std::optional<Quantiles> quantiles(std::vector<double> samples) {
+  if (samples.empty()) return std::nullopt;
+  std::sort(samples.begin(), samples.end());
+  const std::size_t n = samples.size();
+  const std::size_t rank99 = (n * 99 + 99) / 100;  // ceil(0.99 n), from 1
+  return Quantiles{samples.front(), 0.5 * (samples[(n - 1) / 2] + samples[n / 2]),
+                   samples[rank99 - 1], samples.back()};
+}
+
+void Statistics::add(const FrameReport& report) {
+  ++frames_;
+  const PixelCounts& p = report.pixels;
+  if (p.robot) pixels_.robot = pixels_.robot.value_or(0) + *p.robot;
+  pixels_.front += p.front;
+  pixels_.occluded += p.occluded;
+  pixels_.unknown += p.unknown;
+  pixels_.beyond += p.beyond;
+  pixels_.uncovered += p.uncovered;
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (const auto time = report.timing.*stages[i].time) times_[i].push_back(*time);
+
+  if (report.status == FrameStatus::ok || report.status == FrameStatus::missing_link)
+    ++usable_frames_;
+  if (report.status == FrameStatus::ok) return;
+  const auto known = std::find_if(faults_.begin(), faults_.end(), [&](const Fault& fault) {
+    return fault.status == report.status;
+  });
+  if (known == faults_.end())
+    faults_.push_back({report.status, 1, report.index, report.message});
+  else
+    ++known->frames;
+}
+
+std::size_t Statistics::bad_frames() const {
+  std::size_t bad = 0;
+  for (const Fault& fault : faults_) bad += fault.frames;
+  return bad;
+}
+
+std::optional<Quantiles> Statistics::timing(std::size_t stage) const {
+  return quantiles(times_[stage]);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <penumbra/pipeline/frame.hpp>
+
+namespace penumbra {
+
+/// Order statistics of samples: p99 is the smallest sample that no less than 99 % do not exceed,
+/// the median of an even number is the mean of the middle two.
+struct Quantiles {
+  double min = 0.0, median = 0.0, p99 = 0.0, max = 0.0;
+};
+
+/// Nothing without samples.
+[[nodiscard]] std::optional<Quantiles> quantiles(std::vector<double> samples);
+
+/// A stage's name and where its time stands in a report.
+struct Stage {
+  std::string_view name;
+  std::optional<double> StageTimes::*time;
+};
+inline constexpr std::array stages = {
+    Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
+    Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
+
+/// How often a status other than ok came, and what was said first.
+struct Fault {
+  FrameStatus status = FrameStatus::ok;
+  std::size_t frames = 0;
+  std::size_t first = 0;  ///< index of its first frame
+  std::string message;    ///< of its first frame
+};
+
+/// What many frames come to.
+class Statistics {
+ public:
+  void add(const FrameReport& report);
+
+  [[nodiscard]] std::size_t frames() const { return frames_; }
+  [[nodiscard]] std::size_t bad_frames() const;
+
+  /// Frames that say something of the robot's pixels: ok, or drawn without a link.
+  [[nodiscard]] std::size_t usable_frames() const { return usable_frames_; }
+
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
+
+  /// Sums over the frames; `robot` over those that have it.
+  [[nodiscard]] const PixelCounts& pixels() const { return pixels_; }
+
+  /// Of one of `stages`, milliseconds; nothing if it never ran.
+  [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
+
+ private:
+  std::size_t frames_ = 0;
+  std::size_t usable_frames_ = 0;
+  std::vector<Fault> faults_;
+  PixelCounts pixels_;
+  std::array<std::vector<double>, stages.size()> times_;
+};
+
+}  // namespace penumbra
