@@ -3,6 +3,7 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/render/cpu/cpu_renderer.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/reference.hpp>
 
@@ -29,11 +30,16 @@ VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_came
   return do_render(T_camera_body);
 }
 
-std::unique_ptr<DepthRenderer> make_depth_renderer(Backend /*backend*/,
-                                                   const Intrinsics& intrinsics,
+std::unique_ptr<DepthRenderer> make_depth_renderer(Backend backend, const Intrinsics& intrinsics,
                                                    std::span<const Body> bodies,
-                                                   const RendererOptions& /*options*/) {
-  return make_reference_renderer(intrinsics, bodies);
+                                                   const RendererOptions& options) {
+  switch (backend) {
+    case Backend::cpu:
+      return make_cpu_renderer(intrinsics, bodies, options);
+    case Backend::reference:
+      return make_reference_renderer(intrinsics, bodies);
+  }
+  throw InputError("unknown renderer");
 }
 
 }  // namespace penumbra

@@ -67,14 +67,11 @@ class DepthRenderer {
   RendererInfo info_;
 };
 
-/// Makes a renderer. Throws InputError for more than max_bodies, threads < 1, or an isa that this
-/// machine or build does not have (it lists those that are there).
+/// Makes a renderer. Throws InputError for more than max_bodies, threads < 1, or an isa that is
+/// none of simd_target_names().
 [[nodiscard]] std::unique_ptr<DepthRenderer> make_depth_renderer(
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});
-
-/// Names of the SIMD targets that this build has and this machine runs, best first.
-[[nodiscard]] std::vector<std::string> available_isas();
 
 /// Finds a body whose closed mesh holds the camera's centre. The answer of a body whose pose
 /// relative to the camera has not changed is remembered.

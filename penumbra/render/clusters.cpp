@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <meshoptimizer.h>
+
+#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/render/clusters.hpp>
+
+namespace penumbra {
+namespace {
+
+/// The triangles of all closed pieces, turned outwards, and those of the open ones.
+struct Pieces {
+  std::vector<std::uint32_t> closed, open;  // vertex indices, three for each triangle
+};
+
+Pieces split(const TriangleMesh& welded) {
+  Pieces pieces;
+  for (const MeshComponent& component : connected_components(welded)) {
+    auto& indices = component.closed ? pieces.closed : pieces.open;
+    // A closed piece that is wound inwards is turned: what is first seen of a closed surface from
+    // outside is then a front face, also where the piece is a cavity inside another.
+    const bool turn = component.closed && component.signed_volume < 0.0;
+    for (const std::size_t t : component.triangles) {
+      auto [a, b, c] = welded.triangles[t];
+      if (turn) std::swap(b, c);
+      indices.insert(indices.end(), {a, b, c});
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+    for (const TriangleMesh& mesh : bodies[body].meshes) {
+      const TriangleMesh welded = weld(mesh);
+      Pieces pieces = split(welded);
+      add_shell(welded, pieces.closed, {.body = body, .closed = true});
+      add_shell(welded, pieces.open, {.body = body, .closed = false});
+    }
+  }
+  const std::size_t padded = clusters.size() + padding;
+  for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius}) values->resize(padded);
+}
+
+void ClusteredScene::add_shell(const TriangleMesh& welded, std::vector<std::uint32_t>& indices,
+                               Shell shell) {
+  if (indices.empty()) return;
+  const float* positions = welded.vertices.front().data();
+  const std::size_t bound = meshopt_buildMeshletsBound(indices.size(), max_vertices, max_triangles);
+  std::vector<meshopt_Meshlet> meshlets(bound);
+  std::vector<std::uint32_t> vertices(bound * max_vertices);
+  std::vector<unsigned char> local(bound * max_triangles * 3);
+  constexpr float cone_weight = 0.25F;  // some weight for clusters that face one way as a whole
+  meshlets.resize(meshopt_buildMeshlets(
+      meshlets.data(), vertices.data(), local.data(), indices.data(), indices.size(), positions,
+      welded.vertices.size(), sizeof(Eigen::Vector3f), max_vertices, max_triangles, cone_weight));
+  shell.first_cluster = static_cast<std::uint32_t>(clusters.size());
+  shell.cluster_count = static_cast<std::uint32_t>(meshlets.size());
+  for (const std::uint32_t i : indices) shell.bounds.extend(welded.vertices[i].cast<double>());
+  for (const meshopt_Meshlet& meshlet : meshlets) {
+    clusters.push_back({static_cast<std::uint32_t>(x.size()), meshlet.vertex_count,
+                        static_cast<std::uint32_t>(corners.size()), meshlet.triangle_count});
+    const std::uint32_t* own = &vertices[meshlet.vertex_offset];
+    Eigen::AlignedBox3f box;
+    for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i) {
+      const Eigen::Vector3f& p = welded.vertices[own[i]];
+      x.push_back(p.x());
+      y.push_back(p.y());
+      z.push_back(p.z());
+      box.extend(p);
+    }
+    float radius = 0.0F;
+    for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i) {
+      radius = std::max(radius, (welded.vertices[own[i]] - box.center()).norm());
+    }
+    sphere_x.push_back(box.center().x());
+    sphere_y.push_back(box.center().y());
+    sphere_z.push_back(box.center().z());
+    sphere_radius.push_back(radius * 1.0001F);  // roundings of centre and radius
+    for (std::uint32_t t = 0; t < meshlet.triangle_count; ++t) {
+      add_triangle(welded, own, &local[meshlet.triangle_offset + 3 * t]);
+    }
+    pad_vertices();
+    pad_triangles();
+  }
+  shells.push_back(shell);
+}
+
+void ClusteredScene::add_triangle(const TriangleMesh& welded, const std::uint32_t* cluster_vertices,
+                                  const unsigned char* local) {
+  const Eigen::Vector3d a = welded.vertices[cluster_vertices[local[0]]].cast<double>();
+  const Eigen::Vector3d b = welded.vertices[cluster_vertices[local[1]]].cast<double>();
+  const Eigen::Vector3d c = welded.vertices[cluster_vertices[local[2]]].cast<double>();
+  const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
+  plane_x.push_back(static_cast<float>(n.x()));
+  plane_y.push_back(static_cast<float>(n.y()));
+  plane_z.push_back(static_cast<float>(n.z()));
+  plane_d.push_back(static_cast<float>(n.dot(a + b + c) / 3.0));
+  corners.push_back(local[0] + 256U * local[1] + 65536U * local[2]);
+}
+
+void ClusteredScene::pad_vertices() {
+  for (auto* values : {&x, &y, &z}) {
+    while (values->size() % padding != 0) values->push_back(values->back());
+  }
+}
+
+void ClusteredScene::pad_triangles() {
+  const std::size_t padded = (corners.size() + padding - 1) / padding * padding;
+  for (auto* values : {&plane_x, &plane_y, &plane_z, &plane_d}) values->resize(padded, 0.0F);
+  corners.resize(padded, 0);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/simd_target.hpp>
+#include <penumbra/render/clusters.hpp>
+#include <penumbra/render/cpu/cpu_renderer.hpp>
+#include <penumbra/render/cpu/frame.hpp>
+#include <penumbra/render/cpu/kernel.hpp>
+#include <penumbra/render/cpu/workers.hpp>
+
+namespace penumbra {
+namespace {
+
+using cpu::BodyFrame;
+using cpu::Canvas;
+using cpu::DrawItem;
+
+class CpuRenderer final : public DepthRenderer {
+ public:
+  CpuRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, int threads,
+              std::int64_t target)
+      : DepthRenderer(intrinsics, bodies, {Backend::cpu, simd_target_name(target), threads}),
+        kernel_(cpu::kernel_for(target)),
+        scene_(bodies),
+        view_(intrinsics),
+        packing_(bodies.size()),
+        touched_(intrinsics.width(), intrinsics.height()),
+        items_(scene_.clusters.size()),
+        workers_(threads) {
+    for (int i = 0; i < threads; ++i) {
+      canvases_.emplace_back(intrinsics, kernel_.lanes);
+      scratch_.push_back(cpu::make_scratch());
+    }
+    stride_ = static_cast<std::size_t>(canvases_[0].blocks_per_row) * cpu::block_width;
+    depth_.resize(stride_ * touched_.rows.size() * TileMask::tile_height);
+    links_.resize(depth_.size());
+    frames_.reserve(bodies.size());
+  }
+
+ private:
+  VirtualDepthView do_render(std::span<const Eigen::Isometry3d> T_camera_body) override {
+    frames_.clear();
+    for (const Eigen::Isometry3d& T : T_camera_body) {
+      frames_.emplace_back(T, intrinsics(), static_cast<std::int32_t>(frames_.size() + 1));
+    }
+    cull();
+    run<&CpuRenderer::draw>(item_count_);
+    run<&CpuRenderer::resolve>(touched_.rows.size());
+    const int width = intrinsics().width();
+    const int height = intrinsics().height();
+    const auto stride = static_cast<std::ptrdiff_t>(stride_);
+    return {
+        {depth_.data(), width, height, stride}, {links_.data(), width, height, stride}, &touched_};
+  }
+
+  [[nodiscard]] cpu::FrameContext context() const {
+    return {&scene_, frames_.data(), &view_, packing_};
+  }
+
+  void cull() {
+    item_count_ = 0;
+    for (const Shell& shell : scene_.shells) {
+      item_count_ += kernel_.cull(context(), shell, shows_both_sides(shell), &items_[item_count_]);
+    }
+  }
+
+  /// Back faces are seen of an open mesh, and of a closed one that the near plane may cut open or
+  /// that may hold the camera.
+  [[nodiscard]] bool shows_both_sides(const Shell& shell) const {
+    const Intrinsics& k = intrinsics();
+    const double u = std::max(std::abs(k.cx()), std::abs(k.width() - k.cx())) / k.fx();
+    const double v = std::max(std::abs(k.cy()), std::abs(k.height() - k.cy())) / k.fy();
+    const double reach = near_plane * std::sqrt(1.0 + u * u + v * v) + 1e-6;
+    const auto& c = frames_[shell.body].centre;
+    const Eigen::Vector3d centre(c[0], c[1], c[2]);
+    return !shell.closed || shell.bounds.exteriorDistance(centre) <= reach;
+  }
+
+  /// Lets the team take `count` parts of a stage, a few at a time.
+  template <void (CpuRenderer::*Stage)(int worker)>
+  void run(std::size_t count) {
+    next_ = 0;
+    part_count_ = count;
+    workers_.run([](void* self, int worker) { (static_cast<CpuRenderer*>(self)->*Stage)(worker); },
+                 this);
+  }
+
+  [[nodiscard]] std::pair<std::size_t, std::size_t> take(std::size_t most) {
+    const std::size_t begin = std::min(next_.fetch_add(most), part_count_);
+    return {begin, std::min(begin + most, part_count_)};
+  }
+
+  void draw(int worker) {
+    const auto i = static_cast<std::size_t>(worker);
+    const std::size_t most = info().threads == 1 ? part_count_ : 16;
+    for (auto [begin, end] = take(most); begin < end; std::tie(begin, end) = take(most)) {
+      kernel_.draw(context(), std::span(items_).subspan(begin, end - begin), *scratch_[i],
+                   canvases_[i]);
+    }
+  }
+
+  void resolve(int /*worker*/) {
+    const cpu::Output output{depth_.data(), links_.data(), stride_};
+    constexpr std::size_t most = 8;
+    for (auto [begin, end] = take(most); begin < end; std::tie(begin, end) = take(most)) {
+      for (std::size_t row = begin; row < end; ++row) {
+        touched_.rows[row] = kernel_.resolve(canvases_, packing_, touched_.rows[row], row, output);
+      }
+    }
+  }
+
+  cpu::Kernel kernel_;
+  ClusteredScene scene_;
+  cpu::View view_;
+  cpu::Packing packing_;
+  TileMask touched_;
+  std::vector<BodyFrame> frames_;
+  std::vector<DrawItem> items_;
+  std::size_t item_count_ = 0;
+  std::vector<Canvas> canvases_;          // one per thread
+  std::vector<cpu::ScratchPtr> scratch_;  // one per thread
+  cpu::AlignedVector<float> depth_;
+  cpu::AlignedVector<std::uint16_t> links_;
+  std::size_t stride_ = 0;
+  std::atomic<std::size_t> next_{0};
+  std::size_t part_count_ = 0;
+  cpu::Workers workers_;  // last: its threads use all of the above
+};
+
+}  // namespace
+
+std::unique_ptr<DepthRenderer> make_cpu_renderer(const Intrinsics& intrinsics,
+                                                 std::span<const Body> bodies,
+                                                 const RendererOptions& options) {
+  if (options.threads < 1) {
+    throw InputError("threads is " + std::to_string(options.threads) + "; it must be 1 or more");
+  }
+  return std::make_unique<CpuRenderer>(intrinsics, bodies, options.threads,
+                                       simd_target(options.isa));
+}
+
+}  // namespace penumbra

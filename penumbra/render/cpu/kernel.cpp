@@ -1,0 +1,755 @@
+// SPDX-License-Identifier: Apache-2.0
+// The renderer's kernel, compiled once per SIMD target.
+//
+// A frame's clusters go through: cull (bounding spheres against the view), front faces (planes
+// against the camera's centre), project (vertices), select (bounding boxes that hold a pixel
+// centre), set up (edge functions and depth planes, sorted by size into bins), fill (one unrolled
+// routine per size), resolve (packed 1/z to depth and link images).
+//
+// Edge functions are those of Pineda 1988, "A parallel algorithm for polygon rasterization". They
+// get a bias above their rounding error, some 1e-6 of the triangle's size, so that a pixel on a
+// shared edge belongs to one of its triangles at least. The depth buffer takes the maximum of 1/z:
+// covering a pixel twice is harmless.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <penumbra/render/cpu/kernel.hpp>
+#include <penumbra/render/cpu/scratch-inl.hpp>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "penumbra/render/cpu/kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace penumbra::cpu {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = HWY_CAPPED(float, 16);
+using DI = hn::RebindToSigned<DF>;
+using DU = hn::RebindToUnsigned<DF>;
+using VF = hn::Vec<DF>;
+using VI = hn::Vec<DI>;
+constexpr DF df;
+constexpr DI di;
+constexpr DU du32;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(df));
+constexpr std::size_t kStep = static_cast<std::size_t>(kLanes);
+constexpr int kBlockHeight = kLanes / block_width;
+static_assert(kLanes >= 4 && kLanes <= 16);
+
+HWY_INLINE VF Dot3(const float* row, VF x, VF y, VF z) {
+  return hn::MulAdd(hn::Set(df, row[0]), x,
+                    hn::MulAdd(hn::Set(df, row[1]), y, hn::Mul(hn::Set(df, row[2]), z)));
+}
+
+HWY_INLINE VF Affine(const float* row, VF x, VF y, VF z) {
+  return hn::MulAdd(
+      hn::Set(df, row[0]), x,
+      hn::MulAdd(hn::Set(df, row[1]), y, hn::MulAdd(hn::Set(df, row[2]), z, hn::Set(df, row[3]))));
+}
+
+// ------------------------------------------------------------------------------------- cull
+
+/// A side of the view as a plane through the camera's centre: inside, s x + t z >= 0.
+struct Side {
+  float s, t;
+  Side(double sign, double tangent)
+      : s(static_cast<float>(sign / std::hypot(1.0, tangent))),
+        t(static_cast<float>(tangent / std::hypot(1.0, tangent))) {}
+};
+
+std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides, DrawItem* items) {
+  const ClusteredScene& scene = *frame.scene;
+  const BodyFrame& body = frame.bodies[shell.body];
+  const Intrinsics& k = frame.view->intrinsics;
+  // One pixel of margin on each side.
+  const Side left(1.0, (k.cx() + 1.0) / k.fx());
+  const Side right(-1.0, (k.width() - k.cx()) / k.fx());
+  const Side top(1.0, (k.cy() + 1.0) / k.fy());
+  const Side bottom(-1.0, (k.height() - k.cy()) / k.fy());
+  const auto near = hn::Set(df, static_cast<float>(DepthRenderer::near_plane));
+  const auto tan_u = hn::Set(df, static_cast<float>(frame.view->guard_u / k.fx()));
+  const auto tan_v = hn::Set(df, static_cast<float>(frame.view->guard_v / k.fy()));
+  std::size_t count = 0;
+  const std::uint32_t end = shell.first_cluster + shell.cluster_count;
+  for (std::uint32_t i = shell.first_cluster; i < end; i += kStep) {
+    const auto x0 = hn::LoadU(df, &scene.sphere_x[i]);
+    const auto y0 = hn::LoadU(df, &scene.sphere_y[i]);
+    const auto z0 = hn::LoadU(df, &scene.sphere_z[i]);
+    const auto r = hn::LoadU(df, &scene.sphere_radius[i]);
+    const auto x = Affine(&body.to_camera[0], x0, y0, z0);
+    const auto y = Affine(&body.to_camera[4], x0, y0, z0);
+    const auto z = Affine(&body.to_camera[8], x0, y0, z0);
+    const auto inside = [&](const Side& side, VF across) HWY_ATTR {
+      return hn::MulAdd(hn::Set(df, side.s), across, hn::MulAdd(hn::Set(df, side.t), z, r));
+    };
+    const auto nearest = hn::Min(hn::Min(inside(left, x), inside(right, x)),
+                                 hn::Min(inside(top, y), inside(bottom, y)));
+    const auto visible = hn::And(hn::Ge(nearest, hn::Zero(df)), hn::Ge(hn::Add(z, r), near));
+    const auto z_min = hn::Sub(z, r);
+    const auto tame = hn::And(hn::Gt(z_min, near),
+                              hn::And(hn::Lt(hn::Add(hn::Abs(x), r), hn::Mul(tan_u, z_min)),
+                                      hn::Lt(hn::Add(hn::Abs(y), r), hn::Mul(tan_v, z_min))));
+    std::uint64_t visible_bits = 0;
+    std::uint64_t tame_bits = 0;
+    hn::StoreMaskBits(df, visible, reinterpret_cast<std::uint8_t*>(&visible_bits));
+    hn::StoreMaskBits(df, tame, reinterpret_cast<std::uint8_t*>(&tame_bits));
+    if (end - i < kStep) visible_bits &= (std::uint64_t{1} << (end - i)) - 1;
+    for (; visible_bits != 0; visible_bits &= visible_bits - 1) {
+      const int lane = std::countr_zero(visible_bits);
+      items[count++] = {i + static_cast<std::uint32_t>(lane), shell.body, both_sides,
+                        ((tame_bits >> lane) & 1) == 0};
+    }
+  }
+  return count;
+}
+
+// ------------------------------------------------------------------------------------- front faces
+
+/// Appends v's marked lanes to `out`; writes a whole vector. Returns the new end.
+template <typename D, typename V, typename M, typename T>
+HWY_INLINE std::size_t Append(D d, V v, M mask, T* out, std::size_t end) {
+  hn::StoreU(hn::Compress(v, mask), d, out + end);
+  return end + hn::CountTrue(d, mask);
+}
+
+/// Lists the cluster's triangles whose front (or, where both sides are drawn, back: high bit set)
+/// faces the camera.
+template <bool kBothSides>
+std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, const BodyFrame& body,
+                       std::uint32_t* front) {
+  std::size_t count = 0;
+  const auto cx = hn::Set(df, body.centre[0]);
+  const auto cy = hn::Set(df, body.centre[1]);
+  const auto cz = hn::Set(df, body.centre[2]);
+  for (std::uint32_t i = 0; i < cluster.triangle_count; i += kStep) {
+    const std::size_t t = cluster.first_triangle + i;
+    const auto height = hn::MulAdd(hn::LoadU(df, &scene.plane_x[t]), cx,
+                                   hn::MulAdd(hn::LoadU(df, &scene.plane_y[t]), cy,
+                                              hn::MulSub(hn::LoadU(df, &scene.plane_z[t]), cz,
+                                                         hn::LoadU(df, &scene.plane_d[t]))));
+    const auto index = hn::Iota(du32, i);
+    if constexpr (kBothSides) {
+      const auto turned = hn::ShiftLeft<31>(hn::ShiftRight<31>(hn::BitCast(du32, height)));
+      count = Append(du32, hn::Or(index, turned),
+                     hn::RebindMask(du32, hn::Ne(height, hn::Zero(df))), front, count);
+    } else {
+      count = Append(du32, index, hn::RebindMask(du32, hn::Gt(height, hn::Zero(df))), front, count);
+    }
+  }
+  return count;
+}
+
+// ------------------------------------------------------------------------------------- project
+
+struct Bounds {
+  float u0, v0, u1, v1;
+};
+
+/// Image points of the cluster's vertices, as pairs, and their bounding box.
+Bounds Project(const ClusteredScene& scene, const Cluster& cluster, const BodyFrame& body,
+               float* pixels) {
+  auto u_min = hn::Set(df, 1e30F);
+  auto v_min = u_min;
+  auto u_max = hn::Set(df, -1e30F);
+  auto v_max = u_max;
+  for (std::uint32_t i = 0; i < cluster.vertex_count; i += kStep) {
+    const std::size_t p = cluster.first_vertex + i;
+    const auto x = hn::LoadU(df, &scene.x[p]);
+    const auto y = hn::LoadU(df, &scene.y[p]);
+    const auto z = hn::LoadU(df, &scene.z[p]);
+    const auto inverse = hn::Div(hn::Set(df, 1.0F), Affine(&body.to_image[8], x, y, z));
+    const auto u = hn::Mul(Affine(&body.to_image[0], x, y, z), inverse);
+    const auto v = hn::Mul(Affine(&body.to_image[4], x, y, z), inverse);
+    hn::StoreInterleaved2(u, v, df, pixels + 2 * i);
+    u_min = hn::Min(u_min, u);
+    u_max = hn::Max(u_max, u);
+    v_min = hn::Min(v_min, v);
+    v_max = hn::Max(v_max, v);
+  }
+  return {hn::GetLane(hn::MinOfLanes(df, u_min)), hn::GetLane(hn::MinOfLanes(df, v_min)),
+          hn::GetLane(hn::MaxOfLanes(df, u_max)), hn::GetLane(hn::MaxOfLanes(df, v_max))};
+}
+
+/// Marks the tiles of the pixel centres inside the bounds; false if there are none in the image.
+bool MarkTouched(const Bounds& b, const Intrinsics& k, TileMask& touched) {
+  const float u0 = std::max(std::ceil(b.u0), 0.0F);
+  const float v0 = std::max(std::ceil(b.v0), 0.0F);
+  const float u1 = std::min(std::floor(b.u1), static_cast<float>(k.width() - 1));
+  const float v1 = std::min(std::floor(b.v1), static_cast<float>(k.height() - 1));
+  if (!(u0 <= u1 && v0 <= v1)) return false;
+  touched.mark(static_cast<int>(u0), static_cast<int>(v0), static_cast<int>(u1),
+               static_cast<int>(v1));
+  return true;
+}
+
+// ------------------------------------------------------------------------------------- corners
+
+/// Copies the image points of the listed triangles' corners side by side.
+template <bool kBothSides>
+void GatherCorners(const std::uint32_t* corners, std::size_t count, Scratch& s) {
+  const auto copy = [&s](std::array<float, 2>& to, std::uint32_t vertex) HWY_ATTR {
+    std::memcpy(to.data(), &s.pixels[std::size_t{2} * vertex], sizeof(to));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t triangle = s.front[i] & 0x7fffffffU;
+    const std::uint32_t packed = corners[triangle];
+    const bool turned = kBothSides && (s.front[i] >> 31) != 0;
+    copy(s.corner0[i], packed & 255U);
+    copy(turned ? s.corner2[i] : s.corner1[i], (packed >> 8) & 255U);
+    copy(turned ? s.corner1[i] : s.corner2[i], packed >> 16);
+    s.corner_triangle[i] = triangle;
+  }
+}
+
+/// Does the same for a cluster that may reach past the near plane or the guard band, clipped and
+/// cut into triangles; returns their number.
+std::size_t ClipCorners(const FrameContext& frame, const DrawItem& item, std::size_t count,
+                        Scratch& s, Canvas& canvas) {
+  const ClusteredScene& scene = *frame.scene;
+  const Cluster& cluster = scene.clusters[item.cluster];
+  const Eigen::Isometry3d& T = frame.bodies[item.body].T_camera_body;
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t triangle = s.front[i] & 0x7fffffffU;
+    const std::uint32_t packed = scene.corners[cluster.first_triangle + triangle];
+    std::array<std::uint32_t, 3> local{packed & 255U, (packed >> 8) & 255U, packed >> 16};
+    if ((s.front[i] >> 31) != 0) std::swap(local[1], local[2]);
+    std::array<Eigen::Vector3d, 3> points;
+    std::array<std::array<float, 2>, 3> pixels;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t p = cluster.first_vertex + local[j];
+      points[j] = T * Eigen::Vector3d(scene.x[p], scene.y[p], scene.z[p]);
+      pixels[j] = {s.pixels[2 * local[j]], s.pixels[2 * local[j] + 1]};
+    }
+    const ClippedPolygon polygon = clip(points, pixels, *frame.view);
+    for (std::size_t j = 2; j < static_cast<std::size_t>(polygon.count); ++j) {
+      s.corner0[out] = polygon.corners[0];
+      s.corner1[out] = polygon.corners[j - 1];
+      s.corner2[out] = polygon.corners[j];
+      s.corner_triangle[out] = triangle;
+      const auto [u0, u1] = std::minmax({s.corner0[out][0], s.corner1[out][0], s.corner2[out][0]});
+      const auto [v0, v1] = std::minmax({s.corner0[out][1], s.corner1[out][1], s.corner2[out][1]});
+      if (MarkTouched({u0, v0, u1, v1}, frame.view->intrinsics, canvas.touched)) ++out;
+    }
+  }
+  return out;
+}
+
+// ------------------------------------------------------------------------------------- select
+
+/// Keeps the triangles whose bounding box holds a pixel centre of the image.
+void Select(const FrameContext& frame, const DrawItem& item, std::size_t count, Scratch& s) {
+  const Cluster& cluster = frame.scene->clusters[item.cluster];
+  const auto width = hn::Set(df, static_cast<float>(frame.view->intrinsics.width() - 1));
+  const auto height = hn::Set(df, static_cast<float>(frame.view->intrinsics.height() - 1));
+  std::size_t end = s.survivors;
+  for (std::size_t i = 0; i < count; i += kStep) {
+    VF u0, v0, u1, v1, u2, v2;
+    hn::LoadInterleaved2(df, s.corner0[i].data(), u0, v0);
+    hn::LoadInterleaved2(df, s.corner1[i].data(), u1, v1);
+    hn::LoadInterleaved2(df, s.corner2[i].data(), u2, v2);
+    const auto first_u = hn::Max(hn::Ceil(hn::Min(hn::Min(u0, u1), u2)), hn::Zero(df));
+    const auto first_v = hn::Max(hn::Ceil(hn::Min(hn::Min(v0, v1), v2)), hn::Zero(df));
+    const auto last_u = hn::Min(hn::Floor(hn::Max(hn::Max(u0, u1), u2)), width);
+    const auto last_v = hn::Min(hn::Floor(hn::Max(hn::Max(v0, v1), v2)), height);
+    auto covers = hn::And(hn::Le(first_u, last_u), hn::Le(first_v, last_v));
+    if (count - i < kStep) covers = hn::And(covers, hn::FirstN(df, count - i));
+    const auto triangle = hn::LoadU(du32, &s.corner_triangle[i]);
+    const auto absolute = hn::Add(triangle, hn::Set(du32, cluster.first_triangle));
+    const std::array<VF, 6> values{u0, v0, u1, v1, u2, v2};
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      hn::StoreU(hn::Compress(values[j], covers), df, &s.survivor_pixels[j][end]);
+    }
+    hn::StoreU(hn::Set(du32, item.cluster), du32, &s.survivor_cluster[end]);
+    end = Append(du32, absolute, hn::RebindMask(du32, covers), s.survivor_triangle.data(), end);
+  }
+  s.survivors = end;
+}
+
+// ------------------------------------------------------------------------------------- fill
+
+/// Constants of the fill routines.
+struct Target {
+  std::int32_t* packed;
+  std::size_t lanes_per_row;
+  VI keep;  // mask of the bits that stay depth
+};
+
+/// A vector of values at one block's pixels.
+struct Values {
+  VF edge0, edge1, edge2, inverse_depth;
+};
+
+HWY_INLINE Values Slope(const Record::Quartet& q, float factor) {
+  const auto f = hn::Set(df, factor);
+  return {hn::Mul(hn::Set(df, q.edge0), f), hn::Mul(hn::Set(df, q.edge1), f),
+          hn::Mul(hn::Set(df, q.edge2), f), hn::Mul(hn::Set(df, q.inverse_depth), f)};
+}
+
+HWY_INLINE void Advance(Values& values, const Values& slope) {
+  values.edge0 = hn::Add(values.edge0, slope.edge0);
+  values.edge1 = hn::Add(values.edge1, slope.edge1);
+  values.edge2 = hn::Add(values.edge2, slope.edge2);
+  values.inverse_depth = hn::Add(values.inverse_depth, slope.inverse_depth);
+}
+
+HWY_INLINE Values Start(const Record& r, VF du, VF dv) {
+  const auto at = [&](float base, float slope_u, float slope_v) HWY_ATTR {
+    return hn::MulAdd(hn::Set(df, slope_u), du,
+                      hn::MulAdd(hn::Set(df, slope_v), dv, hn::Set(df, base)));
+  };
+  return {at(r.base.edge0, r.du.edge0, r.dv.edge0), at(r.base.edge1, r.du.edge1, r.dv.edge1),
+          at(r.base.edge2, r.du.edge2, r.dv.edge2),
+          at(r.base.inverse_depth, r.du.inverse_depth, r.dv.inverse_depth)};
+}
+
+/// The depth test: the maximum of what is there and, in lanes where no edge function is negative,
+/// of 1/z with the id in its low bits.
+HWY_INLINE void Update(std::int32_t* block, const Values& v, VI keep, VI id) {
+  const auto outside = hn::Or(hn::Or(v.edge0, v.edge1), v.edge2);
+  const auto word = hn::Or(hn::And(hn::BitCast(di, v.inverse_depth), keep), id);
+  const auto inside =
+      hn::BitCast(di, hn::IfNegativeThenElse(outside, hn::Zero(df), hn::BitCast(df, word)));
+  hn::Store(hn::Max(hn::Load(di, block), inside), di, block);
+}
+
+/// u and v of each lane's pixel from the block's first.
+HWY_INLINE VF LaneU() {
+  return hn::ConvertTo(df, hn::And(hn::Iota(di, 0), hn::Set(di, block_width - 1)));
+}
+HWY_INLINE VF LaneV() { return hn::ConvertTo(df, hn::ShiftRight<2>(hn::Iota(di, 0))); }
+
+template <int kWidth, int kHeight>
+void FillBlocks(const Record* records, std::size_t count, const Target& target) {
+  const auto lane_u = LaneU();
+  const auto lane_v = LaneV();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Record& r = records[i];
+    const auto id = hn::Set(di, r.id);
+    Values row = Start(r, lane_u, lane_v);
+    [[maybe_unused]] const Values right = Slope(r.du, block_width);
+    [[maybe_unused]] const Values down = Slope(r.dv, kBlockHeight);
+    std::int32_t* block = target.packed + r.offset;
+    HWY_UNROLL(4) for (int y = 0; y < kHeight; ++y) {
+      Values values = row;
+      HWY_UNROLL(3) for (int x = 0; x < kWidth; ++x) {
+        Update(block + x * kLanes, values, target.keep, id);
+        if (x + 1 < kWidth) Advance(values, right);
+      }
+      if (y + 1 < kHeight) {
+        Advance(row, down);
+        block += target.lanes_per_row;
+      }
+    }
+  }
+}
+
+template <int kWidth>
+void FillPieces(const Piece* pieces, std::size_t count, const Record* records,
+                const Target& target) {
+  const auto lane_u = LaneU();
+  const auto lane_v = LaneV();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Piece& piece = pieces[i];
+    const Record& r = records[piece.record];
+    const auto id = hn::Set(di, r.id);
+    Values values =
+        Start(r, hn::Add(lane_u, hn::Set(df, piece.du)), hn::Add(lane_v, hn::Set(df, piece.dv)));
+    [[maybe_unused]] const Values right = Slope(r.du, block_width);
+    std::int32_t* block = target.packed + piece.offset;
+    HWY_UNROLL(8) for (int x = 0; x < kWidth; ++x) {
+      Update(block + x * kLanes, values, target.keep, id);
+      if (x + 1 < kWidth) Advance(values, right);
+    }
+  }
+}
+
+template <std::size_t... kLengths>
+void FlushPieces(Scratch& s, const Target& target, std::index_sequence<kLengths...> /*lengths*/) {
+  const Record* records = s.bins[Scratch::large_bin].data();
+  (FillPieces<static_cast<int>(kLengths + 1)>(s.piece_bins[kLengths].data(),
+                                              s.piece_counts[kLengths], records, target),
+   ...);
+  s.piece_counts = {};
+  s.pieces = 0;
+}
+
+void FlushPieces(Scratch& s, const Target& target) {
+  FlushPieces(s, target, std::make_index_sequence<Scratch::longest_piece>());
+}
+
+// ------------------------------------------------------------------------------------- pieces
+
+/// Where a line of blocks crosses an edge: columns from which, or up to which, it is inside.
+struct Crossing {
+  VF low, high;  // pixels from the record's first
+};
+
+/// For block rows whose first pixel row lies `v` below the record's: the columns for which the
+/// edge is not negative on some pixel row of the block row.
+HWY_INLINE Crossing Cross(float base, float slope_u, float slope_v, VF v) {
+  const float reach = std::max(slope_v, 0.0F) * static_cast<float>(kBlockHeight - 1);
+  const auto e = hn::MulAdd(hn::Set(df, slope_v), v, hn::Set(df, base + reach));
+  constexpr float flat = 1e-30F;  // an edge along the row: all of it, or none
+  const float divisor = std::abs(slope_u) < flat ? flat : slope_u;
+  const auto u = hn::Mul(e, hn::Set(df, -1.0F / divisor));
+  constexpr float far = 1e9F;
+  return {divisor > 0 ? u : hn::Set(df, -far), divisor > 0 ? hn::Set(df, far) : u};
+}
+
+/// Adds the pieces of one block row, blocks first..last.
+HWY_INLINE void AddPieces(Scratch& s, const Target& target, Piece piece, std::uint32_t first,
+                          std::uint32_t count) {
+  piece.offset += first * static_cast<std::uint32_t>(kLanes);
+  piece.du = static_cast<float>(first * block_width);
+  while (count > 0) {
+    const std::uint32_t length =
+        std::min(count, static_cast<std::uint32_t>(Scratch::longest_piece));
+    if (HWY_UNLIKELY(s.pieces == Scratch::piece_capacity)) FlushPieces(s, target);
+    s.piece_bins[length - 1][s.piece_counts[length - 1]++] = piece;
+    ++s.pieces;
+    piece.offset += length * static_cast<std::uint32_t>(kLanes);
+    piece.du += static_cast<float>(length * block_width);
+    count -= length;
+  }
+}
+
+/// Cuts a large triangle into runs of blocks along its block rows.
+void CutIntoPieces(Scratch& s, std::uint32_t index, const Target& target) {
+  const Record& r = s.bins[Scratch::large_bin][index];
+  const auto last_pixel = hn::Set(df, static_cast<float>(r.width * block_width - 1));
+  HWY_ALIGN std::int32_t first[kStep];
+  HWY_ALIGN std::int32_t last[kStep];
+  for (int y = 0; y < r.height; y += kLanes) {
+    const auto v =
+        hn::Mul(hn::ConvertTo(df, hn::Iota(di, y)), hn::Set(df, static_cast<float>(kBlockHeight)));
+    const Crossing a = Cross(r.base.edge0, r.du.edge0, r.dv.edge0, v);
+    const Crossing b = Cross(r.base.edge1, r.du.edge1, r.dv.edge1, v);
+    const Crossing c = Cross(r.base.edge2, r.du.edge2, r.dv.edge2, v);
+    const auto rounding = hn::Set(df, 0.01F);  // pixels; more only costs blocks
+    const auto low = hn::Sub(hn::Max(hn::Max(a.low, b.low), c.low), rounding);
+    const auto high = hn::Add(hn::Min(hn::Min(a.high, b.high), c.high), rounding);
+    const auto low_pixel =
+        hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), hn::Add(last_pixel, hn::Set(df, 1.0F)));
+    const auto high_pixel = hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), last_pixel);
+    hn::Store(hn::ShiftRight<2>(hn::ConvertTo(di, low_pixel)), di, first);
+    hn::Store(hn::ShiftRight<2>(hn::ConvertTo(di, high_pixel)), di, last);
+    const int rows = std::min(kLanes, r.height - y);
+    for (int i = 0; i < rows; ++i) {
+      if (first[i] > last[i]) continue;
+      const Piece piece{index,
+                        r.offset + static_cast<std::uint32_t>(static_cast<std::size_t>(y + i) *
+                                                              target.lanes_per_row),
+                        0.0F, static_cast<float>((y + i) * kBlockHeight)};
+      AddPieces(s, target, piece, static_cast<std::uint32_t>(first[i]),
+                static_cast<std::uint32_t>(last[i] - first[i] + 1));
+    }
+  }
+}
+
+/// Fills all records of all bins.
+template <std::size_t... kBins>
+void Flush(Scratch& s, const Target& target, std::index_sequence<kBins...> /*bins*/) {
+  (FillBlocks<static_cast<int>(kBins % Scratch::small_width + 1),
+              static_cast<int>(kBins / Scratch::small_width + 1)>(s.bins[kBins].data(),
+                                                                  s.bin_counts[kBins], target),
+   ...);
+  for (std::uint32_t i = 0; i < s.bin_counts[Scratch::large_bin]; ++i) {
+    CutIntoPieces(s, i, target);
+  }
+  FlushPieces(s, target);
+  s.bin_counts = {};
+  s.records = 0;
+}
+
+// ------------------------------------------------------------------------------------- set up
+
+/// Bounding boxes of up to kStep triangles, and where their first blocks are.
+struct Boxes {
+  VF first_u, first_v;  // the first block's first pixel
+  VI offset, width, height, bin;
+  VF extent;  // pixels, unclipped
+};
+
+HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
+                             std::size_t lanes_per_row) {
+  const auto& [u0, v0, u1, v1, u2, v2] = p;
+  const auto u_min = hn::Min(hn::Min(u0, u1), u2);
+  const auto v_min = hn::Min(hn::Min(v0, v1), v2);
+  const auto u_max = hn::Max(hn::Max(u0, u1), u2);
+  const auto v_max = hn::Max(hn::Max(v0, v1), v2);
+  const auto last_u = hn::Set(df, static_cast<float>(k.width() - 1));
+  const auto last_v = hn::Set(df, static_cast<float>(k.height() - 1));
+  constexpr int kHeightShift = kBlockHeight == 4 ? 2 : kBlockHeight == 2 ? 1 : 0;
+  const auto left = hn::ShiftRight<2>(hn::ConvertTo(di, hn::Max(hn::Ceil(u_min), hn::Zero(df))));
+  const auto top =
+      hn::ShiftRight<kHeightShift>(hn::ConvertTo(di, hn::Max(hn::Ceil(v_min), hn::Zero(df))));
+  const auto right = hn::ShiftRight<2>(hn::ConvertTo(di, hn::Min(hn::Floor(u_max), last_u)));
+  const auto bottom =
+      hn::ShiftRight<kHeightShift>(hn::ConvertTo(di, hn::Min(hn::Floor(v_max), last_v)));
+  Boxes b;
+  b.first_u = hn::ConvertTo(df, hn::ShiftLeft<2>(left));
+  b.first_v = hn::ConvertTo(df, hn::ShiftLeft<kHeightShift>(top));
+  b.offset = hn::Add(hn::Mul(top, hn::Set(di, static_cast<std::int32_t>(lanes_per_row))),
+                     hn::Mul(left, hn::Set(di, kLanes)));
+  b.width = hn::Add(hn::Sub(right, left), hn::Set(di, 1));
+  b.height = hn::Add(hn::Sub(bottom, top), hn::Set(di, 1));
+  const auto small = hn::And(hn::Lt(b.width, hn::Set(di, Scratch::small_width + 1)),
+                             hn::Lt(b.height, hn::Set(di, Scratch::small_height + 1)));
+  const auto row = hn::Mul(hn::Sub(b.height, hn::Set(di, 1)), hn::Set(di, Scratch::small_width));
+  b.bin = hn::IfThenElse(small, hn::Add(row, hn::Sub(b.width, hn::Set(di, 1))),
+                         hn::Set(di, static_cast<std::int32_t>(Scratch::large_bin)));
+  b.extent = hn::Add(hn::Sub(u_max, u_min), hn::Sub(v_max, v_min));
+  return b;
+}
+
+struct EdgeFunction {
+  VF base, du, dv;
+};
+
+/// The edge from p to q. Its bias exceeds the rounding of all later sums.
+HWY_INLINE EdgeFunction MakeEdge(VF pu, VF pv, VF qu, VF qv, const Boxes& b) {
+  EdgeFunction e;
+  e.du = hn::Sub(qv, pv);
+  e.dv = hn::Sub(pu, qu);
+  const auto reach = hn::Mul(hn::Add(b.extent, hn::Set(df, 16.0F)), hn::Set(df, 0x1p-20F));
+  const auto bias = hn::Mul(hn::Add(hn::Abs(e.du), hn::Abs(e.dv)), reach);
+  e.base = hn::MulAdd(e.du, hn::Sub(b.first_u, pu), hn::MulAdd(e.dv, hn::Sub(b.first_v, pv), bias));
+  return e;
+}
+
+struct DepthPlanes {
+  VF base, du, dv;
+};
+
+/// Inverse depth of the survivors' planes at their first pixels.
+HWY_INLINE DepthPlanes MakeDepthPlanes(const FrameContext& frame, const Scratch& s,
+                                       std::size_t start, std::size_t count, const Boxes& b) {
+  const ClusteredScene& scene = *frame.scene;
+  const BodyFrame& body = frame.bodies[s.survivor_body];
+  HWY_ALIGN std::array<std::array<float, kStep>, 4> plane{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t t = s.survivor_triangle[start + i];
+    plane[0][i] = scene.plane_x[t];
+    plane[1][i] = scene.plane_y[t];
+    plane[2][i] = scene.plane_z[t];
+    plane[3][i] = scene.plane_d[t];
+  }
+  const auto x = hn::Load(df, plane[0].data());
+  const auto y = hn::Load(df, plane[1].data());
+  const auto z = hn::Load(df, plane[2].data());
+  const auto height = hn::MulAdd(
+      x, hn::Set(df, body.centre[0]),
+      hn::MulAdd(y, hn::Set(df, body.centre[1]),
+                 hn::MulSub(z, hn::Set(df, body.centre[2]), hn::Load(df, plane[3].data()))));
+  const auto scale = hn::Div(hn::Set(df, -1.0F), height);
+  DepthPlanes out;
+  out.du = hn::Mul(Dot3(&body.inverse_depth[0], x, y, z), scale);
+  out.dv = hn::Mul(Dot3(&body.inverse_depth[3], x, y, z), scale);
+  const auto origin = hn::Mul(Dot3(&body.inverse_depth[6], x, y, z), scale);
+  out.base = hn::MulAdd(out.du, b.first_u, hn::MulAdd(out.dv, b.first_v, origin));
+  const auto grazing = hn::Lt(hn::Abs(height), hn::Set(df, body.grazing));
+  if (HWY_LIKELY(hn::AllFalse(df, grazing))) return out;
+  HWY_ALIGN std::array<float, kStep> base, du, dv, first_u, first_v, grazes;
+  hn::Store(out.base, df, base.data());
+  hn::Store(out.du, df, du.data());
+  hn::Store(out.dv, df, dv.data());
+  hn::Store(b.first_u, df, first_u.data());
+  hn::Store(b.first_v, df, first_v.data());
+  hn::Store(hn::IfThenElseZero(grazing, hn::Set(df, 1.0F)), df, grazes.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grazes[i] == 0.0F) continue;
+    const InverseDepth exact = grazing_inverse_depth(
+        scene, scene.clusters[s.survivor_cluster[start + i]], s.survivor_triangle[start + i], body,
+        *frame.view, first_u[i], first_v[i]);
+    base[i] = exact.base;
+    du[i] = exact.du;
+    dv[i] = exact.dv;
+  }
+  return {hn::Load(df, base.data()), hn::Load(df, du.data()), hn::Load(df, dv.data())};
+}
+
+/// Makes records of up to kStep survivors and sorts them into the bins.
+void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scratch& s,
+           const Target& target) {
+  std::array<VF, 6> p;
+  for (std::size_t j = 0; j < p.size(); ++j) p[j] = hn::LoadU(df, &s.survivor_pixels[j][start]);
+  const Boxes b = BoundBlocks(p, frame.view->intrinsics, target.lanes_per_row);
+  const EdgeFunction e0 = MakeEdge(p[0], p[1], p[2], p[3], b);
+  const EdgeFunction e1 = MakeEdge(p[2], p[3], p[4], p[5], b);
+  const EdgeFunction e2 = MakeEdge(p[4], p[5], p[0], p[1], b);
+  const DepthPlanes z = MakeDepthPlanes(frame, s, start, count, b);
+  const auto as_float = [](VI v) HWY_ATTR { return hn::BitCast(df, v); };
+  HWY_ALIGN float base[4 * kStep];
+  HWY_ALIGN float du[4 * kStep];
+  HWY_ALIGN float dv[4 * kStep];
+  HWY_ALIGN float rest[4 * kStep];
+  HWY_ALIGN std::int32_t bin[kStep];
+  hn::StoreInterleaved4(e0.base, e1.base, e2.base, z.base, df, base);
+  hn::StoreInterleaved4(e0.du, e1.du, e2.du, z.du, df, du);
+  hn::StoreInterleaved4(e0.dv, e1.dv, e2.dv, z.dv, df, dv);
+  hn::StoreInterleaved4(as_float(b.offset), as_float(hn::Set(di, frame.bodies[s.survivor_body].id)),
+                        as_float(b.width), as_float(b.height), df, rest);
+  hn::Store(b.bin, di, bin);
+  const hn::Full128<float> quartet;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto which = static_cast<std::size_t>(bin[i]);
+    auto* record = reinterpret_cast<float*>(&s.bins[which][s.bin_counts[which]++]);
+    hn::Store(hn::Load(quartet, base + 4 * i), quartet, record);
+    hn::Store(hn::Load(quartet, du + 4 * i), quartet, record + 4);
+    hn::Store(hn::Load(quartet, dv + 4 * i), quartet, record + 8);
+    hn::Store(hn::Load(quartet, rest + 4 * i), quartet, record + 12);
+  }
+  s.records += count;
+  if (s.records > Scratch::capacity) {
+    Flush(s, target, std::make_index_sequence<Scratch::small_bins>());
+  }
+}
+
+void SetUpSurvivors(const FrameContext& frame, Scratch& s, const Target& target) {
+  for (std::size_t i = 0; i < s.survivors; i += kStep) {
+    SetUp(frame, i, std::min(kStep, s.survivors - i), s, target);
+  }
+  s.survivors = 0;
+}
+
+// ------------------------------------------------------------------------------------- draw
+
+/// Takes one cluster up to the survivors.
+void Collect(const FrameContext& frame, const DrawItem& item, Scratch& s, Canvas& canvas) {
+  const ClusteredScene& scene = *frame.scene;
+  const Cluster& cluster = scene.clusters[item.cluster];
+  const BodyFrame& body = frame.bodies[item.body];
+  const std::uint32_t* corners = &scene.corners[cluster.first_triangle];
+  std::size_t count = item.both_sides ? FrontFaces<true>(scene, cluster, body, s.front.data())
+                                      : FrontFaces<false>(scene, cluster, body, s.front.data());
+  if (count == 0) return;
+  const Bounds bounds = Project(scene, cluster, body, s.pixels.data());
+  if (item.clip) {
+    count = ClipCorners(frame, item, count, s, canvas);
+  } else {
+    if (!MarkTouched(bounds, frame.view->intrinsics, canvas.touched)) return;
+    if (item.both_sides) {
+      GatherCorners<true>(corners, count, s);
+    } else {
+      GatherCorners<false>(corners, count, s);
+    }
+  }
+  Select(frame, item, count, s);
+}
+
+void Draw(const FrameContext& frame, std::span<const DrawItem> items, Scratch& s, Canvas& canvas) {
+  const Target target{canvas.packed.data(), canvas.lanes_per_row,
+                      hn::Set(di, ~frame.packing.id_mask)};
+  for (const DrawItem& item : items) {
+    if (item.body != s.survivor_body || s.survivors > Scratch::max_survivors) {
+      SetUpSurvivors(frame, s, target);
+      s.survivor_body = item.body;
+    }
+    Collect(frame, item, s, canvas);
+  }
+  SetUpSurvivors(frame, s, target);
+  Flush(s, target, std::make_index_sequence<Scratch::small_bins>());
+}
+
+// ------------------------------------------------------------------------------------- resolve
+
+/// Stores a block's values in its rows of an image.
+template <typename D, typename V, typename T>
+HWY_INLINE void StoreRows(D d, V v, T* image, std::size_t stride) {
+  if constexpr (hn::MaxLanes(d) > 4) {
+    const hn::Half<D> half;
+    StoreRows(half, hn::LowerHalf(half, v), image, stride);
+    StoreRows(half, hn::UpperHalf(half, v),
+              image + stride * (kBlockHeight * hn::MaxLanes(half) / kStep), stride);
+  } else {
+    hn::StoreU(v, d, image);
+  }
+}
+
+struct TileSpan {
+  std::size_t u, v;    // first pixel
+  std::size_t blocks;  // in a row
+};
+
+/// Takes the nearest of all canvases and empties them.
+HWY_INLINE VI TakeBlock(std::span<Canvas> canvases, std::size_t offset) {
+  auto word = hn::Zero(di);
+  for (Canvas& canvas : canvases) {
+    std::int32_t* block = canvas.packed.data() + offset;
+    word = hn::Max(word, hn::Load(di, block));
+    hn::Store(hn::Zero(di), di, block);
+  }
+  return word;
+}
+
+void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileSpan& span,
+                 const Output& output) {
+  const auto id_mask = hn::Set(di, packing.id_mask);
+  const auto half_step = hn::Set(di, packing.half_step);
+  const hn::Rebind<std::uint16_t, DI> du16;
+  for (std::size_t v = span.v; v < span.v + TileMask::tile_height; v += kBlockHeight) {
+    const std::size_t offset =
+        v / kBlockHeight * canvases[0].lanes_per_row + span.u / block_width * kStep;
+    float* depth = output.depth + v * output.stride + span.u;
+    std::uint16_t* links = output.links + v * output.stride + span.u;
+    for (std::size_t i = 0; i < span.blocks; ++i) {
+      const auto word = TakeBlock(canvases, offset + i * kStep);
+      const auto inverse = hn::BitCast(df, hn::Or(hn::AndNot(id_mask, word), half_step));
+      const auto z = hn::IfThenElseZero(hn::RebindMask(df, hn::Ne(word, hn::Zero(di))),
+                                        hn::Div(hn::Set(df, 1.0F), inverse));
+      StoreRows(df, z, depth + i * block_width, output.stride);
+      StoreRows(du16, hn::DemoteTo(du16, hn::And(word, id_mask)), links + i * block_width,
+                output.stride);
+    }
+  }
+}
+
+std::uint64_t Resolve(std::span<Canvas> canvases, const Packing& packing, std::uint64_t previous,
+                      std::size_t row, const Output& output) {
+  std::uint64_t touched = 0;
+  for (Canvas& canvas : canvases) touched |= std::exchange(canvas.touched.rows[row], 0);
+  const auto tile_width = static_cast<std::size_t>(canvases[0].touched.tile_width);
+  for (std::uint64_t bits = touched | previous; bits != 0;) {
+    const int first = std::countr_zero(bits);
+    const int count = std::countr_one(bits >> first);
+    ResolveSpan(canvases, packing,
+                {static_cast<std::size_t>(first) * tile_width, row * TileMask::tile_height,
+                 static_cast<std::size_t>(count) * tile_width / block_width},
+                output);
+    bits = first + count >= 64 ? 0 : bits & (~std::uint64_t{0} << (first + count));
+  }
+  return touched;
+}
+
+Kernel MakeKernel() { return {kLanes, &Cull, &Draw, &Resolve}; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace penumbra::cpu
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <penumbra/base/simd_dispatch-inl.hpp>
+
+namespace penumbra::cpu {
+
+void ScratchDeleter::operator()(Scratch* scratch) const { delete scratch; }
+
+ScratchPtr make_scratch() { return ScratchPtr(new Scratch); }
+
+HWY_EXPORT(MakeKernel);
+
+Kernel kernel_for(std::int64_t target) { return PENUMBRA_SIMD_FUNCTION(MakeKernel, target)(); }
+
+}  // namespace penumbra::cpu
+
+#endif  // HWY_ONCE

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <penumbra/render/cpu/frame.hpp>
+
+namespace penumbra::cpu {
+
+/// Records of one kernel's bins; one per thread.
+struct Scratch;
+struct ScratchDeleter {
+  void operator()(Scratch* scratch) const;
+};
+using ScratchPtr = std::unique_ptr<Scratch, ScratchDeleter>;
+[[nodiscard]] ScratchPtr make_scratch();
+
+/// One frame's constants.
+struct FrameContext {
+  const ClusteredScene* scene;
+  const BodyFrame* bodies;
+  const View* view;
+  Packing packing;
+};
+
+/// The functions of the renderer as compiled for one SIMD target.
+struct Kernel {
+  int lanes;
+
+  /// Appends those clusters of the shell to `items` that may be in view; returns how many.
+  std::size_t (*cull)(const FrameContext& frame, const Shell& shell, bool both_sides,
+                      DrawItem* items);
+
+  /// Draws clusters into the canvas and marks the tiles it touches.
+  void (*draw)(const FrameContext& frame, std::span<const DrawItem> items, Scratch& scratch,
+               Canvas& canvas);
+
+  /// Writes tile row `row` of the output from the nearest of all canvases, clears what they and
+  /// the previous frame left there, and returns the union of their touched tiles in the row.
+  std::uint64_t (*resolve)(std::span<Canvas> canvases, const Packing& packing,
+                           std::uint64_t previous, std::size_t row, const Output& output);
+};
+
+/// The kernel for a target of simd_target().
+[[nodiscard]] Kernel kernel_for(std::int64_t target);
+
+}  // namespace penumbra::cpu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <penumbra/render/cpu/workers.hpp>
+
+namespace penumbra::cpu {
+
+Workers::Workers(int size) {
+  for (int worker = 1; worker < size; ++worker) {
+    threads_.emplace_back([this, worker] { serve(worker); });
+  }
+}
+
+Workers::~Workers() {
+  stop_ = true;
+  ++round_;
+  round_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Workers::run(void (*job)(void*, int), void* context) {
+  if (threads_.empty()) {
+    job(context, 0);
+    return;
+  }
+  job_ = job;
+  context_ = context;
+  busy_ = static_cast<int>(threads_.size());
+  ++round_;
+  round_.notify_all();
+  job(context, 0);
+  for (int busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+}
+
+void Workers::serve(int worker) {
+  for (std::uint32_t seen = 0;; ++seen) {
+    round_.wait(seen);
+    if (stop_) return;
+    job_(context_, worker);
+    if (--busy_ == 0) busy_.notify_one();
+  }
+}
+
+}  // namespace penumbra::cpu
