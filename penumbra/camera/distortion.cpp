@@ -167,6 +167,20 @@ Eigen::Vector2d Distortion::distort(const Eigen::Vector2d& z) const {
   return z * (factor + 2 * tangential_.dot(z)) + tangential_ * r2;
 }
 
+Eigen::Matrix2d Distortion::derivative(const Eigen::Vector2d& z) const {
+  const double r = z.norm();
+  if (is_none() || !(r > 0)) return Eigen::Matrix2d::Identity();
+  const bool by_angle = model_ == DistortionModel::equidistant;
+  const double parameter = by_angle ? std::atan(r) : r;
+  const double along = radial_derivative(parameter) / (by_angle ? 1 + r * r : 1.0);
+  const double across = radial(parameter) / r;
+  const Eigen::Vector2d unit = z / r;
+  const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
+  return across * identity + (along - across) * unit * unit.transpose() +
+         2 * (tangential_.dot(z) * identity + z * tangential_.transpose() +
+              tangential_ * z.transpose());
+}
+
 std::optional<Eigen::Vector2d> Distortion::undistort(const Eigen::Vector2d& y) const {
   if (is_none()) return y;
   if (y == Eigen::Vector2d::Zero()) return y;

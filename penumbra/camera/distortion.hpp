@@ -43,6 +43,9 @@ class Distortion {
   /// formula's value and may be infinite.
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& undistorted) const;
 
+  /// Derivative of distort(); a symmetric matrix.
+  [[nodiscard]] Eigen::Matrix2d derivative(const Eigen::Vector2d& undistorted) const;
+
   /// The undistorted point that the lens puts at `distorted`; nothing where the model has no such
   /// point inside max_radius() (or, for equidistant, below 90 degrees).
   [[nodiscard]] std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/tile_mask.hpp>
@@ -11,15 +13,32 @@ namespace penumbra {
 
 /// Maps between a camera's raw, distorted image and a pinhole image that covers it, computed once.
 /// Both ways take the nearest pixel: depths are never mixed.
+///
+/// The pinhole image covers every raw pixel whose ray the lens model reaches (inside
+/// Distortion::max_radius()) within half_angle() of the optical axis. Its pixels are nowhere larger
+/// than a raw pixel in any direction, so that the ray of raw_to_pinhole() is off by no more than
+/// half a pixel's diagonal (0.71 raw pixels). Without distortion, and inside that angle, it is the
+/// raw image.
 class Rectification {
  public:
   static constexpr std::int32_t no_pixel = -1;
 
-  /// Chooses the pinhole image so that it covers every raw pixel that the lens model reaches (up to
-  /// `max_half_angle`, radians, and Intrinsics::max_size), at no less than the raw resolution.
+  /// Most pixels of a pinhole image, or four times the raw image's where that is more.
+  static constexpr std::size_t max_pixels = std::size_t{1} << 25;
+
+  /// Most raw pixels to a pixel of the raw focal length: no real lens stretches so much.
+  static constexpr double max_stretch = 4;
+
+  /// Covers rays up to `max_half_angle` (radians, below 90 degrees) from the optical axis, or up to
+  /// a smaller angle, see half_angle(), where the pinhole image would exceed max_pixels or
+  /// Intrinsics::max_size or the lens exceeds max_stretch.
+  /// Throws InputError if the lens model reaches no pixel of the image.
   explicit Rectification(const Camera& raw, double max_half_angle = 1.3);
 
   [[nodiscard]] const Intrinsics& pinhole() const { return pinhole_; }
+
+  /// Rays farther than this from the optical axis, radians, are not covered.
+  [[nodiscard]] double half_angle() const { return half_angle_; }
 
   /// For every raw pixel the index v * width + u of its pinhole pixel, or no_pixel where the lens
   /// model does not reach or the pinhole image does not cover: such pixels are unknown.
@@ -28,17 +47,33 @@ class Rectification {
   /// For every pinhole pixel the index v * width + u of the raw pixel seen there, or no_pixel.
   [[nodiscard]] ImageView<const std::int32_t> pinhole_to_raw() const { return to_raw_.view(); }
 
-  /// Raw tiles that hold a pixel of the marked pinhole tiles.
+  /// Makes `raw`, a mask of the raw image's size, mark the tiles that hold a raw pixel whose
+  /// pinhole pixel lies in a marked tile. Costs by marked tiles and allocates nothing.
   void touched_raw(const TileMask& pinhole, TileMask& raw) const;
 
  private:
+  struct RawTiles {
+    std::uint32_t row;
+    std::uint64_t columns;  // as in TileMask::rows
+  };
+
+  struct Plan;
+
+  Rectification(const Camera& raw, const Plan& plan);
+  [[nodiscard]] static Plan plan(const Camera& raw, double max_half_angle);
+  void map_pinhole(const Camera& raw);
+  void list_tiles();
+
   Intrinsics pinhole_;
+  double half_angle_;
   Image<std::int32_t> to_pinhole_;
   Image<std::int32_t> to_raw_;
+  std::vector<std::uint32_t> first_;  // of pinhole tile row * 64 + column, in tiles_; and the end
+  std::vector<RawTiles> tiles_;
 };
 
 /// Copies pixels through a map: out(u, v) = in[map(u, v)], or `outside` where the map has no pixel.
-/// `out` must have the map's size and `in` no gaps that the map does not know.
+/// `out` must have the map's size and `in` that of the image the map's indices refer to.
 template <typename T>
 void remap(ImageView<const std::int32_t> map, ImageView<const T> in, T outside, ImageView<T> out) {
   for (int v = 0; v < map.height; ++v) {

@@ -25,17 +25,6 @@ constexpr double round_trip_px = 1e-9;
 // and the inverse magnifies rounding by its reciprocal.
 constexpr double near_the_edge = 0.999;
 
-/// Derivative of distort() by central differences.
-Eigen::Matrix2d derivative_at(const Distortion& lens, const Eigen::Vector2d& p) {
-  constexpr double h = 1e-6;
-  Eigen::Matrix2d j;
-  for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(i);
-    j.col(i) = (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
-  }
-  return j;
-}
-
 void expect_round_trip(const Lens& sample, const Distortion& lens, const Eigen::Vector2d& p) {
   const Eigen::Vector2d distorted = lens.distort(p);
   const auto back = lens.undistort(distorted);
@@ -43,7 +32,7 @@ void expect_round_trip(const Lens& sample, const Distortion& lens, const Eigen::
   EXPECT_LT(focal * (lens.distort(*back) - distorted).norm(), round_trip_px)
       << sample.name << ' ' << p.transpose();
   // Seen as pixels of the raw image: what the inverse is off times the least magnification.
-  EXPECT_LT(focal * (derivative_at(lens, p) * (*back - p)).norm(), round_trip_px)
+  EXPECT_LT(focal * (lens.derivative(p) * (*back - p)).norm(), round_trip_px)
       << sample.name << ' ' << p.transpose();
 }
 
@@ -119,6 +108,26 @@ TEST(Distortion, FollowsItsFormula) {
   const Eigen::Vector2d p = lens.distort({1, 2});
   EXPECT_DOUBLE_EQ(p.x(), 1 * 2.0 / 4.0 + 2 * 0.1 * 2 + 0.01 * 7);
   EXPECT_DOUBLE_EQ(p.y(), 2 * 2.0 / 4.0 + 0.1 * (5 + 8) + 2 * 0.01 * 2);
+}
+
+TEST(Distortion, DerivativeAgreesWithDifferences) {
+  constexpr double h = 1e-5;
+  constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2
+  auto random = test::seeded_random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Lens sample = test::random_lens(random);
+    const Distortion lens = sample.distortion();
+    const Eigen::Vector2d p = test::random_point_inside(lens, 0.9, random);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
+      const Eigen::Vector2d difference =
+          (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
+      EXPECT_LT((lens.derivative(p).col(axis) - difference).norm(), close)
+          << sample.model << ' ' << p.transpose();
+    }
+  }
+  for (const Lens& sample : test::typical_lenses())
+    EXPECT_EQ(sample.distortion().derivative({0, 0}), Eigen::Matrix2d::Identity());
 }
 
 TEST(Distortion, IdealFisheyeHasAClosedFormInverse) {
@@ -220,7 +229,7 @@ TEST(Distortion, IsOneToOneInsideAndSilentOutside) {
     const Distortion lens = sample.distortion();
     for (int j = 0; j < 50; ++j) {
       const Eigen::Vector2d p = test::random_point_inside(lens, near_the_edge, random);
-      EXPECT_GT(derivative_at(lens, p).determinant(), 0) << sample.model;
+      EXPECT_GT(lens.derivative(p).determinant(), 0) << sample.model;
     }
     if (!(lens.max_radius() < 1e3)) continue;
     const double a = angle(random);
