@@ -22,12 +22,12 @@ struct OverlayInput {
   std::string_view message;  ///< a line below the title, such as what is wrong; may be empty
 };
 
-/// The color that stands for a label; told apart by people with any common color blindness.
+/// The colour that stands for a label; told apart by people with any common colour blindness.
 [[nodiscard]] Rgb8 label_color(Label label);
 
 /// Draws the scene with labels over it, the robot's outline and a legend with each label's pixels.
-/// At least one of color, depth and labels must not be empty. `out` gets their size; its buffer is
-/// kept where the size stays.
+/// One of them must not be empty. A message is cut after three lines. `out` gets their size; its
+/// buffer is kept where the size stays.
 void draw_overlay(const OverlayInput& input, Image<Rgb8>& out);
 
 }  // namespace penumbra::io
