@@ -19,7 +19,7 @@ struct OverlayInput {
   LabelView labels;             ///< empty: no robot could be drawn; `message` says why
   std::int64_t index = 0;
   std::optional<std::int64_t> stamp;  ///< nanoseconds
-  std::string_view message;  ///< a line below the title, such as what is wrong; may be empty
+  std::string_view message;  ///< drawn at the lower edge, such as what is wrong; may be empty
 };
 
 /// The colour that stands for a label; told apart by people with any common colour blindness.
