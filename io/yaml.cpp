@@ -173,6 +173,11 @@ std::span<const YamlNode> YamlNode::items() const {
 
 const std::string& YamlNode::text() const {
   if (kind_ != Kind::scalar || text_.empty()) fail("is " + described() + "; a text is wanted");
+  return text_or_empty();
+}
+
+const std::string& YamlNode::text_or_empty() const {
+  if (kind_ != Kind::scalar) fail("is " + described() + "; a text is wanted");
   if (text_.find('\0') != std::string::npos) fail("holds a character 0");
   return text_;
 }

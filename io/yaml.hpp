@@ -39,8 +39,9 @@ class YamlNode {
   [[nodiscard]] std::span<const YamlNode> entries() const;
   [[nodiscard]] std::span<const YamlNode> items() const;
 
-  [[nodiscard]] const std::string& text() const;  ///< not empty
-  [[nodiscard]] double number() const;            ///< finite
+  [[nodiscard]] const std::string& text() const;           ///< not empty
+  [[nodiscard]] const std::string& text_or_empty() const;  ///< '' is a text, nothing is none
+  [[nodiscard]] double number() const;                     ///< finite
   [[nodiscard]] std::int64_t integer() const;
   [[nodiscard]] bool boolean() const;  ///< true or false, nothing else
   [[nodiscard]] std::vector<double> numbers() const;

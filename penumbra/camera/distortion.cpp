@@ -22,17 +22,6 @@ using detail::Polynomial;
 
 constexpr double right_angle = std::numbers::pi / 2;
 
-DistortionModel model_named(std::string_view name) {
-  if (name.empty() || name == "none") return DistortionModel::none;
-  if (name == "plumb_bob") return DistortionModel::plumb_bob;
-  if (name == "rational_polynomial") return DistortionModel::rational_polynomial;
-  if (name == "equidistant" || name == "fisheye" || name == "kannala_brandt4")
-    return DistortionModel::equidistant;
-  throw InputError("distortion model \"" + std::string(name) +
-                   "\" is unknown; known are plumb_bob, rational_polynomial, equidistant "
-                   "(also called fisheye, kannala_brandt4) and none");
-}
-
 bool all_zero(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double k) { return k == 0; });
 }
@@ -120,6 +109,17 @@ double monotone_until(const Polynomial& n, const Polynomial& d, double p) {
 
 }  // namespace
 
+DistortionModel distortion_model(std::string_view name) {
+  if (name.empty() || name == "none") return DistortionModel::none;
+  if (name == "plumb_bob") return DistortionModel::plumb_bob;
+  if (name == "rational_polynomial") return DistortionModel::rational_polynomial;
+  if (name == "equidistant" || name == "fisheye" || name == "kannala_brandt4")
+    return DistortionModel::equidistant;
+  throw InputError("distortion model \"" + std::string(name) +
+                   "\" is unknown; known are plumb_bob, rational_polynomial, equidistant "
+                   "(also called fisheye, kannala_brandt4) and none");
+}
+
 std::string_view to_string(DistortionModel model) {
   switch (model) {
     case DistortionModel::plumb_bob:
@@ -135,7 +135,7 @@ std::string_view to_string(DistortionModel model) {
 }
 
 Distortion::Distortion(std::string_view name, std::span<const double> k)
-    : model_(model_named(name)) {
+    : model_(distortion_model(name)) {
   check_coefficients(model_, name, k);
   if (model_ != DistortionModel::equidistant && all_zero(k)) model_ = DistortionModel::none;
   if (model_ == DistortionModel::none) return;

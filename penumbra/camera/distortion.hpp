@@ -16,6 +16,10 @@ enum class DistortionModel { none, plumb_bob, rational_polynomial, equidistant }
 /// ROS's name of the model.
 [[nodiscard]] std::string_view to_string(DistortionModel model);
 
+/// The model of that name in ROS's camera_info: "" is none, "fisheye" and "kannala_brandt4" are
+/// equidistant. Throws InputError that names an unknown one and lists the known.
+[[nodiscard]] DistortionModel distortion_model(std::string_view name);
+
 /// How a lens bends rays. Points are on the plane z = 1 of the optical frame.
 ///
 /// plumb_bob (k1 k2 p1 p2 k3) and rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6) follow OpenCV's
@@ -29,11 +33,11 @@ class Distortion {
  public:
   Distortion() = default;  ///< none
 
-  /// `name` as in ROS's camera_info ("" or "none" need no coefficients; "fisheye" and
-  /// "kannala_brandt4" are equidistant). plumb_bob takes 4 coefficients (k3 = 0) or 5;
-  /// rational_polynomial 8, or OpenCV's 12 or 14 where those beyond the eighth are 0. Coefficients
-  /// that are all 0 of a polynomial model make model() none. Throws InputError that names an
-  /// unknown model, a wrong number of coefficients or one that is not finite.
+  /// `name` as for distortion_model(). plumb_bob takes 4 coefficients (k3 = 0) or 5,
+  /// rational_polynomial 8, or OpenCV's 12 or 14 where those beyond the eighth are 0, and none no
+  /// coefficients or only 0. Coefficients that are all 0 of a polynomial model make model() none.
+  /// Throws InputError that names an unknown model, a wrong number of coefficients or one that is
+  /// not finite.
   Distortion(std::string_view name, std::span<const double> coefficients);
 
   [[nodiscard]] DistortionModel model() const { return model_; }

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/data.hpp"
+#include "../support/random.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/camera_info.hpp>
+
+namespace penumbra::io {
+namespace {
+
+// As `ros2 topic echo --once` prints it.
+const std::string message = R"(header:
+  stamp:
+    sec: 12
+    nanosec: 500
+  frame_id: camera_depth_optical_frame
+height: 480
+width: 640
+distortion_model: plumb_bob
+d:
+- -0.3
+- 0.1
+- 0.001
+- -0.002
+- 0.0
+k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]
+r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+p: [480.0, 0.0, 318.0, 0.0, 0.0, 481.0, 239.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+binning_x: 0
+binning_y: 0
+roi:
+  x_offset: 0
+  y_offset: 0
+  height: 0
+  width: 0
+  do_rectify: false
+---
+)";
+
+// As camera_calibration writes it.
+const std::string calibration = R"(image_width: 640
+image_height: 480
+camera_name: narrow_stereo
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.3, 0.1, 0.001, -0.002, 0.0]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [480.0, 0.0, 318.0, 0.0, 0.0, 481.0, 239.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+)";
+
+const Intrinsics raw(640, 480, 500.5, 501.5, 320.25, 240.75);
+const Intrinsics rectified(640, 480, 480, 481, 318, 239);
+
+Camera parse(const std::string& text, bool is_rectified = false) {
+  return parse_camera_info(text, "cam.yaml", is_rectified);
+}
+
+/// The text with one piece of it, which must be there, replaced.
+std::string with(std::string text, const std::string& piece, const std::string& by) {
+  const std::size_t at = text.find(piece);
+  EXPECT_NE(at, std::string::npos) << piece;
+  return text.replace(at, piece.size(), by);
+}
+
+void expect_same_lens(const Distortion& a, const Distortion& b) {
+  EXPECT_EQ(a.model(), b.model());
+  EXPECT_EQ(a.distort({0.3, -0.2}), b.distort({0.3, -0.2}));
+}
+
+const Distortion lens("plumb_bob", std::vector<double>{-0.3, 0.1, 0.001, -0.002, 0.0});
+
+TEST(CameraInfo, ReadsBothForms) {
+  for (const std::string& text : {message, calibration}) {
+    const Camera camera = parse(text);
+    EXPECT_EQ(camera.intrinsics, raw);
+    expect_same_lens(camera.distortion, lens);
+    const Camera free = parse(text, true);
+    EXPECT_EQ(free.intrinsics, rectified);
+    EXPECT_TRUE(free.distortion.is_none());
+  }
+  EXPECT_EQ(parse(message).frame_id, "camera_depth_optical_frame");
+  EXPECT_EQ(parse(calibration).frame_id, "");
+}
+
+TEST(CameraInfo, ReadsUpperCaseKeysOfRos1) {
+  std::string text = with(with(message, "\nd:", "\nD:"), "\nk:", "\nK:");
+  text = with(with(text, "\nr:", "\nR:"), "\np:", "\nP:");
+  text = with(with(text, "sec:", "secs:"), "do_rectify: false", "do_rectify: False");
+  EXPECT_EQ(parse(text).intrinsics, raw);
+  EXPECT_EQ(parse(text, true).intrinsics, rectified);
+}
+
+TEST(CameraInfo, ReadsTheFirstOfSeveralDocuments) {
+  const std::string other = with(message, "width: 640", "width: 320");
+  EXPECT_EQ(parse(message + other).intrinsics, raw);
+  EXPECT_EQ(parse("---\n" + message + other).intrinsics, raw);
+  EXPECT_EQ(parse("# a comment\n---\n" + message + "- not : [ yaml").intrinsics, raw);
+  EXPECT_EQ(parse("%YAML 1.2\n---\n" + message).intrinsics, raw);
+}
+
+TEST(CameraInfo, FrameIdMayStandOnTopOrBeEmpty) {
+  const std::string no_header = message.substr(message.find("height"));
+  EXPECT_EQ(parse(no_header).frame_id, "");
+  EXPECT_EQ(parse("frame_id: cam\n" + no_header).frame_id, "cam");
+  EXPECT_EQ(parse("frame_id: ''\n" + no_header).frame_id, "");
+}
+
+TEST(CameraInfo, OtherLenses) {
+  std::string text = with(message, "plumb_bob", "equidistant");
+  text = with(text, "- 0.0\n", "");
+  EXPECT_EQ(parse(text).distortion.model(), DistortionModel::equidistant);
+  text = with(message, "- 0.0\n", "- 0.0\n- 0.1\n- 0.1\n- 0.1\n");
+  EXPECT_EQ(parse(with(text, "plumb_bob", "rational_polynomial")).distortion.model(),
+            DistortionModel::rational_polynomial);
+}
+
+// The window is cut from the full image and then binned: pixel (u, v) of what comes is the block
+// from (x_offset + u * binning_x, y_offset + v * binning_y) on, and its ray is the block's middle.
+TEST(CameraInfo, AppliesWindowThenBinning) {
+  constexpr double rounding = 1e-12;
+  std::string text =
+      with(with(message, "binning_x: 0", "binning_x: 2"), "binning_y: 0", "binning_y: 4");
+  text = with(with(text, "x_offset: 0", "x_offset: 100"), "y_offset: 0", "y_offset: 50");
+  text = with(with(text, "  height: 0", "  height: 200"), "  width: 0", "  width: 401");
+  for (const bool is_rectified : {false, true}) {
+    const Camera camera = parse(text, is_rectified);
+    const Intrinsics& full = is_rectified ? rectified : raw;
+    EXPECT_EQ(camera.intrinsics.width(), 200);
+    EXPECT_EQ(camera.intrinsics.height(), 50);
+    for (const int u : {0, 7, 199})
+      for (const int v : {0, 3, 49}) {
+        const Eigen::Vector3d first = full.ray(100 + 2 * u, 50 + 4 * v);
+        const Eigen::Vector3d last = full.ray(100 + 2 * u + 1, 50 + 4 * v + 3);
+        EXPECT_LT((camera.intrinsics.ray(u, v) - 0.5 * (first + last)).norm(), rounding);
+      }
+  }
+  EXPECT_EQ(parse(with(message, "binning_x: 0", "binning_x: 1")).intrinsics, raw);
+}
+
+std::string error_of(const std::string& text, bool is_rectified = false) {
+  try {
+    static_cast<void>(parse(text, is_rectified));
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    EXPECT_EQ(what.rfind("cam.yaml:", 0), 0U) << what;
+    return what;
+  }
+  ADD_FAILURE() << "accepted:\n" << text;
+  return {};
+}
+
+testing::AssertionResult has(const std::string& text, const std::string& part) {
+  return testing::AssertionResult(text.find(part) != std::string::npos) << text;
+}
+
+TEST(CameraInfo, MissingKeysAreNamed) {
+  const std::string k = "k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n";
+  EXPECT_TRUE(has(error_of(with(message, k, "")), "key 'k' is missing"));
+  const std::string d = "d:\n- -0.3\n- 0.1\n- 0.001\n- -0.002\n- 0.0\n";
+  EXPECT_TRUE(has(error_of(with(message, d, "")), "key 'd' is missing"));
+  EXPECT_TRUE(has(error_of(with(message, "height: 480\n", "")), "key 'height' is missing"));
+  EXPECT_TRUE(has(error_of(with(message, "width: 640\n", "")), "key 'width' is missing"));
+  EXPECT_TRUE(has(error_of(with(message, "distortion_model: plumb_bob\n", "")),
+                  "key 'distortion_model' is missing"));
+  EXPECT_TRUE(has(error_of(with(calibration, "image_width: 640\n", "")), "'image_width'"));
+  EXPECT_TRUE(has(error_of(with(calibration, "  rows: 3\n", "")), "camera_matrix: key 'rows'"));
+  EXPECT_TRUE(has(error_of("width: 640\nheight: 480\n"), "key 'k' is missing"));
+  EXPECT_TRUE(has(error_of(message.substr(0, message.find("p: [")), true), "key 'p' is missing"));
+}
+
+TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
+  const struct {
+    const char *piece, *by, *says;
+  } cases[] = {
+      {"height: 480", "height: 480\nheigth: 480", "cam.yaml:7: heigth: unknown key"},
+      {"height: 480", "height: 480\nheight: 480", "there already"},
+      {"width: 640", "width: 0", "cam.yaml:7: width: is 0; 1 to 32767"},
+      {"width: 640", "width: 99999999999", "cam.yaml:7: width"},
+      {"width: 640", "width: -640", "cam.yaml:7: width"},
+      {"width: 640", "width: wide", "whole number"},
+      {"width: 640", "width: 640.5", "whole number"},
+      {"plumb_bob", "division", "cam.yaml:8: distortion_model: distortion model \"division\""},
+      {"plumb_bob", "equidistant", "cam.yaml:9: d: distortion model \"equidistant\": it has 5"},
+      {"- -0.3", "- .nan", "cam.yaml:10: d[0]"},
+      {"- -0.3", "- [1]", "cam.yaml:10: d[0]"},
+      {"k: [500.5", "k: [0.0", "cam.yaml:15: k: camera: focal lengths fx = 0"},
+      {"k: [500.5", "k: [-500.5", "fx = -500.5"},
+      {"k: [500.5", "k: [1, 500.5", "cam.yaml:15: k: has 10 values; 9 are wanted"},
+      {"k: [500.5, 0.0", "k: [500.5, 0.1", "skew"},
+      {"240.75, 0.0, 0.0, 1.0]", "240.75, 0.0, 0.0, 2.0]", "value 9"},
+      {"240.75, 0.0, 0.0, 1.0]", "240.75, 0.5, 0.0, 1.0]", "value 7"},
+      {"k: [500.5", "K: [500.5, 0]\nk: [500.5", "keep one"},
+      {"binning_x: 0", "binning_x: -2", "binning_x"},
+      {"binning_x: 0", "binning_x: 641", "cam.yaml:18: binning_x: camera: binning"},
+      {"  width: 0", "  width: 700\n  height: 480\n", "key 'height' is there already"},
+      {"  width: 0", "  width: 700", "cam.yaml:20: roi: camera: region of interest"},
+      {"  x_offset: 0", "  x_offset: 10", "region of interest"},
+      {"do_rectify: false", "do_rectify: 2", "true or false"},
+      {"do_rectify: false", "do_rectify: false\n  angle: 3", "roi.angle: unknown key"},
+      {"height: 480", "height: 480\nframe_id: other", "header.frame_id is there too"},
+  };
+  for (const auto& c : cases) EXPECT_TRUE(has(error_of(with(message, c.piece, c.by)), c.says));
+}
+
+TEST(CameraInfo, CalibrationMatricesMustHaveTheirSize) {
+  EXPECT_TRUE(has(error_of(with(calibration, "cols: 5", "cols: 4")), "rows x cols are 1 x 4"));
+  EXPECT_TRUE(has(error_of(with(calibration, "rows: 3", "rows: 4611686018427387905")), "rows x"));
+  EXPECT_TRUE(has(error_of(with(calibration, "rows: 3", "rows: -3")), "rows x cols are -3"));
+  EXPECT_TRUE(has(error_of(with(calibration, "cols: 5", "cols: 5\n  dt: d")), "dt: unknown key"));
+}
+
+TEST(CameraInfo, RectifiedNeedsAPlainProjection) {
+  const auto error = [](const char* piece, const char* by) {
+    return error_of(with(message, piece, by), true);
+  };
+  EXPECT_TRUE(has(error("318.0, 0.0,", "318.0, -24.0,"), "stereo pair"));
+  EXPECT_TRUE(has(error("p: [480.0, 0.0", "p: [480.0, 3.0"), "skew"));
+  EXPECT_TRUE(has(error("p: [480.0", "p: [0.0"), "fx = 0"));
+  EXPECT_TRUE(has(error("p: [480.0", "p: [1.0, 480.0"), "13 values"));
+  EXPECT_TRUE(has(error("r: [1.0", "r: [0.9999"), "turns the rectified image"));
+  // The raw image is not touched by either.
+  EXPECT_NO_THROW(static_cast<void>(parse(with(message, "r: [1.0", "r: [0.9999"))));
+}
+
+TEST(CameraInfo, FilesThatAreNone) {
+  for (const char* text :
+       {"", "\n\n", "---\n", "just words", "[1, 2]", "k: [", "\t- x: }", "k: &a *a"})
+    EXPECT_FALSE(error_of(text).empty());
+  EXPECT_THROW(static_cast<void>(read_camera_info("/nonexistent/cam.yaml", false)), InputError);
+  EXPECT_THROW(static_cast<void>(read_camera_info("/", false)), InputError);
+}
+
+void expect_camera_or_error(const std::string& text) {
+  for (const bool is_rectified : {false, true}) try {
+      const Camera camera = parse(text, is_rectified);
+      EXPECT_NO_THROW(camera.check());
+      EXPECT_TRUE(camera.intrinsics.ray(1, 1).allFinite());
+      EXPECT_TRUE(camera.intrinsics.width() >= 1 && camera.intrinsics.height() >= 1);
+      EXPECT_GE(camera.distortion.max_radius(), 0);
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+}
+
+TEST(CameraInfo, CutAnywhereIsCameraOrError) {
+  for (const std::string& text : {message, calibration})
+    for (std::size_t i = 0; i < text.size(); ++i) expect_camera_or_error(text.substr(0, i));
+}
+
+TEST(CameraInfo, EditedAnywhereIsCameraOrError) {
+  auto random = test::seeded_random(31);
+  const std::string letters = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\t ~?adkprx\\\xff\x01";
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = i % 2 == 0 ? message : calibration;
+    const std::size_t edits = 1 + random() % 4;
+    for (std::size_t j = 0; j < edits; ++j) {
+      const std::size_t at = random() % text.size();
+      const char letter = letters[random() % letters.size()];
+      if (random() % 3 == 0)
+        text.erase(at, 1 + random() % 8);
+      else if (random() % 2 == 0)
+        text.insert(at, 1, letter);
+      else
+        text[at] = letter;
+      if (text.empty()) break;
+    }
+    expect_camera_or_error(text);
+  }
+}
+
+TEST(CameraInfo, ReadsTheRealRecording) {
+  PENUMBRA_REQUIRE_DATA();
+  const auto file = test::data_folder() / "xarm7_realsense" / "camera_info.yaml";
+  const Intrinsics expected(1280, 720, 908.3020629882812, 908.292724609375, 642.962158203125,
+                            372.7315368652344);
+  for (const bool is_rectified : {false, true}) {
+    const Camera camera = read_camera_info(file, is_rectified);
+    EXPECT_EQ(camera.intrinsics, expected);
+    EXPECT_TRUE(camera.distortion.is_none());
+    EXPECT_EQ(camera.frame_id, "camera_color_optical_frame");
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::io
