@@ -27,18 +27,44 @@ inline constexpr std::size_t label_count = 5;
 /// e(z) = a + b z + c z^2, metres: how far a measured depth may lie before the model and still be
 /// the robot.
 struct Tolerance {
-  double a = 0.02;   ///< metres
+  double a = 0.015;  ///< metres
   double b = 0.0;    ///< metres per metre
-  double c = 0.012;  ///< metres per square metre: stereo noise grows so
+  double c = 0.006;  ///< metres per square metre: stereo noise grows so
 
   [[nodiscard]] double at(double z) const { return a + (b + c * z) * z; }
 };
 
-/// The rule of labelling (DESIGN section 1.3). Defaults are measured: docs/tolerance.md.
+/// The rule of labelling. Defaults are measured, and how to tune them is said, in
+/// docs/tolerance.md.
+///
+/// With d the measured and dV the virtual depth of a pixel of the robot, computed in float32:
+/// unknown where d is no measurement, beyond where d > dV + k e(dV), front where d < dV - e(dV),
+/// else occluded. Then the clean-up: a front pixel stays front only if it is confirmed, else it
+/// becomes occluded.
+///
+/// The sensor sees the robot's edges blurred and, by calibration, out of place. So a pixel of the
+/// image, on the robot or beside it, counts as certain only if its d < n - e(n), with n the nearest
+/// virtual depth anywhere within edge_margin pixels (in steps of cell pixels: n is the least dV of
+/// the cells of the pixel grid that lie at most ceil(edge_margin / cell) cells from the pixel's, so
+/// that up to cell - 1 pixels more are looked at; where no robot is near, no pixel is certain). A
+/// pixel without measurement counts as certain between two certain ones: at most front_min_width
+/// pixels away from it, left and right in its row, or above and below in its column. The seeds are
+/// the front pixels, certain themselves, that lie in a square of front_min_width pixels inside the
+/// image all of whose pixels count as certain. Confirmed are the seeds and the front pixels at most
+/// edge_margin / 2 pixels from one in both u and v.
+///
+/// So an object that reaches past the robot's silhouette is not worn away at it, a hole in an
+/// object does not break it up, and a seam along an edge of the robot is no object.
 struct LabelRule {
+  static constexpr int cell = 4;              ///< pixels
+  static constexpr int max_width = 63;        ///< pixels, of front_min_width
+  static constexpr int max_edge_margin = 64;  ///< pixels
+
   Tolerance tolerance;
   double beyond_factor = 2.0;  ///< k: beyond is past dV + k e(dV)
-  int front_min_width = 5;     ///< pixels: narrower front regions become occluded; 0: off
+  int front_min_width = 7;     ///< pixels; 0: no clean-up
+  int edge_margin = 8;         ///< pixels by which an edge of the robot may look out of place;
+                               ///< 0: front pixels are certain, those beside the robot are not
   bool fold_beyond = false;    ///< call beyond occluded
   DepthRange range;            ///< measured depths outside of it are no measurements
 
@@ -47,7 +73,7 @@ struct LabelRule {
   [[nodiscard]] static LabelRule paper();
 
   /// Throws InputError, with the values it got: a tolerance that is not finite or negative
-  /// somewhere in 0..20 m, factor < 1, width < 0, near >= far.
+  /// somewhere in 0..20 m, factor < 1, width or margin out of bounds, near >= far.
   void check() const;
 };
 
@@ -60,16 +86,21 @@ struct LabelView {
 /// Labels depth images of one size. Holds its buffers; allocates nothing per image.
 class Classifier {
  public:
-  /// `isa` as in RendererOptions; "scalar" takes the plain twin.
+  /// `isa` as in RendererOptions; "scalar" takes the plain twin, whose labels are the same. Throws
+  /// InputError for a rule that fails its check, a size outside 1..Intrinsics::max_size or an isa
+  /// that is not there.
   Classifier(int width, int height, const LabelRule& rule, const std::string& isa = {});
   ~Classifier();
   Classifier(Classifier&&) noexcept;
   Classifier& operator=(Classifier&&) noexcept;
 
-  /// Labels every pixel. Both images must have the classifier's size. The view is valid until the
-  /// next call.
+  /// Labels every pixel. Both images must have the classifier's size; where the virtual depth has
+  /// no tile mask, all of it is looked at. The view is valid until the next call.
   [[nodiscard]] LabelView classify(const VirtualDepthView& virtual_depth,
                                    const DepthView& measured);
+
+  [[nodiscard]] const LabelRule& rule() const;
+  [[nodiscard]] const std::string& isa() const;  ///< the target in use
 
  private:
   struct State;

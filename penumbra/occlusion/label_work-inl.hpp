@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the classifier and its kernels, SIMD and scalar, share.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/base/tile_mask.hpp>
+#include <penumbra/occlusion/labels.hpp>
+
+namespace penumbra::labelling {
+
+inline constexpr float metres_per_millimetre = 0.001f;
+
+/// A LabelRule as the kernels take it. All arithmetic is float32, products and sums each rounded.
+struct Rule {
+  explicit Rule(const LabelRule& rule);
+
+  float a, b, c;
+  float beyond_factor;  ///< infinite where beyond is folded
+  float near, far;      ///< measurements lie in [near, far]; far is finite
+  int width;            ///< front_min_width
+  int cells;            ///< how many cells the edge margin reaches; 0: no margin
+  int reach;            ///< how far from a seed a front pixel is confirmed
+
+  [[nodiscard]] bool cleans_up() const { return width > 0; }
+};
+
+/// One bit per pixel: bit u % 64 of row(v)[u / 64]. `margin` rows of zeros lie above and below and
+/// words of zeros beside each row, so that neighbours may be read without asking where they are.
+class BitRows {
+ public:
+  static constexpr int margin = 2 * LabelRule::max_width;
+
+  BitRows(int width, int height)
+      : pitch_(left + (width + 63) / 64 + spare),
+        bits_(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(height + 2 * margin)) {}
+
+  [[nodiscard]] std::ptrdiff_t pitch() const { return pitch_; }
+  [[nodiscard]] std::uint64_t* row(int v) { return bits_.data() + (v + margin) * pitch_ + left; }
+  void clear(int u0, int u1, int v0, int v1);  ///< pixels [u0, u1) x [v0, v1), whole bytes
+
+ private:
+  static constexpr std::ptrdiff_t left = 2;
+  static constexpr std::ptrdiff_t spare = 8;  // words that whole vectors may run over
+  std::ptrdiff_t pitch_;
+  std::vector<std::uint64_t> bits_;
+};
+
+/// The nearest virtual depth of each cell of LabelRule::cell pixels squared, infinite where it
+/// holds no robot; with a rim of such cells, so that neighbours may be read unasked.
+class Cells {
+ public:
+  Cells(int width, int height, int reach);
+
+  [[nodiscard]] float* row(int j) { return depth_.data() + (j + reach_) * pitch_ + reach_; }
+  void clear(int u0, int u1, int v0, int v1);  ///< the cells of pixels [u0, u1) x [v0, v1)
+
+ private:
+  static constexpr int spare = 16;  // cells that whole vectors may run over
+  int reach_;
+  std::ptrdiff_t pitch_;
+  std::vector<float> depth_;
+};
+
+using Counts = std::array<std::size_t, label_count>;  ///< clear is left 0
+
+/// The buffers of one classifier.
+struct Work {
+  Work(int width, int height, const Rule& rule);
+
+  /// Takes the touched tiles of a new image and clears what the last one left.
+  void begin(const TileMask& new_touched);
+
+  /// Fills rim_tiles: the tiles that are not touched, but hold pixels whose being certain decides
+  /// about a front pixel. Whether there are any.
+  bool mark_rim();
+
+  Rule rule;
+  int width;
+  int height;
+  Image<std::uint8_t> labels;
+  TileMask touched;  ///< tiles of `labels` that may hold other than clear
+  Cells cells;
+
+  TileMask front_tiles;    ///< tiles that hold bits of `front`
+  TileMask certain_tiles;  ///< tiles that hold pixels both front and certain
+  TileMask rim_tiles;
+  BitRows front, certain, unmeasured, scratch;
+
+  std::vector<float> nearest, limits;  ///< one row of pixels each, with room for whole vectors
+  Image<std::uint8_t> marks;           ///< the scalar twin's, which has no use for bit rows
+
+ private:
+  void forget(const TileMask& tiles);
+  TileMask stale_;
+};
+
+[[nodiscard]] inline bool any(const TileMask& tiles) {
+  std::uint64_t bits = 0;
+  for (const std::uint64_t row : tiles.rows) bits |= row;
+  return bits != 0;
+}
+
+/// Labels the touched tiles of one image and cleans up, after Work::begin.
+struct Kernels {
+  Counts (*label_millimetres)(Work&, ImageView<const float> virtual_depth,
+                              ImageView<const std::uint16_t> measured);
+  Counts (*label_metres)(Work&, ImageView<const float> virtual_depth,
+                         ImageView<const float> measured);
+
+  Counts label(Work& work, ImageView<const float> virtual_depth,
+               ImageView<const std::uint16_t> measured) const {
+    return label_millimetres(work, virtual_depth, measured);
+  }
+  Counts label(Work& work, ImageView<const float> virtual_depth,
+               ImageView<const float> measured) const {
+    return label_metres(work, virtual_depth, measured);
+  }
+};
+
+/// Kernels for a SIMD target (a bit of simd_target).
+[[nodiscard]] Kernels simd_kernels(std::int64_t target);
+
+/// The plain twin, which follows LabelRule's words and not the SIMD kernels' ways.
+[[nodiscard]] Kernels scalar_kernels();
+
+}  // namespace penumbra::labelling

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+
+#include <penumbra/occlusion/label_work-inl.hpp>
+
+namespace penumbra::labelling {
+namespace {
+
+constexpr int vector_room = 128;  // pixels that whole vectors may run over a row's end
+
+int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
+
+/// The tiles at most `columns` and `rows` from the tile row j's marked ones.
+std::uint64_t marked_around(const TileMask& tiles, int j, int columns, int rows) {
+  const int last = static_cast<int>(tiles.rows.size()) - 1;
+  std::uint64_t bits = 0;
+  for (int i = std::max(0, j - rows); i <= std::min(last, j + rows); ++i)
+    bits |= tiles.rows[static_cast<std::size_t>(i)];
+  for (int i = 0; i < columns && bits != 0; ++i) bits |= bits << 1 | bits >> 1;
+  const int in_image = tiles_across(tiles.width, tiles.tile_width);
+  return bits & (~std::uint64_t{0} >> (64 - in_image));
+}
+
+}  // namespace
+
+Rule::Rule(const LabelRule& rule)
+    : a(static_cast<float>(rule.tolerance.a)),
+      b(static_cast<float>(rule.tolerance.b)),
+      c(static_cast<float>(rule.tolerance.c)),
+      beyond_factor(rule.fold_beyond ? std::numeric_limits<float>::infinity()
+                                     : static_cast<float>(rule.beyond_factor)),
+      near(static_cast<float>(rule.range.near)),
+      far(std::min(static_cast<float>(rule.range.far), std::numeric_limits<float>::max())),
+      width(rule.front_min_width),
+      cells((rule.edge_margin + LabelRule::cell - 1) / LabelRule::cell),
+      reach(rule.edge_margin / 2) {}
+
+void BitRows::clear(int u0, int u1, int v0, int v1) {
+  for (int v = v0; v < v1; ++v) {
+    auto* const bytes = reinterpret_cast<unsigned char*>(row(v));
+    std::fill(bytes + u0 / 8, bytes + (u1 + 7) / 8, static_cast<unsigned char>(0));
+  }
+}
+
+Cells::Cells(int width, int height, int reach)
+    : reach_(reach), pitch_(tiles_across(width, LabelRule::cell) + 2 * reach + spare) {
+  const int rows = tiles_across(height, LabelRule::cell) + 2 * reach;
+  depth_.assign(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows) + spare,
+                std::numeric_limits<float>::infinity());
+}
+
+void Cells::clear(int u0, int u1, int v0, int v1) {
+  for (int j = v0 / LabelRule::cell; j < tiles_across(v1, LabelRule::cell); ++j)
+    std::fill(row(j) + u0 / LabelRule::cell, row(j) + tiles_across(u1, LabelRule::cell),
+              std::numeric_limits<float>::infinity());
+}
+
+Work::Work(int image_width, int image_height, const Rule& label_rule)
+    : rule(label_rule),
+      width(image_width),
+      height(image_height),
+      labels(image_width, image_height),
+      touched(image_width, image_height),
+      cells(image_width, image_height, rule.cells),
+      front_tiles(touched),
+      certain_tiles(touched),
+      rim_tiles(touched),
+      front(image_width, image_height),
+      certain(image_width, image_height),
+      unmeasured(image_width, image_height),
+      scratch(image_width, image_height),
+      nearest(static_cast<std::size_t>(image_width + 2 * rule.cells + vector_room)),
+      limits(static_cast<std::size_t>(image_width + vector_room)),
+      stale_(touched) {}
+
+void Work::forget(const TileMask& tiles) {
+  tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v)
+      std::fill(&labels(u0, v), &labels(u0, v) + (u1 - u0), std::uint8_t{0});
+    if (!rule.cleans_up()) return;
+    for (BitRows* rows : {&front, &certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
+    cells.clear(u0, u1, v0, v1);
+  });
+}
+
+void Work::begin(const TileMask& new_touched) {
+  const bool same_tiles = touched.tile_width == new_touched.tile_width;
+  stale_ = touched;
+  for (std::size_t j = 0; j < stale_.rows.size(); ++j) {
+    stale_.rows[j] |= rim_tiles.rows[j];
+    if (same_tiles) stale_.rows[j] &= ~new_touched.rows[j];
+  }
+  forget(stale_);
+  touched = new_touched;
+  for (TileMask* mask : {&front_tiles, &certain_tiles, &rim_tiles}) {
+    mask->tile_width = touched.tile_width;
+    std::fill(mask->rows.begin(), mask->rows.end(), std::uint64_t{0});
+  }
+}
+
+bool Work::mark_rim() {
+  if (!any(certain_tiles)) return false;
+  // A square that holds a seed ends width - 1 pixels from it at the most, and a pixel without
+  // measurement in it looks for certain ones `width` further.
+  const int pixels = 2 * rule.width - 1;
+  const int columns = tiles_across(pixels, touched.tile_width);
+  const int rows = tiles_across(pixels, TileMask::tile_height);
+  for (std::size_t j = 0; j < rim_tiles.rows.size(); ++j)
+    rim_tiles.rows[j] =
+        marked_around(certain_tiles, static_cast<int>(j), columns, rows) & ~touched.rows[j];
+  return any(rim_tiles);
+}
+
+}  // namespace penumbra::labelling
