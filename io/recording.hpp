@@ -23,12 +23,12 @@ enum class BeyondMeans { occluded, visible };
 struct RecordingCamera {
   Camera camera;  ///< `range` holds camera.range where that is written
   bool rectified = false;
-  std::string parent;                  ///< the link that the camera sits on
-  Eigen::Isometry3d T_parent_camera;   ///< pose of the optical frame in the parent link
-  std::optional<DepthRange> range;     ///< metres
-  std::optional<Tolerance> tolerance;  ///< of LabelRule
-  std::optional<int> front_min_width;  ///< of LabelRule, pixels
-  std::optional<BeyondMeans> beyond;
+  std::string parent;                       ///< the link that the camera sits on
+  Eigen::Isometry3d T_parent_camera;        ///< pose of the optical frame in the parent link
+  std::optional<DepthRange> range = {};     ///< metres
+  std::optional<Tolerance> tolerance = {};  ///< of LabelRule
+  std::optional<int> front_min_width = {};  ///< of LabelRule, pixels
+  std::optional<BeyondMeans> beyond = {};
 };
 
 /// Where the frames' files are.
