@@ -36,6 +36,7 @@ using DI = hn::RebindToSigned<DF>;
 using DU = hn::RebindToUnsigned<DF>;
 using VF = hn::Vec<DF>;
 using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
 constexpr DF df;
 constexpr DI di;
 constexpr DU du32;
@@ -113,12 +114,50 @@ std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides,
 
 // ------------------------------------------------------------------------------------- front faces
 
-/// Appends v's marked lanes to `out`; writes a whole vector. Returns the new end.
-template <typename D, typename V, typename M, typename T>
-HWY_INLINE std::size_t Append(D d, V v, M mask, T* out, std::size_t end) {
-  hn::StoreU(hn::Compress(v, mask), d, out + end);
-  return end + hn::CountTrue(d, mask);
-}
+/// Moves a vector's marked lanes to its front.
+class Packer {
+ public:
+  explicit Packer(hn::Mask<DF> mask) {
+    hn::StoreMaskBits(df, mask, reinterpret_cast<std::uint8_t*>(&bits_));
+#if HWY_TARGET == HWY_AVX3
+    mask_ = mask;
+#else
+    const hn::Rebind<std::uint8_t, DI> bytes;
+    order_ = hn::IndicesFromVec(df, hn::PromoteTo(di, hn::LoadU(bytes, kOrders[bits_].data())));
+#endif
+  }
+  [[nodiscard]] std::size_t count() const { return hwy::PopCount(bits_); }
+  [[nodiscard]] HWY_INLINE VF operator()(VF v) const {
+#if HWY_TARGET == HWY_AVX3
+    return hn::Compress(v, mask_);
+#else
+    return hn::TableLookupLanes(v, order_);
+#endif
+  }
+  [[nodiscard]] HWY_INLINE VU operator()(VU v) const {
+    return hn::BitCast(du32, (*this)(hn::BitCast(df, v)));
+  }
+
+ private:
+  std::uint64_t bits_ = 0;
+#if HWY_TARGET == HWY_AVX3
+  hn::Mask<DF> mask_;
+#else
+  // Highway 1.0 copies its own table to the stack at every use.
+  using Order = std::array<std::uint8_t, kStep>;
+  static constexpr std::array<Order, 1 << kLanes> kOrders = [] {
+    std::array<Order, 1 << kLanes> orders{};
+    for (std::size_t bits = 0; bits < orders.size(); ++bits) {
+      std::size_t end = 0;
+      for (std::uint8_t lane = 0; lane < kStep; ++lane) {
+        if ((bits >> lane & 1) != 0) orders[bits][end++] = lane;
+      }
+    }
+    return orders;
+  }();
+  decltype(hn::IndicesFromVec(df, hn::Zero(di))) order_;
+#endif
+};
 
 /// Lists the cluster's triangles whose front (or, where both sides are drawn, back: high bit set)
 /// faces the camera.
@@ -138,10 +177,13 @@ std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, cons
     const auto index = hn::Iota(du32, i);
     if constexpr (kBothSides) {
       const auto turned = hn::ShiftLeft<31>(hn::ShiftRight<31>(hn::BitCast(du32, height)));
-      count = Append(du32, hn::Or(index, turned),
-                     hn::RebindMask(du32, hn::Ne(height, hn::Zero(df))), front, count);
+      const Packer seen(hn::Ne(height, hn::Zero(df)));
+      hn::StoreU(seen(hn::Or(index, turned)), du32, front + count);
+      count += seen.count();
     } else {
-      count = Append(du32, index, hn::RebindMask(du32, hn::Gt(height, hn::Zero(df))), front, count);
+      const Packer seen(hn::Gt(height, hn::Zero(df)));
+      hn::StoreU(seen(index), du32, front + count);
+      count += seen.count();
     }
   }
   return count;
@@ -265,11 +307,13 @@ void Select(const FrameContext& frame, const DrawItem& item, std::size_t count, 
     const auto triangle = hn::LoadU(du32, &s.corner_triangle[i]);
     const auto absolute = hn::Add(triangle, hn::Set(du32, cluster.first_triangle));
     const std::array<VF, 6> values{u0, v0, u1, v1, u2, v2};
+    const Packer keep(covers);
     for (std::size_t j = 0; j < values.size(); ++j) {
-      hn::StoreU(hn::Compress(values[j], covers), df, &s.survivor_pixels[j][end]);
+      hn::StoreU(keep(values[j]), df, &s.survivor_pixels[j][end]);
     }
     hn::StoreU(hn::Set(du32, item.cluster), du32, &s.survivor_cluster[end]);
-    end = Append(du32, absolute, hn::RebindMask(du32, covers), s.survivor_triangle.data(), end);
+    hn::StoreU(keep(absolute), du32, &s.survivor_triangle[end]);
+    end += keep.count();
   }
   s.survivors = end;
 }
