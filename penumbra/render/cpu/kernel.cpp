@@ -56,6 +56,13 @@ HWY_INLINE VF Affine(const float* row, VF x, VF y, VF z) {
       hn::MulAdd(hn::Set(df, row[1]), y, hn::MulAdd(hn::Set(df, row[2]), z, hn::Set(df, row[3]))));
 }
 
+/// One bit for each lane. (Reading more bytes than were written would wait for the store.)
+HWY_INLINE std::uint32_t Bits(hn::Mask<DF> mask) {
+  std::array<std::uint8_t, 8> bytes;  // Highway asks for eight
+  hn::StoreMaskBits(df, mask, bytes.data());
+  return kLanes > 8 ? bytes[0] | std::uint32_t{bytes[1]} << 8U : bytes[0];
+}
+
 // ------------------------------------------------------------------------------------- cull
 
 /// A side of the view as a plane through the camera's centre: inside, s x + t z >= 0.
@@ -98,11 +105,9 @@ std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides,
     const auto tame = hn::And(hn::Gt(z_min, near),
                               hn::And(hn::Lt(hn::Add(hn::Abs(x), r), hn::Mul(tan_u, z_min)),
                                       hn::Lt(hn::Add(hn::Abs(y), r), hn::Mul(tan_v, z_min))));
-    std::uint64_t visible_bits = 0;
-    std::uint64_t tame_bits = 0;
-    hn::StoreMaskBits(df, visible, reinterpret_cast<std::uint8_t*>(&visible_bits));
-    hn::StoreMaskBits(df, tame, reinterpret_cast<std::uint8_t*>(&tame_bits));
-    if (end - i < kStep) visible_bits &= (std::uint64_t{1} << (end - i)) - 1;
+    std::uint32_t visible_bits = Bits(visible);
+    const std::uint32_t tame_bits = Bits(tame);
+    if (end - i < kStep) visible_bits &= (1U << (end - i)) - 1;
     for (; visible_bits != 0; visible_bits &= visible_bits - 1) {
       const int lane = std::countr_zero(visible_bits);
       items[count++] = {i + static_cast<std::uint32_t>(lane), shell.body, both_sides,
@@ -117,8 +122,7 @@ std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides,
 /// Moves a vector's marked lanes to its front.
 class Packer {
  public:
-  explicit Packer(hn::Mask<DF> mask) {
-    hn::StoreMaskBits(df, mask, reinterpret_cast<std::uint8_t*>(&bits_));
+  explicit Packer(hn::Mask<DF> mask) : bits_(Bits(mask)) {
 #if HWY_TARGET == HWY_AVX3
     mask_ = mask;
 #else
@@ -134,12 +138,13 @@ class Packer {
     return hn::TableLookupLanes(v, order_);
 #endif
   }
-  [[nodiscard]] HWY_INLINE VU operator()(VU v) const {
-    return hn::BitCast(du32, (*this)(hn::BitCast(df, v)));
+  template <typename V>
+  [[nodiscard]] HWY_INLINE V operator()(V v) const {
+    return hn::BitCast(hn::DFromV<V>(), (*this)(hn::BitCast(df, v)));
   }
 
  private:
-  std::uint64_t bits_ = 0;
+  std::uint32_t bits_;
 #if HWY_TARGET == HWY_AVX3
   hn::Mask<DF> mask_;
 #else
@@ -397,18 +402,16 @@ void FillBlocks(const Record* records, std::size_t count, const Target& target) 
 }
 
 template <int kWidth>
-void FillPieces(const Piece* pieces, std::size_t count, const Record* records,
-                const Target& target) {
+void FillPieces(const PieceBin& bin, const Record* records, const Target& target) {
   const auto lane_u = LaneU();
   const auto lane_v = LaneV();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Piece& piece = pieces[i];
-    const Record& r = records[piece.record];
+  for (std::size_t i = 0; i < bin.count; ++i) {
+    const Record& r = records[bin.record[i]];
     const auto id = hn::Set(di, r.id);
     Values values =
-        Start(r, hn::Add(lane_u, hn::Set(df, piece.du)), hn::Add(lane_v, hn::Set(df, piece.dv)));
+        Start(r, hn::Add(lane_u, hn::Set(df, bin.du[i])), hn::Add(lane_v, hn::Set(df, bin.dv[i])));
     [[maybe_unused]] const Values right = Slope(r.du, block_width);
-    std::int32_t* block = target.packed + piece.offset;
+    std::int32_t* block = target.packed + bin.offset[i];
     HWY_UNROLL(8) for (int x = 0; x < kWidth; ++x) {
       Update(block + x * kLanes, values, target.keep, id);
       if (x + 1 < kWidth) Advance(values, right);
@@ -419,11 +422,9 @@ void FillPieces(const Piece* pieces, std::size_t count, const Record* records,
 template <std::size_t... kLengths>
 void FlushPieces(Scratch& s, const Target& target, std::index_sequence<kLengths...> /*lengths*/) {
   const Record* records = s.bins[Scratch::large_bin].data();
-  (FillPieces<static_cast<int>(kLengths + 1)>(s.piece_bins[kLengths].data(),
-                                              s.piece_counts[kLengths], records, target),
-   ...);
-  s.piece_counts = {};
-  s.pieces = 0;
+  (FillPieces<static_cast<int>(kLengths + 1)>(s.pieces[kLengths], records, target), ...);
+  for (PieceBin& bin : s.pieces) bin.count = 0;
+  s.piece_count = 0;
 }
 
 void FlushPieces(Scratch& s, const Target& target) {
@@ -449,52 +450,83 @@ HWY_INLINE Crossing Cross(float base, float slope_u, float slope_v, VF v) {
   return {divisor > 0 ? u : hn::Set(df, -far), divisor > 0 ? hn::Set(df, far) : u};
 }
 
-/// Adds the pieces of one block row, blocks first..last.
-HWY_INLINE void AddPieces(Scratch& s, const Target& target, Piece piece, std::uint32_t first,
-                          std::uint32_t count) {
-  piece.offset += first * static_cast<std::uint32_t>(kLanes);
-  piece.du = static_cast<float>(first * block_width);
-  while (count > 0) {
-    const std::uint32_t length =
-        std::min(count, static_cast<std::uint32_t>(Scratch::longest_piece));
-    if (HWY_UNLIKELY(s.pieces == Scratch::piece_capacity)) FlushPieces(s, target);
-    s.piece_bins[length - 1][s.piece_counts[length - 1]++] = piece;
-    ++s.pieces;
-    piece.offset += length * static_cast<std::uint32_t>(kLanes);
+/// Adds a run of blocks of any length.
+void AddPiece(Scratch& s, Piece piece, std::int32_t blocks) {
+  while (blocks > 0) {
+    const std::int32_t length = std::min(blocks, static_cast<std::int32_t>(Scratch::longest_piece));
+    s.pieces[static_cast<std::size_t>(length) - 1].push(piece);
+    piece.offset += length * kLanes;
     piece.du += static_cast<float>(length * block_width);
-    count -= length;
+    blocks -= length;
   }
 }
 
+/// Up to kLanes block rows of a large triangle: where its run of blocks begins in each, and how
+/// many blocks it has.
+struct Runs {
+  VI offset, blocks;
+  VF du, dv;
+};
+
+HWY_INLINE Runs FindRuns(const Record& r, int y, VI row_offsets) {
+  const auto rows = hn::Iota(di, y);
+  const auto v = hn::Mul(hn::ConvertTo(df, rows), hn::Set(df, static_cast<float>(kBlockHeight)));
+  const Crossing a = Cross(r.base.edge0, r.du.edge0, r.dv.edge0, v);
+  const Crossing b = Cross(r.base.edge1, r.du.edge1, r.dv.edge1, v);
+  const Crossing c = Cross(r.base.edge2, r.du.edge2, r.dv.edge2, v);
+  const auto rounding = hn::Set(df, 0.01F);  // pixels; more only costs blocks
+  const auto low = hn::Sub(hn::Max(hn::Max(a.low, b.low), c.low), rounding);
+  const auto high = hn::Add(hn::Min(hn::Min(a.high, b.high), c.high), rounding);
+  const auto end = hn::Set(df, static_cast<float>(r.width * block_width));
+  const auto low_pixel = hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), end);
+  const auto high_pixel =
+      hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), hn::Sub(end, hn::Set(df, 1.0F)));
+  const auto first = hn::ShiftRight<2>(hn::ConvertTo(di, low_pixel));
+  const auto last = hn::ShiftRight<2>(hn::ConvertTo(di, high_pixel));
+  const auto exists = hn::Gt(hn::Set(di, r.height), rows);
+  Runs runs;
+  runs.blocks = hn::IfThenElseZero(exists, hn::Sub(hn::Add(last, hn::Set(di, 1)), first));
+  runs.offset = hn::Add(hn::Add(row_offsets, hn::Mul(first, hn::Set(di, kLanes))),
+                        hn::Set(di, static_cast<std::int32_t>(r.offset)));
+  runs.du = hn::ConvertTo(df, hn::ShiftLeft<2>(first));
+  runs.dv = v;
+  return runs;
+}
+
+/// Adds the runs in the marked lanes as pieces of one length.
+HWY_INLINE void AddRuns(PieceBin& bin, const Runs& runs, std::int32_t record, hn::Mask<DI> mask) {
+  const Packer keep(hn::RebindMask(df, mask));
+  hn::StoreU(hn::Set(di, record), di, &bin.record[bin.count]);
+  hn::StoreU(keep(runs.offset), di, &bin.offset[bin.count]);
+  hn::StoreU(keep(runs.du), df, &bin.du[bin.count]);
+  hn::StoreU(keep(runs.dv), df, &bin.dv[bin.count]);
+  bin.count += keep.count();
+}
+
 /// Cuts a large triangle into runs of blocks along its block rows.
-void CutIntoPieces(Scratch& s, std::uint32_t index, const Target& target) {
-  const Record& r = s.bins[Scratch::large_bin][index];
-  const auto last_pixel = hn::Set(df, static_cast<float>(r.width * block_width - 1));
-  HWY_ALIGN std::int32_t first[kStep];
-  HWY_ALIGN std::int32_t last[kStep];
+void CutIntoPieces(Scratch& s, std::int32_t index, const Target& target) {
+  const Record& r = s.bins[Scratch::large_bin][static_cast<std::size_t>(index)];
+  const auto row_lanes = static_cast<std::int32_t>(target.lanes_per_row);
+  auto row_offsets = hn::Mul(hn::Iota(di, 0), hn::Set(di, row_lanes));
+  const std::size_t most = kStep * (static_cast<std::size_t>(r.width) / Scratch::longest_piece + 1);
   for (int y = 0; y < r.height; y += kLanes) {
-    const auto v =
-        hn::Mul(hn::ConvertTo(df, hn::Iota(di, y)), hn::Set(df, static_cast<float>(kBlockHeight)));
-    const Crossing a = Cross(r.base.edge0, r.du.edge0, r.dv.edge0, v);
-    const Crossing b = Cross(r.base.edge1, r.du.edge1, r.dv.edge1, v);
-    const Crossing c = Cross(r.base.edge2, r.du.edge2, r.dv.edge2, v);
-    const auto rounding = hn::Set(df, 0.01F);  // pixels; more only costs blocks
-    const auto low = hn::Sub(hn::Max(hn::Max(a.low, b.low), c.low), rounding);
-    const auto high = hn::Add(hn::Min(hn::Min(a.high, b.high), c.high), rounding);
-    const auto low_pixel =
-        hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), hn::Add(last_pixel, hn::Set(df, 1.0F)));
-    const auto high_pixel = hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), last_pixel);
-    hn::Store(hn::ShiftRight<2>(hn::ConvertTo(di, low_pixel)), di, first);
-    hn::Store(hn::ShiftRight<2>(hn::ConvertTo(di, high_pixel)), di, last);
-    const int rows = std::min(kLanes, r.height - y);
-    for (int i = 0; i < rows; ++i) {
-      if (first[i] > last[i]) continue;
-      const Piece piece{index,
-                        r.offset + static_cast<std::uint32_t>(static_cast<std::size_t>(y + i) *
-                                                              target.lanes_per_row),
-                        0.0F, static_cast<float>((y + i) * kBlockHeight)};
-      AddPieces(s, target, piece, static_cast<std::uint32_t>(first[i]),
-                static_cast<std::uint32_t>(last[i] - first[i] + 1));
+    if (HWY_UNLIKELY(s.piece_count > PieceBin::budget)) FlushPieces(s, target);
+    s.piece_count += most;
+    const Runs runs = FindRuns(r, y, row_offsets);
+    AddRuns(s.pieces[0], runs, index, hn::Eq(runs.blocks, hn::Set(di, 1)));
+    AddRuns(s.pieces[1], runs, index, hn::Eq(runs.blocks, hn::Set(di, 2)));
+    row_offsets = hn::Add(row_offsets, hn::Set(di, row_lanes * kLanes));
+    std::uint32_t longer = Bits(hn::RebindMask(df, hn::Gt(runs.blocks, hn::Set(di, 2))));
+    if (longer == 0) continue;
+    HWY_ALIGN std::array<std::int32_t, kStep> offset, blocks;
+    HWY_ALIGN std::array<float, kStep> du, dv;
+    hn::Store(runs.offset, di, offset.data());
+    hn::Store(runs.blocks, di, blocks.data());
+    hn::Store(runs.du, df, du.data());
+    hn::Store(runs.dv, df, dv.data());
+    for (; longer != 0; longer &= longer - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(longer));
+      AddPiece(s, {index, offset[i], du[i], dv[i]}, blocks[i]);
     }
   }
 }
@@ -507,7 +539,7 @@ void Flush(Scratch& s, const Target& target, std::index_sequence<kBins...> /*bin
                                                                   s.bin_counts[kBins], target),
    ...);
   for (std::uint32_t i = 0; i < s.bin_counts[Scratch::large_bin]; ++i) {
-    CutIntoPieces(s, i, target);
+    CutIntoPieces(s, static_cast<std::int32_t>(i), target);
   }
   FlushPieces(s, target);
   s.bin_counts = {};

@@ -24,9 +24,29 @@ static_assert(sizeof(Record) == 64);
 
 /// A run of blocks in one block row of a large triangle.
 struct Piece {
-  std::uint32_t record;
-  std::uint32_t offset;  // of its first block in the canvas, lanes
-  float du, dv;          // of its first pixel from the record's, pixels
+  std::int32_t record;
+  std::int32_t offset;  // of its first block in the canvas, lanes
+  float du, dv;         // of its first pixel from the record's, pixels
+};
+
+/// Pieces of one length.
+struct PieceBin {
+  static constexpr std::size_t budget = 2048;  // pieces of all lengths together before a flush
+  /// One vector of rows of the widest image's triangle may come on top: 1024 pieces a row.
+  static constexpr std::size_t capacity = budget + 16 * 1025;
+  static constexpr std::size_t slack = 16;  // one vector
+
+  std::size_t count = 0;
+  alignas(64) std::array<std::int32_t, capacity + slack> record, offset;
+  alignas(64) std::array<float, capacity + slack> du, dv;
+
+  void push(const Piece& piece) {
+    record[count] = piece.record;
+    offset[count] = piece.offset;
+    du[count] = piece.du;
+    dv[count] = piece.dv;
+    ++count;
+  }
 };
 
 /// Triangles are sorted by the shape of their bounding box in blocks, so that each shape is filled
@@ -37,9 +57,8 @@ struct Scratch {
   static constexpr std::size_t small_bins = small_width * small_height;
   static constexpr std::size_t large_bin = small_bins;
   static constexpr std::size_t capacity = 1024;    // records of all bins together before a flush
-  static constexpr std::size_t slack = 16;         // one vector of records
+  static constexpr std::size_t slack = 16;         // one vector
   static constexpr std::size_t longest_piece = 8;  // blocks
-  static constexpr std::size_t piece_capacity = 4096;  // pieces of all lengths together
   static constexpr std::size_t max_front = ClusteredScene::max_triangles;
   /// A clipped triangle has at most eight corners: six triangles.
   static constexpr std::size_t max_corners = max_front * 6 + slack;
@@ -64,9 +83,8 @@ struct Scratch {
   std::array<std::uint32_t, small_bins + 1> bin_counts{};
   std::array<std::array<Record, capacity + slack>, small_bins + 1> bins;
 
-  std::size_t pieces = 0;  // in all lengths
-  std::array<std::uint32_t, longest_piece> piece_counts{};
-  std::array<std::array<Piece, piece_capacity>, longest_piece> piece_bins;
+  std::size_t piece_count = 0;                 // an upper bound over all lengths
+  std::array<PieceBin, longest_piece> pieces;  // by length
 };
 
 }  // namespace penumbra::cpu
