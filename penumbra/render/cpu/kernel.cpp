@@ -377,11 +377,11 @@ HWY_INLINE VF LaneU() {
 HWY_INLINE VF LaneV() { return hn::ConvertTo(df, hn::ShiftRight<2>(hn::Iota(di, 0))); }
 
 template <int kWidth, int kHeight>
-void FillBlocks(const Record* records, std::size_t count, const Target& target) {
+void FillBlocks(const RecordBin& bin, const Target& target) {
   const auto lane_u = LaneU();
   const auto lane_v = LaneV();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Record& r = records[i];
+  for (const Record* record = bin.records.data(); record != bin.end; ++record) {
+    const Record& r = *record;
     const auto id = hn::Set(di, r.id);
     Values row = Start(r, lane_u, lane_v);
     [[maybe_unused]] const Values right = Slope(r.du, block_width);
@@ -421,7 +421,7 @@ void FillPieces(const PieceBin& bin, const Record* records, const Target& target
 
 template <std::size_t... kLengths>
 void FlushPieces(Scratch& s, const Target& target, std::index_sequence<kLengths...> /*lengths*/) {
-  const Record* records = s.bins[Scratch::large_bin].data();
+  const Record* records = s.first_record();
   (FillPieces<static_cast<int>(kLengths + 1)>(s.pieces[kLengths], records, target), ...);
   for (PieceBin& bin : s.pieces) bin.count = 0;
   s.piece_count = 0;
@@ -433,22 +433,45 @@ void FlushPieces(Scratch& s, const Target& target) {
 
 // ------------------------------------------------------------------------------------- pieces
 
-/// Where a line of blocks crosses an edge: columns from which, or up to which, it is inside.
-struct Crossing {
-  VF low, high;  // pixels from the record's first
+/// An edge function solved for u along block rows: columns u >= low(e) and u <= high(e) are inside,
+/// one of which does not bound.
+struct EdgeLine {
+  VF base, slope_v;
+  VF low_scale, low_offset, high_scale, high_offset;
+
+  EdgeLine(float value, float slope_u, float slope_v_) {
+    // A block row is entered where any of its pixel rows is.
+    const float reach = std::max(slope_v_, 0.0F) * static_cast<float>(kBlockHeight - 1);
+    constexpr float flat = 1e-30F;  // an edge along the row: all of it, or none
+    const float divisor = std::abs(slope_u) < flat ? flat : slope_u;
+    constexpr float far = 1e9F;
+    const float scale = -1.0F / divisor;
+    base = hn::Set(df, value + reach);
+    slope_v = hn::Set(df, slope_v_);
+    low_scale = hn::Set(df, divisor > 0 ? scale : 0.0F);
+    low_offset = hn::Set(df, divisor > 0 ? 0.0F : -far);
+    high_scale = hn::Set(df, divisor > 0 ? 0.0F : scale);
+    high_offset = hn::Set(df, divisor > 0 ? far : 0.0F);
+  }
+  [[nodiscard]] HWY_INLINE VF at(VF v) const { return hn::MulAdd(slope_v, v, base); }
+  [[nodiscard]] HWY_INLINE VF low(VF e) const { return hn::MulAdd(e, low_scale, low_offset); }
+  [[nodiscard]] HWY_INLINE VF high(VF e) const { return hn::MulAdd(e, high_scale, high_offset); }
 };
 
-/// For block rows whose first pixel row lies `v` below the record's: the columns for which the
-/// edge is not negative on some pixel row of the block row.
-HWY_INLINE Crossing Cross(float base, float slope_u, float slope_v, VF v) {
-  const float reach = std::max(slope_v, 0.0F) * static_cast<float>(kBlockHeight - 1);
-  const auto e = hn::MulAdd(hn::Set(df, slope_v), v, hn::Set(df, base + reach));
-  constexpr float flat = 1e-30F;  // an edge along the row: all of it, or none
-  const float divisor = std::abs(slope_u) < flat ? flat : slope_u;
-  const auto u = hn::Mul(e, hn::Set(df, -1.0F / divisor));
-  constexpr float far = 1e9F;
-  return {divisor > 0 ? u : hn::Set(df, -far), divisor > 0 ? hn::Set(df, far) : u};
-}
+/// What is constant while a large triangle is cut into runs.
+struct LargeTriangle {
+  EdgeLine a, b, c;
+  VF end;  // pixels from its first
+  VI offset, height;
+
+  explicit LargeTriangle(const Record& r)
+      : a(r.base.edge0, r.du.edge0, r.dv.edge0),
+        b(r.base.edge1, r.du.edge1, r.dv.edge1),
+        c(r.base.edge2, r.du.edge2, r.dv.edge2),
+        end(hn::Set(df, static_cast<float>(r.width * block_width))),
+        offset(hn::Set(di, static_cast<std::int32_t>(r.offset))),
+        height(hn::Set(di, r.height)) {}
+};
 
 /// Adds a run of blocks of any length.
 void AddPiece(Scratch& s, Piece piece, std::int32_t blocks) {
@@ -468,26 +491,24 @@ struct Runs {
   VF du, dv;
 };
 
-HWY_INLINE Runs FindRuns(const Record& r, int y, VI row_offsets) {
+HWY_INLINE Runs FindRuns(const LargeTriangle& t, int y, VI row_offsets) {
   const auto rows = hn::Iota(di, y);
   const auto v = hn::Mul(hn::ConvertTo(df, rows), hn::Set(df, static_cast<float>(kBlockHeight)));
-  const Crossing a = Cross(r.base.edge0, r.du.edge0, r.dv.edge0, v);
-  const Crossing b = Cross(r.base.edge1, r.du.edge1, r.dv.edge1, v);
-  const Crossing c = Cross(r.base.edge2, r.du.edge2, r.dv.edge2, v);
+  const auto a = t.a.at(v);
+  const auto b = t.b.at(v);
+  const auto c = t.c.at(v);
   const auto rounding = hn::Set(df, 0.01F);  // pixels; more only costs blocks
-  const auto low = hn::Sub(hn::Max(hn::Max(a.low, b.low), c.low), rounding);
-  const auto high = hn::Add(hn::Min(hn::Min(a.high, b.high), c.high), rounding);
-  const auto end = hn::Set(df, static_cast<float>(r.width * block_width));
-  const auto low_pixel = hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), end);
+  const auto low = hn::Sub(hn::Max(hn::Max(t.a.low(a), t.b.low(b)), t.c.low(c)), rounding);
+  const auto high = hn::Add(hn::Min(hn::Min(t.a.high(a), t.b.high(b)), t.c.high(c)), rounding);
+  const auto low_pixel = hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), t.end);
   const auto high_pixel =
-      hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), hn::Sub(end, hn::Set(df, 1.0F)));
+      hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), hn::Sub(t.end, hn::Set(df, 1.0F)));
   const auto first = hn::ShiftRight<2>(hn::ConvertTo(di, low_pixel));
   const auto last = hn::ShiftRight<2>(hn::ConvertTo(di, high_pixel));
-  const auto exists = hn::Gt(hn::Set(di, r.height), rows);
   Runs runs;
-  runs.blocks = hn::IfThenElseZero(exists, hn::Sub(hn::Add(last, hn::Set(di, 1)), first));
-  runs.offset = hn::Add(hn::Add(row_offsets, hn::Mul(first, hn::Set(di, kLanes))),
-                        hn::Set(di, static_cast<std::int32_t>(r.offset)));
+  runs.blocks =
+      hn::IfThenElseZero(hn::Gt(t.height, rows), hn::Sub(hn::Add(last, hn::Set(di, 1)), first));
+  runs.offset = hn::Add(hn::Add(row_offsets, hn::Mul(first, hn::Set(di, kLanes))), t.offset);
   runs.du = hn::ConvertTo(df, hn::ShiftLeft<2>(first));
   runs.dv = v;
   return runs;
@@ -503,47 +524,66 @@ HWY_INLINE void AddRuns(PieceBin& bin, const Runs& runs, std::int32_t record, hn
   bin.count += keep.count();
 }
 
+/// Adds the runs of more than two blocks, which are few.
+void AddLongRuns(Scratch& s, const Runs& runs, std::int32_t record, std::uint32_t lanes) {
+  HWY_ALIGN std::array<std::int32_t, kStep> offset, blocks;
+  HWY_ALIGN std::array<float, kStep> du, dv;
+  hn::Store(runs.offset, di, offset.data());
+  hn::Store(runs.blocks, di, blocks.data());
+  hn::Store(runs.du, df, du.data());
+  hn::Store(runs.dv, df, dv.data());
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+    AddPiece(s, {record, offset[i], du[i], dv[i]}, blocks[i]);
+  }
+}
+
 /// Cuts a large triangle into runs of blocks along its block rows.
-void CutIntoPieces(Scratch& s, std::int32_t index, const Target& target) {
-  const Record& r = s.bins[Scratch::large_bin][static_cast<std::size_t>(index)];
+HWY_INLINE void CutIntoPieces(Scratch& s, const Record& r, int height, const Target& target) {
+  const auto index = static_cast<std::int32_t>(&r - s.first_record());
+  const LargeTriangle triangle(r);
   const auto row_lanes = static_cast<std::int32_t>(target.lanes_per_row);
   auto row_offsets = hn::Mul(hn::Iota(di, 0), hn::Set(di, row_lanes));
   const std::size_t most = kStep * (static_cast<std::size_t>(r.width) / Scratch::longest_piece + 1);
-  for (int y = 0; y < r.height; y += kLanes) {
+  for (int y = 0; y < height; y += kLanes) {
     if (HWY_UNLIKELY(s.piece_count > PieceBin::budget)) FlushPieces(s, target);
     s.piece_count += most;
-    const Runs runs = FindRuns(r, y, row_offsets);
+    const Runs runs = FindRuns(triangle, y, row_offsets);
     AddRuns(s.pieces[0], runs, index, hn::Eq(runs.blocks, hn::Set(di, 1)));
     AddRuns(s.pieces[1], runs, index, hn::Eq(runs.blocks, hn::Set(di, 2)));
     row_offsets = hn::Add(row_offsets, hn::Set(di, row_lanes * kLanes));
-    std::uint32_t longer = Bits(hn::RebindMask(df, hn::Gt(runs.blocks, hn::Set(di, 2))));
-    if (longer == 0) continue;
-    HWY_ALIGN std::array<std::int32_t, kStep> offset, blocks;
-    HWY_ALIGN std::array<float, kStep> du, dv;
-    hn::Store(runs.offset, di, offset.data());
-    hn::Store(runs.blocks, di, blocks.data());
-    hn::Store(runs.du, df, du.data());
-    hn::Store(runs.dv, df, dv.data());
-    for (; longer != 0; longer &= longer - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(longer));
-      AddPiece(s, {index, offset[i], du[i], dv[i]}, blocks[i]);
-    }
+    const std::uint32_t longer = Bits(hn::RebindMask(df, hn::Gt(runs.blocks, hn::Set(di, 2))));
+    if (longer != 0) AddLongRuns(s, runs, index, longer);
+  }
+}
+
+/// Cuts the triangles of a bin. Those of the last bin have any height, others (kBin + 1) kLanes
+/// block rows at the most.
+template <std::size_t kBin>
+void CutBin(Scratch& s, const Target& target) {
+  constexpr bool any = kBin + 1 == Scratch::large_bins;
+  const RecordBin& bin = s.bins[Scratch::small_bins + kBin];
+  for (const Record* r = bin.records.data(); r != bin.end; ++r) {
+    CutIntoPieces(s, *r, any ? r->height : static_cast<int>(kBin + 1) * kLanes, target);
   }
 }
 
 /// Fills all records of all bins.
-template <std::size_t... kBins>
-void Flush(Scratch& s, const Target& target, std::index_sequence<kBins...> /*bins*/) {
-  (FillBlocks<static_cast<int>(kBins % Scratch::small_width + 1),
-              static_cast<int>(kBins / Scratch::small_width + 1)>(s.bins[kBins].data(),
-                                                                  s.bin_counts[kBins], target),
+template <std::size_t... kSmall, std::size_t... kLarge>
+void Flush(Scratch& s, const Target& target, std::index_sequence<kSmall...> /*small*/,
+           std::index_sequence<kLarge...> /*large*/) {
+  (FillBlocks<static_cast<int>(kSmall % Scratch::small_width + 1),
+              static_cast<int>(kSmall / Scratch::small_width + 1)>(s.bins[kSmall], target),
    ...);
-  for (std::uint32_t i = 0; i < s.bin_counts[Scratch::large_bin]; ++i) {
-    CutIntoPieces(s, static_cast<std::int32_t>(i), target);
-  }
+  (CutBin<kLarge>(s, target), ...);
   FlushPieces(s, target);
-  s.bin_counts = {};
+  for (RecordBin& bin : s.bins) bin.end = bin.records.data();
   s.records = 0;
+}
+
+void Flush(Scratch& s, const Target& target) {
+  Flush(s, target, std::make_index_sequence<Scratch::small_bins>(),
+        std::make_index_sequence<Scratch::large_bins>());
 }
 
 // ------------------------------------------------------------------------------------- set up
@@ -581,8 +621,11 @@ HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
   const auto small = hn::And(hn::Lt(b.width, hn::Set(di, Scratch::small_width + 1)),
                              hn::Lt(b.height, hn::Set(di, Scratch::small_height + 1)));
   const auto row = hn::Mul(hn::Sub(b.height, hn::Set(di, 1)), hn::Set(di, Scratch::small_width));
+  constexpr int kLanesShift = kBlockHeight == 4 ? 4 : kBlockHeight == 2 ? 3 : 2;
+  const auto batches = hn::ShiftRight<kLanesShift>(hn::Sub(b.height, hn::Set(di, 1)));
+  const auto large = hn::Min(batches, hn::Set(di, static_cast<int>(Scratch::large_bins) - 1));
   b.bin = hn::IfThenElse(small, hn::Add(row, hn::Sub(b.width, hn::Set(di, 1))),
-                         hn::Set(di, static_cast<std::int32_t>(Scratch::large_bin)));
+                         hn::Add(large, hn::Set(di, static_cast<int>(Scratch::small_bins))));
   b.extent = hn::Add(hn::Sub(u_max, u_min), hn::Sub(v_max, v_min));
   return b;
 }
@@ -611,8 +654,8 @@ HWY_INLINE DepthPlanes MakeDepthPlanes(const FrameContext& frame, const Scratch&
                                        std::size_t start, std::size_t count, const Boxes& b) {
   const ClusteredScene& scene = *frame.scene;
   const BodyFrame& body = frame.bodies[s.survivor_body];
-  HWY_ALIGN std::array<std::array<float, kStep>, 4> plane{};
-  for (std::size_t i = 0; i < count; ++i) {
+  HWY_ALIGN std::array<std::array<float, kStep>, 4> plane;
+  for (std::size_t i = 0; i < kStep; ++i) {
     const std::size_t t = s.survivor_triangle[start + i];
     plane[0][i] = scene.plane_x[t];
     plane[1][i] = scene.plane_y[t];
@@ -678,19 +721,19 @@ void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scra
   const hn::Full128<float> quartet;
   for (std::size_t i = 0; i < count; ++i) {
     const auto which = static_cast<std::size_t>(bin[i]);
-    auto* record = reinterpret_cast<float*>(&s.bins[which][s.bin_counts[which]++]);
+    auto* record = reinterpret_cast<float*>(s.bins[which].end++);
     hn::Store(hn::Load(quartet, base + 4 * i), quartet, record);
     hn::Store(hn::Load(quartet, du + 4 * i), quartet, record + 4);
     hn::Store(hn::Load(quartet, dv + 4 * i), quartet, record + 8);
     hn::Store(hn::Load(quartet, rest + 4 * i), quartet, record + 12);
   }
   s.records += count;
-  if (s.records > Scratch::capacity) {
-    Flush(s, target, std::make_index_sequence<Scratch::small_bins>());
-  }
+  if (s.records > RecordBin::budget) Flush(s, target);
 }
 
 void SetUpSurvivors(const FrameContext& frame, Scratch& s, const Target& target) {
+  // Lanes behind the last survivor are computed too: with some triangle's plane.
+  std::fill_n(s.survivor_triangle.begin() + static_cast<std::ptrdiff_t>(s.survivors), kStep, 0U);
   for (std::size_t i = 0; i < s.survivors; i += kStep) {
     SetUp(frame, i, std::min(kStep, s.survivors - i), s, target);
   }
@@ -733,7 +776,7 @@ void Draw(const FrameContext& frame, std::span<const DrawItem> items, Scratch& s
     Collect(frame, item, s, canvas);
   }
   SetUpSurvivors(frame, s, target);
-  Flush(s, target, std::make_index_sequence<Scratch::small_bins>());
+  Flush(s, target);
 }
 
 // ------------------------------------------------------------------------------------- resolve

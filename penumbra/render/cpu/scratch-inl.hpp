@@ -49,14 +49,26 @@ struct PieceBin {
   }
 };
 
+/// Records of one size.
+struct RecordBin {
+  static constexpr std::size_t budget = 1024;  // records of all bins together before a flush
+  static constexpr std::size_t slack = 16;     // one vector
+
+  RecordBin() = default;
+  RecordBin(const RecordBin&) = delete;  // `end` points inside
+  RecordBin& operator=(const RecordBin&) = delete;
+
+  Record* end = records.data();
+  std::array<Record, budget + slack> records;
+};
+
 /// Triangles are sorted by the shape of their bounding box in blocks, so that each shape is filled
 /// by one straight routine: the cost of loops with varying counts is mispredicted branches.
 struct Scratch {
   static constexpr int small_width = 3;   // blocks
   static constexpr int small_height = 4;  // blocks
   static constexpr std::size_t small_bins = small_width * small_height;
-  static constexpr std::size_t large_bin = small_bins;
-  static constexpr std::size_t capacity = 1024;    // records of all bins together before a flush
+  static constexpr std::size_t large_bins = 4;     // by vectors of block rows: 1, 2, 3, any
   static constexpr std::size_t slack = 16;         // one vector
   static constexpr std::size_t longest_piece = 8;  // blocks
   static constexpr std::size_t max_front = ClusteredScene::max_triangles;
@@ -80,8 +92,8 @@ struct Scratch {
   alignas(64) std::array<std::uint32_t, max_survivors + max_corners + slack> survivor_cluster;
 
   std::size_t records = 0;  // in all bins
-  std::array<std::uint32_t, small_bins + 1> bin_counts{};
-  std::array<std::array<Record, capacity + slack>, small_bins + 1> bins;
+  std::array<RecordBin, small_bins + large_bins> bins;
+  [[nodiscard]] const Record* first_record() const { return bins[small_bins].records.data(); }
 
   std::size_t piece_count = 0;                 // an upper bound over all lengths
   std::array<PieceBin, longest_piece> pieces;  // by length
