@@ -170,6 +170,7 @@ template <bool kBothSides>
 std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, const BodyFrame& body,
                        std::uint32_t* front) {
   std::size_t count = 0;
+  auto index = hn::Iota(du32, 0);
   const auto cx = hn::Set(df, body.centre[0]);
   const auto cy = hn::Set(df, body.centre[1]);
   const auto cz = hn::Set(df, body.centre[2]);
@@ -179,7 +180,6 @@ std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, cons
                                    hn::MulAdd(hn::LoadU(df, &scene.plane_y[t]), cy,
                                               hn::MulSub(hn::LoadU(df, &scene.plane_z[t]), cz,
                                                          hn::LoadU(df, &scene.plane_d[t]))));
-    const auto index = hn::Iota(du32, i);
     if constexpr (kBothSides) {
       const auto turned = hn::ShiftLeft<31>(hn::ShiftRight<31>(hn::BitCast(du32, height)));
       const Packer seen(hn::Ne(height, hn::Zero(df)));
@@ -190,6 +190,7 @@ std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, cons
       hn::StoreU(seen(index), du32, front + count);
       count += seen.count();
     }
+    index = hn::Add(index, hn::Set(du32, static_cast<std::uint32_t>(kStep)));
   }
   return count;
 }
@@ -492,7 +493,7 @@ struct Runs {
 };
 
 HWY_INLINE Runs FindRuns(const LargeTriangle& t, int y, VI row_offsets) {
-  const auto rows = hn::Iota(di, y);
+  const auto rows = hn::Add(hn::Iota(di, 0), hn::Set(di, y));
   const auto v = hn::Mul(hn::ConvertTo(df, rows), hn::Set(df, static_cast<float>(kBlockHeight)));
   const auto a = t.a.at(v);
   const auto b = t.b.at(v);
