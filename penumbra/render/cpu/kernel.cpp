@@ -782,28 +782,42 @@ void Draw(const FrameContext& frame, std::span<const DrawItem> items, Scratch& s
 
 // ------------------------------------------------------------------------------------- resolve
 
-/// Stores a block's values in its rows of an image.
-template <typename D, typename V, typename T>
-HWY_INLINE void StoreRows(D d, V v, T* image, std::size_t stride) {
-  if constexpr (hn::MaxLanes(d) > 4) {
-    const hn::Half<D> half;
-    StoreRows(half, hn::LowerHalf(half, v), image, stride);
-    StoreRows(half, hn::UpperHalf(half, v),
-              image + stride * (kBlockHeight * hn::MaxLanes(half) / kStep), stride);
+/// Stores two neighbouring blocks' values in their rows of an image.
+template <typename T, typename Store>
+HWY_INLINE void StoreRows(VF left, VF right, T* image, std::size_t stride, Store store) {
+  if constexpr (kBlockHeight == 4) {
+    // Pixel rows of both blocks side by side: 0 and 1, 2 and 3.
+    const hn::Half<DF> half;
+    const auto low = hn::ConcatLowerLower(df, right, left);
+    const auto high = hn::ConcatUpperUpper(df, right, left);
+    HWY_ALIGN static constexpr std::int32_t kOrder[16] = {0, 1, 2, 3, 8,  9,  10, 11,
+                                                          4, 5, 6, 7, 12, 13, 14, 15};
+    const auto order = hn::SetTableIndices(df, kOrder);
+    const auto rows01 = hn::TableLookupLanes(low, order);
+    const auto rows23 = hn::TableLookupLanes(high, order);
+    store(half, hn::LowerHalf(half, rows01), image);
+    store(half, hn::UpperHalf(half, rows01), image + stride);
+    store(half, hn::LowerHalf(half, rows23), image + 2 * stride);
+    store(half, hn::UpperHalf(half, rows23), image + 3 * stride);
+  } else if constexpr (kBlockHeight == 2) {
+    store(df, hn::ConcatLowerLower(df, right, left), image);
+    store(df, hn::ConcatUpperUpper(df, right, left), image + stride);
   } else {
-    hn::StoreU(v, d, image);
+    store(df, left, image);
+    store(df, right, image + block_width);
   }
 }
 
 struct TileSpan {
   std::size_t u, v;    // first pixel
-  std::size_t blocks;  // in a row
+  std::size_t blocks;  // in a row; even
 };
 
 /// Takes the nearest of all canvases and empties them.
-HWY_INLINE VI TakeBlock(std::span<Canvas> canvases, std::size_t offset) {
-  auto word = hn::Zero(di);
-  for (Canvas& canvas : canvases) {
+HWY_INLINE VI TakeBlock(std::int32_t* first, std::span<Canvas> others, std::size_t offset) {
+  auto word = hn::Load(di, first + offset);
+  hn::Store(hn::Zero(di), di, first + offset);
+  for (Canvas& canvas : others) {
     std::int32_t* block = canvas.packed.data() + offset;
     word = hn::Max(word, hn::Load(di, block));
     hn::Store(hn::Zero(di), di, block);
@@ -815,20 +829,32 @@ void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileS
                  const Output& output) {
   const auto id_mask = hn::Set(di, packing.id_mask);
   const auto half_step = hn::Set(di, packing.half_step);
-  const hn::Rebind<std::uint16_t, DI> du16;
+  std::int32_t* const packed = canvases[0].packed.data();
+  const std::span<Canvas> others = canvases.subspan(1);
+  const std::size_t stride = output.stride;
+  const auto depth_of = [&](VI word) HWY_ATTR {
+    const auto inverse = hn::BitCast(df, hn::Or(hn::AndNot(id_mask, word), half_step));
+    return hn::IfThenElseZero(hn::RebindMask(df, hn::Ne(word, hn::Zero(di))),
+                              hn::Div(hn::Set(df, 1.0F), inverse));
+  };
+  const auto id_of = [&](VI word) HWY_ATTR { return hn::BitCast(df, hn::And(word, id_mask)); };
+  const auto store_depth = [](auto d, auto values, float* to)
+                               HWY_ATTR { hn::StoreU(values, d, to); };
+  const auto store_id = [](auto d, auto values, std::uint16_t* to) HWY_ATTR {
+    const hn::Rebind<std::uint16_t, decltype(d)> narrow;
+    const hn::RebindToSigned<decltype(d)> wide;
+    hn::StoreU(hn::DemoteTo(narrow, hn::BitCast(wide, values)), narrow, to);
+  };
   for (std::size_t v = span.v; v < span.v + TileMask::tile_height; v += kBlockHeight) {
     const std::size_t offset =
         v / kBlockHeight * canvases[0].lanes_per_row + span.u / block_width * kStep;
-    float* depth = output.depth + v * output.stride + span.u;
-    std::uint16_t* links = output.links + v * output.stride + span.u;
-    for (std::size_t i = 0; i < span.blocks; ++i) {
-      const auto word = TakeBlock(canvases, offset + i * kStep);
-      const auto inverse = hn::BitCast(df, hn::Or(hn::AndNot(id_mask, word), half_step));
-      const auto z = hn::IfThenElseZero(hn::RebindMask(df, hn::Ne(word, hn::Zero(di))),
-                                        hn::Div(hn::Set(df, 1.0F), inverse));
-      StoreRows(df, z, depth + i * block_width, output.stride);
-      StoreRows(du16, hn::DemoteTo(du16, hn::And(word, id_mask)), links + i * block_width,
-                output.stride);
+    float* depth = output.depth + v * stride + span.u;
+    std::uint16_t* links = output.links + v * stride + span.u;
+    for (std::size_t i = 0; i < span.blocks; i += 2) {
+      const auto left = TakeBlock(packed, others, offset + i * kStep);
+      const auto right = TakeBlock(packed, others, offset + (i + 1) * kStep);
+      StoreRows(depth_of(left), depth_of(right), depth + i * block_width, stride, store_depth);
+      StoreRows(id_of(left), id_of(right), links + i * block_width, stride, store_id);
     }
   }
 }
