@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+#include <penumbra/robot/mesh_formats-inl.hpp>
+#include <penumbra/robot/mesh_text-inl.hpp>
+
+namespace penumbra::mesh_formats {
+namespace {
+
+constexpr int deepest = 200;  // Assimp's reader recurses
+
+[[noreturn]] void damaged(const std::string& what) {
+  throw FormatError(what + "; it is truncated or damaged; export or copy it again");
+}
+
+/// The value of an attribute of a tag's text; empty if it has none.
+std::string attribute(std::string_view tag, std::string_view name) {
+  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
+    std::size_t i = at + name.size();
+    while (i < tag.size() && is_space(tag[i])) ++i;
+    if (at == 0 || !is_space(tag[at - 1]) || i >= tag.size() || tag[i] != '=') continue;
+    ++i;
+    while (i < tag.size() && is_space(tag[i])) ++i;
+    if (i >= tag.size()) return {};
+    const std::size_t end = tag.find(tag[i], i + 1);
+    return std::string(tag.substr(i + 1, end == std::string_view::npos ? end : end - i - 1));
+  }
+  return {};
+}
+
+/// Calls f(text between < and >) for every tag of an XML text.
+template <typename F>
+void for_each_tag(std::string_view xml, F&& f) {
+  const auto skip_past = [&xml](std::string_view mark) {
+    const std::size_t at = xml.find(mark);
+    xml.remove_prefix(at == std::string_view::npos ? xml.size() : at + mark.size());
+  };
+  for (;;) {
+    skip_past("<");
+    if (xml.empty()) return;
+    if (xml.starts_with("!--")) {
+      skip_past("-->");
+    } else if (xml.starts_with("![CDATA[")) {
+      skip_past("]]>");
+    } else {
+      const std::size_t end = xml.find('>');
+      f(xml.substr(0, end));
+      xml.remove_prefix(std::min(end, xml.size()));
+    }
+  }
+}
+
+/// What a Collada file's nodes hold and refer to. Assimp leaves out what it does not find, and
+/// follows nodes that instance each other until the stack ends.
+class ColladaCheck {
+ public:
+  void tag(std::string_view tag) {
+    if (tag.starts_with('?') || tag.starts_with('!')) return;
+    std::string_view rest = tag;
+    std::string_view name = take_word(rest);
+    const bool is_empty = tag.ends_with('/');
+    if (name.ends_with('/')) name.remove_suffix(1);
+    if (name.starts_with('/'))
+      close(name.substr(1));
+    else
+      open(name, tag, is_empty);
+  }
+
+  void finish() {
+    for (const std::string& url : geometries_used_) {
+      if (!url.starts_with('#') || geometries_.count(url.substr(1)) == 0) missing(url);
+    }
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (unfold(i, 0) > most_nodes) damaged("Collada: its nodes unfold to more than a million");
+  }
+
+ private:
+  struct Node {
+    std::vector<std::size_t> children;
+    std::vector<std::string> instances;
+    double unfolded = 0.0;  // how many nodes it stands for; 0: not counted yet
+  };
+
+  static constexpr double most_nodes = 1e6;
+
+  [[noreturn]] static void missing(const std::string& url) {
+    throw FormatError("Collada: it refers to '" + url.substr(0, 80) +
+                      "', which is not in the file; export everything into one file");
+  }
+
+  void open(std::string_view name, std::string_view tag, bool is_empty) {
+    if (!is_empty && ++depth_ > deepest)
+      damaged("Collada: elements are nested more than " + std::to_string(deepest) + " deep");
+    if (name == "geometry" || name == "controller") geometries_.insert(attribute(tag, "id"));
+    if (name == "instance_geometry" || name == "instance_controller")
+      geometries_used_.push_back(attribute(tag, "url"));
+    if (name == "instance_node" && !open_nodes_.empty())
+      nodes_[open_nodes_.back()].instances.push_back(attribute(tag, "url"));
+    if (name == "node") open_node(attribute(tag, "id"), is_empty);
+  }
+
+  void open_node(const std::string& id, bool is_empty) {
+    const std::size_t number = nodes_.size();
+    nodes_.emplace_back();
+    if (!id.empty()) node_of_id_.emplace(id, number);
+    if (!open_nodes_.empty()) nodes_[open_nodes_.back()].children.push_back(number);
+    if (!is_empty) open_nodes_.push_back(number);
+  }
+
+  void close(std::string_view name) {
+    --depth_;
+    if (name == "node" && !open_nodes_.empty()) open_nodes_.pop_back();
+  }
+
+  double unfold(std::size_t number, int depth) {
+    if (depth > deepest) damaged("Collada: its nodes contain each other");
+    if (nodes_[number].unfolded > 0.0) return nodes_[number].unfolded;
+    double sum = 1.0;
+    for (const std::size_t child : nodes_[number].children) sum += unfold(child, depth + 1);
+    for (const std::string& url : nodes_[number].instances) {
+      const auto found = url.starts_with('#') ? node_of_id_.find(url.substr(1)) : node_of_id_.end();
+      if (found == node_of_id_.end()) missing(url);
+      sum += unfold(found->second, depth + 1);
+    }
+    return nodes_[number].unfolded = sum;
+  }
+
+  int depth_ = 0;
+  std::set<std::string> geometries_;
+  std::vector<std::string> geometries_used_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> open_nodes_;
+  std::map<std::string, std::size_t> node_of_id_;
+};
+
+}  // namespace
+
+void check_collada(std::string_view bytes) {
+  ColladaCheck check;
+  for_each_tag(bytes, [&](std::string_view tag) { check.tag(tag); });
+  check.finish();
+}
+
+}  // namespace penumbra::mesh_formats

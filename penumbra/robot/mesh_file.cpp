@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/robot/mesh_file.hpp>
+#include <penumbra/robot/mesh_formats-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+using mesh_formats::FormatError;
+
+constexpr float farthest = 1e6F;  // see load_mesh
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending;
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+    throw FormatError("no such file; check the path and the package's folder");
+  if (!std::filesystem::is_regular_file(status))
+    throw FormatError(std::filesystem::is_directory(status)
+                          ? "it is a folder; name the mesh file inside it"
+                          : "it is no regular file; name a mesh file");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes;
+  const auto size = std::filesystem::file_size(file, error);
+  if (!stream || error) throw FormatError("it cannot be opened; check its permissions");
+  bytes.resize(size);
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(stream.gcount()) != size)
+    throw FormatError("it cannot be read to its end; check the disk");
+  return bytes;
+}
+
+void check_is_mesh(const std::string& bytes) {
+  if (bytes.empty()) throw FormatError("it is empty; export or copy it again");
+  if (bytes.starts_with("version https://git-lfs"))
+    throw FormatError("it is a Git LFS pointer, not the mesh; run 'git lfs pull' in its folder");
+}
+
+TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& bytes,
+                       const std::string& ending) {
+  const std::size_t counted = mesh_formats::check_gltf(bytes, ending == "glb");
+  mesh_formats::Scene scene = mesh_formats::read_with_assimp(file, bytes, ending);
+  // Assimp drops triangles whose vertices do not exist, and data in encodings that it lacks.
+  if (scene.triangles_stored != counted)
+    throw FormatError("glTF: " + std::to_string(scene.triangles_stored) + " of " +
+                      std::to_string(counted) +
+                      " triangles can be read; it is damaged or compressed: export it plain");
+  return std::move(scene.mesh);
+}
+
+TriangleMesh read(const std::filesystem::path& file) {
+  const std::string ending = lower_ending(file);
+  const std::string bytes = read_bytes(file);
+  check_is_mesh(bytes);
+  if (ending == "stl") return mesh_formats::read_stl(bytes);
+  if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending);
+  if (ending == "dae")
+    mesh_formats::check_collada(bytes);
+  else if (ending == "obj")
+    mesh_formats::check_obj(bytes);
+  else if (ending == "ply")
+    mesh_formats::check_ply(bytes);
+  else
+    throw FormatError("'" + ending +
+                      "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
+  return mesh_formats::read_with_assimp(file, bytes, ending).mesh;
+}
+
+void check_vertices(const TriangleMesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const Eigen::Vector3f& p = mesh.vertices[corner];
+      if (p.array().abs().maxCoeff<Eigen::PropagateNaN>() <= farthest) continue;
+      const std::string place = "vertex (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) +
+                                ", " + std::to_string(p.z()) + ")";
+      throw FormatError(p.allFinite() ? place + " lies beyond 1e6; check the file's unit"
+                                      : place + " is not finite; export the file again");
+    }
+  }
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& file) {
+  try {
+    const TriangleMesh read_mesh = read(file);
+    if (read_mesh.triangles.empty())
+      throw FormatError("it holds no triangles; export the mesh's surface");
+    check_vertices(read_mesh);
+    TriangleMesh mesh = weld(read_mesh);
+    if (mesh.triangles.empty())
+      throw FormatError("all of its triangles have zero area; check the file's unit and precision");
+    return mesh;
+  } catch (const FormatError& error) {
+    throw InputError("mesh " + file.string() + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw InputError("mesh " + file.string() + ": too large for the memory; simplify it");
+  }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <penumbra/base/triangle_mesh.hpp>
+
+namespace penumbra::mesh_formats {
+
+/// What is wrong with a file's bytes, and what would be right; the caller adds the file's name.
+class FormatError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+[[nodiscard]] TriangleMesh read_stl(std::string_view bytes);
+
+/// Refuse what Assimp would take, or crash on, although it is cut off or points nowhere.
+void check_collada(std::string_view bytes);
+void check_obj(std::string_view bytes);
+void check_ply(std::string_view bytes);
+
+/// The same for glTF and GLB; returns the triangles that the file's meshes count.
+[[nodiscard]] std::size_t check_gltf(std::string_view bytes, bool binary);
+
+/// A scene's triangles, and how many its meshes have before nodes repeat them or leave them out.
+struct Scene {
+  TriangleMesh mesh;
+  std::size_t triangles_stored = 0;
+};
+
+/// Reads through Assimp; `ending` is lower case without the dot. A .gltf opens the buffer files
+/// that lie beside `file`; everything else is read from `bytes`.
+[[nodiscard]] Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes,
+                                     const std::string& ending);
+
+}  // namespace penumbra::mesh_formats

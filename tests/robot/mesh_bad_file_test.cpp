@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <tests/robot/mesh_samples.hpp>
+#include <tests/support/random.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/robot/mesh_file.hpp>
+
+namespace penumbra {
+namespace {
+
+/// The message of the InputError that a load throws; empty if it throws none.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    (void)load_mesh(file);
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+class MeshBadFile : public ::testing::Test {
+ protected:
+  void expect_refused(const std::string& name, const std::string& bytes, const std::string& why) {
+    const std::string message = refusal(folder_.write(name, bytes));
+    EXPECT_NE(message.find(name), std::string::npos) << name << ": " << message;
+    EXPECT_NE(message.find(why), std::string::npos) << name << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_NE(message.find(';'), std::string::npos) << "no remedy: " << message;
+  }
+  test::ScratchFolder folder_;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) throw std::logic_error("no " + what);
+  return text.replace(at, what.size(), by);
+}
+
+TEST_F(MeshBadFile, NoFile) {
+  EXPECT_NE(refusal(folder_.path() / "none.stl").find("no such file"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path()).find("it is a folder"), std::string::npos);
+  EXPECT_NE(refusal("/dev/zero").find("no regular file"), std::string::npos);
+}
+
+TEST_F(MeshBadFile, NoMesh) {
+  for (const char* name : {"e.stl", "e.dae", "e.obj", "e.ply", "e.gltf", "e.glb", "e.step"})
+    expect_refused(name, "", "empty");
+  const std::string pointer =
+      "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+  for (const char* name : {"p.stl", "p.dae", "p.obj", "p.ply", "p.gltf", "p.glb"})
+    expect_refused(name, pointer, "git lfs pull");
+  expect_refused("a.step", "ISO-10303-21;", "no known mesh format");
+  expect_refused("noending", "text", "no known mesh format");
+}
+
+TEST_F(MeshBadFile, NoTriangles) {
+  expect_refused("a.stl", test::binary_stl({}), "no triangles");
+  expect_refused("b.stl", "solid x\nendsolid x\n", "no triangles");
+  expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "triangles");
+  expect_refused("a.dae", test::collada("", ""), "");
+  TriangleMesh line = test::tetrahedron();
+  for (auto& v : line.vertices) v = {v.x(), 0, 0};
+  expect_refused("line.stl", test::binary_stl(line), "zero area");
+}
+
+TEST_F(MeshBadFile, CoordinatesThatAreNoPlaces) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  for (const float bad : {nan, inf, -inf}) {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.vertices[2].y() = bad;
+    expect_refused("a.stl", test::binary_stl(mesh), "not finite");
+  }
+  for (const float far : {1e30F, -1.1e6F}) {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.vertices[1].z() = far;
+    expect_refused("far.stl", test::binary_stl(mesh), "beyond 1e6");
+  }
+  for (const char* bad : {"nan", "inf", "1e39", "1e30", "1e999", "abc"}) {
+    expect_refused("a.obj", replaced(test::obj(), "v 2 0 0", std::string("v ") + bad + " 0 0"), "");
+    expect_refused("a.ply",
+                   replaced(test::ascii_ply(), "\n2 0 0", std::string("\n") + bad + " 0 0"), "");
+    expect_refused("b.stl", replaced(test::ascii_stl(test::tetrahedron()), "2.000000", bad), "");
+    expect_refused("a.dae",
+                   replaced(test::collada("", test::collada_node()), "0 2 0 0 0 3",
+                            std::string("0 ") + bad + " 0 0 0 3"),
+                   "");
+  }
+}
+
+TEST_F(MeshBadFile, IndicesBeyondTheVertices) {
+  expect_refused("a.obj", replaced(test::obj(), "f 1 3 2", "f 1 3 5"), "names vertex 5 of 4");
+  expect_refused("b.obj", replaced(test::obj(), "f 1 3 2", "f 1 3 0"), "vertex's number");
+  expect_refused("c.obj", replaced(test::obj(), "f -3 -2 -1", "f -5 -2 -1"), "vertex's number");
+  expect_refused("d.obj", replaced(test::obj(), "f 1 3 2", "f 1 3"), "third corner");
+  expect_refused("a.ply", replaced(test::ascii_ply(), "3 0 2 1", "3 0 4 1"), "names vertex 4 of 4");
+  expect_refused("b.ply", replaced(test::ascii_ply(), "3 0 2 1", "3 0 -1 1"), "names vertex -1");
+  expect_refused("a.dae", replaced(test::collada("", test::collada_node()), "<p>0 2 1", "<p>0 4 1"),
+                 "");
+  std::string wild = test::glb();
+  wild[wild.size() - 24] = '\x05';
+  expect_refused("a.glb", wild, "");
+}
+
+TEST_F(MeshBadFile, CountsThatDoNotFit) {
+  const std::string stl = test::binary_stl(test::tetrahedron());
+  std::string more = stl;
+  more[80] = '\x05';
+  expect_refused("a.stl", more, "promises 5 triangles");
+  more[83] = '\x7f';
+  expect_refused("b.stl", more, "promises");
+  expect_refused("c.stl", stl + "x", "promises 4 triangles");
+  expect_refused("a.ply", replaced(test::ascii_ply(), "face 4", "face 5"), "data end before");
+  expect_refused("b.ply", replaced(test::ascii_ply(), "face 4", "face 3"), "data follow");
+  expect_refused("c.ply", replaced(test::ascii_ply(), "vertex 4", "vertex 999999999999"), "");
+  expect_refused("d.ply", replaced(test::binary_ply(), "face 4", "face 5"), "data end before");
+  expect_refused("a.glb", test::glb() + "x", "promises");
+  expect_refused("a.dae",
+                 replaced(test::collada("", test::collada_node()), "count=\"12\"", "count=\"15\""),
+                 "");
+}
+
+TEST_F(MeshBadFile, PartsThatAreElsewhere) {
+  expect_refused("a.gltf", test::gltf_json(",\"uri\":\"nowhere.bin\""), "");
+  folder_.write("short.bin", test::gltf_buffer().substr(0, 60));
+  expect_refused("b.gltf", test::gltf_json(",\"uri\":\"short.bin\""), "");
+  expect_refused("a.dae", test::collada("", replaced(test::collada_node(), "#tet", "#other")),
+                 "refers to '#other'");
+  expect_refused("b.dae", test::collada("", replaced(test::collada_node(), "#tet", "b.dae#tet")),
+                 "refers to");
+}
+
+TEST_F(MeshBadFile, DeepNestingEndsInAnError) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<node>";
+  expect_refused("a.dae", test::collada("", deep), "nested");
+  expect_refused("a.gltf", std::string(100000, '['), "nested");
+  expect_refused("cycle.dae",
+                 test::collada("",
+                               "<node id=\"n\"><instance_geometry url=\"#tet\"/>"
+                               "<instance_node url=\"#n\"/></node>"),
+                 "");
+}
+
+/// Bytes at a sample's end without which it still says everything.
+std::size_t spare_bytes(const std::string& name) {
+  if (name == "ascii.stl") return 6;  // " part\n" behind endsolid
+  if (name == "a.dae") return 1;
+  return 0;
+}
+
+TEST_F(MeshBadFile, TruncationIsAnErrorAtEveryByte) {
+  folder_.write("a.bin", test::gltf_buffer());
+  for (const auto& [name, bytes] : test::samples()) {
+    if (name == "a.obj") continue;  // see below
+    for (std::size_t size = 0; size < bytes.size() - spare_bytes(name); ++size)
+      EXPECT_NE(refusal(folder_.write(name, bytes.substr(0, size))), "") << name << " " << size;
+  }
+}
+
+TEST_F(MeshBadFile, TruncatedObjLosesAtMostWholeFacesUnnoticed) {
+  const std::string whole = test::obj();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string cut = whole.substr(0, size);
+    const std::size_t line = cut.rfind('\n') + 1;
+    const std::string last = cut.substr(line);
+    const bool inside_face = last.starts_with("f") && whole.substr(line).find(last + "\n") != 0 &&
+                             std::count(last.begin(), last.end(), ' ') < 3;
+    const bool before_faces = size <= whole.find("f 1 3 2");
+    if (inside_face || before_faces)
+      EXPECT_NE(refusal(folder_.write("a.obj", cut)), "") << size << ": " << last;
+    else
+      (void)refusal(folder_.write("a.obj", cut));
+  }
+}
+
+void flip_bytes(const test::ScratchFolder& folder, int trials, std::uint64_t seed) {
+  auto random = test::seeded_random(seed);
+  folder.write("a.bin", test::gltf_buffer());
+  for (const auto& [name, bytes] : test::samples()) {
+    int refused = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::string damaged = bytes;
+      for (std::uint64_t flips = 1 + random() % 4; flips > 0; --flips)
+        damaged[random() % damaged.size()] = static_cast<char>(random());
+      if (trial % 8 == 0) damaged.erase(random() % damaged.size(), 1 + random() % 16);
+      refused += refusal(folder.write(name, damaged)).empty() ? 0 : 1;
+    }
+    std::cout << name << ": " << refused << " of " << trials << " refused\n";
+  }
+}
+
+TEST_F(MeshBadFile, RandomDamageNeverCrashes) { flip_bytes(folder_, 300, 7); }
+
+TEST(MeshBadFileFull, RandomDamageNeverCrashes) {
+  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  flip_bytes(test::ScratchFolder(), 20000, 8);
+}
+
+}  // namespace
+}  // namespace penumbra
