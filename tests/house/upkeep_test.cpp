@@ -53,6 +53,16 @@ TEST(Upkeep, FilesAreShort) {
   }
 }
 
+TEST(Upkeep, TheShippedRecordingIsSmall) {
+  constexpr std::uintmax_t most_bytes = 3'000'000;
+  std::uintmax_t bytes = 0;
+  const std::filesystem::path folder = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  EXPECT_GT(bytes, 0U);
+  EXPECT_LT(bytes, most_bytes);
+}
+
 // Every package that CMake looks for comes from a Debian package that the scripts install.
 TEST(Upkeep, PackagesAreListed) {
   const std::map<std::string, std::string> debian{{"Eigen3", "libeigen3-dev"},
