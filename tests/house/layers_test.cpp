@@ -38,6 +38,7 @@ const std::vector<Library>& libraries() {
   static const std::vector<Library> all{{"tinyxml2", "penumbra/robot", 1},
                                         {"assimp/", "penumbra/robot", 1},
                                         {"hwy/", "penumbra", 8},
+                                        {"meshoptimizer.h", "penumbra/render", 1},
                                         {"yaml-cpp/", "io", 2},
                                         {"png.h", "io", 1},
                                         {"nlohmann/", "io", 2},
