@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -31,7 +33,7 @@ std::string attribute(std::string_view tag, std::string_view name) {
   return {};
 }
 
-/// Calls f(text between < and >) for every tag of an XML text.
+/// Calls f(text between < and >, text up to the next <) for every tag of an XML text.
 template <typename F>
 void for_each_tag(std::string_view xml, F&& f) {
   const auto skip_past = [&xml](std::string_view mark) {
@@ -46,30 +48,98 @@ void for_each_tag(std::string_view xml, F&& f) {
     } else if (xml.starts_with("![CDATA[")) {
       skip_past("]]>");
     } else {
-      const std::size_t end = xml.find('>');
-      f(xml.substr(0, end));
-      xml.remove_prefix(std::min(end, xml.size()));
+      const std::string_view tag = xml.substr(0, xml.find('>'));
+      xml.remove_prefix(std::min(tag.size() + 1, xml.size()));
+      f(tag, xml.substr(0, xml.find('<')));
     }
   }
 }
+
+std::uint64_t count_attribute(std::string_view tag, const char* name,
+                              std::optional<std::uint64_t> otherwise) {
+  const std::string text = attribute(tag, name);
+  if (text.empty() && otherwise) return *otherwise;
+  const auto value = parse_number<std::uint32_t>(text);
+  if (!value)
+    damaged("Collada: " + std::string(name) + "=\"" + text.substr(0, 40) + "\" is no count in <" +
+            std::string(tag.substr(0, 60)) + ">");
+  return *value;
+}
+
+template <typename Number>
+std::uint64_t count_numbers(std::string_view element, std::string_view text) {
+  std::uint64_t count = 0;
+  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text), ++count)
+    if (!parse_number<Number>(word))
+      damaged("Collada: '" + std::string(word.substr(0, 40)) + "' is no number in <" +
+              std::string(element) + ">");
+  return count;
+}
+
+/// The numbers of a Collada file: Assimp never ends at a letter in a list of indices, and reads
+/// beyond an array that is shorter than its accessor.
+class ColladaNumbers {
+ public:
+  void element(std::string_view name, std::string_view tag, std::string_view text) {
+    if (name == "p" || name == "vcount" || name == "h" || name == "v")
+      count_numbers<std::int64_t>(name, text);
+    for (const char* const transform : {"translate", "rotate", "scale", "matrix", "lookat", "skew"})
+      if (name == transform) count_numbers<double>(name, text);
+    if (name == "float_array") float_array(tag, text);
+    if (name == "accessor") accessors_.push_back(std::string(tag));
+    if (name == "input") count_attribute(tag, "offset", 0);
+    if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
+        name == "trifans")
+      count_attribute(tag, "count", 0);
+  }
+
+  void finish() const {
+    for (const std::string& tag : accessors_) {
+      const auto array = arrays_.find(attribute(tag, "source"));
+      if (array == arrays_.end()) continue;  // names and the like, of skins
+      const std::uint64_t stride = count_attribute(tag, "stride", 1);
+      const std::uint64_t needed =
+          count_attribute(tag, "offset", 0) + count_attribute(tag, "count", std::nullopt) * stride;
+      if (stride == 0 || needed > array->second)
+        damaged("Collada: an accessor reads " + std::to_string(needed) + " of the " +
+                std::to_string(array->second) + " numbers of '" + array->first.substr(0, 40) + "'");
+    }
+  }
+
+ private:
+  void float_array(std::string_view tag, std::string_view text) {
+    const std::uint64_t promised = count_attribute(tag, "count", std::nullopt);
+    const std::uint64_t found = count_numbers<double>("float_array", text);
+    if (found != promised)
+      damaged("Collada: an array promises " + std::to_string(promised) + " numbers and has " +
+              std::to_string(found));
+    arrays_["#" + attribute(tag, "id")] = found;
+  }
+
+  std::map<std::string, std::uint64_t> arrays_;
+  std::vector<std::string> accessors_;
+};
 
 /// What a Collada file's nodes hold and refer to. Assimp leaves out what it does not find, and
 /// follows nodes that instance each other until the stack ends.
 class ColladaCheck {
  public:
-  void tag(std::string_view tag) {
+  void tag(std::string_view tag, std::string_view text) {
     if (tag.starts_with('?') || tag.starts_with('!')) return;
     std::string_view rest = tag;
     std::string_view name = take_word(rest);
     const bool is_empty = tag.ends_with('/');
     if (name.ends_with('/')) name.remove_suffix(1);
-    if (name.starts_with('/'))
+    if (name.starts_with('/')) {
       close(name.substr(1));
-    else
-      open(name, tag, is_empty);
+      return;
+    }
+    numbers_.element(name, tag, text);
+    open(name, tag, is_empty);
   }
 
   void finish() {
+    numbers_.finish();
     for (const std::string& url : geometries_used_) {
       if (!url.starts_with('#') || geometries_.count(url.substr(1)) == 0) missing(url);
     }
@@ -128,6 +198,7 @@ class ColladaCheck {
     return nodes_[number].unfolded = sum;
   }
 
+  ColladaNumbers numbers_;
   int depth_ = 0;
   std::set<std::string> geometries_;
   std::vector<std::string> geometries_used_;
@@ -140,7 +211,7 @@ class ColladaCheck {
 
 void check_collada(std::string_view bytes) {
   ColladaCheck check;
-  for_each_tag(bytes, [&](std::string_view tag) { check.tag(tag); });
+  for_each_tag(bytes, [&](std::string_view tag, std::string_view text) { check.tag(tag, text); });
   check.finish();
 }
 
