@@ -16,9 +16,7 @@ float tolerance(const Rule& rule, float z) { return rule.a + (rule.b + rule.c * 
 float metres(float depth) { return depth; }
 float metres(std::uint16_t depth) { return static_cast<float>(depth) * metres_per_millimetre; }
 
-bool is_measurement(const Rule& rule, float d) {
-  return d > 0.0f && rule.near <= d && d <= rule.far;
-}
+bool is_measurement(const Rule& rule, float d) { return rule.near <= d && d <= rule.far; }
 
 Label label_of(const Rule& rule, float z, float d) {
   if (!(z > 0.0f)) return Label::clear;

@@ -21,7 +21,7 @@ struct Rule {
 
   float a, b, c;
   float beyond_factor;  ///< infinite where beyond is folded
-  float near, far;      ///< measurements lie in [near, far]; far is finite
+  float near, far;      ///< measurements lie in [near, far]; near is not 0 and far is finite
   int width;            ///< front_min_width
   int cells;            ///< how many cells the edge margin reaches; 0: no margin
   int reach;            ///< how far from a seed a front pixel is confirmed

@@ -30,7 +30,7 @@ Rule::Rule(const LabelRule& rule)
       c(static_cast<float>(rule.tolerance.c)),
       beyond_factor(rule.fold_beyond ? std::numeric_limits<float>::infinity()
                                      : static_cast<float>(rule.beyond_factor)),
-      near(static_cast<float>(rule.range.near)),
+      near(std::max(static_cast<float>(rule.range.near), std::numeric_limits<float>::min())),
       far(std::min(static_cast<float>(rule.range.far), std::numeric_limits<float>::max())),
       width(rule.front_min_width),
       cells((rule.edge_margin + LabelRule::cell - 1) / LabelRule::cell),

@@ -24,6 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using F = hn::CappedTag<float, 16>;
 using I = hn::RebindToSigned<F>;
+using B = hn::CappedTag<std::uint8_t, 32>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 
@@ -53,46 +54,67 @@ HWY_INLINE std::uint32_t bits_of(hn::Mask<F> mask) {
   return bits;
 }
 
-HWY_INLINE VI ones(hn::Mask<F> mask) { return hn::VecFromMask(I(), hn::RebindMask(I(), mask)); }
-
 /// One bit per pixel of a chunk.
 struct ChunkBits {
   std::uint32_t robot = 0, measured = 0, front = 0, beyond = 0, certain = 0;
+
+  [[nodiscard]] std::uint32_t unknown() const { return robot & ~measured; }
+  [[nodiscard]] std::uint32_t occluded() const { return robot & measured & ~front & ~beyond; }
 };
 
-/// Labels a chunk. `limit`: below it a measured depth is certain.
+/// Compares a chunk. `limit`: below it a measured depth is certain.
 template <bool with_certain, typename T>
-HWY_INLINE ChunkBits label_chunk(const Rule& rule, const float* HWY_RESTRICT virtual_depth,
-                                 const T* HWY_RESTRICT measured, const float* HWY_RESTRICT limit,
-                                 std::uint8_t* HWY_RESTRICT labels) {
-  const hn::Rebind<std::uint8_t, F> bytes;
-  const auto value = [](Label label) HWY_ATTR { return hn::Set(I(), static_cast<int>(label)); };
-  const auto where = [](hn::Mask<F> mask) HWY_ATTR { return hn::RebindMask(I(), mask); };
+HWY_INLINE ChunkBits compare_chunk(const Rule& rule, const float* HWY_RESTRICT virtual_depth,
+                                   const T* HWY_RESTRICT measured,
+                                   const float* HWY_RESTRICT limit) {
   ChunkBits bits;
+#pragma GCC unroll 4
   for (int i = 0; i < chunk; i += lanes()) {
     const VF z = hn::LoadU(F(), virtual_depth + i);
     const VF d = load_metres(measured + i);
     const VF e = tolerance(rule, z);
-    const auto robot = hn::Gt(z, hn::Zero(F()));
-    const auto in_range =
-        hn::And(hn::Ge(d, hn::Set(F(), rule.near)), hn::Le(d, hn::Set(F(), rule.far)));
-    const auto real = hn::And(hn::Gt(d, hn::Zero(F())), in_range);
-    const auto compared = hn::And(robot, real);
     const VF past = hn::Add(z, hn::Mul(hn::Set(F(), rule.beyond_factor), e));
-    const auto front = hn::And(compared, hn::Lt(d, hn::Sub(z, e)));
-    const auto beyond = hn::And(compared, hn::Gt(d, past));
-    VI label = hn::IfThenElse(where(real), value(Label::occluded), value(Label::unknown));
-    label = hn::IfThenElse(where(front), value(Label::front), label);
-    label = hn::IfThenElse(where(beyond), value(Label::beyond), label);
-    label = hn::IfThenElseZero(where(robot), label);
-    hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels + i);
-    bits.robot |= bits_of(robot) << i;
+    const auto real =
+        hn::And(hn::Ge(d, hn::Set(F(), rule.near)), hn::Le(d, hn::Set(F(), rule.far)));
+    bits.robot |= bits_of(hn::Gt(z, hn::Zero(F()))) << i;
     bits.measured |= bits_of(real) << i;
-    bits.front |= bits_of(front) << i;
-    bits.beyond |= bits_of(beyond) << i;
-    if constexpr (with_certain)
-      bits.certain |= bits_of(hn::And(real, hn::Lt(d, hn::LoadU(F(), limit + i)))) << i;
+    bits.front |= bits_of(hn::Lt(d, hn::Sub(z, e))) << i;
+    bits.beyond |= bits_of(hn::Gt(d, past)) << i;
+    if constexpr (with_certain) bits.certain |= bits_of(hn::Lt(d, hn::LoadU(F(), limit + i))) << i;
   }
+  bits.front &= bits.robot & bits.measured;
+  bits.beyond &= bits.robot & bits.measured;
+  bits.certain &= bits.measured;
+  return bits;
+}
+
+/// Writes a chunk's labels: each value's bits, spread to bytes.
+HWY_INLINE void write_labels(const ChunkBits& bits, std::uint8_t* HWY_RESTRICT labels) {
+  static_assert(static_cast<int>(Label::front) == 1 && static_cast<int>(Label::occluded) == 2 &&
+                static_cast<int>(Label::unknown) == 3 && static_cast<int>(Label::beyond) == 4);
+  const std::uint32_t bit0 = bits.front | bits.unknown();
+  const std::uint32_t bit1 = bits.occluded() | bits.unknown();
+  const B d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  for (int i = 0; i < chunk; i += step) {
+    const auto spread = [&](std::uint32_t plane, int value) HWY_ATTR {
+      std::uint8_t bytes[8] = {};  // LoadMaskBits may read eight
+      plane >>= i;
+      std::memcpy(bytes, &plane, sizeof plane);
+      return hn::IfThenElseZero(hn::LoadMaskBits(d, bytes),
+                                hn::Set(d, static_cast<std::uint8_t>(value)));
+    };
+    hn::StoreU(hn::Or(hn::Or(spread(bit0, 1), spread(bit1, 2)), spread(bits.beyond, 4)), d,
+               labels + i);
+  }
+}
+
+template <bool with_certain, typename T>
+HWY_INLINE ChunkBits label_chunk(const Rule& rule, const float* HWY_RESTRICT virtual_depth,
+                                 const T* HWY_RESTRICT measured, const float* HWY_RESTRICT limit,
+                                 std::uint8_t* HWY_RESTRICT labels) {
+  const ChunkBits bits = compare_chunk<with_certain>(rule, virtual_depth, measured, limit);
+  write_labels(bits, labels);
   return bits;
 }
 
@@ -119,9 +141,10 @@ HWY_INLINE void keep_bits(Work& work, int u, int v, const ChunkBits& bits) {
   put(work.front, bits.front);
   put(work.certain, bits.certain);
   put(work.unmeasured, ~bits.measured);
+  if (bits.front == 0) return;
   const auto tile_row = static_cast<std::size_t>(v / TileMask::tile_height);
   const int tile = u / work.touched.tile_width;
-  work.front_tiles.rows[tile_row] |= std::uint64_t{bits.front != 0} << tile;
+  work.front_tiles.rows[tile_row] |= std::uint64_t{1} << tile;
   work.certain_tiles.rows[tile_row] |= std::uint64_t{(bits.front & bits.certain) != 0} << tile;
 }
 
@@ -130,9 +153,9 @@ HWY_INLINE void count(const ChunkBits& bits, Counts& counts) {
     counts[static_cast<std::size_t>(label)] += static_cast<std::size_t>(std::popcount(pixels));
   };
   add(Label::front, bits.front);
-  add(Label::unknown, bits.robot & ~bits.measured);
+  add(Label::unknown, bits.unknown());
   add(Label::beyond, bits.beyond);
-  add(Label::occluded, bits.robot & bits.measured & ~bits.front & ~bits.beyond);
+  add(Label::occluded, bits.occluded());
 }
 
 /// For the pixels [u0, u1) of a row of cells: work.limits[u] = n - e(n), n the nearest virtual
@@ -164,26 +187,31 @@ inline void fill_limits(Work& work, int cell_row, int u0, int u1) {
 template <bool with_certain, typename T>
 void label_tiles(Work& work, const TileMask& tiles, ImageView<const float> virtual_depth,
                  ImageView<const T> measured, Counts& counts) {
-  const bool own_limits = work.rule.cells == 0;  // then the front pixels are the certain ones
+  const Rule rule = work.rule;              // copies, which no store to a label can change
+  const bool own_limits = rule.cells == 0;  // then the front pixels are the certain ones
+  const ImageView<std::uint8_t> labels = work.labels.view();
   const float* const limits = work.limits.data();
-  tiles.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
+  Counts sum{};
+  const auto label_span = [=, &work, &sum](int u0, int u1, int v0, int v1) HWY_ATTR {
     for (int v = v0; v < v1; ++v) {
       if (with_certain && !own_limits && v % LabelRule::cell == 0)
         fill_limits(work, v / LabelRule::cell, u0, u1);
+      const float* const z = virtual_depth.row(v);
+      const T* const d = measured.row(v);
+      std::uint8_t* const out = labels.row(v);
       for (int u = u0; u < u1; u += chunk) {
-        const float* const z = virtual_depth.row(v) + u;
-        const T* const d = measured.row(v) + u;
-        std::uint8_t* const labels = work.labels.view().row(v) + u;
         ChunkBits bits =
             u + chunk <= u1
-                ? label_chunk<with_certain>(work.rule, z, d, limits + u, labels)
-                : label_cut_chunk<with_certain>(work.rule, u1 - u, z, d, limits + u, labels);
+                ? label_chunk<with_certain>(rule, z + u, d + u, limits + u, out + u)
+                : label_cut_chunk<with_certain>(rule, u1 - u, z + u, d + u, limits + u, out + u);
         if (with_certain && own_limits) bits.certain = bits.front;
         if constexpr (with_certain) keep_bits(work, u, v, bits);
-        count(bits, counts);
+        count(bits, sum);
       }
     }
-  });
+  };
+  tiles.for_each_span(label_span);
+  for (std::size_t i = 0; i < sum.size(); ++i) counts[i] += sum[i];
 }
 
 /// Nearest virtual depth of `count` pixels in each column of `rows` rows, into `nearest`; infinite
