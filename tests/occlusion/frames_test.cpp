@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // One classifier over many frames: nothing of an earlier one is left, nothing is allocated.
+#include "../support/allocations.hpp"
 #include "../support/random.hpp"
 #include "scene.hpp"
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
 #include <gtest/gtest.h>
 
 #include <penumbra/occlusion/labels.hpp>
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace penumbra {
 namespace {
@@ -80,10 +65,10 @@ TEST_P(Frames, AllocateNothing) {
   Classifier classifier(300, 70, LabelRule{}, GetParam());
   std::vector<test::Scene> scenes;
   for (int i = 0; i < 10; ++i) scenes.push_back(test::random_scene(300, 70, random));
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   for (const test::Scene& scene : scenes)
     (void)classifier.classify(scene.view(), scene.metres.view());
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
 }
 
 }  // namespace
