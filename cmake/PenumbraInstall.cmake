@@ -13,7 +13,17 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/penumbra/base/version.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/base)
 install(EXPORT PenumbraTargets NAMESPACE Penumbra:: DESTINATION ${package_dir})
 
+# An archive is linked together with the libraries that it uses itself: NAME::TARGET comes from the
+# package NAME.
+set(private_packages)
 get_target_property(library_type penumbra TYPE)
+if(library_type STREQUAL "STATIC_LIBRARY")
+  get_target_property(private_packages penumbra LINK_LIBRARIES)
+  list(FILTER private_packages INCLUDE REGEX "^[A-Za-z0-9_-]+::")
+  list(TRANSFORM private_packages REPLACE "::.*" "")
+  list(REMOVE_DUPLICATES private_packages)
+  list(REMOVE_ITEM private_packages Eigen3)
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PenumbraConfig.cmake.in
   ${PROJECT_BINARY_DIR}/PenumbraConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PenumbraConfigVersion.cmake
