@@ -3,11 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include <penumbra/robot/joint_track.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
@@ -15,6 +20,7 @@ namespace penumbra {
 struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
+  std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
 };
 
 enum class JointStatus { ok, missing, stale };
@@ -36,32 +42,64 @@ struct JointAnswer {
 /// Merges joint states (complete or partial, in any order of names and time) and interpolates them
 /// to a stamp. Never extrapolates: a stamp that is not between two states of a joint no more than
 /// max_gap apart (or on one) is answered "stale".
+///
+/// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
+/// round. The quaternion of a floating joint is interpolated on the sphere, between stamps at which
+/// all four of its parts are known.
 class JointBuffer {
  public:
+  /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
   explicit JointBuffer(const Robot& robot, JointBufferOptions options = {});
 
   /// Adds one joint state. Names that are no variable of the robot (mimicking joints, other
-  /// devices) are skipped and counted; values that are not finite are refused and counted. A second
-  /// value for one joint and stamp replaces the first. Returns the number of values taken.
+  /// devices) are skipped and counted; names without a position, values that are not finite or lie
+  /// beyond +-1e9, and quaternions whose length is off 1 by more than 1 % are refused and counted.
+  /// A second value for one joint and stamp replaces the first. Returns the number of values taken.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
                      std::span<const double> positions);
 
   /// Positions at `stamp`. Allocates only until the answer's vectors have their size.
   void at(std::int64_t stamp, JointAnswer& answer) const;
 
-  /// Stamp of the newest state up to which every joint is known; nothing before that.
+  /// Stamp of the newest state up to which every joint is known; nothing before that, and for a
+  /// robot without variables.
   [[nodiscard]] std::optional<std::int64_t> complete_until() const;
+
+  /// Forgets every state, as after a jump of the clock; the counts stay.
+  void clear();
 
   [[nodiscard]] std::size_t skipped_names() const { return skipped_names_; }
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
-  struct State {
-    std::int64_t stamp;
-    double value;
+  enum class Kind { linear, turning, quaternion };
+
+  /// Two known stamps around another; equal where a state lies on it.
+  struct Bracket {
+    std::int64_t before, after;
   };
-  JointBufferOptions options_;
-  std::vector<std::vector<State>> states_;  // one sorted history per variable
+
+  [[nodiscard]] bool near(std::int64_t before, std::int64_t after) const;
+  [[nodiscard]] bool interpolate(std::size_t variable, std::int64_t stamp,
+                                 JointAnswer& answer) const;
+  [[nodiscard]] bool interpolate_quaternion(std::size_t first, std::int64_t stamp,
+                                            JointAnswer& answer) const;
+  [[nodiscard]] std::optional<Bracket> bracket_quaternion(std::size_t first,
+                                                          std::int64_t stamp) const;
+  [[nodiscard]] std::optional<Eigen::Quaterniond> quaternion(std::size_t first,
+                                                             std::int64_t stamp) const;
+  [[nodiscard]] std::size_t refuse_quaternions(std::int64_t stamp);
+  void add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
+  void prune();
+
+  std::int64_t max_gap_;  // nanoseconds
+  std::int64_t history_;  // nanoseconds
+  std::size_t max_states_;
+  std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
+  std::vector<JointTrack> tracks_;                         // of each variable
+  std::vector<Kind> kinds_;                                // of each variable
+  std::vector<std::size_t> quaternions_;                   // first variable of each
+  std::optional<std::int64_t> newest_;
   std::size_t skipped_names_ = 0;
   std::size_t refused_values_ = 0;
 };

@@ -19,7 +19,9 @@ namespace penumbra {
 
 enum class Geometry { collision, visual };
 
-/// What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]).
+/// What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]); where
+/// several say different things of a link, a plain name goes before patterns, and two patterns are
+/// an error, as is a pattern that matches no link.
 struct RobotOptions {
   std::map<std::string, std::filesystem::path> packages;  ///< package://NAME -> folder
   Geometry geometry = Geometry::collision;
@@ -27,7 +29,7 @@ struct RobotOptions {
   bool geometry_fallback = false;  ///< take the other geometry for a link that lacks the chosen one
   std::vector<std::string> ignore_links;  ///< patterns of links that are not drawn
   std::vector<std::string> only_links;    ///< if not empty: patterns of the links that are drawn
-  std::map<std::string, double> margins;  ///< pattern -> surface offset, metres; negative shrinks
+  std::map<std::string, double> margins;  ///< pattern -> surface offset, metres, -1 to 1; < 0 shrinks
   bool allow_missing_meshes = false;  ///< go on without unreadable meshes; the report names them
 };
 
@@ -55,7 +57,7 @@ struct Joint {
   std::size_t child = 0;                                     ///< link index
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< T_parent_joint
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           ///< unit, in the joint's frame
-  std::optional<double> lower, upper;                        ///< limits, rad or m
+  std::optional<double> lower, upper;  ///< limits of revolute and prismatic joints, rad or m
 
   /// First of this joint's values in the position vector; not set for a fixed joint. A mimicking
   /// joint's value is multiplier * positions[variable] + offset, chains folded.
@@ -64,6 +66,12 @@ struct Joint {
   double offset = 0.0;
   bool mimics = false;
 };
+
+/// The axes of a planar joint, in the joint's frame: x and y in the columns 0 and 1, which span the
+/// plane, and the unit normal. They are the frame's own x, y and z turned by the smallest rotation
+/// that takes z to the normal; where the normal's z is negative, by half a turn about x and then by
+/// the smallest rotation that takes -z to the normal.
+[[nodiscard]] Eigen::Matrix3d plane_axes(const Eigen::Vector3d& normal);
 
 /// A URDF's links, joints and geometry, ready to be posed. Immutable, cheap to move.
 class Robot {
@@ -106,13 +114,18 @@ class Robot {
   /// One line for each package found without being given ("package NAME: taken from ...").
   [[nodiscard]] std::span<const std::string> notes() const;
 
-  /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, all
-  /// finite; T_root_link one per link. Allocates nothing. Quaternions are normalised.
+  /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, within
+  /// +-1e9; T_root_link one per link. Planar joints move by x and y in their plane (plane_axes) and
+  /// turn by yaw about its normal. Quaternions are normalised. Allocates nothing. Throws
+  /// std::invalid_argument for anything else, so that no pose is ever made up.
   void forward_kinematics(std::span<const double> positions,
                           std::span<Eigen::Isometry3d> T_root_link) const;
 
  private:
   struct Model;
+  static std::unique_ptr<const Model> make_model(std::string_view xml, const std::string& file,
+                                                 const std::filesystem::path& folder,
+                                                 const RobotOptions& options);
   explicit Robot(std::unique_ptr<const Model> model);
   std::unique_ptr<const Model> model_;
 };

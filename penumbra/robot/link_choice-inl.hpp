@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/robot/urdf-inl.hpp>
+
+namespace penumbra::detail {
+
+/// What the options make of a link.
+struct LinkChoice {
+  bool draw = false;
+  Geometry geometry = Geometry::collision;
+  double margin = 0.0;
+  std::string reason;  ///< why it is not drawn, or what was chosen
+};
+
+/// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for two
+/// patterns that say different things of one link (a plain name goes before patterns), for a margin
+/// that is no sensible number, and where no link has the chosen geometry but some have the other.
+[[nodiscard]] std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options);
+
+[[nodiscard]] std::string to_string(Geometry geometry);
+
+}  // namespace penumbra::detail

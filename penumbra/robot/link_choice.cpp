@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link_choice-inl.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "glob-inl.hpp"
+#include "text-inl.hpp"
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+constexpr double kLargestMargin = 1.0;  // metres; more was meant in another unit
+
+void require_match(const Urdf& urdf, const std::string& pattern, const std::string& option) {
+  const bool matches = std::any_of(urdf.links.begin(), urdf.links.end(), [&](const auto& link) {
+    return glob_match(pattern, link.name);
+  });
+  if (!matches)
+    throw InputError(urdf.file + ": " + option + " " + quoted(pattern) +
+                     " matches no link; see the robot's links for their names");
+}
+
+bool any_matches(const std::vector<std::string>& patterns, const std::string& link) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const auto& pattern) { return glob_match(pattern, link); });
+}
+
+// The value that `settings` hold for a link, or `otherwise`.
+template <typename Value>
+Value setting_of(const std::map<std::string, Value>& settings, const Urdf& urdf,
+                 const std::string& link, Value otherwise) {
+  if (const auto own = settings.find(link); own != settings.end()) return own->second;
+  const std::string* first = nullptr;
+  for (const auto& [pattern, value] : settings) {
+    if (is_plain_name(pattern) || !glob_match(pattern, link)) continue;
+    if (first != nullptr && settings.at(*first) != value)
+      throw InputError(urdf.file + ": link " + quoted(link) + ": the patterns " + quoted(*first) +
+                       " and " + quoted(pattern) + " give it different values; give its name");
+    if (first == nullptr) first = &pattern;
+  }
+  return first == nullptr ? otherwise : settings.at(*first);
+}
+
+Geometry other(Geometry g) {
+  return g == Geometry::visual ? Geometry::collision : Geometry::visual;
+}
+
+void choose_geometry(const UrdfLink& link, Geometry wanted, bool fallback, LinkChoice& choice) {
+  choice.geometry = wanted;
+  const bool has_wanted = !link.elements(wanted).empty();
+  const bool has_other = !link.elements(other(wanted)).empty();
+  choice.draw = has_wanted || (fallback && has_other);
+  if (has_wanted) {
+    choice.reason = to_string(wanted);
+  } else if (choice.draw) {
+    choice.geometry = other(wanted);
+    choice.reason = to_string(other(wanted)) + ", as it has no " + to_string(wanted);
+  } else if (has_other) {
+    choice.reason = "has no " + to_string(wanted) + ", only " + to_string(other(wanted));
+  } else {
+    choice.reason = "has no geometry";
+  }
+}
+
+void check_options(const Urdf& urdf, const RobotOptions& options) {
+  for (const auto& pattern : options.ignore_links) require_match(urdf, pattern, "ignore_links");
+  for (const auto& pattern : options.only_links) require_match(urdf, pattern, "only_links");
+  for (const auto& [pattern, geometry] : options.geometry_of_links)
+    require_match(urdf, pattern, "geometry");
+  for (const auto& [pattern, margin] : options.margins) {
+    require_match(urdf, pattern, "margin");
+    if (!(std::abs(margin) <= kLargestMargin))
+      throw InputError(urdf.file + ": margin of " + quoted(pattern) + " is " + printed(margin) +
+                       "; expected metres within -1 and 1");
+  }
+}
+
+// A robot of which nothing is drawn would make every pixel look clear.
+void require_geometry(const Urdf& urdf, const RobotOptions& options) {
+  std::size_t wanted = 0;
+  std::size_t any = 0;
+  for (const UrdfLink& link : urdf.links) {
+    any += link.visuals.size() + link.collisions.size();
+    wanted += link
+                  .elements(setting_of(options.geometry_of_links, urdf, link.name, options.geometry))
+                  .size();
+  }
+  if (wanted == 0 && any > 0 && !options.geometry_fallback)
+    throw InputError(urdf.file + ": no link has " + to_string(options.geometry) +
+                     " elements; choose " + to_string(other(options.geometry)) +
+                     " geometry, or allow it as a fallback");
+}
+
+}  // namespace
+
+std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options) {
+  check_options(urdf, options);
+  require_geometry(urdf, options);
+  std::vector<LinkChoice> choices;
+  for (const UrdfLink& link : urdf.links) {
+    LinkChoice choice;
+    choice.margin = setting_of(options.margins, urdf, link.name, 0.0);
+    const Geometry wanted =
+        setting_of(options.geometry_of_links, urdf, link.name, options.geometry);
+    if (any_matches(options.ignore_links, link.name)) {
+      choice.reason = "ignored by ignore_links";
+    } else if (!options.only_links.empty() && !any_matches(options.only_links, link.name)) {
+      choice.reason = "left out by only_links";
+    } else {
+      choose_geometry(link, wanted, options.geometry_fallback, choice);
+    }
+    choices.push_back(std::move(choice));
+  }
+  return choices;
+}
+
+std::string to_string(Geometry geometry) {
+  return geometry == Geometry::visual ? "visual" : "collision";
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/robot/file_locator-inl.hpp>
+#include <penumbra/robot/link_choice-inl.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/robot/urdf-inl.hpp>
+
+namespace penumbra::detail {
+
+struct LinkGeometry {
+  std::vector<TriangleMesh> meshes;
+  LinkReport report;
+};
+
+/// Makes the triangles of links. Each mesh file is read once.
+class GeometryLoader {
+ public:
+  GeometryLoader(const Urdf& urdf, const std::filesystem::path& folder,
+                 const RobotOptions& options)
+      : file_(urdf.file),
+        locator_(folder, options.packages),
+        allow_missing_(options.allow_missing_meshes) {}
+
+  /// The chosen geometry of a link, margin included. Throws InputError that names link, file and
+  /// reason for geometry that cannot be had, unless missing meshes are allowed.
+  [[nodiscard]] LinkGeometry load(const UrdfLink& link, const LinkChoice& choice);
+
+  [[nodiscard]] const std::vector<std::string>& notes() const { return locator_.notes(); }
+
+ private:
+  void add(const UrdfElement& element, LinkGeometry& out);
+  TriangleMesh make_mesh(const UrdfElement& element, std::string& source);
+  TriangleMesh read_mesh(const UrdfMesh& mesh, std::string& source);
+  const TriangleMesh& read_file(const std::filesystem::path& file);
+
+  std::string file_;
+  FileLocator locator_;
+  bool allow_missing_;
+  std::map<std::filesystem::path, TriangleMesh> files_;
+};
+
+}  // namespace penumbra::detail

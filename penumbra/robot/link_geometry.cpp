@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link_geometry-inl.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "text-inl.hpp"
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/robot/mesh_file.hpp>
+#include <penumbra/robot/primitives.hpp>
+#include <penumbra/robot/surface_offset.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+constexpr double kFarthestVertex = 1e6;  // metres from the link's origin
+
+std::string round_name(const char* kind, double radius, double length) {
+  return std::string(kind) + " radius " + printed(radius) + " length " + printed(length);
+}
+
+/// A primitive's triangles, and its description in `source`.
+struct PrimitiveMaker {
+  std::string& source;
+
+  TriangleMesh operator()(const UrdfBox& box) const {
+    source = "box " + printed(box.size.x()) + " x " + printed(box.size.y()) + " x " +
+             printed(box.size.z());
+    return make_box(box.size);
+  }
+  TriangleMesh operator()(const UrdfCylinder& cylinder) const {
+    source = round_name("cylinder", cylinder.radius, cylinder.length);
+    return make_cylinder(cylinder.radius, cylinder.length);
+  }
+  TriangleMesh operator()(const UrdfSphere& sphere) const {
+    source = "sphere radius " + printed(sphere.radius);
+    return make_sphere(sphere.radius);
+  }
+  TriangleMesh operator()(const UrdfCapsule& capsule) const {
+    source = round_name("capsule", capsule.radius, capsule.length);
+    return make_capsule(capsule.radius, capsule.length);
+  }
+  TriangleMesh operator()(const UrdfMesh&) const { return {}; }  // comes from a file instead
+};
+
+// Scaled, then placed, in double. A mirrored mesh keeps its outside outside.
+void place(const Eigen::Vector3d& scale, const Eigen::Isometry3d& origin, TriangleMesh& mesh) {
+  for (Eigen::Vector3f& vertex : mesh.vertices) {
+    const Eigen::Vector3d scaled = scale.cwiseProduct(vertex.cast<double>());
+    const Eigen::Vector3d placed = origin * scaled;
+    if (!(placed.cwiseAbs().maxCoeff() <= kFarthestVertex))
+      throw InputError("a vertex lies beyond 1e6 m; check the unit and the scale");
+    vertex = placed.cast<float>();
+  }
+  if (scale.prod() < 0.0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The report's figures of the meshes as they are drawn.
+void measure(LinkGeometry& link) {
+  LinkReport& report = link.report;
+  report.drawn = !link.meshes.empty();
+  report.watertight =
+      report.drawn && std::all_of(link.meshes.begin(), link.meshes.end(), is_watertight);
+  for (const TriangleMesh& mesh : link.meshes) {
+    report.triangles += mesh.triangles.size();
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
+      report.bounds.extend(vertex.cast<double>().eval());
+  }
+}
+
+}  // namespace
+
+LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice) {
+  const auto start = std::chrono::steady_clock::now();
+  LinkGeometry out;
+  out.report.link = link.name;
+  out.report.reason = choice.reason;
+  if (!choice.draw) return out;
+  out.report.margin = choice.margin;
+  for (const UrdfElement& element : link.elements(choice.geometry)) {
+    try {
+      add(element, out);
+    } catch (const InputError& error) {
+      throw InputError(file_ + ":" + std::to_string(element.line) + ": link " + quoted(link.name) +
+                       ": " + error.what());
+    }
+  }
+  measure(out);
+  out.report.load_ms = milliseconds_since(start);
+  return out;
+}
+
+void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
+  std::string& source = out.report.sources.emplace_back();
+  TriangleMesh mesh;
+  try {
+    mesh = make_mesh(element, source);
+  } catch (const InputError& error) {
+    if (!allow_missing_) throw;
+    out.report.missing = true;
+    out.report.reason += std::string("; missing: ") + error.what();
+    return;
+  }
+  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
+  if (mesh.triangles.empty())
+    throw InputError(source + ": nothing is left of it with a margin of " +
+                     printed(out.report.margin) + " m");
+  out.meshes.push_back(std::move(mesh));
+}
+
+TriangleMesh GeometryLoader::make_mesh(const UrdfElement& element, std::string& source) {
+  const auto* file = std::get_if<UrdfMesh>(&element.shape);
+  TriangleMesh mesh = file != nullptr ? read_mesh(*file, source)
+                                      : std::visit(PrimitiveMaker{source}, element.shape);
+  place(file != nullptr ? file->scale : Eigen::Vector3d::Ones(), element.origin, mesh);
+  TriangleMesh welded = weld(mesh);
+  if (welded.triangles.empty())
+    throw InputError(source + ": no triangle has an area; check the unit and the scale");
+  return welded;
+}
+
+TriangleMesh GeometryLoader::read_mesh(const UrdfMesh& mesh, std::string& source) {
+  source = mesh.filename;
+  const auto path = locator_.locate(mesh.filename);
+  source = path.string();
+  return read_file(path);
+}
+
+const TriangleMesh& GeometryLoader::read_file(const std::filesystem::path& file) {
+  const auto [at, is_new] = files_.try_emplace(file);
+  if (!is_new) return at->second;
+  try {
+    at->second = load_mesh(file);
+  } catch (...) {
+    files_.erase(at);
+    throw;
+  }
+  return at->second;
+}
+
+}  // namespace penumbra::detail

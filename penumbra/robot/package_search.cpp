@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "package_search-inl.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "xml_document-inl.hpp"
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepestCrawl = 12;  // also the end of a cycle of links between folders
+constexpr const char* kIgnoreMarks[] = {"CATKIN_IGNORE", "ROSPACK_IGNORE", "rospack_nosubdirs",
+                                        "AMENT_IGNORE", "COLCON_IGNORE"};
+
+bool is_ignored(const fs::path& folder) {
+  std::error_code error;
+  return std::any_of(std::begin(kIgnoreMarks), std::end(kIgnoreMarks),
+                     [&](const char* mark) { return fs::exists(folder / mark, error); });
+}
+
+std::vector<fs::path> subfolders(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code unreadable;
+    if (at->is_directory(unreadable) && !at->path().filename().string().starts_with('.'))
+      out.push_back(at->path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+void crawl(const fs::path& folder, int depth, std::map<std::string, fs::path>& packages) {
+  if (depth > kDeepestCrawl || is_ignored(folder)) return;
+  std::error_code error;
+  if (fs::exists(folder / "package.xml", error)) {
+    if (const auto name = package_name(folder)) packages.emplace(*name, folder);
+    packages.emplace(folder.filename().string(), folder);
+    return;
+  }
+  for (const fs::path& sub : subfolders(folder)) crawl(sub, depth + 1, packages);
+}
+
+}  // namespace
+
+std::vector<fs::path> folders_in(const char* variable) {
+  std::vector<fs::path> out;
+  const char* value = std::getenv(variable);
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) out.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+std::optional<std::string> package_name(const fs::path& folder) {
+  const fs::path file = folder / "package.xml";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    for (const XmlElement& child : read_xml(text, file.string()).children)
+      if (child.name == "name" && !child.text.empty()) return child.text;
+  } catch (const InputError&) {
+    // Another package's broken file is not the user's concern here; its folder's name still counts.
+  }
+  return std::nullopt;
+}
+
+std::map<std::string, fs::path> crawl_ros_packages() {
+  std::map<std::string, fs::path> packages;
+  for (const fs::path& folder : folders_in("ROS_PACKAGE_PATH")) crawl(folder, 0, packages);
+  return packages;
+}
+
+std::vector<fs::path> folders_near(const fs::path& start, const std::string& name) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  const fs::path absolute = fs::weakly_canonical(start, error);
+  for (fs::path at = error ? start : absolute; !at.empty(); at = at.parent_path()) {
+    if (at.filename() == name || package_name(at) == name) out.push_back(at);
+    if (fs::is_directory(at / name, error)) out.push_back(at / name);
+    if (at == at.parent_path()) break;
+  }
+  return out;
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace penumbra::detail {
+
+/// The text in quotes, on one line and cut to a length that a message can hold.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// A number printed without trailing zeros.
+[[nodiscard]] std::string printed(double number);
+
+/// A finite decimal number that fills the whole text; independent of the locale.
+[[nodiscard]] std::optional<double> to_number(std::string_view text);
+
+/// Exactly out.size() such numbers with white space between them; false for anything else.
+[[nodiscard]] bool to_numbers(std::string_view text, std::span<double> out);
+
+}  // namespace penumbra::detail

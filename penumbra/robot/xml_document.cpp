@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xml_document-inl.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <tinyxml2.h>
+
+#include "text-inl.hpp"
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n";
+
+[[noreturn]] void fail(const std::string& file, int line, const std::string& what) {
+  throw InputError(file + ":" + std::to_string(line) + ": " + what);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml,
+                                          const std::string& file) {
+  std::vector<XmlAttribute> attributes;
+  for (const auto* a = xml.FirstAttribute(); a != nullptr; a = a->Next()) {
+    const bool twice = std::any_of(attributes.begin(), attributes.end(),
+                                   [&](const auto& other) { return other.name == a->Name(); });
+    if (twice)
+      fail(file, xml.GetLineNum(),
+           "<" + std::string(xml.Name()) + "> has the attribute " + quoted(a->Name()) + " twice");
+    attributes.push_back({a->Name(), a->Value()});
+  }
+  return attributes;
+}
+
+// The depth is bounded by the parser, so that recursion is safe.
+XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file) {
+  XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml, file), {}, {}};
+  for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (const auto* child = node->ToElement()) {
+      element.children.push_back(read_element(*child, file));
+    } else if (const auto* text = node->ToText()) {
+      element.text += trimmed(text->Value());
+    }
+  }
+  return element;
+}
+
+void check_start(std::string_view xml, const std::string& file) {
+  if (trimmed(xml).empty()) throw InputError(file + ": is empty; a URDF file is expected");
+  if (xml.find('\0') != std::string_view::npos)
+    throw InputError(file + ": is not text in UTF-8 (it holds zero bytes); a URDF is expected");
+  const bool marked = xml.starts_with("\xEF\xBB\xBF");
+  if (!trimmed(xml.substr(marked ? 3 : 0)).starts_with('<'))
+    throw InputError(file + ": is not XML (it does not start with '<'); a URDF is expected");
+}
+
+std::string reason_of(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "a closing tag is missing or belongs to another element";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is not of the form name=\"value\"";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested more than 100 deep";
+    default:
+      return document.ErrorName();
+  }
+}
+
+}  // namespace
+
+const std::string* XmlElement::attribute(std::string_view key) const {
+  for (const auto& a : attributes)
+    if (a.name == key) return &a.value;
+  return nullptr;
+}
+
+XmlElement read_xml(std::string_view xml, const std::string& file) {
+  check_start(xml, file);
+  tinyxml2::XMLDocument document;
+  if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
+    fail(file, document.ErrorLineNum(), "is not well-formed XML: " + reason_of(document));
+  const tinyxml2::XMLElement* root = nullptr;
+  for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToText() != nullptr)
+      fail(file, node->GetLineNum(), "is not well-formed XML: text outside of the root element");
+    if (node->ToElement() == nullptr) continue;
+    if (root != nullptr)
+      fail(file, node->GetLineNum(), "is not well-formed XML: a second root element");
+    root = node->ToElement();
+  }
+  if (root == nullptr) throw InputError(file + ": holds no XML element; a URDF is expected");
+  return read_element(*root, file);
+}
+
+}  // namespace penumbra::detail
