@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file_locator-inl.hpp"
+#include "package_search-inl.hpp"
+#include "text-inl.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-
-#include "package_search-inl.hpp"
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -67,7 +66,7 @@ fs::path FileLocator::locate(const std::string& uri) {
   if (scheme == "package") return locate_in_package(uri, rest, false);
   if (scheme == "model") return locate_in_package(uri, rest, true);
   if (!scheme.empty() && scheme != "file")
-    throw InputError(quoted(uri) + ": " + scheme +
+    throw InputError(in_quotes(uri) + ": " + scheme +
                      ":// cannot be read; expected package://, model://, file:// or a path");
   const bool has_host = scheme == "file" && rest.starts_with("localhost/");
   const fs::path file = existing(folder_, has_host ? rest.substr(9) : rest);
@@ -79,30 +78,29 @@ fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view
                                         bool is_model) {
   const std::size_t slash = rest.find('/');
   if (slash == 0 || slash == std::string_view::npos || slash + 1 == rest.size())
-    throw InputError(quoted(uri) + " is not of the form package://NAME/path/in/package");
+    throw InputError(in_quotes(uri) + " is not of the form package://NAME/path/in/package");
   const std::string name(rest.substr(0, slash));
   const std::string_view inside = rest.substr(slash + 1);
   const fs::path folder = package_folder(name, inside, is_model);
   const fs::path file = existing(folder, inside);
   if (!is_file(file))
-    throw InputError("no file at " + file.string() + " (package " + quoted(name) + " is " +
+    throw InputError("no file at " + file.string() + " (package " + in_quotes(name) + " is " +
                      folder.string() + ")");
   return file;
 }
 
-fs::path FileLocator::package_folder(const std::string& name, const fs::path& file,
-                                     bool is_model) {
+fs::path FileLocator::package_folder(const std::string& name, const fs::path& file, bool is_model) {
   if (const auto at = given_.find(name); at != given_.end()) {
     std::error_code error;
     if (fs::is_directory(at->second, error)) return at->second;
-    throw InputError("package " + quoted(name) + " was given as " + at->second.string() +
+    throw InputError("package " + in_quotes(name) + " was given as " + at->second.string() +
                      ", which is no folder");
   }
   if (const auto at = found_.find(name); at != found_.end()) return at->second;
 
   const auto taken = search(name, file, is_model);
   if (!taken)
-    throw InputError("package " + quoted(name) + " was not found by AMENT_PREFIX_PATH, by " +
+    throw InputError("package " + in_quotes(name) + " was not found by AMENT_PREFIX_PATH, by " +
                      "ROS_PACKAGE_PATH, or beside or above the URDF with " + file.string() +
                      " in it; give its folder: " + name + "=DIR");
   notes_.push_back("package " + name + ": taken from " + taken->folder.string() + " (" +
@@ -114,7 +112,8 @@ std::optional<FileLocator::Candidate> FileLocator::search(const std::string& nam
                                                           const fs::path& file, bool is_model) {
   if (is_model)
     for (const char* v : {"GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"})
-      if (const auto folder = first_with(v, name)) return Candidate{*folder, std::string("by ") + v};
+      if (const auto folder = first_with(v, name))
+        return Candidate{*folder, std::string("by ") + v};
   if (const auto folder = first_with("AMENT_PREFIX_PATH", "share/" + name))
     return Candidate{*folder, "by AMENT_PREFIX_PATH"};
   if (!ros_packages_) ros_packages_ = crawl_ros_packages();

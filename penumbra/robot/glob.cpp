@@ -42,7 +42,7 @@ std::size_t match_one(std::string_view pattern, std::size_t p, char c) {
 bool glob_match(std::string_view pattern, std::string_view text) {
   std::size_t p = 0;
   std::size_t t = 0;
-  std::size_t star = kNone;   // the last '*' passed, and where its run ends so far
+  std::size_t star = kNone;  // the last '*' passed, and where its run ends so far
   std::size_t run_end = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <penumbra/robot/joint_buffer.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/joint_buffer.hpp>
 
 namespace penumbra {
 namespace {
@@ -114,8 +113,7 @@ bool JointBuffer::near(std::int64_t before, std::int64_t after) const {
   return distance(before, after) <= static_cast<std::uint64_t>(max_gap_);
 }
 
-bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp,
-                              JointAnswer& answer) const {
+bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
   const auto all = tracks_[variable].states();
   const auto before = tracks_[variable].up_to(stamp);
   if (before.empty()) return false;
@@ -141,6 +139,14 @@ std::optional<Eigen::Quaterniond> JointBuffer::quaternion(std::size_t first,
     xyzw[static_cast<Eigen::Index>(i)] = *part;
   }
   return Eigen::Quaterniond(xyzw);
+}
+
+std::optional<std::int64_t> JointBuffer::last_quaternion(std::size_t first,
+                                                         std::int64_t stamp) const {
+  const auto before = tracks_[first].up_to(stamp);
+  for (auto state = before.rbegin(); state != before.rend(); ++state)
+    if (quaternion(first, state->stamp)) return state->stamp;
+  return std::nullopt;
 }
 
 std::optional<JointBuffer::Bracket> JointBuffer::bracket_quaternion(std::size_t first,
@@ -185,6 +191,11 @@ std::optional<std::int64_t> JointBuffer::complete_until() const {
     const auto states = tracks_[i].states();
     if (states.empty()) return std::nullopt;
     until = std::min(until.value_or(states.back().stamp), states.back().stamp);
+  }
+  for (const std::size_t first : quaternions_) {
+    const auto whole = last_quaternion(first, *until);
+    if (!whole) return std::nullopt;
+    until = whole;
   }
   return until;
 }

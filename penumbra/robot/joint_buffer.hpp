@@ -88,6 +88,8 @@ class JointBuffer {
                                                           std::int64_t stamp) const;
   [[nodiscard]] std::optional<Eigen::Quaterniond> quaternion(std::size_t first,
                                                              std::int64_t stamp) const;
+  [[nodiscard]] std::optional<std::int64_t> last_quaternion(std::size_t first,
+                                                            std::int64_t stamp) const;
   [[nodiscard]] std::size_t refuse_quaternions(std::int64_t stamp);
   void add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
   void prune();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <penumbra/robot/joint_track.hpp>
-
 #include <algorithm>
+
+#include <penumbra/robot/joint_track.hpp>
 
 namespace penumbra {
 namespace {

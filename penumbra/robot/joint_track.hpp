@@ -29,7 +29,7 @@ class JointTrack {
   void clear();
 
   [[nodiscard]] std::span<const State> states() const;
-  [[nodiscard]] std::span<const State> up_to(std::int64_t stamp) const;  ///< at or before `stamp`
+  [[nodiscard]] std::span<const State> up_to(std::int64_t stamp) const;    ///< at or before `stamp`
   [[nodiscard]] std::optional<double> value_at(std::int64_t stamp) const;  ///< exactly there
 
  private:

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "robot_tree-inl.hpp"
+#include "text-inl.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
-
-#include "robot_tree-inl.hpp"
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -56,11 +56,13 @@ class MimicFolder {
     const UrdfJoint& joint = urdf_joint(i);
     const auto at = index_.find(joint.mimic->joint);
     if (at == index_.end())
-      fail_at(urdf_, joint, "mimics " + quoted(joint.mimic->joint) + ", which is not in the file");
-    if (endings(joints_[at->second].type).size() != 1)
       fail_at(urdf_, joint,
-              "mimics " + quoted(joint.mimic->joint) +
-                  ", which has no single value; expected a revolute, continuous or prismatic joint");
+              "mimics " + in_quotes(joint.mimic->joint) + ", which is not in the file");
+    if (endings(joints_[at->second].type).size() != 1)
+      fail_at(
+          urdf_, joint,
+          "mimics " + in_quotes(joint.mimic->joint) +
+              ", which has no single value; expected a revolute, continuous or prismatic joint");
     return at->second;
   }
 
@@ -85,7 +87,7 @@ void check_names(const Urdf& urdf, const std::vector<std::string>& variables) {
   std::unordered_set<std::string_view> seen;
   for (const std::string& name : variables)
     if (!seen.insert(name).second)
-      throw InputError(urdf.file + ": two joints have a position named " + quoted(name) +
+      throw InputError(urdf.file + ": two joints have a position named " + in_quotes(name) +
                        "; rename one of them");
 }
 

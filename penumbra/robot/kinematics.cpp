@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "robot_model-inl.hpp"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include "robot_model-inl.hpp"
 
 namespace penumbra {
 namespace {
@@ -51,7 +51,8 @@ Eigen::Isometry3d motion(const Joint& joint, std::span<const double> positions) 
 
 void require_positions(const Robot& robot, std::span<const double> positions, std::size_t poses) {
   if (positions.size() != robot.variables().size() || poses != robot.links().size())
-    throw std::invalid_argument("forward_kinematics: one position per variable and one pose per link");
+    throw std::invalid_argument(
+        "forward_kinematics: one position per variable and one pose per link");
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (!(std::abs(positions[i]) <= kLargestPosition))
       throw std::invalid_argument("forward_kinematics: position of " + robot.variables()[i] +

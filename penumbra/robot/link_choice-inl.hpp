@@ -17,9 +17,10 @@ struct LinkChoice {
   std::string reason;  ///< why it is not drawn, or what was chosen
 };
 
-/// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for two
-/// patterns that say different things of one link (a plain name goes before patterns), for a margin
-/// that is no sensible number, and where no link has the chosen geometry but some have the other.
+/// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for
+/// two patterns that say different things of one link (a plain name goes before patterns), for a
+/// margin that is no sensible number, and where no link has the chosen geometry but some have the
+/// other.
 [[nodiscard]] std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options);
 
 [[nodiscard]] std::string to_string(Geometry geometry);

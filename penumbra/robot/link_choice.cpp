@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "glob-inl.hpp"
 #include "link_choice-inl.hpp"
+#include "text-inl.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "glob-inl.hpp"
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -19,7 +18,7 @@ void require_match(const Urdf& urdf, const std::string& pattern, const std::stri
     return glob_match(pattern, link.name);
   });
   if (!matches)
-    throw InputError(urdf.file + ": " + option + " " + quoted(pattern) +
+    throw InputError(urdf.file + ": " + option + " " + in_quotes(pattern) +
                      " matches no link; see the robot's links for their names");
 }
 
@@ -37,8 +36,9 @@ Value setting_of(const std::map<std::string, Value>& settings, const Urdf& urdf,
   for (const auto& [pattern, value] : settings) {
     if (is_plain_name(pattern) || !glob_match(pattern, link)) continue;
     if (first != nullptr && settings.at(*first) != value)
-      throw InputError(urdf.file + ": link " + quoted(link) + ": the patterns " + quoted(*first) +
-                       " and " + quoted(pattern) + " give it different values; give its name");
+      throw InputError(urdf.file + ": link " + in_quotes(link) + ": the patterns " +
+                       in_quotes(*first) + " and " + in_quotes(pattern) +
+                       " give it different values; give its name");
     if (first == nullptr) first = &pattern;
   }
   return first == nullptr ? otherwise : settings.at(*first);
@@ -73,7 +73,7 @@ void check_options(const Urdf& urdf, const RobotOptions& options) {
   for (const auto& [pattern, margin] : options.margins) {
     require_match(urdf, pattern, "margin");
     if (!(std::abs(margin) <= kLargestMargin))
-      throw InputError(urdf.file + ": margin of " + quoted(pattern) + " is " + printed(margin) +
+      throw InputError(urdf.file + ": margin of " + in_quotes(pattern) + " is " + printed(margin) +
                        "; expected metres within -1 and 1");
   }
 }
@@ -84,9 +84,9 @@ void require_geometry(const Urdf& urdf, const RobotOptions& options) {
   std::size_t any = 0;
   for (const UrdfLink& link : urdf.links) {
     any += link.visuals.size() + link.collisions.size();
-    wanted += link
-                  .elements(setting_of(options.geometry_of_links, urdf, link.name, options.geometry))
-                  .size();
+    wanted +=
+        link.elements(setting_of(options.geometry_of_links, urdf, link.name, options.geometry))
+            .size();
   }
   if (wanted == 0 && any > 0 && !options.geometry_fallback)
     throw InputError(urdf.file + ": no link has " + to_string(options.geometry) +

@@ -22,8 +22,7 @@ struct LinkGeometry {
 /// Makes the triangles of links. Each mesh file is read once.
 class GeometryLoader {
  public:
-  GeometryLoader(const Urdf& urdf, const std::filesystem::path& folder,
-                 const RobotOptions& options)
+  GeometryLoader(const Urdf& urdf, const std::filesystem::path& folder, const RobotOptions& options)
       : file_(urdf.file),
         locator_(folder, options.packages),
         allow_missing_(options.allow_missing_meshes) {}

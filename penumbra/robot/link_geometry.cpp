@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "link_geometry-inl.hpp"
+#include "text-inl.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
-
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
@@ -60,7 +59,8 @@ void place(const Eigen::Vector3d& scale, const Eigen::Isometry3d& origin, Triang
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 // The report's figures of the meshes as they are drawn.
@@ -89,8 +89,8 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
     try {
       add(element, out);
     } catch (const InputError& error) {
-      throw InputError(file_ + ":" + std::to_string(element.line) + ": link " + quoted(link.name) +
-                       ": " + error.what());
+      throw InputError(file_ + ":" + std::to_string(element.line) + ": link " +
+                       in_quotes(link.name) + ": " + error.what());
     }
   }
   measure(out);

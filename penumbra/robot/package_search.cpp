@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package_search-inl.hpp"
+#include "xml_document-inl.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string_view>
-
-#include "xml_document-inl.hpp"
+#include <utility>
 
 #include <penumbra/base/error.hpp>
 
@@ -16,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepestCrawl = 12;  // also the end of a cycle of links between folders
 constexpr const char* kIgnoreMarks[] = {"CATKIN_IGNORE", "ROSPACK_IGNORE", "rospack_nosubdirs",
                                         "AMENT_IGNORE", "COLCON_IGNORE"};
 
@@ -38,16 +38,27 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
   return out;
 }
 
-void crawl(const fs::path& folder, int depth, std::map<std::string, fs::path>& packages) {
-  if (depth > kDeepestCrawl || is_ignored(folder)) return;
-  std::error_code error;
-  if (fs::exists(folder / "package.xml", error)) {
-    if (const auto name = package_name(folder)) packages.emplace(*name, folder);
-    packages.emplace(folder.filename().string(), folder);
-    return;
+/// Walks folders once each, whatever links lead to them.
+class Crawler {
+ public:
+  void crawl(const fs::path& folder) {
+    std::error_code error;
+    const fs::path canonical = fs::canonical(folder, error);
+    if (error || !visited_.insert(canonical).second || is_ignored(folder)) return;
+    if (fs::exists(folder / "package.xml", error)) {
+      if (const auto name = package_name(folder)) packages_.emplace(*name, folder);
+      packages_.emplace(folder.filename().string(), folder);
+      return;
+    }
+    for (const fs::path& sub : subfolders(folder)) crawl(sub);
   }
-  for (const fs::path& sub : subfolders(folder)) crawl(sub, depth + 1, packages);
-}
+
+  std::map<std::string, fs::path> take() { return std::move(packages_); }
+
+ private:
+  std::set<fs::path> visited_;
+  std::map<std::string, fs::path> packages_;
+};
 
 }  // namespace
 
@@ -79,9 +90,9 @@ std::optional<std::string> package_name(const fs::path& folder) {
 }
 
 std::map<std::string, fs::path> crawl_ros_packages() {
-  std::map<std::string, fs::path> packages;
-  for (const fs::path& folder : folders_in("ROS_PACKAGE_PATH")) crawl(folder, 0, packages);
-  return packages;
+  Crawler crawler;
+  for (const fs::path& folder : folders_in("ROS_PACKAGE_PATH")) crawler.crawl(folder);
+  return crawler.take();
 }
 
 std::vector<fs::path> folders_near(const fs::path& start, const std::string& name) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <penumbra/robot/robot.hpp>
+#include "link_geometry-inl.hpp"
+#include "robot_model-inl.hpp"
+#include "robot_tree-inl.hpp"
 
 #include <fstream>
 #include <iterator>
 #include <utility>
 
-#include "link_geometry-inl.hpp"
-#include "robot_model-inl.hpp"
-#include "robot_tree-inl.hpp"
-
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
 namespace {
@@ -35,8 +34,7 @@ std::optional<std::size_t> find(const std::map<std::string, std::size_t, std::le
 
 }  // namespace
 
-std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml,
-                                                      const std::string& file,
+std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
                                                       const fs::path& folder,
                                                       const RobotOptions& options) {
   const detail::Urdf urdf = detail::read_urdf(xml, file);

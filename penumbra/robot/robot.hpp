@@ -23,13 +23,13 @@ enum class Geometry { collision, visual };
 /// several say different things of a link, a plain name goes before patterns, and two patterns are
 /// an error, as is a pattern that matches no link.
 struct RobotOptions {
-  std::map<std::string, std::filesystem::path> packages;  ///< package://NAME -> folder
+  std::map<std::string, std::filesystem::path> packages = {};  ///< package://NAME -> folder
   Geometry geometry = Geometry::collision;
-  std::map<std::string, Geometry> geometry_of_links;  ///< pattern -> geometry, before `geometry`
+  std::map<std::string, Geometry> geometry_of_links = {};  ///< pattern -> in place of `geometry`
   bool geometry_fallback = false;  ///< take the other geometry for a link that lacks the chosen one
-  std::vector<std::string> ignore_links;  ///< patterns of links that are not drawn
-  std::vector<std::string> only_links;    ///< if not empty: patterns of the links that are drawn
-  std::map<std::string, double> margins;  ///< pattern -> surface offset, metres, -1 to 1; < 0 shrinks
+  std::vector<std::string> ignore_links = {};  ///< patterns of links that are not drawn
+  std::vector<std::string> only_links = {};    ///< if not empty: patterns of the links drawn
+  std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
   bool allow_missing_meshes = false;  ///< go on without unreadable meshes; the report names them
 };
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot_tree-inl.hpp"
+#include "text-inl.hpp"
 
 #include <optional>
 #include <string_view>
 #include <unordered_map>
-
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -28,17 +27,17 @@ Index index_names(const Urdf& urdf, const std::vector<Named>& list) {
 
 /// Joints by the links at their ends, as indices into Urdf::joints.
 struct Edges {
-  std::vector<std::optional<std::size_t>> into;    // of each link
-  std::vector<std::vector<std::size_t>> out;       // of each link, in the file's order
-  std::vector<std::size_t> parent;                 // link of each joint
-  std::vector<std::size_t> child;                  // link of each joint
+  std::vector<std::optional<std::size_t>> into;  // of each link
+  std::vector<std::vector<std::size_t>> out;     // of each link, in the file's order
+  std::vector<std::size_t> parent;               // link of each joint
+  std::vector<std::size_t> child;                // link of each joint
 };
 
 std::size_t find_end(const Urdf& urdf, const Index& links, const UrdfJoint& joint,
                      const std::string& end, const std::string& name) {
   const auto at = links.find(name);
   if (at == links.end())
-    fail_at(urdf, joint, "its " + end + " link " + quoted(name) + " is not in the file");
+    fail_at(urdf, joint, "its " + end + " link " + in_quotes(name) + " is not in the file");
   return at->second;
 }
 
@@ -53,8 +52,8 @@ Edges connect(const Urdf& urdf, const Index& links) {
     auto& into = edges.into[edges.child[j]];
     if (into)
       fail_at(urdf, joint,
-              "its child link " + quoted(joint.child) + " has a parent already, by joint " +
-                  quoted(urdf.joints[*into].name) + "; a link has one parent");
+              "its child link " + in_quotes(joint.child) + " has a parent already, by joint " +
+                  in_quotes(urdf.joints[*into].name) + "; a link has one parent");
     into = j;
     edges.out[edges.parent[j]].push_back(j);
   }
@@ -67,12 +66,11 @@ std::size_t find_root(const Urdf& urdf, const Edges& edges) {
     if (edges.into[i]) continue;
     if (root)
       fail_at(urdf, urdf.links[i],
-              "is a second root beside link " + quoted(urdf.links[*root].name) +
+              "is a second root beside link " + in_quotes(urdf.links[*root].name) +
                   "; every link but one needs a joint to a parent");
     root = i;
   }
-  if (!root)
-    fail_at(urdf, urdf.links.front(), "the joints form a cycle: every link has a parent");
+  if (!root) fail_at(urdf, urdf.links.front(), "the joints form a cycle: every link has a parent");
   return *root;
 }
 
@@ -126,7 +124,8 @@ RobotTree build_tree(const Urdf& urdf) {
     place[link] = tree.links.size();
     tree.links.push_back(link);
     if (!joint) continue;
-    tree.joints.push_back(make_joint(urdf.joints[*joint], place[edges.parent[*joint]], place[link]));
+    tree.joints.push_back(
+        make_joint(urdf.joints[*joint], place[edges.parent[*joint]], place[link]));
     source.push_back(*joint);
   }
   assign_variables(urdf, source, tree);
@@ -135,11 +134,11 @@ RobotTree build_tree(const Urdf& urdf) {
 
 void fail_at(const Urdf& urdf, const UrdfJoint& joint, const std::string& what) {
   throw InputError(urdf.file + ":" + std::to_string(joint.line) + ": joint " +
-                   quoted(joint.name) + ": " + what);
+                   in_quotes(joint.name) + ": " + what);
 }
 
 void fail_at(const Urdf& urdf, const UrdfLink& link, const std::string& what) {
-  throw InputError(urdf.file + ":" + std::to_string(link.line) + ": link " + quoted(link.name) +
+  throw InputError(urdf.file + ":" + std::to_string(link.line) + ": link " + in_quotes(link.name) +
                    ": " + what);
 }
 

@@ -9,7 +9,7 @@
 namespace penumbra::detail {
 
 /// The text in quotes, on one line and cut to a length that a message can hold.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// A number printed without trailing zeros.
 [[nodiscard]] std::string printed(double number);

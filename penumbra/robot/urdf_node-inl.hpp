@@ -16,10 +16,10 @@ namespace penumbra::detail {
 /// What an element of a URDF may hold. Names with a namespace prefix (drake:..., xsi:...) are other
 /// tools' extensions and need no entry; what is in no list is an error.
 struct ElementRule {
-  std::span<const std::string_view> attributes;           ///< that are read
-  std::span<const std::string_view> ignored_attributes;   ///< known to change nothing that is drawn
-  std::span<const std::string_view> children;             ///< that are read
-  std::span<const std::string_view> ignored_children;     ///< known to change nothing that is drawn
+  std::span<const std::string_view> attributes;          ///< that are read
+  std::span<const std::string_view> ignored_attributes;  ///< known to change nothing that is drawn
+  std::span<const std::string_view> children;            ///< that are read
+  std::span<const std::string_view> ignored_children;    ///< known to change nothing that is drawn
 };
 
 /// An element of a URDF and where it stands, for messages. Every function throws InputError that

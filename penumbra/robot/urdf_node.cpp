@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "text-inl.hpp"
 #include "urdf_node-inl.hpp"
 
 #include <algorithm>
-
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -38,10 +37,10 @@ constexpr const char* kExpandXacro =
 void UrdfNode::expect(const ElementRule& rule) const {
   for (const auto& [key, value] : xml_->attributes) {
     if (key.starts_with("xacro:") || is_macro_text(value))
-      fail("attribute " + key + "=" + quoted(value) + ": " + kExpandXacro);
+      fail("attribute " + key + "=" + in_quotes(value) + ": " + kExpandXacro);
     if (!is_extension(key) && !contains(rule.attributes, key) &&
         !contains(rule.ignored_attributes, key))
-      fail("unknown attribute " + quoted(key) + "; expected " + listed(rule.attributes));
+      fail("unknown attribute " + in_quotes(key) + "; expected " + listed(rule.attributes));
   }
   for (const XmlElement& c : xml_->children) {
     const UrdfNode child(c, *file_, where_);
@@ -50,8 +49,8 @@ void UrdfNode::expect(const ElementRule& rule) const {
         !contains(rule.ignored_children, c.name))
       child.fail("unknown element <" + c.name + ">; expected " + listed(rule.children));
   }
-  if (is_macro_text(xml_->text)) fail("text " + quoted(xml_->text) + ": " + kExpandXacro);
-  if (!xml_->text.empty()) fail("unexpected text " + quoted(xml_->text) + "; remove it");
+  if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + kExpandXacro);
+  if (!xml_->text.empty()) fail("unexpected text " + in_quotes(xml_->text) + "; remove it");
 }
 
 std::vector<UrdfNode> UrdfNode::children() const {
@@ -79,8 +78,8 @@ UrdfNode UrdfNode::required_child(std::string_view key) const {
 
 const std::string& UrdfNode::text(std::string_view key) const {
   const std::string* value = xml_->attribute(key);
-  if (value == nullptr) fail("the attribute " + quoted(key) + " is missing");
-  if (value->empty()) fail("the attribute " + quoted(key) + " is empty");
+  if (value == nullptr) fail("the attribute " + in_quotes(key) + " is missing");
+  if (value->empty()) fail("the attribute " + in_quotes(key) + " is empty");
   return *value;
 }
 
@@ -97,7 +96,7 @@ double UrdfNode::number_or(std::string_view key, double absent) const {
 double UrdfNode::positive(std::string_view key, double at_most) const {
   const double value = number(key);
   if (value <= 0.0 || value > at_most)
-    fail(std::string(key) + "=" + quoted(text(key)) + " must be above 0 and at most " +
+    fail(std::string(key) + "=" + in_quotes(text(key)) + " must be above 0 and at most " +
          printed(at_most) + " m");
   return value;
 }
@@ -113,7 +112,7 @@ void UrdfNode::numbers(std::string_view key, std::span<double> out) const {
   if (to_numbers(value, out)) return;
   const std::string expected =
       out.size() == 1 ? "one finite number" : std::to_string(out.size()) + " finite numbers";
-  fail(std::string(key) + "=" + quoted(value) + " is not " + expected);
+  fail(std::string(key) + "=" + in_quotes(value) + " is not " + expected);
 }
 
 void UrdfNode::fail(const std::string& what) const {

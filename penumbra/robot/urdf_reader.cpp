@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "text-inl.hpp"
 #include "urdf-inl.hpp"
 #include "urdf_node-inl.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include <penumbra/base/error.hpp>
 
@@ -19,8 +19,8 @@ using Names = std::string_view[];
 constexpr Names kName = {"name"};
 constexpr Names kRobotAttributes = {"name", "version"};
 constexpr Names kRobotChildren = {"link", "joint"};
-constexpr Names kRobotIgnored = {"material", "transmission", "gazebo",
-                                 "ros2_control", "sensor", "mujoco"};
+constexpr Names kRobotIgnored = {"material",     "transmission", "gazebo",
+                                 "ros2_control", "sensor",       "mujoco"};
 constexpr Names kLinkChildren = {"visual", "collision"};
 constexpr Names kLinkIgnoredAttributes = {"type", "concave"};
 constexpr Names kLinkIgnored = {"inertial", "contact", "sensor",
@@ -46,8 +46,8 @@ constexpr Names kMimicAttributes = {"joint", "multiplier", "offset"};
 
 constexpr ElementRule kRobotRule{kRobotAttributes, {}, kRobotChildren, kRobotIgnored};
 constexpr ElementRule kLinkRule{kName, kLinkIgnoredAttributes, kLinkChildren, kLinkIgnored};
-constexpr ElementRule kElementRule{{}, kElementIgnoredAttributes, kElementChildren,
-                                   kElementIgnored};
+constexpr ElementRule kElementRule{
+    {}, kElementIgnoredAttributes, kElementChildren, kElementIgnored};
 constexpr ElementRule kGeometryRule{{}, kName, kShapes, {}};
 constexpr ElementRule kJointRule{kJointAttributes, {}, kJointChildren, kJointIgnored};
 constexpr ElementRule kLimitRule{kLimitAttributes, kLimitIgnored, {}, {}};
@@ -62,9 +62,9 @@ constexpr double kShortestAxis = 1e-9;
 constexpr double kUnitQuaternion = 1e-3;
 
 constexpr std::pair<std::string_view, JointType> kJointTypes[] = {
-    {"revolute", JointType::revolute}, {"continuous", JointType::continuous},
+    {"revolute", JointType::revolute},   {"continuous", JointType::continuous},
     {"prismatic", JointType::prismatic}, {"fixed", JointType::fixed},
-    {"planar", JointType::planar},     {"floating", JointType::floating}};
+    {"planar", JointType::planar},       {"floating", JointType::floating}};
 
 ElementRule leaf(std::span<const std::string_view> attributes) { return {attributes, {}, {}, {}}; }
 
@@ -74,7 +74,7 @@ Eigen::Quaterniond read_rotation(const UrdfNode& node) {
     Eigen::Vector4d xyzw;
     node.numbers("quat_xyzw", {xyzw.data(), 4});
     if (std::abs(xyzw.norm() - 1.0) > kUnitQuaternion)
-      node.fail("quat_xyzw=" + quoted(node.text("quat_xyzw")) + " is not of length 1");
+      node.fail("quat_xyzw=" + in_quotes(node.text("quat_xyzw")) + " is not of length 1");
     return Eigen::Quaterniond(xyzw.normalized());
   }
   const Eigen::Vector3d rpy = node.has("rpy") ? node.vector("rpy") : Eigen::Vector3d::Zero();
@@ -90,7 +90,7 @@ Eigen::Isometry3d read_origin(const UrdfNode& parent) {
   node->expect(leaf(kOriginAttributes));
   const Eigen::Vector3d xyz = node->has("xyz") ? node->vector("xyz") : Eigen::Vector3d::Zero();
   if (xyz.cwiseAbs().maxCoeff() > kFarthestOrigin)
-    node->fail("xyz=" + quoted(node->text("xyz")) + " lies beyond 1e6 m; metres are expected");
+    node->fail("xyz=" + in_quotes(node->text("xyz")) + " lies beyond 1e6 m; metres are expected");
   pose.linear() = read_rotation(*node).toRotationMatrix();
   pose.translation() = xyz;
   return pose;
@@ -100,7 +100,7 @@ UrdfBox read_box(const UrdfNode& node) {
   node.expect(leaf(kBoxAttributes));
   const Eigen::Vector3d size = node.vector("size");
   if (size.minCoeff() <= 0.0 || size.maxCoeff() > kLargestSize)
-    node.fail("size=" + quoted(node.text("size")) + " must be above 0 and at most " +
+    node.fail("size=" + in_quotes(node.text("size")) + " must be above 0 and at most " +
               printed(kLargestSize) + " m in every direction");
   return {size};
 }
@@ -110,7 +110,7 @@ UrdfMesh read_mesh(const UrdfNode& node) {
   UrdfMesh mesh{node.text("filename")};
   if (node.has("scale")) mesh.scale = node.vector("scale");
   if ((mesh.scale.array() == 0.0).any())
-    node.fail("scale=" + quoted(node.text("scale")) + " flattens the mesh; no factor may be 0");
+    node.fail("scale=" + in_quotes(node.text("scale")) + " flattens the mesh; no factor may be 0");
   return mesh;
 }
 
@@ -151,7 +151,7 @@ UrdfElement read_element(const UrdfNode& node) {
 
 UrdfLink read_link(const UrdfNode& unnamed) {
   const std::string& name = unnamed.text("name");
-  const UrdfNode node = unnamed.named("link " + quoted(name));
+  const UrdfNode node = unnamed.named("link " + in_quotes(name));
   node.expect(kLinkRule);
   UrdfLink link{name, node.line(), {}, {}};
   for (const UrdfNode& child : node.children()) {
@@ -165,7 +165,7 @@ JointType read_type(const UrdfNode& node) {
   const std::string& type = node.text("type");
   for (const auto& [name, value] : kJointTypes)
     if (name == type) return value;
-  node.fail("unknown type " + quoted(type) +
+  node.fail("unknown type " + in_quotes(type) +
             "; expected revolute, continuous, prismatic, fixed, planar or floating");
 }
 
@@ -189,7 +189,7 @@ Eigen::Vector3d read_axis(const UrdfNode& joint, JointType type) {
   if (type == JointType::fixed || type == JointType::floating) return Eigen::Vector3d::UnitX();
   const double length = axis.stableNorm();
   if (length < kShortestAxis)
-    node->fail("xyz=" + quoted(node->text("xyz")) + " has no direction; for instance \"0 0 1\"");
+    node->fail("xyz=" + in_quotes(node->text("xyz")) + " has no direction; for instance \"0 0 1\"");
   return (axis / length).normalized();
 }
 
@@ -218,7 +218,7 @@ std::optional<UrdfMimic> read_mimic(const UrdfNode& joint) {
 
 UrdfJoint read_joint(const UrdfNode& unnamed) {
   const std::string& name = unnamed.text("name");
-  const UrdfNode node = unnamed.named("joint " + quoted(name));
+  const UrdfNode node = unnamed.named("joint " + in_quotes(name));
   node.expect(kJointRule);
   UrdfJoint joint;
   joint.name = name;
@@ -237,8 +237,9 @@ UrdfJoint read_joint(const UrdfNode& unnamed) {
 // An xmlns:xacro alone is no sign of one: expanded files often keep it.
 void refuse_xacro(const XmlElement& xml, const std::string& file) {
   if (xml.name.starts_with("xacro:"))
-    UrdfNode(xml, file, "").fail(
-        "this is a xacro file, not a URDF; expand it first: xacro FILE.urdf.xacro > FILE.urdf");
+    UrdfNode(xml, file, "")
+        .fail(
+            "this is a xacro file, not a URDF; expand it first: xacro FILE.urdf.xacro > FILE.urdf");
   for (const XmlElement& child : xml.children) refuse_xacro(child, file);
 }
 
@@ -252,7 +253,7 @@ Urdf read_urdf(std::string_view xml, const std::string& file) {
   refuse_xacro(root, file);
   node.expect(kRobotRule);
   if (node.has("version") && !node.text("version").starts_with("1"))
-    node.fail("version=" + quoted(node.text("version")) + " is unknown; expected 1.0");
+    node.fail("version=" + in_quotes(node.text("version")) + " is unknown; expected 1.0");
   Urdf urdf{file, node.text("name"), {}, {}};
   for (const UrdfNode& child : node.children()) {
     if (child.name() == "link") urdf.links.push_back(read_link(child));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "text-inl.hpp"
 #include "xml_document-inl.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include <tinyxml2.h>
-
-#include "text-inl.hpp"
 
 #include <penumbra/base/error.hpp>
 
@@ -25,26 +24,19 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
-std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml,
-                                          const std::string& file) {
+std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml) {
   std::vector<XmlAttribute> attributes;
-  for (const auto* a = xml.FirstAttribute(); a != nullptr; a = a->Next()) {
-    const bool twice = std::any_of(attributes.begin(), attributes.end(),
-                                   [&](const auto& other) { return other.name == a->Name(); });
-    if (twice)
-      fail(file, xml.GetLineNum(),
-           "<" + std::string(xml.Name()) + "> has the attribute " + quoted(a->Name()) + " twice");
+  for (const auto* a = xml.FirstAttribute(); a != nullptr; a = a->Next())
     attributes.push_back({a->Name(), a->Value()});
-  }
   return attributes;
 }
 
 // The depth is bounded by the parser, so that recursion is safe.
-XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file) {
-  XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml, file), {}, {}};
+XmlElement read_element(const tinyxml2::XMLElement& xml) {
+  XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml), {}, {}};
   for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) {
-      element.children.push_back(read_element(*child, file));
+      element.children.push_back(read_element(*child));
     } else if (const auto* text = node->ToText()) {
       element.text += trimmed(text->Value());
     }
@@ -66,7 +58,9 @@ std::string reason_of(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "a closing tag is missing or belongs to another element";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute is not of the form name=\"value\"";
+      return "an attribute is not of the form name=\"value\", or is given twice";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "text after which no tag follows";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
       return "a comment is not closed";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
@@ -99,7 +93,7 @@ XmlElement read_xml(std::string_view xml, const std::string& file) {
     root = node->ToElement();
   }
   if (root == nullptr) throw InputError(file + ": holds no XML element; a URDF is expected");
-  return read_element(*root, file);
+  return read_element(*root);
 }
 
 }  // namespace penumbra::detail

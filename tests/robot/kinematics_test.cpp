@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/random.hpp"
+#include "fk_check.hpp"
+#include "urdf_text.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+const std::vector<std::string> kAllTypes = {"revolute", "continuous", "prismatic",
+                                            "fixed",    "planar",     "floating"};
+
+std::vector<Isometry3d> pose(const Robot& robot, const std::vector<double>& positions) {
+  std::vector<Isometry3d> poses(robot.links().size());
+  robot.forward_kinematics(positions, poses);
+  return poses;
+}
+
+Robot one_joint(const std::string& type, const std::string& body) {
+  return parse(robot_xml(link_xml("a") + link_xml("b") + joint_xml("j", type, "a", "b", body)));
+}
+
+void expect_point(const Vector3d& got, const Vector3d& expected) {
+  EXPECT_LT((got - expected).norm(), kPoseTolerance) << got.transpose();
+}
+
+TEST(Kinematics, RandomTreesMatchPlainMatrices) {
+  Random random = seeded_random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const PlainRobot plain = random_robot(random, 1 + below(random, 30), kAllTypes);
+    const Robot robot = parse(urdf_text(random, plain));
+    expect_kinematics(random, robot, plain);
+    if (HasFailure()) FAIL() << "trial " << trial;
+  }
+}
+
+TEST(Kinematics, ParentsStandBeforeChildrenAndJointsInOrderOfLinks) {
+  Random random = seeded_random(2);
+  const PlainRobot plain = random_robot(random, 60, kAllTypes);
+  const Robot robot = parse(urdf_text(random, plain));
+  ASSERT_EQ(robot.links().size(), 60u);
+  ASSERT_EQ(robot.joints().size(), 59u);
+  EXPECT_EQ(robot.links()[0], "link_0");
+  for (std::size_t i = 0; i < robot.joints().size(); ++i) {
+    EXPECT_EQ(robot.joints()[i].child, i + 1);
+    EXPECT_LE(robot.joints()[i].parent, i);
+    EXPECT_EQ(robot.find_link(robot.links()[i]), i);
+  }
+  for (std::size_t i = 0; i < robot.variables().size(); ++i)
+    EXPECT_EQ(robot.find_variable(robot.variables()[i]), i);
+  EXPECT_FALSE(robot.find_link("link_60"));
+  EXPECT_FALSE(robot.find_variable(""));
+}
+
+TEST(Kinematics, RpyTurnsAboutFixedAxes) {
+  // x to y by the yaw, after the roll has left x alone.
+  const Robot robot = one_joint("fixed",
+                                "<origin xyz=\"1 2 3\" rpy=\"1.5707963267948966 0 "
+                                "1.5707963267948966\"/>");
+  const auto poses = pose(robot, {});
+  expect_point(poses[1] * Vector3d::UnitX(), {1, 3, 3});
+  expect_point(poses[1] * Vector3d::UnitY(), {1, 2, 4});
+}
+
+TEST(Kinematics, QuaternionOriginIsTheSameAsRpy) {
+  const Robot by_rpy = one_joint("fixed", "<origin rpy=\"0.3 -0.8 2.1\"/>");
+  const Eigen::Quaterniond q(by_rpy.joints()[0].origin.linear());
+  const Robot by_quaternion =
+      one_joint("fixed", "<origin quat_xyzw=\"" + exact(q.x()) + " " + exact(q.y()) + " " +
+                             exact(q.z()) + " " + exact(q.w()) + "\"/>");
+  EXPECT_TRUE(by_quaternion.joints()[0].origin.isApprox(by_rpy.joints()[0].origin, 1e-12));
+}
+
+TEST(Kinematics, AxisIsNormalised) {
+  const Robot robot = one_joint("prismatic", "<axis xyz=\"0 0 -5\"/>");
+  expect_point(robot.joints()[0].axis, {0, 0, -1});
+  expect_point(pose(robot, {0.25})[1].translation(), {0, 0, -0.25});
+}
+
+TEST(Kinematics, AxisIsXWhereNoneIsGiven) {
+  expect_point(pose(one_joint("prismatic", ""), {2.0})[1].translation(), {2, 0, 0});
+}
+
+TEST(Kinematics, ZeroAxisOfAFixedJointIsHarmless) {
+  EXPECT_EQ(one_joint("fixed", "<axis xyz=\"0 0 0\"/>").variables().size(), 0u);
+}
+
+TEST(Kinematics, PlanarMovesInXAndYOfItsFrameForNormalZ) {
+  const Robot robot = one_joint("planar", "<axis xyz=\"0 0 1\"/>");
+  ASSERT_EQ(robot.variables().size(), 3u);
+  EXPECT_EQ(robot.variables()[2], "j/yaw");
+  const auto poses = pose(robot, {1.0, 2.0, pi / 2});
+  expect_point(poses[1] * Vector3d::UnitX(), {1, 3, 0});
+}
+
+TEST(Kinematics, PlaneAxesAreRightHandedForEveryNormal) {
+  Random random = seeded_random(3);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double tilt = trial % 2 == 0 ? 1e-9 : 1.0;  // close to the poles as well
+    const Vector3d normal = Vector3d(uniform(random, -tilt, tilt), uniform(random, -tilt, tilt),
+                                     trial % 3 == 0 ? 1.0 : -1.0)
+                                .normalized();
+    const Eigen::Matrix3d axes = plane_axes(normal);
+    EXPECT_LT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    EXPECT_NEAR(axes.determinant(), 1.0, 1e-14);
+    EXPECT_EQ(axes.col(2), normal);
+  }
+  EXPECT_EQ(plane_axes(Vector3d::UnitZ()), Eigen::Matrix3d::Identity());
+}
+
+TEST(Kinematics, FloatingNormalisesItsQuaternion) {
+  const Robot robot = one_joint("floating", "");
+  ASSERT_EQ(robot.variables().size(), 7u);
+  EXPECT_EQ(robot.variables()[6], "j/qw");
+  EXPECT_EQ(robot.rest_positions(), (std::vector<double>{0, 0, 0, 0, 0, 0, 1}));
+  const auto poses = pose(robot, {1, 2, 3, 0, 0, 3, 3});
+  expect_point(poses[1] * Vector3d::UnitX(), {1, 3, 3});
+}
+
+TEST(Kinematics, MimicChainsAreFolded) {
+  const Robot robot = parse(robot_xml(
+      link_xml("a") + link_xml("b") + link_xml("c") + link_xml("d") +
+      joint_xml("third", "prismatic", "a", "b",
+                "<mimic joint=\"second\" multiplier=\"-2\" offset=\"0.5\"/>") +
+      joint_xml("second", "prismatic", "a", "c", "<mimic joint=\"first\" multiplier=\"3\"/>") +
+      joint_xml("first", "prismatic", "a", "d")));
+  ASSERT_EQ(robot.variables().size(), 1u);
+  EXPECT_EQ(robot.variables()[0], "first");
+  const auto poses = pose(robot, {0.1});
+  expect_point(poses[*robot.find_link("d")].translation(), {0.1, 0, 0});
+  expect_point(poses[*robot.find_link("c")].translation(), {0.3, 0, 0});
+  expect_point(poses[*robot.find_link("b")].translation(), {-0.1, 0, 0});
+}
+
+TEST(Kinematics, MimicOfAFixedJointNeitherMovesNorCounts) {
+  EXPECT_TRUE(one_joint("fixed", "<mimic joint=\"gone\"/>").variables().empty());
+}
+
+TEST(Kinematics, LimitsFollowTheSpecification) {
+  const Robot both = one_joint("revolute", "<limit lower=\"-1\" upper=\"2\" effort=\"9\"/>");
+  EXPECT_EQ(both.joints()[0].lower, -1.0);
+  EXPECT_EQ(both.joints()[0].upper, 2.0);
+  EXPECT_EQ(one_joint("prismatic", "<limit upper=\"2\"/>").joints()[0].lower, 0.0);
+  EXPECT_FALSE(one_joint("continuous", "<limit lower=\"-1\" upper=\"2\"/>").joints()[0].lower);
+  EXPECT_FALSE(one_joint("revolute", "").joints()[0].lower);
+}
+
+TEST(Kinematics, ChainOf20000LinksNeedsNoStack) {
+  constexpr std::size_t kLinks = 20000;
+  std::string body = link_xml("l0");
+  for (std::size_t i = 1; i < kLinks; ++i) {
+    const std::string n = std::to_string(i);
+    const std::string mimic = i == 1 ? "" : "<mimic joint=\"j" + std::to_string(i - 1) + "\"/>";
+    body += link_xml("l" + n) +
+            joint_xml("j" + n, "prismatic", "l" + std::to_string(i - 1), "l" + n, mimic);
+  }
+  const Robot robot = parse(robot_xml(body));
+  ASSERT_EQ(robot.variables().size(), 1u);
+  const auto poses = pose(robot, {0.5});
+  EXPECT_DOUBLE_EQ(poses.back().translation().x(), 0.5 * static_cast<double>(kLinks - 1));
+}
+
+TEST(Kinematics, RefusesWhatWouldMakeAPoseUp) {
+  const Robot robot = one_joint("floating", "");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 1}), std::invalid_argument);
+  EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(pose(robot, {nan, 0, 0, 0, 0, 0, 1}), std::invalid_argument);
+  EXPECT_THROW(pose(robot, {0, inf, 0, 0, 0, 0, 1}), std::invalid_argument);
+  std::vector<Isometry3d> too_few(1);
+  EXPECT_THROW(robot.forward_kinematics(robot.rest_positions(), too_few), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace penumbra::test

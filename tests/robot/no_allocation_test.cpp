@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "urdf_text.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/robot/joint_buffer.hpp>
+
+namespace {
+
+std::atomic<std::size_t> allocations = 0;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace penumbra::test {
+namespace {
+
+Robot every_kind() {
+  std::string body = link_xml("l0");
+  const char* types[] = {"revolute", "continuous", "floating", "prismatic", "planar"};
+  for (std::size_t i = 0; i < std::size(types); ++i)
+    body += link_xml("l" + std::to_string(i + 1)) +
+            joint_xml("j" + std::to_string(i), types[i], "l" + std::to_string(i),
+                      "l" + std::to_string(i + 1), "<axis xyz=\"0 0 1\"/>");
+  return parse(robot_xml(body));
+}
+
+TEST(NoAllocation, InKinematics) {
+  const Robot robot = every_kind();
+  const auto positions = robot.rest_positions();
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  const std::size_t before = allocations;
+  robot.forward_kinematics(positions, poses);
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(NoAllocation, InTheJointBufferOnceItIsWarm) {
+  const Robot robot = every_kind();
+  JointBuffer buffer(robot, {.max_gap = 1.0, .history = 1e-6});
+  const auto names = std::vector<std::string>(robot.variables().begin(), robot.variables().end());
+  const auto positions = robot.rest_positions();
+  JointAnswer answer;
+  std::int64_t stamp = 0;
+  const auto step = [&] {
+    buffer.insert(stamp, names, positions);
+    buffer.at(stamp - 1, answer);
+    stamp += 10;
+  };
+  buffer.at(-1, answer);
+  for (int i = 0; i < 1000; ++i) step();
+  const std::size_t before = allocations;
+  for (int i = 0; i < 1000; ++i) step();
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(answer.status, JointStatus::ok);
+}
+
+}  // namespace
+}  // namespace penumbra::test

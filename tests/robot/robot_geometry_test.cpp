@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "urdf_text.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+
+// Vertices are rounded to float once, at about a metre.
+constexpr double kVertexTolerance = 1e-6;
+
+double signed_volume(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles)
+    volume += mesh.vertices[t[0]].cast<double>().dot(
+        mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
+  return volume / 6.0;
+}
+
+const LinkReport& report_of(const Robot& robot, const std::string& link) {
+  return robot.report()[*robot.find_link(link)];
+}
+
+void expect_bounds(const LinkReport& report, const Vector3d& low, const Vector3d& high) {
+  EXPECT_LT((report.bounds.min() - low).norm(), kVertexTolerance) << report.bounds.min();
+  EXPECT_LT((report.bounds.max() - high).norm(), kVertexTolerance) << report.bounds.max();
+}
+
+// a: collision box and visual sphere; b: visual only; c: nothing; d: collision only.
+std::string four_links() {
+  const std::string box = "<box size=\"1 1 1\"/>";
+  return robot_xml(link_xml("a", collision_xml(box) + visual_xml("<sphere radius=\"0.1\"/>")) +
+                   link_xml("b", visual_xml(box)) + link_xml("c") +
+                   link_xml("d", collision_xml(box)) + joint_xml("ab", "fixed", "a", "b") +
+                   joint_xml("bc", "fixed", "b", "c") + joint_xml("cd", "fixed", "c", "d"));
+}
+
+std::string drawn(const RobotOptions& options) {
+  const Robot robot = parse(four_links(), options);
+  std::string names;
+  for (const LinkReport& report : robot.report())
+    if (report.drawn) names += report.link;
+  return names;
+}
+
+TEST(LinkChoice, GeometryIsTheOneAskedFor) {
+  EXPECT_EQ(drawn({}), "ad");
+  EXPECT_EQ(drawn({.geometry = Geometry::visual}), "ab");
+  EXPECT_EQ(drawn({.geometry_of_links = {{"b", Geometry::visual}}}), "abd");
+}
+
+TEST(LinkChoice, FallsBackOnlyWhenAsked) {
+  EXPECT_EQ(drawn({.geometry_fallback = true}), "abd");
+  const Robot robot = parse(four_links(), {.geometry_fallback = true});
+  EXPECT_EQ(report_of(robot, "b").reason, "visual, as it has no collision");
+}
+
+TEST(LinkChoice, ReportSaysWhyALinkIsNotDrawn) {
+  const Robot robot = parse(four_links(), {.ignore_links = {"d"}});
+  EXPECT_EQ(report_of(robot, "a").reason, "collision");
+  EXPECT_EQ(report_of(robot, "b").reason, "has no collision, only visual");
+  EXPECT_EQ(report_of(robot, "c").reason, "has no geometry");
+  EXPECT_EQ(report_of(robot, "d").reason, "ignored by ignore_links");
+  EXPECT_TRUE(robot.meshes(*robot.find_link("d")).empty());
+  EXPECT_TRUE(report_of(robot, "d").bounds.isEmpty());
+}
+
+TEST(LinkChoice, IgnoreAndOnlyTakePatterns) {
+  EXPECT_EQ(drawn({.ignore_links = {"[ab]"}}), "d");
+  EXPECT_EQ(drawn({.only_links = {"a", "c"}}), "a");
+  EXPECT_EQ(drawn({.ignore_links = {"a"}, .only_links = {"*"}}), "d");
+}
+
+TEST(LinkChoice, PatternWithoutALinkIsAnError) {
+  for (const RobotOptions& options :
+       {RobotOptions{.ignore_links = {"nil*"}}, RobotOptions{.only_links = {"nil*"}},
+        RobotOptions{.geometry_of_links = {{"nil*", Geometry::visual}}},
+        RobotOptions{.margins = {{"nil*", 0.01}}}})
+    EXPECT_TRUE(
+        holds(message_of([&] { (void)parse(four_links(), options); }), "\"nil*\" matches no link"));
+}
+
+TEST(LinkChoice, NameGoesBeforePatternsAndPatternsMustAgree) {
+  RobotOptions options{.margins = {{"*", 0.01}, {"a", 0.02}}};
+  EXPECT_EQ(report_of(parse(four_links(), options), "a").margin, 0.02);
+  EXPECT_EQ(report_of(parse(four_links(), options), "d").margin, 0.01);
+  options.margins = {{"*", 0.01}, {"[ad]", 0.02}};
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(four_links(), options); }),
+                    "\"*\" and \"[ad]\" give it different values"));
+}
+
+TEST(LinkChoice, SenselessMarginIsAnError) {
+  for (const double margin : {10.0, -2.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_TRUE(holds(message_of([&] {
+                        (void)parse(four_links(), {.margins = {{"a", margin}}});
+                      }),
+                      "margin of \"a\""));
+}
+
+TEST(LinkChoice, RobotWithoutTheChosenGeometryIsAnError) {
+  const std::string xml = robot_xml(link_xml("a", visual_xml("<sphere radius=\"1\"/>")));
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(xml); }), "no link has collision elements"));
+  EXPECT_NO_THROW((void)parse(xml, {.geometry = Geometry::visual}));
+  EXPECT_NO_THROW((void)parse(xml, {.geometry_fallback = true}));
+}
+
+TEST(Geometry, EveryElementOfALinkIsDrawn) {
+  const Robot robot = parse(robot_xml(
+      link_xml("a", collision_xml("<box size=\"1 2 3\"/>") +
+                        collision_xml("<cylinder radius=\"0.5\" length=\"2\"/>") +
+                        collision_xml("<sphere radius=\"0.25\"/>", "<origin xyz=\"0 0 5\"/>") +
+                        collision_xml("<capsule radius=\"0.1\" length=\"0.5\"/>"))));
+  ASSERT_EQ(robot.meshes(0).size(), 4u);
+  const LinkReport& report = robot.report()[0];
+  EXPECT_EQ(report.sources,
+            (std::vector<std::string>{"box 1 x 2 x 3", "cylinder radius 0.5 length 2",
+                                      "sphere radius 0.25", "capsule radius 0.1 length 0.5"}));
+  EXPECT_TRUE(report.watertight);
+  EXPECT_EQ(report.triangles,
+            robot.meshes(0)[0].triangles.size() + robot.meshes(0)[1].triangles.size() +
+                robot.meshes(0)[2].triangles.size() + robot.meshes(0)[3].triangles.size());
+  EXPECT_NEAR(report.bounds.max().z(), 5.25, 2e-4);  // round shapes have a chord error
+}
+
+TEST(Geometry, OriginTurnsThenShifts) {
+  const Robot robot = parse(robot_xml(
+      link_xml("a", collision_xml("<box size=\"1 2 4\"/>",
+                                  "<origin xyz=\"10 0 0\" rpy=\"0 0 1.5707963267948966\"/>"))));
+  expect_bounds(robot.report()[0], {9, -0.5, -2}, {11, 0.5, 2});
+}
+
+class MeshFiles : public ::testing::Test {
+ protected:
+  void SetUp() override { folder_.write("meshes/t.stl", tetrahedron_stl()); }
+
+  Robot load(const std::string& mesh, const RobotOptions& options = {},
+             const std::string& origin = "") {
+    const auto file = folder_.write(
+        "r.urdf", robot_xml(link_xml("a", collision_xml("<mesh " + mesh + "/>", origin))));
+    return Robot::load(file, options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(MeshFiles, ScaleComesBeforeOrigin) {
+  const Robot robot = load("filename=\"meshes/t.stl\" scale=\"1 2 3\"", {},
+                           "<origin xyz=\"0 0 1\" rpy=\"0 0 1.5707963267948966\"/>");
+  expect_bounds(robot.report()[0], {-2, 0, 1}, {0, 1, 4});
+  EXPECT_EQ(robot.report()[0].triangles, 4u);
+}
+
+TEST_F(MeshFiles, MirroredMeshKeepsItsOutside) {
+  for (const char* scale : {"1 1 1", "-1 1 1", "1 -1 1", "-1 -1 1", "-1 -2 -3"}) {
+    const Robot robot = load(std::string("filename=\"meshes/t.stl\" scale=\"") + scale + "\"");
+    EXPECT_GT(signed_volume(robot.meshes(0)[0]), 0.1) << scale;
+    EXPECT_TRUE(robot.report()[0].watertight);
+  }
+}
+
+TEST_F(MeshFiles, EveryFormOfPathIsFound) {
+  folder_.write("meshes/UPPER CASE.STL", tetrahedron_stl());
+  const std::string absolute = (folder_.path() / "meshes/t.stl").string();
+  for (const std::string& name : std::vector<std::string>{
+           "meshes/t.stl", "./meshes/../meshes/t.stl", absolute, "file://" + absolute,
+           "file://localhost" + absolute, "FILE://" + absolute, "file://meshes/t.stl",
+           "meshes/UPPER CASE.STL", "meshes/UPPER%20CASE.STL"})
+    EXPECT_TRUE(load("filename=\"" + name + "\"").report()[0].drawn) << name;
+}
+
+TEST_F(MeshFiles, MissingMeshNamesLinkFileAndLine) {
+  const std::string message = message_of([&] { (void)load("filename=\"meshes/u.stl\""); });
+  EXPECT_TRUE(holds(message, "r.urdf:2: link \"a\""));
+  EXPECT_TRUE(holds(message, "no file at " + (folder_.path() / "meshes/u.stl").string()));
+}
+
+TEST_F(MeshFiles, UnreadableMeshNamesLinkAndFile) {
+  folder_.write("meshes/bad.stl", "solid nothing");
+  const std::string message = message_of([&] { (void)load("filename=\"meshes/bad.stl\""); });
+  EXPECT_TRUE(holds(message, "link \"a\""));
+  EXPECT_TRUE(holds(message, "meshes/bad.stl"));
+}
+
+TEST_F(MeshFiles, FolderOrWebAddressIsNoMesh) {
+  EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"meshes\""); }), "no file at"));
+  EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"https://x.org/t.stl\""); }),
+                    "https:// cannot be read"));
+}
+
+TEST_F(MeshFiles, ScaledToNothingOrFarAwayIsAnError) {
+  EXPECT_TRUE(holds(
+      message_of([&] { (void)load("filename=\"meshes/t.stl\" scale=\"1e-60 1e-60 1e-60\""); }),
+      "no triangle has an area"));
+  EXPECT_TRUE(holds(
+      message_of([&] { (void)load("filename=\"meshes/t.stl\" scale=\"1e300 1e300 1e300\""); }),
+      "beyond 1e6 m"));
+}
+
+TEST_F(MeshFiles, MissingMeshMayBeAllowedAndIsReported) {
+  const auto file = folder_.write(
+      "r.urdf", robot_xml(link_xml("a", collision_xml("<mesh filename=\"meshes/t.stl\"/>") +
+                                            collision_xml("<mesh filename=\"u.stl\"/>")) +
+                          link_xml("b", collision_xml("<mesh filename=\"package://q/u.stl\"/>")) +
+                          joint_xml("j", "fixed", "a", "b")));
+  const Robot robot = Robot::load(file, {.allow_missing_meshes = true});
+  const LinkReport& a = report_of(robot, "a");
+  EXPECT_TRUE(a.drawn);
+  EXPECT_TRUE(a.missing);
+  EXPECT_TRUE(holds(a.reason, "missing: no file at"));
+  const LinkReport& b = report_of(robot, "b");
+  EXPECT_FALSE(b.drawn);
+  EXPECT_TRUE(b.missing);
+  EXPECT_TRUE(holds(b.reason, "package \"q\" was not found"));
+}
+
+TEST_F(MeshFiles, UnusedGeometryIsNotRead) {
+  const auto file = folder_.write(
+      "r.urdf", robot_xml(link_xml("a", collision_xml("<mesh filename=\"meshes/t.stl\"/>") +
+                                            visual_xml("<mesh filename=\"gone.dae\"/>"))));
+  EXPECT_TRUE(Robot::load(file).report()[0].drawn);
+}
+
+TEST_F(MeshFiles, MarginMovesTheSurface) {
+  const Robot robot = load("filename=\"meshes/t.stl\"", {.margins = {{"a", 0.1}}});
+  EXPECT_EQ(robot.report()[0].margin, 0.1);
+  EXPECT_NEAR(robot.report()[0].bounds.min().x(), -0.1, 1e-3);
+}
+
+TEST_F(MeshFiles, NegativeMarginOfAnOpenMeshIsAnErrorOfTheLink) {
+  folder_.write("open.stl",
+                "solid o\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                "vertex 0 1 0\nendloop\nendfacet\nendsolid o\n");
+  const RobotOptions options{.margins = {{"a", -0.01}}, .allow_missing_meshes = true};
+  EXPECT_TRUE(
+      holds(message_of([&] { (void)load("filename=\"open.stl\"", options); }), "link \"a\""));
+  EXPECT_FALSE(load("filename=\"open.stl\"").report()[0].watertight);
+}
+
+}  // namespace
+}  // namespace penumbra::test
