@@ -10,7 +10,6 @@
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/primitives.hpp>
-#include <penumbra/robot/surface_offset.hpp>
 
 namespace penumbra::detail {
 namespace {
@@ -109,10 +108,8 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
     out.report.reason += std::string("; missing: ") + error.what();
     return;
   }
-  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
-  if (mesh.triangles.empty())
-    throw InputError(source + ": nothing is left of it with a margin of " +
-                     printed(out.report.margin) + " m");
+  if (out.report.margin != 0.0)
+    throw InputError(source + ": margins are not available; leave them out");
   out.meshes.push_back(std::move(mesh));
 }
 
