@@ -13,6 +13,17 @@ void add_line(std::string& message, std::string_view part) {
   message += part;
 }
 
+/// What Robot::forward_kinematics takes, rad and m.
+constexpr double largest_position = 1e9;
+
+/// A quaternion's length may be off 1 by rounding in a file, not by a wrong value.
+constexpr double quaternion_error = 0.01;
+
+bool is_rotation(std::span<const double> q) {
+  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  return std::abs(length - 1.0) <= quaternion_error;
+}
+
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 FrameStatus worse(FrameStatus a, FrameStatus b) {
   constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
@@ -63,8 +74,14 @@ FrameStatus FrameCheck::check_joints(const JointInput& joints, std::string& mess
     return FrameStatus::missing_joints;
   }
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    if (std::isfinite(joints.positions[i])) continue;
-    add_line(message, "position of joint '" + variables[i] + "' is not finite");
+    if (std::abs(joints.positions[i]) <= largest_position) continue;  // false for NaN
+    add_line(message, "position of joint '" + variables[i] + "' is not a number within +-1e9");
+    return FrameStatus::missing_joints;
+  }
+  for (const Joint& joint : robot_.joints()) {
+    if (joint.type != JointType::floating) continue;
+    if (is_rotation(joints.positions.subspan(*joint.variable + 3, 4))) continue;
+    add_line(message, "quaternion of joint '" + joint.name + "' has not the length 1");
     return FrameStatus::missing_joints;
   }
   return FrameStatus::ok;

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/version.hpp>
+
+#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/numbers.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr const char* about =
+    "Penumbra tells a robot which parts of its camera's view its own body hides.";
+
+constexpr const char* main_examples = R"(
+Examples:
+  penumbra run recording/ -o out             label every frame of a recording
+  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
+  penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
+  penumbra run --help                        all options of one command
+
+Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
+
+constexpr const char* run_examples = R"(
+OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot),
+labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond), links/000000.png (link
+number in the report + 1, 0 = none) and overlay/000000.png. Files of those names from an earlier
+run are removed. Faulty frames are told on stderr and in the report; the others are judged.
+
+Examples:
+  penumbra run recording/ -o out
+  penumbra run recording/ -o out --save labels,overlay --frames 10:20
+  penumbra run recording/ -o out --labels paper
+  penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0)";
+
+constexpr const char* render_examples = R"(
+Joints that are not given stand at rest (0, or no rotation); --json lists every position.
+Planar joints take NAME/x, NAME/y, NAME/yaw, floating ones NAME/x, y, z, qx, qy, qz, qw.
+--repeat renders the same pose N times after a first one and labels each time the virtual depth
+image itself, as if the sensor saw nothing but the robot.
+
+Examples:
+  penumbra render --robot ur5e.urdf --package ur_description=/opt/ur_description \
+      --camera camera_info.yaml --pose pose.csv --joint elbow_joint=1.57 -o vdi.npy
+  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv --parent tool0 \
+      -o vdi.npy --links links.png --repeat 200 --json)";
+
+constexpr const char* inspect_examples = R"(
+Examples:
+  penumbra inspect arm.urdf
+  penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
+
+[[noreturn]] void refuse(const std::string& option, const std::string& value,
+                         const std::string& wanted) {
+  throw InputError(option + ": '" + value + "' is not " + wanted);
+}
+
+Backend to_backend(const std::string& name) {
+  if (name == "cpu" || name == "auto") return Backend::cpu;
+  if (name == "reference") return Backend::reference;
+  if (name == "gl")
+    throw InputError(
+        "--renderer: this build has no OpenGL renderer (gl); choose cpu, reference or auto");
+  refuse("--renderer", name, "one of cpu, reference, auto, gl");
+}
+
+Geometry to_geometry(const std::string& name) {
+  if (name == "collision") return Geometry::collision;
+  if (name == "visual") return Geometry::visual;
+  refuse("--geometry", name, "collision or visual");
+}
+
+ImageSpace to_image(const std::string& name) {
+  if (name == "raw") return ImageSpace::raw;
+  if (name == "rectified") return ImageSpace::rectified;
+  refuse("--image", name, "raw or rectified");
+}
+
+bool to_paper(const std::string& name) {
+  if (name == "paper") return true;
+  if (name == "full") return false;
+  refuse("--labels", name, "full or paper");
+}
+
+Tolerance to_tolerance(const std::string& text) {
+  const auto parts = split(text, ',');
+  const char* const wanted = "A,B,C: three numbers, of e(z) = A + B z + C z^2 in metres";
+  if (parts.size() != 3) refuse("--tolerance", text, wanted);
+  const auto a = io::parse_number<double>(parts[0]), b = io::parse_number<double>(parts[1]),
+             c = io::parse_number<double>(parts[2]);
+  if (!a || !b || !c) refuse("--tolerance", text, wanted);
+  return {*a, *b, *c};
+}
+
+int to_count(const std::string& option, const std::string& text, int least) {
+  constexpr std::int64_t most = 1'000'000;
+  const auto value = io::parse_number<std::int64_t>(text);
+  if (!value || *value < least || *value > most)
+    refuse(option, text, "a whole number from " + std::to_string(least) + " to 1000000");
+  return static_cast<int>(*value);
+}
+
+FrameRange to_range(const std::string& text) {
+  const auto parts = split(text, ':');
+  const char* const wanted = "A:B, the frames from A up to but without B (either may be left out)";
+  if (parts.size() != 2) refuse("--frames", text, wanted);
+  FrameRange range;
+  for (auto [part, bound] : {std::pair(&parts[0], &range.first), {&parts[1], &range.end}}) {
+    if (part->empty()) continue;
+    *bound = io::parse_number<std::int64_t>(*part);
+    if (!*bound || **bound < 0) refuse("--frames", text, wanted);
+  }
+  return range;
+}
+
+Saves to_saves(const std::string& text) {
+  Saves saves;
+  for (const std::string& part : split(text, ',')) {
+    if (part == "vdi") {
+      saves.vdi = true;
+    } else if (part == "labels") {
+      saves.labels = true;
+    } else if (part == "links") {
+      saves.links = true;
+    } else if (part == "overlay") {
+      saves.overlay = true;
+    } else {
+      refuse("--save", part, "one of vdi, labels, links, overlay");
+    }
+  }
+  return saves;
+}
+
+/// Splits NAME=VALUE at the first '='.
+std::pair<std::string, std::string> to_pair(const std::string& option, const std::string& text,
+                                            const std::string& wanted) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+    refuse(option, text, wanted);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::pair<std::string, double> to_joint(const std::string& text) {
+  const char* const wanted = "NAME=VALUE with a number (radians or metres)";
+  const auto [name, value] = to_pair("--joint", text, wanted);
+  const auto number = io::parse_number<double>(value);
+  if (!number) refuse("--joint", text, wanted);
+  return {name, *number};
+}
+
+/// Adds an option that may be given once and whose text `take` reads.
+template <typename Take>
+CLI::Option* add_option(CLI::App& app, const std::string& names, const std::string& help,
+                        const std::string& value, Take take) {
+  return app.add_option_function<std::string>(names, take, help)->type_name(value)->expected(1);
+}
+
+/// The same for an option that may be given several times.
+template <typename Take>
+void add_list(CLI::App& app, const std::string& names, const std::string& help,
+              const std::string& value, Take take) {
+  app.add_option_function<std::vector<std::string>>(
+         names,
+         [take](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) take(text);
+         },
+         help)
+      ->type_name(value)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_renderer(CLI::App& app, Backend& backend, int& threads) {
+  add_option(app, "--renderer", "cpu, reference or auto (= cpu); default auto", "NAME",
+             [&](const std::string& text) { backend = to_backend(text); });
+  add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
+             [&](const std::string& text) { threads = to_count("--threads", text, 1); });
+}
+
+void add_robot(CLI::App& app, RobotOptions& options) {
+  add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
+           [&](const std::string& text) {
+             const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
+             options.packages[name] = folder;
+           });
+  add_option(app, "--geometry", "collision or visual; default collision", "NAME",
+             [&](const std::string& text) { options.geometry = to_geometry(text); });
+}
+
+void add_run(CLI::App& app, RunArguments& run) {
+  app.footer(run_examples);
+  app.add_option("INPUT", run.input, "a recording folder or its recording.yaml")->required();
+  app.add_option("-o,--output", run.output, "folder for the results; made if need be")
+      ->type_name("OUT")
+      ->required();
+  add_renderer(app, run.backend, run.threads);
+  add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
+             "NAME", [&](const std::string& text) { run.geometry = to_geometry(text); });
+  add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
+             [&](const std::string& text) { run.tolerance = to_tolerance(text); });
+  add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",
+             [&](const std::string& text) {
+               run.front_min_width = to_count("--front-min-width", text, 0);
+             });
+  add_option(app, "--labels", "full (default), or paper: constant 0.01 m, no clean-up, no beyond",
+             "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
+  add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
+             [&](const std::string& text) { run.image = to_image(text); });
+  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
+             [&](const std::string& text) { run.frames = to_range(text); });
+  add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
+             [&](const std::string& text) { run.saves = to_saves(text); });
+}
+
+void add_render(CLI::App& app, RenderArguments& render) {
+  app.footer(render_examples);
+  app.add_option("--robot", render.robot, "the robot")->type_name("URDF")->required();
+  add_robot(app, render.options);
+  app.add_option("--camera", render.camera_info, "ROS camera_info YAML")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--pose", render.pose, "4x4 pose of the optical frame in the parent link, metres")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--parent", render.parent, "link that the pose is given in; default: the root")
+      ->type_name("LINK");
+  add_list(app, "--joint", "a joint's position, rad or m; may be given several times", "NAME=VALUE",
+           [&](const std::string& text) { render.joints.push_back(to_joint(text)); });
+  app.add_option("-o,--output", render.output, "virtual depth image, float32 metres, 0 = no robot")
+      ->type_name("NPY")
+      ->required();
+  app.add_option("--links", render.links, "link image, 16-bit: link number + 1, 0 = none")
+      ->type_name("PNG");
+  add_renderer(app, render.backend, render.threads);
+  add_option(app, "--repeat", "render N times and print the times", "N",
+             [&](const std::string& text) { render.repeat = to_count("--repeat", text, 1); });
+  app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
+}
+
+void add_inspect(CLI::App& app, InspectArguments& inspect) {
+  app.footer(inspect_examples);
+  app.add_option("URDF", inspect.robot, "the robot")->required();
+  add_robot(app, inspect.options);
+  app.add_flag("--json", inspect.json, "print JSON instead of tables");
+}
+
+}  // namespace
+
+std::optional<Command> parse_arguments(int argc, const char* const* argv) {
+  RunArguments run;
+  RenderArguments render;
+  InspectArguments inspect;
+  CLI::App app{about, "penumbra"};
+  app.footer(main_examples);
+  app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
+  app.require_subcommand(1);
+  CLI::App* const run_app = app.add_subcommand("run", "label every frame of a recording");
+  CLI::App* const render_app = app.add_subcommand("render", "render one virtual depth image");
+  CLI::App* const inspect_app = app.add_subcommand("inspect", "tell what of a URDF is drawn");
+  add_run(*run_app, run);
+  add_render(*render_app, render);
+  add_inspect(*inspect_app, inspect);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& answered) {
+    app.exit(answered, std::cout, std::cerr);
+    return std::nullopt;
+  } catch (const CLI::Error& error) {
+    throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
+  }
+  if (run_app->parsed()) return run;
+  if (render_app->parsed()) return render;
+  return inspect;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra::app {
+
+/// Which images `run` writes beside the report.
+struct Saves {
+  bool vdi = false, labels = false, links = false, overlay = false;
+};
+
+/// Frames first <= index < end; what is not set is the recording's own end.
+struct FrameRange {
+  std::optional<std::int64_t> first, end;
+};
+
+struct RunArguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  Backend backend = Backend::cpu;
+  int threads = 1;
+  std::optional<Geometry> geometry;
+  std::optional<Tolerance> tolerance;
+  std::optional<int> front_min_width;  ///< pixels
+  bool paper_labels = false;
+  ImageSpace image = ImageSpace::raw;
+  FrameRange frames;
+  Saves saves;
+};
+
+struct RenderArguments {
+  std::filesystem::path robot;
+  RobotOptions options;
+  std::filesystem::path camera_info;
+  std::filesystem::path pose;
+  std::string parent;
+  std::vector<std::pair<std::string, double>> joints;  ///< name and value, as they were given
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> links;
+  Backend backend = Backend::cpu;
+  int threads = 1;
+  int repeat = 1;
+  bool json = false;
+};
+
+struct InspectArguments {
+  std::filesystem::path robot;
+  RobotOptions options;
+  bool json = false;
+};
+
+using Command = std::variant<RunArguments, RenderArguments, InspectArguments>;
+
+/// Reads the command line. Prints what --help and --version ask for and then answers nothing.
+/// Throws InputError that names the argument.
+[[nodiscard]] std::optional<Command> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace penumbra::app

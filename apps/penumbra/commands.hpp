@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <apps/penumbra/arguments.hpp>
+
+namespace penumbra::app {
+
+/// Each command answers its exit status and throws InputError where the user's input is at fault.
+[[nodiscard]] int execute(const RunArguments& arguments);
+[[nodiscard]] int execute(const RenderArguments& arguments);
+[[nodiscard]] int execute(const InspectArguments& arguments);
+
+}  // namespace penumbra::app

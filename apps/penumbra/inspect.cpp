@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/report_json.hpp>
+
+namespace penumbra::app {
+namespace {
+
+using Row = std::vector<std::string>;
+
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+    line.erase(line.find_last_not_of(' ') + 1);
+    std::cout << line << '\n';
+  }
+}
+
+std::string size_of(const LinkReport& link) {
+  if (link.bounds.isEmpty()) return "-";
+  const Eigen::Vector3d size = link.bounds.sizes();
+  return fixed(size.x(), 3) + " x " + fixed(size.y(), 3) + " x " + fixed(size.z(), 3);
+}
+
+void print_links(const Robot& robot) {
+  std::vector<Row> rows = {
+      {"LINK", "DRAWN", "TRIANGLES", "WATERTIGHT", "SIZE (m)", "LOAD (ms)", "WHY / FROM"}};
+  for (const LinkReport& link : robot.report()) {
+    std::string why = link.reason;
+    for (const std::string& source : link.sources) why += (why.empty() ? "" : ", ") + source;
+    const char* const watertight = link.watertight ? "yes" : "no";
+    rows.push_back({link.link,
+                    link.missing ? "MISSING"
+                    : link.drawn ? "yes"
+                                 : "no",
+                    std::to_string(link.triangles), link.drawn ? watertight : "-", size_of(link),
+                    fixed(link.load_ms, 1), why});
+  }
+  print_table(rows);
+}
+
+std::string limits_of(const Joint& joint) {
+  if (!joint.lower && !joint.upper) return "-";
+  const auto text = [](const std::optional<double>& limit) {
+    return limit ? fixed(*limit, 4) : std::string("-");
+  };
+  return text(joint.lower) + " .. " + text(joint.upper);
+}
+
+std::string mimic_of(const Robot& robot, const Joint& joint) {
+  if (!joint.mimics || !joint.variable) return "-";
+  return fixed(joint.multiplier, 4) + " * " + robot.variables()[*joint.variable] + " + " +
+         fixed(joint.offset, 4);
+}
+
+std::string_view type_of(const Joint& joint) {
+  switch (joint.type) {
+    case JointType::revolute:
+      return "revolute";
+    case JointType::continuous:
+      return "continuous";
+    case JointType::prismatic:
+      return "prismatic";
+    case JointType::fixed:
+      return "fixed";
+    case JointType::planar:
+      return "planar";
+    case JointType::floating:
+      return "floating";
+  }
+  return "";
+}
+
+void print_joints(const Robot& robot) {
+  std::vector<Row> rows = {{"JOINT", "TYPE", "PARENT", "CHILD", "LIMITS (rad, m)", "MIMICS"}};
+  for (const Joint& joint : robot.joints())
+    rows.push_back({joint.name, std::string(type_of(joint)), robot.links()[joint.parent],
+                    robot.links()[joint.child], limits_of(joint), mimic_of(robot, joint)});
+  if (rows.size() > 1) print_table(rows);
+}
+
+void print_robot(const Robot& robot) {
+  std::size_t drawn = 0;
+  std::size_t triangles = 0;
+  for (const LinkReport& link : robot.report()) {
+    drawn += link.drawn ? 1 : 0;
+    triangles += link.triangles;
+  }
+  std::cout << "robot '" << robot.name() << "': " << robot.links().size() << " links, " << drawn
+            << " drawn, " << triangles << " triangles, " << robot.variables().size()
+            << " joint variables\n\n";
+  print_links(robot);
+  std::cout << '\n';
+  print_joints(robot);
+  for (const std::string& note : robot.notes()) std::cout << "\nnote: " << note;
+  if (!robot.notes().empty()) std::cout << '\n';
+}
+
+}  // namespace
+
+int execute(const InspectArguments& arguments) {
+  RobotOptions options = arguments.options;
+  options.allow_missing_meshes = true;  // to show the other links before it is refused below
+  const Robot robot = Robot::load(arguments.robot, options);
+  if (arguments.json) {
+    std::cout << io::robot_json(robot) << '\n';
+  } else {
+    print_robot(robot);
+  }
+  for (const LinkReport& link : robot.report())
+    if (link.missing) throw InputError("link '" + link.link + "': " + link.reason);
+  return 0;
+}
+
+}  // namespace penumbra::app

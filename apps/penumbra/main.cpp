@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+
+namespace {
+
+constexpr int our_fault = 1;
+constexpr int users_fault = 2;
+
+int fail(int status, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "penumbra: " << message << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const auto command = penumbra::app::parse_arguments(argc, argv);
+    if (!command) return 0;
+    return std::visit([](const auto& arguments) { return penumbra::app::execute(arguments); },
+                      *command);
+  } catch (const penumbra::InputError& error) {
+    return fail(users_fault, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(our_fault, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(our_fault, std::string("internal error: ") + error.what());
+  }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/output_folder.hpp>
+#include <io/npy.hpp>
+#include <io/overlay.hpp>
+#include <io/png.hpp>
+
+namespace penumbra::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int index_digits = 6;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw InputError(path.string() + ": cannot be used as output folder (" + why +
+                   "); choose another with -o");
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) refuse(folder, "it is a file");
+  fs::create_directories(folder, error);
+  if (error) refuse(folder, error.message());
+}
+
+/// Whether a run could have written a file of this name: digits and an image's ending.
+bool is_frame_file(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool digits =
+      stem.size() >= index_digits &&
+      std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits && (file.extension() == ".png" || file.extension() == ".npy");
+}
+
+void remove_frames(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.is_regular_file(error) && is_frame_file(entry.path())) fs::remove(entry, error);
+  if (error) refuse(folder, error.message());
+}
+
+LabelView labels_of(const FrameReport& report) {
+  const PixelCounts& pixels = report.pixels;
+  const std::size_t all = static_cast<std::size_t>(report.labels.width) *
+                          static_cast<std::size_t>(report.labels.height);
+  const std::size_t labelled = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
+  return {report.labels,
+          {all - labelled, pixels.front, pixels.occluded, pixels.unknown, pixels.beyond},
+          nullptr};
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& folder, const Saves& saves,
+                           const Rectification* rectification)
+    : folder_(folder), saves_(saves), rectification_(rectification) {
+  make_folder(folder);
+  const std::array<std::pair<const char*, bool>, 4> kinds = {{{"vdi", saves.vdi},
+                                                              {"labels", saves.labels},
+                                                              {"links", saves.links},
+                                                              {"overlay", saves.overlay}}};
+  for (const auto& [kind, wanted] : kinds) {
+    remove_frames(folder / kind);
+    if (wanted) make_folder(folder / kind);
+  }
+}
+
+void OutputFolder::save(const FrameReport& report, const io::FrameData& frame) {
+  const VirtualDepthView& virtual_depth = report.virtual_depth;
+  const std::size_t index = report.index;
+  if (saves_.vdi && !virtual_depth.depth.empty())
+    io::write_npy(file("vdi", index, ".npy"), virtual_depth.depth);
+  if (saves_.links && !virtual_depth.links.empty())
+    io::write_png(file("links", index, ".png"), virtual_depth.links);
+  if (saves_.labels) io::write_png(file("labels", index, ".png"), report.labels);
+  if (saves_.overlay) save_overlay(report, frame);
+}
+
+fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {
+  std::string digits = std::to_string(index);
+  digits.insert(0, index_digits - std::min<std::size_t>(digits.size(), index_digits), '0');
+  return folder_ / kind / (digits + ending);
+}
+
+void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& frame) {
+  io::OverlayInput input;
+  input.labels = labels_of(report);
+  input.index = static_cast<std::int64_t>(report.index);
+  input.stamp = report.stamp;
+  input.message = report.message;
+  if (!frame.color.empty()) {
+    input.color = seen(frame.color, color_);
+  } else {
+    std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); }, frame.depth);
+  }
+  io::draw_overlay(input, overlay_);
+  io::write_png(file("overlay", report.index, ".png"), std::as_const(overlay_).view());
+}
+
+template <typename T>
+ImageView<const T> OutputFolder::seen(const Image<T>& raw, Image<T>& rectified) {
+  if (rectification_ == nullptr || raw.empty()) return raw.view();
+  const Intrinsics& pinhole = rectification_->pinhole();
+  if (rectified.empty()) rectified = Image<T>(pinhole.width(), pinhole.height());
+  remap(rectification_->pinhole_to_raw(), raw.view(), T{}, rectified.view());
+  return std::as_const(rectified).view();
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/statistics.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/camera_info.hpp>
+#include <io/names.hpp>
+#include <io/npy.hpp>
+#include <io/png.hpp>
+#include <io/pose_file.hpp>
+#include <io/report_json.hpp>
+
+namespace penumbra::app {
+namespace {
+
+std::vector<double> positions_of(const Robot& robot, const RenderArguments& arguments) {
+  std::vector<double> positions = robot.rest_positions();
+  std::vector<bool> given(positions.size(), false);
+  for (const auto& [name, value] : arguments.joints) {
+    const auto variable = robot.find_variable(name);
+    if (!variable) {
+      const std::vector<std::string_view> known(robot.variables().begin(), robot.variables().end());
+      throw InputError("--joint: robot '" + robot.name() + "' has no joint variable '" + name +
+                       "'" + io::near_names(name, known));
+    }
+    if (given[*variable]) throw InputError("--joint: '" + name + "' is given twice");
+    given[*variable] = true;
+    positions[*variable] = value;
+  }
+  return positions;
+}
+
+Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Camera& camera) {
+  PipelineConfig config;
+  config.backend = arguments.backend;
+  config.renderer.threads = arguments.threads;
+  config.camera_parent = arguments.parent;
+  config.T_parent_camera = io::read_pose_csv(arguments.pose);
+  return {std::move(robot), camera, config};
+}
+
+Image<float> copy(ImageView<const float> from) {
+  Image<float> image(from.width, from.height);
+  for (int v = 0; v < from.height; ++v)
+    std::copy(from.row(v), from.row(v) + from.width, image.view().row(v));
+  return image;
+}
+
+void write_images(const RenderArguments& arguments, const FrameReport& report) {
+  if (!has_pose(report.status)) throw InputError("--joint: " + report.message);
+  io::write_npy(arguments.output, report.virtual_depth.depth);
+  if (arguments.links) io::write_png(*arguments.links, report.virtual_depth.links);
+}
+
+void print_text(const RenderArguments& arguments, const io::RenderResult& result) {
+  std::cout << arguments.output.string() << ": " << result.robot_pixels << " robot pixels of "
+            << result.triangles << " triangles\n";
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (const auto q = result.statistics.timing(i))
+      std::cout << stages[i].name << ": min " << fixed(q->min, 3) << " ms, median "
+                << fixed(q->median, 3) << " ms, p99 " << fixed(q->p99, 3) << " ms\n";
+}
+
+}  // namespace
+
+int execute(const RenderArguments& arguments) {
+  Robot robot = Robot::load(arguments.robot, arguments.options);
+  const std::vector<double> positions = positions_of(robot, arguments);
+  const Camera camera = io::read_camera_info(arguments.camera_info, false);
+  Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
+
+  const FrameReport& first = pipeline.process({.joints = positions});
+  write_images(arguments, first);
+
+  io::RenderResult result{.triangles = pipeline.triangle_count(),
+                          .robot_pixels = first.pixels.robot.value_or(0),
+                          .renderer = pipeline.renderer(),
+                          .variables = pipeline.robot().variables(),
+                          .positions = positions,
+                          .statistics = {}};
+  const Image<float> seen = copy(first.virtual_depth.depth);
+  for (int i = 0; i < arguments.repeat; ++i)
+    result.statistics.add(pipeline.process({.depth = seen.view(), .joints = positions}));
+
+  if (arguments.json) {
+    std::cout << io::render_json(result) << '\n';
+  } else {
+    print_text(arguments, result);
+  }
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/statistics.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/output_folder.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/frame_reader.hpp>
+#include <io/recording.hpp>
+#include <io/report_json.hpp>
+
+namespace penumbra::app {
+namespace {
+
+io::Recording open_recording(const RunArguments& arguments) {
+  if (arguments.input.extension() == ".mcap")
+    throw InputError(arguments.input.string() +
+                     ": ROS 2 bags are not supported by this build; give a recording folder");
+  io::Recording recording = io::Recording::open(arguments.input);
+  if (arguments.geometry) recording.robot.geometry = *arguments.geometry;
+  return recording;
+}
+
+/// The command line's choice before the recording's before the default.
+LabelRule rule_of(const RunArguments& arguments, const io::RecordingCamera& camera) {
+  LabelRule rule;
+  if (camera.tolerance) rule.tolerance = *camera.tolerance;
+  if (camera.front_min_width) rule.front_min_width = *camera.front_min_width;
+  if (arguments.paper_labels) rule = LabelRule::paper();
+  if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
+  if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
+  return rule;
+}
+
+Pipeline make_pipeline(const RunArguments& arguments, const io::RecordingCamera& camera,
+                       Robot robot) {
+  PipelineConfig config;
+  config.backend = arguments.backend;
+  config.renderer.threads = arguments.threads;
+  config.rule = rule_of(arguments, camera);
+  config.image = arguments.image;
+  config.camera_parent = camera.parent;
+  config.T_parent_camera = camera.T_parent_camera;
+  return {std::move(robot), camera.camera, config};
+}
+
+/// Which of the reader's frames are wanted; the range must lie inside the recording.
+std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameReader& reader) {
+  std::int64_t least = reader.index(0);
+  std::int64_t most = reader.index(0);
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    least = std::min(least, reader.index(i));
+    most = std::max(most, reader.index(i));
+  }
+  const std::int64_t first = range.first.value_or(least);
+  const std::int64_t end = range.end.value_or(most + 1);
+  std::vector<std::size_t> selected;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+    if (reader.index(i) >= first && reader.index(i) < end) selected.push_back(i);
+  if (selected.empty() || first < least || end > most + 1)
+    throw InputError("--frames " + std::to_string(first) + ":" + std::to_string(end) +
+                     ": the recording has the frames " + std::to_string(least) + " to " +
+                     std::to_string(most) + ", all of them " + std::to_string(least) + ":" +
+                     std::to_string(most + 1));
+  return selected;
+}
+
+FrameStatus status_of(io::FrameStatus status) {
+  switch (status) {
+    case io::FrameStatus::ok:
+      return FrameStatus::ok;
+    case io::FrameStatus::missing_joints:
+      return FrameStatus::missing_joints;
+    case io::FrameStatus::missing_depth:
+      return FrameStatus::missing_depth;
+    case io::FrameStatus::bad_depth:
+      break;
+  }
+  return FrameStatus::bad_depth;
+}
+
+Frame frame_of(const io::FrameData& data) {
+  Frame frame;
+  frame.stamp = data.stamp;
+  frame.depth = data.depth_view();
+  frame.joints = data.positions;
+  frame.source_status = status_of(data.status);
+  frame.source_message = data.message;
+  frame.index = static_cast<std::size_t>(data.index);
+  if (data.stamp) frame.joints.age = 0;  // a recording's joint row is of the frame's own stamp
+  return frame;
+}
+
+/// Counts the overlays that could not show the recorded colour.
+struct ColorFaults {
+  std::size_t frames = 0;
+  std::string first;
+
+  void add(const std::string& message) {
+    if (message.empty()) return;
+    if (frames == 0) first = message;
+    ++frames;
+  }
+};
+
+void tell_faults(const Statistics& statistics, const ColorFaults& color) {
+  const auto frames = [&](std::size_t n) {
+    return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
+  };
+  for (const Fault& fault : statistics.faults())
+    std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
+              << ", first in frame " << fault.first << ": " << fault.message << '\n';
+  if (color.frames > 0)
+    std::cerr << "penumbra: no colour in the overlay of " << frames(color.frames)
+              << ", first: " << color.first << '\n';
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return whole == 0
+             ? "-"
+             : fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+void tell_summary(const Statistics& statistics, const std::filesystem::path& report) {
+  const PixelCounts& pixels = statistics.pixels();
+  const std::size_t robot = pixels.robot.value_or(0);
+  std::cout << statistics.frames() << " frames, " << statistics.bad_frames() << " bad; of " << robot
+            << " robot pixels " << percent(pixels.front, robot) << " front, "
+            << percent(pixels.occluded, robot) << " occluded, " << percent(pixels.beyond, robot)
+            << " beyond\n";
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (const auto q = statistics.timing(i))
+      std::cout << stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
+                << fixed(q->p99, 3) << " ms, max " << fixed(q->max, 3) << " ms\n";
+  std::cout << "report: " << report.string() << '\n';
+}
+
+}  // namespace
+
+int execute(const RunArguments& arguments) {
+  const io::Recording recording = open_recording(arguments);
+  Robot robot = Robot::load(recording.urdf, recording.robot);
+  const io::FrameReader reader(recording, robot);
+  const std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
+  Pipeline pipeline = make_pipeline(arguments, recording.camera, std::move(robot));
+
+  OutputFolder output(arguments.output, arguments.saves, pipeline.rectification());
+  io::ReportWriter writer(output.report_file(),
+                          {arguments.input.string(), pipeline.renderer(), pipeline.robot().links(),
+                           pipeline.missing_links()});
+  Statistics statistics;
+  ColorFaults color;
+  {
+    Progress progress(selected.size());
+    io::FrameData data;
+    for (const std::size_t i : selected) {
+      reader.read(i, arguments.saves.overlay, data);
+      const FrameReport& report = pipeline.process(frame_of(data));
+      statistics.add(report);
+      color.add(data.color_message);
+      writer.add(report);
+      output.save(report, data);
+      progress.step();
+    }
+  }
+  writer.finish(statistics);
+  tell_faults(statistics, color);
+  tell_summary(statistics, output.report_file());
+  return statistics.usable_frames() > 0 ? 0 : 2;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::app {
+
+/// The parts between separators; one empty part of an empty text.
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+/// A value with `digits` after the point.
+[[nodiscard]] std::string fixed(double value, int digits);
+
+}  // namespace penumbra::app

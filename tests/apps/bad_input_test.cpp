@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A recording that is made faulty, and words that the one line on stderr must hold.
+struct BadInput {
+  const char* name;
+  std::function<void(const fs::path&)> spoil;
+  std::vector<std::string> words;
+  std::vector<std::string> options = {};
+};
+
+std::ostream& operator<<(std::ostream& out, const BadInput& bad) { return out << bad.name; }
+
+using Spoil = std::function<void(const fs::path&)>;
+
+Spoil nothing() {
+  return [](const fs::path&) {};
+}
+Spoil edit(const char* file, const char* from, const char* to) {
+  return [=](const fs::path& folder) { edit_file(folder / file, from, to); };
+}
+Spoil replace(const char* file, const std::string& content) {
+  return [=](const fs::path& folder) { write_file(folder / file, content); };
+}
+Spoil take_away(const char* file) {
+  return [=](const fs::path& folder) { fs::remove(folder / file); };
+}
+
+template <typename T>
+Spoil every_depth(int width, int height, T value) {
+  return [=](const fs::path& folder) {
+    const Image<T> image(width, height, value);
+    for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
+      io::write_png(folder / file, image.view());
+  };
+}
+
+std::string robot(const std::string& content) {
+  return "<robot name=\"tiny\">" + content + "</robot>";
+}
+std::string joint(const std::string& parent, const std::string& child, const std::string& type) {
+  return "<joint name=\"" + parent + "_" + child + "\" type=\"" + type + "\"><parent link=\"" +
+         parent + "\"/><child link=\"" + child + "\"/></joint>";
+}
+std::string link(const std::string& name) { return "<link name=\"" + name + "\"/>"; }
+
+std::string binary_stl(std::uint32_t triangles, std::size_t bytes) {
+  std::string stl(84 + 50 * static_cast<std::size_t>(triangles), '\0');
+  for (int i = 0; i < 4; ++i)
+    stl[80 + static_cast<std::size_t>(i)] = static_cast<char>((triangles >> (8 * i)) & 255U);
+  return stl.substr(0, bytes);
+}
+
+std::vector<BadInput> bad_robots() {
+  return {
+      {"UrdfMissing", take_away("tiny.urdf"), {"tiny.urdf"}},
+      {"UrdfEmpty", replace("tiny.urdf", ""), {"tiny.urdf"}},
+      {"UrdfNoXml", replace("tiny.urdf", "robot: tiny\n"), {"tiny.urdf"}},
+      {"UrdfCutOff",
+       replace("tiny.urdf", "<robot name=\"tiny\"><link name=\"base\">"),
+       {"tiny.urdf"}},
+      {"UrdfXacro",
+       replace("tiny.urdf",
+               "<robot name=\"tiny\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"
+               "<xacro:include filename=\"a.xacro\"/><link name=\"base\"/></robot>"),
+       {"tiny.urdf", "xacro"}},
+      {"UrdfNoLinks", replace("tiny.urdf", robot("")), {"tiny.urdf", "link"}},
+      {"UrdfTwoRoots",
+       replace("tiny.urdf", robot(link("base") + link("other"))),
+       {"tiny.urdf", "base", "other"}},
+      {"UrdfCycle",
+       replace("tiny.urdf", robot(link("base") + link("b") + link("c") + joint("b", "c", "fixed") +
+                                  joint("c", "b", "fixed"))),
+       {"tiny.urdf"}},
+      {"UrdfUnknownJointType",
+       edit("tiny.urdf", "prismatic", "spherical"),
+       {"tiny.urdf", "spherical"}},
+      {"UrdfNanOrigin",
+       edit("tiny.urdf", "xyz=\"0 0 1\"", "xyz=\"0 nan 1\""),
+       {"tiny.urdf", "nan"}},
+      {"MeshMissing", take_away("board.stl"), {"board"}},
+      {"MeshEmpty", replace("board.stl", ""), {"board.stl"}},
+      {"MeshTruncated", replace("board.stl", binary_stl(12, 400)), {"board.stl"}},
+      {"MeshCutInItsHeader", replace("board.stl", binary_stl(12, 83)), {"board.stl"}},
+      {"MeshTextCutOff", replace("board.stl", board_stl().substr(0, 300)), {"board.stl"}},
+      {"MeshOfNoTriangles", replace("board.stl", binary_stl(0, 84)), {"board.stl"}},
+      {"MeshNanVertex", edit("board.stl", "vertex -0.2", "vertex nan"), {"board.stl"}},
+      {"MeshHugeVertex", edit("board.stl", "vertex -0.2", "vertex 1e30"), {"board.stl"}},
+  };
+}
+
+std::vector<BadInput> bad_recordings() {
+  return {
+      {"NoFolder", [](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
+      {"NoYaml", take_away("recording.yaml"), {"recording.yaml"}},
+      {"YamlEmpty", replace("recording.yaml", ""), {"recording.yaml"}},
+      {"YamlBroken", replace("recording.yaml", "robot: [\n"), {"recording.yaml"}},
+      {"YamlUnknownKey", edit("recording.yaml", "  parent:", "  perent:"), {"perent"}},
+      {"NoCameraInfo", take_away("camera_info.yaml"), {"camera_info.yaml"}},
+      {"FocalLengthZero", edit("camera_info.yaml", "k: [60.0", "k: [0.0"), {"camera_info.yaml"}},
+      {"FocalLengthNegative",
+       edit("camera_info.yaml", "k: [60.0", "k: [-60.0"),
+       {"camera_info.yaml"}},
+      {"UnknownDistortion", edit("camera_info.yaml", "plumb_bob", "fishy"), {"fishy"}},
+      {"NearBeyondFar",
+       edit("recording.yaml", "  parent:", "  range: [3.0, 0.5]\n  parent:"),
+       {"range"}},
+      {"PoseNotRigid", edit("camera_pose.csv", "1,0,0,0", "2,0,0,0"), {"camera_pose.csv"}},
+      {"PoseNoNumber", edit("camera_pose.csv", "1,0,0,0", "one,0,0,0"), {"camera_pose.csv"}},
+      {"ParentUnknown", edit("recording.yaml", "parent: base", "parent: bass"), {"bass"}},
+      {"CameraInsideOfALink",
+       edit("camera_pose.csv", "0,0,1,0", "0,0,1,1"),
+       {"'board'", "ignore_links"}},
+      {"JointsMissing", take_away("joint_states.csv"), {"joint_states.csv"}},
+      {"JointsEmpty", replace("joint_states.csv", ""), {"joint_states.csv"}},
+      {"JointsNoRows", replace("joint_states.csv", "frame,slide\n"), {"joint_states.csv"}},
+      {"JointLacking", replace("joint_states.csv", "frame\n0\n"), {"joint_states.csv", "slide"}},
+      {"JointUnknown",
+       replace("joint_states.csv", "frame,slide,elbow\n0,0,0\n"),
+       {"joint_states.csv", "elbow"}},
+      {"JointNoNumber",
+       replace("joint_states.csv", "frame,slide\n0,far\n1,near\n"),
+       {"joint_states.csv", "far"}},
+      {"JointNan", replace("joint_states.csv", "frame,slide\n0,nan\n"), {"joint_states.csv"}},
+      {"DepthMissing",
+       [](const fs::path& folder) {
+         for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
+           fs::remove(folder / file);
+       },
+       {"missing_depth", "depth_0.png"}},
+      {"DepthOfAnotherSize", every_depth<std::uint16_t>(65, 48, 900), {"bad_depth", "depth_0.png"}},
+      {"DepthOf8Bit", every_depth<std::uint8_t>(64, 48, 90), {"bad_depth", "depth_0.png"}},
+      {"ColorAsDepth", every_depth<io::Rgb8>(64, 48, {1, 2, 3}), {"bad_depth", "depth_0.png"}},
+  };
+}
+
+std::vector<BadInput> bad_options() {
+  return {
+      {"RendererGl", nothing(), {"OpenGL"}, {"--renderer", "gl"}},
+      {"RendererUnknown", nothing(), {"--renderer", "fast"}, {"--renderer", "fast"}},
+      {"GeometryUnknown", nothing(), {"--geometry", "nice"}, {"--geometry", "nice"}},
+      {"ToleranceOfTwo", nothing(), {"--tolerance", "0.1,0"}, {"--tolerance", "0.1,0"}},
+      {"ToleranceText", nothing(), {"--tolerance", "a,b,c"}, {"--tolerance", "a,b,c"}},
+      {"ToleranceNegative", nothing(), {"-1"}, {"--tolerance=-1,0,0"}},
+      {"WidthNegative", nothing(), {"--front-min-width"}, {"--front-min-width=-1"}},
+      {"LabelsUnknown", nothing(), {"--labels", "half"}, {"--labels", "half"}},
+      {"ImageUnknown", nothing(), {"--image", "cooked"}, {"--image", "cooked"}},
+      {"SaveUnknown", nothing(), {"--save", "video"}, {"--save", "labels,video"}},
+      {"ThreadsZero", nothing(), {"--threads", "0"}, {"--threads", "0"}},
+      {"FramesPastTheEnd", nothing(), {"--frames", "0 to 2"}, {"--frames", "1:4"}},
+      {"FramesNone", nothing(), {"--frames"}, {"--frames", "2:2"}},
+      {"FramesText", nothing(), {"--frames", "all"}, {"--frames", "all"}},
+      {"UnknownOption", nothing(), {"--speed"}, {"--speed"}},
+      {"TwoInputs", nothing(), {"another"}, {"another"}},
+  };
+}
+
+class BadInputTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputTest, IsOneClearLineAndStatus2) {
+  const TemporaryFolder folder;
+  const fs::path recording = folder.path() / "recording";
+  fs::create_directory(recording);
+  write_tiny_recording(recording);
+  GetParam().spoil(recording);
+  std::vector<std::string> arguments = {"run", recording, "-o", folder.path() / "out"};
+  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
+
+  const Outcome outcome = penumbra(arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  for (const std::string& word : GetParam().words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+}
+
+const auto name_of = [](const auto& test) { return test.param.name; };
+INSTANTIATE_TEST_SUITE_P(Robot, BadInputTest, testing::ValuesIn(bad_robots()), name_of);
+INSTANTIATE_TEST_SUITE_P(Recording, BadInputTest, testing::ValuesIn(bad_recordings()), name_of);
+INSTANTIATE_TEST_SUITE_P(Option, BadInputTest, testing::ValuesIn(bad_options()), name_of);
+
+class BadOutputTest : public testing::Test {
+ protected:
+  BadOutputTest() { write_tiny_recording(folder_.path()); }
+
+  void expect_refused(const fs::path& output, const std::string& word) {
+    const Outcome outcome =
+        penumbra({"run", folder_.path(), "-o", output, "--save", "vdi,labels,links,overlay"});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(output / "report.json"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BadOutputTest, IsAFile) { expect_refused(folder_.path() / "tiny.urdf", "tiny.urdf"); }
+
+TEST_F(BadOutputTest, LiesInAFile) {
+  expect_refused(folder_.path() / "tiny.urdf" / "out", "tiny.urdf");
+}
+
+TEST_F(BadOutputTest, LiesWhereNobodyMayWrite) { expect_refused("/proc/penumbra", "/proc"); }
+
+TEST_F(BadOutputTest, DiskIsFull) {
+  for (const char* file : {"report.json.part", "vdi/000000.npy", "labels/000001.png",
+                           "links/000002.png", "overlay/000000.png"}) {
+    const fs::path output = folder_.path() / "out";
+    fs::create_directories((output / file).parent_path());
+    fs::create_symlink("/dev/full", output / file);
+    expect_refused(output, fs::path(file).filename());
+    fs::remove_all(output);
+  }
+}
+
+TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
+  const fs::path output = folder_.path() / "out";
+  ASSERT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
+  ASSERT_TRUE(fs::exists(output / "report.json"));
+  fs::create_directory(output / "labels");
+  fs::create_symlink("/dev/full", output / "labels/000001.png");
+  expect_refused(output, "000001.png");
+}
+
+TEST(BadCommandLine, IsOneLineAndStatus2) {
+  const std::vector<std::vector<std::string>> lines = {
+      {}, {"walk"}, {"run"}, {"run", "x.mcap", "-o", "out"}, {"render"}, {"inspect"}};
+  for (const auto& line : lines) {
+    const Outcome outcome = penumbra(line);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(line) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+namespace penumbra::test {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+Outcome penumbra(const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  std::string command = std::string("timeout 60 ") + quoted(PENUMBRA_PROGRAM);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  command +=
+      " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"),
+          read_file(folder.path() / "err")};
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = std::filesystem::temp_directory_path() / "penumbra_test_XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  std::ostringstream content;
+  content << stream.rdbuf();
+  return content.str();
+}
+
+void write_file(const std::filesystem::path& file, const std::string& content) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << content;
+  EXPECT_TRUE(stream.flush()) << file;
+}
+
+void edit_file(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+  std::string content = read_file(file);
+  const std::size_t at = content.find(from);
+  ASSERT_NE(at, std::string::npos) << file << " has no " << from;
+  write_file(file, content.replace(at, from.size(), to));
+}
+
+std::size_t count_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace penumbra::test

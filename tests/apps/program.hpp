@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace penumbra::test {
+
+/// What a program did. A program that is killed or does not end in time has another status than
+/// any of its own.
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs the command line `penumbra` with these arguments, at most 60 s.
+[[nodiscard]] Outcome penumbra(const std::vector<std::string>& arguments);
+
+/// An empty folder of its own for the running test, gone with this.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+[[nodiscard]] std::string read_file(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& content);
+
+/// Replaces the first `from` in a file; fails the test if there is none.
+void edit_file(const std::filesystem::path& file, const std::string& from, const std::string& to);
+
+[[nodiscard]] std::size_t count_lines(const std::string& text);
+
+}  // namespace penumbra::test

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <io/npy.hpp>
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr double depth_tolerance = 1e-5;  // metres at 1 m: float32
+
+class RenderTest : public testing::Test {
+ protected:
+  RenderTest() { write_tiny_recording(folder_.path()); }
+
+  Outcome render(const std::vector<std::string>& options) {
+    std::vector<std::string> line = {"render",
+                                     "--robot",
+                                     folder_.path() / "tiny.urdf",
+                                     "--camera",
+                                     folder_.path() / "camera_info.yaml",
+                                     "--pose",
+                                     folder_.path() / "camera_pose.csv",
+                                     "-o",
+                                     folder_.path() / "vdi.npy"};
+    line.insert(line.end(), options.begin(), options.end());
+    return penumbra(line);
+  }
+  [[nodiscard]] Image<float> vdi() const {
+    Image<float> image;
+    io::read_npy(folder_.path() / "vdi.npy", image).require();
+    return image;
+  }
+  void expect_refused(const Outcome& outcome, const std::string& word) const {
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "vdi.npy"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RenderTest, WritesOneVirtualDepthImage) {
+  ASSERT_EQ(render({}).status, 0);
+  EXPECT_NEAR(vdi()(31, 23), 0.95, depth_tolerance) << "at rest";
+  const Outcome moved = render({"--joint", "slide=0.25", "--links", folder_.path() / "links.png"});
+  ASSERT_EQ(moved.status, 0) << moved.err;
+  EXPECT_NEAR(vdi()(31, 23), 1.2, depth_tolerance);
+  Image<std::uint16_t> links;
+  io::read_png(folder_.path() / "links.png", links).require();
+  EXPECT_EQ(links(31, 23), 2);
+  EXPECT_EQ(links(0, 0), 0);
+}
+
+TEST_F(RenderTest, PrintsTimesAndPositionsAsJson) {
+  const Outcome outcome = render({"--joint", "slide=0.25", "--repeat", "20", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["triangles"], 12);
+  EXPECT_GT(json["robot_pixels"], 100);
+  EXPECT_EQ(json["joints"]["slide"], 0.25);
+  for (const char* stage : {"kinematics_ms", "render_ms", "classify_ms"}) {
+    EXPECT_GT(json[stage]["min"], 0.0) << stage;
+    EXPECT_GE(json[stage]["median"], json[stage]["min"]) << stage;
+    EXPECT_GE(json[stage]["p99"], json[stage]["median"]) << stage;
+  }
+}
+
+TEST_F(RenderTest, RefusesBadInput) {
+  expect_refused(render({"--joint", "slid=0.1"}), "slide");
+  expect_refused(render({"--joint", "slide"}), "--joint");
+  expect_refused(render({"--joint", "slide=far"}), "slide=far");
+  expect_refused(render({"--joint", "slide=nan"}), "slide=nan");
+  expect_refused(render({"--joint", "slide=1", "--joint", "slide=2"}), "twice");
+  expect_refused(render({"--joint", "slide=1e9"}), "'board'");
+  expect_refused(render({"--joint", "slide=-1"}), "ignore_links");
+  expect_refused(render({"--parent", "bass"}), "bass");
+  expect_refused(render({"--repeat", "0"}), "--repeat");
+  expect_refused(render({"--package", "name"}), "--package");
+  expect_refused(render({"--renderer", "gl"}), "OpenGL");
+}
+
+TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {
+  const Outcome outcome = render({"-o", folder_.path() / "nowhere" / "vdi.npy"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+}
+
+class InspectTest : public RenderTest {
+ protected:
+  Outcome inspect(const std::vector<std::string>& options = {}) {
+    std::vector<std::string> line = {"inspect", folder_.path() / "tiny.urdf"};
+    line.insert(line.end(), options.begin(), options.end());
+    return penumbra(line);
+  }
+};
+
+TEST_F(InspectTest, TellsLinksAndJoints) {
+  const Outcome outcome = inspect();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* word : {"tiny", "board", "board.stl", "12", "0.400 x 0.200 x 0.100", "slide",
+                           "prismatic", "-1.0000 .. 1.0000"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " is not in\n" << outcome.out;
+}
+
+TEST_F(InspectTest, TellsTheSameAsJson) {
+  const Outcome outcome = inspect({"--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["robot"], "tiny");
+  EXPECT_EQ(json["links"][0]["drawn"], false);
+  EXPECT_EQ(json["links"][1]["triangles"], 12);
+  EXPECT_EQ(json["links"][1]["watertight"], true);
+  EXPECT_EQ(json["joints"][0]["upper"], 1.0);
+  EXPECT_TRUE(json["joints"][0]["mimic"].is_null());
+  EXPECT_EQ(json["variables"], Json{"slide"});
+}
+
+TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
+  fs::remove(folder_.path() / "board.stl");
+  const Outcome outcome = inspect();
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("board"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("MISSING"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <penumbra/base/version.hpp>
+
+#include <io/npy.hpp>
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Keys = std::vector<std::string>;
+
+Keys keys(const Json& json) {
+  Keys names;
+  for (const auto& [name, value] : json.items()) names.push_back(name);
+  return names;
+}
+
+/// The contract of DESIGN section 4: keys and types that do not depend on the recording.
+void expect_report(const Json& report) {
+  EXPECT_EQ(keys(report), (Keys{"penumbra", "input", "renderer", "links", "frames", "summary"}));
+  EXPECT_EQ(keys(report["renderer"]), (Keys{"backend", "isa", "threads"}));
+  const Keys stages{"kinematics", "render", "classify", "targets"};
+  for (const Json& frame : report["frames"]) {
+    EXPECT_EQ(keys(frame), (Keys{"index", "stamp_ns", "joint_age_ms", "status", "pixels",
+                                 "timing_ms", "targets"}));
+    EXPECT_EQ(keys(frame["pixels"]), (Keys{"robot", "front", "occluded", "unknown", "beyond"}));
+    EXPECT_EQ(keys(frame["timing_ms"]), stages);
+    EXPECT_TRUE(frame["timing_ms"]["targets"].is_null());
+    EXPECT_EQ(frame["targets"], Json::array());
+  }
+  EXPECT_EQ(report["summary"]["frames"], report["frames"].size());
+  EXPECT_EQ(keys(report["summary"]["timing_ms"]), stages);
+  EXPECT_EQ(keys(report["summary"]["timing_ms"]["render"]), (Keys{"median", "p99", "max"}));
+}
+
+class RunTest : public testing::Test {
+ protected:
+  RunTest() { write_tiny_recording(folder_.path()); }
+
+  Outcome run(std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"run", folder_.path(), "-o", out()});
+    return penumbra(options);
+  }
+  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
+  [[nodiscard]] Json report() const { return Json::parse(read_file(out() / "report.json")); }
+
+  [[nodiscard]] Image<std::uint8_t> labels(const char* file) const {
+    Image<std::uint8_t> image;
+    io::read_png(out() / "labels" / file, image).require();
+    return image;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "nothing is said in a pipe where nothing is wrong";
+  const Json json = report();
+  expect_report(json);
+  EXPECT_EQ(json["links"], (Json{"base", "board"}));
+  EXPECT_EQ(json["renderer"]["backend"], "cpu");
+  EXPECT_EQ(json["summary"]["bad_frames"], 0);
+  EXPECT_EQ(json["summary"]["missing_links"], Json::array());
+  ASSERT_EQ(json["frames"].size(), 3U);
+  for (const Json& frame : json["frames"]) {
+    EXPECT_EQ(frame["status"], "ok");
+    EXPECT_TRUE(frame["stamp_ns"].is_null());
+    EXPECT_TRUE(frame["joint_age_ms"].is_null());
+    EXPECT_EQ(frame["pixels"]["front"], 64) << "the object of 8 x 8 pixels";
+    EXPECT_EQ(frame["pixels"]["unknown"], 32) << "the hole of 4 x 8 pixels";
+    EXPECT_EQ(frame["pixels"]["beyond"], 0);
+    EXPECT_GT(frame["timing_ms"]["render"], 0.0);
+  }
+  EXPECT_EQ(json["summary"]["pixels"]["front"], 192);
+  EXPECT_FALSE(fs::exists(out() / "labels"));
+}
+
+TEST_F(RunTest, SavesWhatIsAskedFor) {
+  const Outcome outcome = run({"--save", "vdi,labels,links,overlay", "--renderer", "reference"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(report()["renderer"]["backend"], "reference");
+  for (const char* name : {"000000", "000001", "000002"}) {
+    Image<float> vdi;
+    Image<std::uint16_t> links;
+    Image<io::Rgb8> overlay;
+    io::read_npy(out() / "vdi" / (std::string(name) + ".npy"), vdi).require();
+    io::read_png(out() / "links" / (std::string(name) + ".png"), links).require();
+    io::read_png(out() / "overlay" / (std::string(name) + ".png"), overlay).require();
+    const Image<std::uint8_t> image = labels((std::string(name) + ".png").c_str());
+    EXPECT_EQ(overlay.width(), tiny_width);
+    for (int v = 0; v < tiny_height; ++v) {
+      for (int u = 0; u < tiny_width; ++u) {
+        ASSERT_EQ(links(u, v), vdi(u, v) > 0.0F ? 2 : 0);
+        ASSERT_EQ(image(u, v) != 0, vdi(u, v) > 0.0F);
+      }
+    }
+    EXPECT_EQ(image(28, 24), 1);
+    EXPECT_EQ(image(38, 24), 3);
+    EXPECT_EQ(image(33, 24), 2);
+  }
+}
+
+TEST_F(RunTest, GoesOnAfterFaultyFrames) {
+  fs::remove(folder_.path() / "depth_0.png");
+  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,far\n2,0.1\n");
+  const Outcome outcome = run({"--save", "vdi,labels"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 2U) << "one line for each kind:\n" << outcome.err;
+  const Json json = report();
+  expect_report(json);
+  EXPECT_EQ(json["summary"]["bad_frames"], 2);
+  EXPECT_EQ(json["frames"][0]["status"], "missing_depth");
+  EXPECT_EQ(json["frames"][0]["pixels"]["unknown"], json["frames"][0]["pixels"]["robot"]);
+  EXPECT_EQ(json["frames"][1]["status"], "missing_joints");
+  EXPECT_TRUE(json["frames"][1]["pixels"]["robot"].is_null());
+  EXPECT_TRUE(json["frames"][1]["timing_ms"]["render"].is_null());
+  EXPECT_EQ(json["frames"][1]["pixels"]["unknown"], tiny_width * tiny_height);
+  EXPECT_EQ(json["frames"][2]["status"], "ok");
+  EXPECT_FALSE(fs::exists(out() / "vdi/000001.npy")) << "there is none without a pose";
+  const Image<std::uint8_t> image = labels("000001.png");
+  EXPECT_EQ(std::set<std::uint8_t>(image.data(), image.data() + image.size()),
+            std::set<std::uint8_t>{3});
+}
+
+TEST_F(RunTest, TakesARangeOfFrames) {
+  ASSERT_EQ(run({"--frames", "1:3", "--save", "labels"}).status, 0);
+  const Json json = report();
+  ASSERT_EQ(json["frames"].size(), 2U);
+  EXPECT_EQ(json["frames"][0]["index"], 1);
+  EXPECT_FALSE(fs::exists(out() / "labels/000000.png"));
+  EXPECT_TRUE(fs::exists(out() / "labels/000002.png"));
+
+  ASSERT_EQ(run({"--frames", ":1", "--save", "labels"}).status, 0);
+  EXPECT_TRUE(fs::exists(out() / "labels/000000.png"));
+  EXPECT_FALSE(fs::exists(out() / "labels/000002.png")) << "an earlier run's image";
+}
+
+TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
+  write_file(folder_.path() / "joint_states.csv",
+             "frame,stamp,slide\n0,1700000000123456789,0.0\n1,1700000000223456789,0.05\n");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(report()["frames"][0]["stamp_ns"], 1700000000123456789);
+  EXPECT_EQ(report()["frames"][0]["joint_age_ms"], 0.0);
+}
+
+TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {
+  const auto front = [&] { return report()["frames"][0]["pixels"]["front"].get<int>(); };
+  edit_file(folder_.path() / "recording.yaml",
+            "  parent:", "  tolerance: [0.6, 0.0, 0.0]\n  parent:");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(front(), 0) << "the recording's tolerance";
+  ASSERT_EQ(run({"--labels", "paper"}).status, 0);
+  EXPECT_EQ(front(), 64);
+  ASSERT_EQ(run({"--tolerance", "0.02,0,0"}).status, 0);
+  EXPECT_EQ(front(), 64);
+  ASSERT_EQ(run({"--tolerance", "0.02,0,0", "--front-min-width", "9"}).status, 0);
+  EXPECT_EQ(front(), 0) << "the object is 8 pixels wide";
+}
+
+TEST_F(RunTest, RectifiedImagesHaveTheirOwnSize) {
+  edit_file(folder_.path() / "camera_info.yaml", "d: [0.0", "d: [-0.2");
+  for (const char* image : {"raw", "rectified"}) {
+    const Outcome outcome = run({"--image", image, "--save", "vdi,labels,overlay"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    Image<float> vdi;
+    io::read_npy(out() / "vdi/000000.npy", vdi).require();
+    EXPECT_EQ(vdi.width() == tiny_width, std::string(image) == "raw");
+    EXPECT_EQ(labels("000000.png").width(), vdi.width());
+  }
+}
+
+TEST(Help, TellsExamplesOfEveryCommand) {
+  for (const std::vector<std::string>& line : {std::vector<std::string>{"--help"},
+                                               {"run", "--help"},
+                                               {"render", "--help"},
+                                               {"inspect", "--help"}}) {
+    const Outcome outcome = penumbra(line);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.out.find("Examples:"), std::string::npos);
+    EXPECT_EQ(outcome.err, "");
+  }
+  EXPECT_EQ(penumbra({"--version"}).out, "penumbra " PENUMBRA_VERSION "\n");
+}
+
+}  // namespace
+}  // namespace penumbra::test

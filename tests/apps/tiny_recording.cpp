@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tiny_recording.hpp"
+
+#include "program.hpp"
+
+#include <cstdint>
+#include <sstream>
+#include <utility>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr const char* urdf = R"(<robot name="tiny">
+  <link name="base"/>
+  <link name="board">
+    <collision><geometry><mesh filename="board.stl"/></geometry></collision>
+  </link>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/><child link="board"/>
+    <origin xyz="0 0 1"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>
+)";
+
+constexpr const char* yaml = R"(robot:
+  urdf: tiny.urdf
+camera:
+  info: camera_info.yaml
+  parent: base
+  pose: camera_pose.csv
+frames:
+  joints: joint_states.csv
+  depth: depth_%d.png
+  color: color_%d.png
+)";
+
+constexpr const char* camera_info = R"(width: 64
+height: 48
+distortion_model: plumb_bob
+d: [0.0, 0.0, 0.0, 0.0, 0.0]
+k: [60.0, 0.0, 31.3, 0.0, 60.0, 23.7, 0.0, 0.0, 1.0]
+r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+p: [60.0, 0.0, 31.3, 0.0, 0.0, 60.0, 23.7, 0.0, 0.0, 0.0, 1.0, 0.0]
+)";
+
+Image<std::uint16_t> depth_image(double board) {
+  Image<std::uint16_t> depth(tiny_width, tiny_height, 3000);
+  for (int v = 0; v < tiny_height; ++v) {
+    for (int u = 0; u < tiny_width; ++u) {
+      const double x = (u - 31.3) / 60.0 * board;
+      const double y = (v - 23.7) / 60.0 * board;
+      const bool on_board = x > -0.2 && x < 0.2 && y > -0.1 && y < 0.1;
+      const bool object = u >= 24 && u < 32 && v >= 20 && v < 28;
+      const bool hole = u >= 36 && u < 40 && v >= 20 && v < 28;
+      if (on_board) depth(u, v) = static_cast<std::uint16_t>(1000.0 * board);
+      if (object) depth(u, v) = 500;
+      if (hole) depth(u, v) = 0;
+    }
+  }
+  return depth;
+}
+
+}  // namespace
+
+std::string board_stl() {
+  // Corner i of the box: bit 0 is the side in x, bit 1 in y, bit 2 in z.
+  constexpr int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  std::ostringstream stl;
+  stl << "solid board\n";
+  for (const auto& face : faces) {
+    stl << "facet normal 0 0 0\nouter loop\n";
+    for (const int corner : face)
+      stl << "vertex " << ((corner & 1) != 0 ? 0.2 : -0.2) << ' '
+          << ((corner & 2) != 0 ? 0.1 : -0.1) << ' ' << ((corner & 4) != 0 ? 0.05 : -0.05) << '\n';
+    stl << "endloop\nendfacet\n";
+  }
+  stl << "endsolid board\n";
+  return stl.str();
+}
+
+void write_tiny_recording(const std::filesystem::path& folder) {
+  write_file(folder / "tiny.urdf", urdf);
+  write_file(folder / "board.stl", board_stl());
+  write_file(folder / "recording.yaml", yaml);
+  write_file(folder / "camera_info.yaml", camera_info);
+  write_file(folder / "camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
+  write_file(folder / "joint_states.csv", "frame,slide\n0,0.0\n1,0.05\n2,0.1\n");
+  const Image<io::Rgb8> color(tiny_width, tiny_height, {90, 120, 150});
+  for (int i = 0; i < 3; ++i) {
+    const std::string ending = std::to_string(i) + ".png";
+    const Image<std::uint16_t> depth = depth_image(0.95 + 0.05 * i);
+    io::write_png(folder / ("depth_" + ending), depth.view());
+    io::write_png(folder / ("color_" + ending), color.view());
+  }
+}
+
+}  // namespace penumbra::test

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slab_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <tests/support/allocations.hpp>
+
+namespace penumbra::test {
+namespace {
+
+struct Case {
+  const char* name;
+  bool distorted;
+  ImageSpace image;
+};
+
+class AllocationTest : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Images, AllocationTest,
+                         testing::Values(Case{"Pinhole", false, ImageSpace::raw},
+                                         Case{"Raw", true, ImageSpace::raw},
+                                         Case{"Rectified", true, ImageSpace::rectified}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
+  Camera camera = slab_camera();
+  const double coefficients[] = {-0.2, 0.05, 0.001, -0.001, 0.0};
+  if (GetParam().distorted) camera.distortion = Distortion("plumb_bob", coefficients);
+  PipelineConfig config;
+  config.image = GetParam().image;
+  Pipeline pipeline(slab_robot(), camera, config);
+  const Image<float> metres = scene_depth(camera, 0.0);
+  const Image<std::uint16_t> millimetres = to_millimetres(metres);
+  std::vector<double> positions = {0.0};
+  for (int i = 0; i < 50; ++i) {
+    const std::size_t before = allocations();
+    positions[0] = 0.01 * i;
+    const DepthView depth = i % 2 == 0 ? DepthView(metres.view()) : DepthView(millimetres.view());
+    const FrameReport& report = pipeline.process({.stamp = i, .depth = depth, .joints = positions});
+    const std::size_t after = allocations();
+    ASSERT_EQ(report.status, FrameStatus::ok);
+    if (i < 2) continue;  // the first of each kind of depth may
+    ASSERT_EQ(after, before) << "frame " << i;
+  }
+}
+
+TEST(Allocations, AreCounted) {
+  const std::size_t before = allocations();
+  const std::vector<int> memory(100);
+  EXPECT_GT(allocations(), before) << memory.size();
+}
+
+}  // namespace
+}  // namespace penumbra::test

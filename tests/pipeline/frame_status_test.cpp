@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slab_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr auto unknown = static_cast<std::uint8_t>(Label::unknown);
+
+/// A pipeline that has just judged a good frame, whose images must not show again.
+class FrameStatusTest : public testing::Test {
+ protected:
+  FrameStatusTest() : depth_(scene_depth(camera_, 0.0)), pipeline_(slab_robot(), camera_) {
+    EXPECT_EQ(process(good()).status, FrameStatus::ok);
+  }
+
+  [[nodiscard]] Frame good() const { return {.depth = depth_.view(), .joints = positions_}; }
+  const FrameReport& process(const Frame& frame) { return pipeline_.process(frame); }
+
+  void expect_pose_unknown(const Frame& frame, FrameStatus status, const std::string& says) {
+    const FrameReport& report = process(frame);
+    EXPECT_EQ(report.status, status);
+    EXPECT_NE(report.message.find(says), std::string::npos) << report.message;
+    EXPECT_TRUE(report.virtual_depth.depth.empty());
+    EXPECT_TRUE(report.virtual_depth.links.empty());
+    EXPECT_EQ(report.virtual_depth.touched, nullptr);
+    EXPECT_EQ(pixels_of(report.labels), std::vector<std::uint8_t>(depth_.size(), unknown));
+    EXPECT_FALSE(report.pixels.robot.has_value());
+    EXPECT_EQ(report.pixels.unknown, depth_.size());
+    EXPECT_EQ(report.pixels.front + report.pixels.occluded + report.pixels.beyond, 0U);
+    EXPECT_FALSE(report.timing.render.has_value());
+    EXPECT_FALSE(report.timing.classify.has_value());
+    EXPECT_EQ(process(good()).status, FrameStatus::ok) << "the stream goes on";
+  }
+
+  void expect_robot_unknown(const Frame& frame, FrameStatus status, const std::string& says) {
+    const FrameReport& report = process(frame);
+    EXPECT_EQ(report.status, status);
+    EXPECT_NE(report.message.find(says), std::string::npos) << report.message;
+    ASSERT_FALSE(report.virtual_depth.depth.empty());
+    EXPECT_GT(report.pixels.robot.value(), 0U);
+    EXPECT_EQ(report.pixels.unknown, report.pixels.robot);
+    for (int v = 0; v < report.labels.height; ++v)
+      for (int u = 0; u < report.labels.width; ++u)
+        ASSERT_EQ(report.labels(u, v), report.virtual_depth.depth(u, v) > 0.0F ? unknown : 0);
+  }
+
+  Camera camera_ = slab_camera();
+  Image<float> depth_;
+  std::vector<double> positions_ = {0.0};
+  Pipeline pipeline_;
+};
+
+TEST_F(FrameStatusTest, NoJoints) {
+  Frame frame = good();
+  frame.joints = {};
+  expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions");
+}
+
+TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
+  JointAnswer answer;
+  answer.status = JointStatus::stale;
+  answer.gaps = {{.variable = 0, .why = JointStatus::stale, .last_seen = 42}};
+  Frame frame = good();
+  frame.joints = answer;
+  expect_pose_unknown(frame, FrameStatus::stale_joints, "'slide' has no position near the stamp");
+  answer.status = JointStatus::missing;
+  answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}}};
+  frame.joints = answer;
+  expect_pose_unknown(frame, FrameStatus::missing_joints, "'slide' was never seen");
+
+  answer = {.status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}};
+  frame.joints = answer;
+  EXPECT_EQ(process(frame).status, FrameStatus::ok);
+  EXPECT_EQ(process(frame).joint_age, 1500);
+}
+
+TEST_F(FrameStatusTest, PositionsThatAreNoPositions) {
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity(), 1.1e9, 1e300}) {
+    const std::vector<double> positions = {value};
+    Frame frame = good();
+    frame.joints = positions;
+    expect_pose_unknown(frame, FrameStatus::missing_joints, "'slide' is not a number within");
+  }
+}
+
+TEST_F(FrameStatusTest, PositionsOutOfThisWorld) {
+  for (const double value : {1.1e6, -1e7, 1e9}) {
+    const std::vector<double> positions = {value};
+    Frame frame = good();
+    frame.joints = positions;
+    const FrameReport& report = process(frame);
+    EXPECT_EQ(report.status, FrameStatus::missing_joints) << value;
+    EXPECT_NE(report.message.find("'slab'"), std::string::npos) << report.message;
+    EXPECT_TRUE(report.virtual_depth.depth.empty());
+    EXPECT_EQ(report.pixels.unknown, depth_.size());
+  }
+}
+
+TEST(FrameStatusOfRobot, AQuaternionThatIsNone) {
+  Pipeline pipeline(
+      Robot::parse(R"(<robot name="free"><link name="base"/><link name="ball"><collision><geometry>
+        <sphere radius="0.1"/></geometry></collision></link><joint name="free" type="floating">
+        <parent link="base"/><child link="ball"/></joint></robot>)",
+                   "."),
+      slab_camera());
+  const auto status = [&](double qx, double qw) {
+    const std::vector<double> positions = {0.0, 0.0, 1.0, qx, 0.0, 0.0, qw};
+    return pipeline.process({.joints = positions}).status;
+  };
+  EXPECT_EQ(status(0.0, 1.0), FrameStatus::missing_depth);
+  EXPECT_EQ(status(0.6, 0.8), FrameStatus::missing_depth);
+  EXPECT_EQ(status(0.0, 0.0), FrameStatus::missing_joints);
+  EXPECT_EQ(status(0.5, 1.0), FrameStatus::missing_joints);
+}
+
+TEST_F(FrameStatusTest, TooManyOrTooFewPositions) {
+  for (const std::size_t count : {0U, 2U}) {
+    const std::vector<double> positions(count, 0.0);
+    Frame frame = good();
+    frame.joints = positions;
+    expect_pose_unknown(frame, FrameStatus::missing_joints, "for 1 joint variable");
+  }
+}
+
+TEST_F(FrameStatusTest, NoCameraPose) {
+  Frame frame = good();
+  frame.source_status = FrameStatus::missing_transform;
+  frame.source_message = "no transform from 'a' to 'b'";
+  expect_pose_unknown(frame, FrameStatus::missing_transform, "from 'a' to 'b'");
+}
+
+TEST_F(FrameStatusTest, NoDepth) {
+  Frame frame = good();
+  frame.depth = {};
+  expect_robot_unknown(frame, FrameStatus::missing_depth, "no depth image");
+}
+
+TEST_F(FrameStatusTest, DepthOfAnotherSize) {
+  const Image<std::uint16_t> other(depth_.width() + 1, depth_.height(), 900);
+  Frame frame = good();
+  frame.depth = other.view();
+  expect_robot_unknown(frame, FrameStatus::bad_depth, "162x121");
+}
+
+TEST_F(FrameStatusTest, DepthThatTheSourceCallsBad) {
+  Frame frame = good();
+  frame.source_status = FrameStatus::bad_depth;
+  frame.source_message = "depth_3.png: truncated";
+  expect_robot_unknown(frame, FrameStatus::bad_depth, "depth_3.png: truncated");
+}
+
+TEST_F(FrameStatusTest, TheWorseFaultIsTheStatusAndAllAreTold) {
+  Frame frame = good();
+  frame.joints = {};
+  frame.depth = {};
+  expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions; no depth image");
+}
+
+TEST_F(FrameStatusTest, FramesAreNumbered) {
+  EXPECT_EQ(process(good()).index, 1U);
+  Frame frame = good();
+  frame.index = 40;
+  EXPECT_EQ(process(frame).index, 40U);
+}
+
+TEST(FrameStatusOfRobot, ALinkWithoutItsMeshIsTold) {
+  const std::string more = R"(<link name="lost"><collision><geometry>
+      <mesh filename="nowhere.stl"/></geometry></collision></link>
+    <joint name="fix" type="fixed"><parent link="base"/><child link="lost"/></joint>)";
+  const Camera camera = slab_camera();
+  RobotOptions options;
+  options.allow_missing_meshes = true;
+  Pipeline pipeline(Robot::parse(slab_urdf(more), ".", options), camera);
+  const std::vector<double> positions = {0.0};
+  const Image<float> depth = scene_depth(camera, 0.0);
+  const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+  EXPECT_EQ(report.status, FrameStatus::missing_link);
+  EXPECT_NE(report.message.find("'lost'"), std::string::npos) << report.message;
+  ASSERT_EQ(report.missing_links.size(), 1U);
+  EXPECT_EQ(report.missing_links[0], "lost");
+  EXPECT_GT(report.pixels.occluded, 0U) << "the other links are judged";
+}
+
+TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsRefused) {
+  PipelineConfig config = plain_config();
+  config.camera_parent = "slab";
+  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  const std::vector<double> positions = {0.0};
+  try {
+    static_cast<void>(pipeline.process({.joints = positions}));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("'slab'"), std::string::npos) << message;
+    EXPECT_NE(message.find("ignore_links"), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

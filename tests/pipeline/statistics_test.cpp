@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/statistics.hpp>
+
+namespace penumbra::test {
+namespace {
+
+TEST(Statistics, QuantilesByRank) {
+  EXPECT_FALSE(quantiles({}).has_value());
+  const auto one = quantiles({3.0}).value();
+  EXPECT_EQ(one.min, 3.0);
+  EXPECT_EQ(one.median, 3.0);
+  EXPECT_EQ(one.p99, 3.0);
+  EXPECT_EQ(one.max, 3.0);
+  EXPECT_EQ(quantiles({4.0, 1.0, 2.0, 3.0})->median, 2.5);
+
+  std::vector<double> samples(200);
+  std::iota(samples.rbegin(), samples.rend(), 1.0);
+  EXPECT_EQ(quantiles(samples)->p99, 198.0) << "198 of 200 are 99 %";
+  EXPECT_EQ(quantiles(samples)->median, 100.5);
+  EXPECT_EQ(quantiles(samples)->max, 200.0);
+}
+
+TEST(Statistics, CountsFaultsByKind) {
+  Statistics statistics;
+  FrameReport report;
+  report.pixels.robot = 10;
+  report.pixels.front = 3;
+  report.timing.render = 0.5;
+  statistics.add(report);
+  for (const std::size_t index : {5U, 6U}) {
+    report = {};
+    report.index = index;
+    report.status = FrameStatus::missing_joints;
+    report.message = "frame " + std::to_string(index);
+    report.pixels.unknown = 100;
+    statistics.add(report);
+  }
+  EXPECT_EQ(statistics.frames(), 3U);
+  EXPECT_EQ(statistics.bad_frames(), 2U);
+  EXPECT_EQ(statistics.usable_frames(), 1U);
+  ASSERT_EQ(statistics.faults().size(), 1U);
+  EXPECT_EQ(statistics.faults()[0].frames, 2U);
+  EXPECT_EQ(statistics.faults()[0].first, 5U);
+  EXPECT_EQ(statistics.faults()[0].message, "frame 5");
+  EXPECT_EQ(statistics.pixels().robot, 10U);
+  EXPECT_EQ(statistics.pixels().unknown, 200U);
+  EXPECT_EQ(statistics.timing(1)->max, 0.5);
+  EXPECT_FALSE(statistics.timing(0).has_value());
+}
+
+}  // namespace
+}  // namespace penumbra::test
