@@ -11,7 +11,6 @@ using Polynomial = std::vector<double>;
 [[nodiscard]] Polynomial add(const Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial multiply(const Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial derivative(const Polynomial& a);
-[[nodiscard]] double evaluate(const Polynomial& a, double x);
 
 /// The largest X such that the polynomial is positive on 0 <= x < X; infinity where it is positive
 /// for every x >= 0. A root where it only touches zero counts.

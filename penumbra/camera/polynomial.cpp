@@ -5,7 +5,6 @@
 // is positive on its whole interval but for the right end; other intervals are halved by de
 // Casteljau's scheme (Farouki, The Bernstein polynomial basis: a centennial retrospective, 2012).
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -66,12 +65,6 @@ Polynomial derivative(const Polynomial& a) {
   Polynomial result(a.size() - 1);
   for (std::size_t i = 1; i < a.size(); ++i) result[i - 1] = static_cast<double>(i) * a[i];
   return result;
-}
-
-double evaluate(const Polynomial& a, double x) {
-  double sum = 0;
-  for (std::size_t i = a.size(); i-- > 0;) sum = sum * x + a[i];
-  return sum;
 }
 
 double positive_until(const Polynomial& a) {
