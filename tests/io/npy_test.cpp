@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/random.hpp"
+#include "files.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <io/npy.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using test::input_error;
+
+// A file put together by the format's description, for a version and a header's text.
+std::string npy(int version, const std::string& header, const std::string& data) {
+  std::string bytes = "\x93NUMPY";
+  bytes += static_cast<char>(version);
+  bytes += '\0';
+  for (int i = 0; i < (version == 1 ? 2 : 4); ++i)
+    bytes += static_cast<char>(header.size() >> (8 * i) & 0xff);
+  return bytes + header + data;
+}
+
+std::string bytes_of(const std::vector<float>& values) {
+  std::string bytes(values.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+const std::string good_header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n";
+const std::vector<float> six = {1.5F, -2.0F, 0.0F, 4.25F, 5.0F, 6.0F};
+
+class Npy : public testing::Test {
+ protected:
+  FileResult read(const std::string& bytes) {
+    folder_.write("depth.npy", bytes);
+    return read_npy(file_, image_);
+  }
+  std::string fault(const std::string& header) {
+    return read(npy(1, header, bytes_of(six))).message;
+  }
+
+  test::TempFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "depth.npy";
+  Image<float> image_;
+};
+
+TEST_F(Npy, ReadsEveryVersionAndSpelling) {
+  const std::string headers[] = {
+      good_header,
+      "{\"shape\":(2,3),\"fortran_order\":False,\"descr\":\"<f4\"}",
+      "{'fortran_order': False, 'descr': '<f4', 'shape': (2, 3,)}            \n",
+  };
+  for (const int version : {1, 2, 3}) {
+    for (const std::string& header : headers) {
+      image_ = {};
+      ASSERT_EQ(read(npy(version, header, bytes_of(six))).message, "");
+      ASSERT_EQ(image_.width(), 3);
+      ASSERT_EQ(image_.height(), 2);
+      EXPECT_EQ(std::vector<float>(image_.data(), image_.data() + 6), six);
+    }
+  }
+}
+
+TEST_F(Npy, NamesWhatItDoesNotRead) {
+  const auto header = [](const std::string& type, const std::string& order,
+                         const std::string& shape) {
+    return "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }\n";
+  };
+  EXPECT_HAS(fault(header("<f8", "False", "(2, 3)")), "holds '<f8'; depths must be '<f4'");
+  EXPECT_HAS(fault(header(">f4", "False", "(2, 3)")), "holds '>f4'");
+  EXPECT_HAS(fault(header("<u2", "False", "(2, 3)")), "holds '<u2'");
+  EXPECT_HAS(fault(header("<f4", "True", "(2, 3)")), "is in Fortran order");
+  EXPECT_HAS(fault(header("<f4", "False", "(6,)")), "has 1 dimensions");
+  EXPECT_HAS(fault(header("<f4", "False", "(1, 2, 3)")), "has 3 dimensions");
+  EXPECT_HAS(fault(header("<f4", "False", "()")), "has 0 dimensions");
+  EXPECT_HAS(fault(header("<f4", "False", "(0, 3)")), "has a side of 0 pixels");
+  EXPECT_HAS(fault(header("<f4", "False", "(40000, 3)")), "has a side of 40000 pixels");
+  EXPECT_HAS(fault(header("<f4", "False", "(30000, 30000)")), "ends before its last row");
+  EXPECT_HAS(fault("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (2, 3), }"),
+             "damaged header");
+  EXPECT_HAS(fault("{'descr': '<f4', 'shape': (2, 3), }"), "damaged header");
+  EXPECT_HAS(fault("{'descr': '<f4', 'descr': '<f4', 'fortran_order': False, 'shape': (2, 3)}"),
+             "damaged header");
+  EXPECT_HAS(fault(""), "damaged header");
+  EXPECT_HAS(read(npy(4, good_header, bytes_of(six))).message, "version 4.0");
+  EXPECT_HAS(read(npy(2, std::string(70000, ' '), "")).message, "header of 70000 bytes");
+  EXPECT_HAS(read("frame,joint1\n0,1").message, "is not a NumPy file");
+  EXPECT_HAS(read(npy(1, good_header, bytes_of(six) + "x")).message, "bytes behind");
+}
+
+TEST_F(Npy, TellsMissingAndOtherSizes) {
+  EXPECT_EQ(read_npy(folder_.path() / "none.npy", image_).status, FileStatus::missing);
+  folder_.write("depth.npy", npy(1, good_header, bytes_of(six)));
+  EXPECT_TRUE(read_npy(file_, image_, ImageSize{3, 2}).ok());
+  EXPECT_EQ(read_npy(file_, image_, ImageSize{2, 3}).message,
+            file_.string() + ": has 3 x 2 pixels; the camera has 2 x 3");
+}
+
+TEST_F(Npy, WritesTheFormat) {
+  const Image<float> image(3, 2, 0.5F);
+  write_npy(file_, image.view());
+  const std::string bytes = test::read_bytes(file_);
+  const std::size_t start = bytes.size() - 6 * sizeof(float);
+  EXPECT_EQ(start % 64, 0U);
+  EXPECT_EQ(bytes[start - 1], '\n');
+  EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+  EXPECT_EQ(static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]) + 10,
+            static_cast<int>(start));
+  EXPECT_EQ(bytes.substr(10, good_header.size() - 1),
+            good_header.substr(0, good_header.size() - 1));
+  EXPECT_EQ(bytes.substr(start), bytes_of(std::vector<float>(6, 0.5F)));
+}
+
+TEST_F(Npy, ReturnsWhatWasWrittenWithAnyStride) {
+  std::mt19937_64 random = test::seeded_random(1);
+  Image<float> image(20, 10);
+  for (std::size_t i = 0; i < image.size(); ++i)
+    image.data()[i] = static_cast<float>(random()) * 1e-19F;
+  image(3, 9) = std::numeric_limits<float>::infinity();
+  const ImageView<const float> flipped{&std::as_const(image)(3, 9), 15, 7, -20};
+  write_npy(file_, flipped);
+  ASSERT_EQ(read_npy(file_, image_).message, "");
+  ASSERT_EQ(image_.width(), 15);
+  ASSERT_EQ(image_.height(), 7);
+  for (int v = 0; v < 7; ++v)
+    for (int u = 0; u < 15; ++u) ASSERT_EQ(image_(u, v), flipped(u, v));
+}
+
+TEST_F(Npy, NumPyReadsIt) {
+  if (std::system("python3 -c 'import numpy' >/dev/null 2>&1") != 0) GTEST_SKIP() << "no NumPy";
+  Image<float> image(3, 2);
+  for (int i = 0; i < 6; ++i) image.data()[i] = six[static_cast<std::size_t>(i)];
+  write_npy(file_, std::as_const(image).view());
+  const std::string script = "python3 -c \"import numpy, sys; a = numpy.load('" + file_.string() +
+                             "'); sys.exit(not (a.dtype == numpy.float32 and a.tolist() == [[1.5, "
+                             "-2, 0], [4.25, 5, 6]]))\"";
+  EXPECT_EQ(std::system(script.c_str()), 0);
+}
+
+TEST_F(Npy, FindsEveryTruncation) {
+  const std::string whole = npy(1, good_header, bytes_of(six));
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    ASSERT_EQ(read(whole.substr(0, length)).status, FileStatus::bad) << length;
+}
+
+TEST_F(Npy, SurvivesRandomDamage) {
+  std::mt19937_64 random = test::seeded_random(2);
+  for (int i = 0; i < 5000; ++i) {
+    std::string damaged = npy(1 + i % 3, good_header, bytes_of(six));
+    for (int n = 0; n < 1 + i % 5; ++n)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    static_cast<void>(read(damaged));
+    ASSERT_LE(image_.size() * sizeof(float), damaged.size());
+  }
+}
+
+TEST_F(Npy, SaysWhenItCannotWrite) {
+  const Image<float> image(4, 4);
+  EXPECT_HAS(input_error([&] { write_npy(folder_.path() / "none" / "x.npy", image.view()); }),
+             "none/x.npy: cannot be written: No such file or directory");
+}
+
+}  // namespace
+}  // namespace penumbra::io

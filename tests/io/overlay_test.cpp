@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <io/bitmap_font.hpp>
+#include <io/overlay.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr Rgb8 white{255, 255, 255};
+constexpr Rgb8 black{0, 0, 0};
+
+// A scene of one grey with a robot's rectangle of one label in it.
+struct Scene {
+  Scene(int width, int height, Label label)
+      : color(width, height, Rgb8{100, 100, 100}), labels(width, height) {
+    for (int v = height / 2; v < height / 2 + height / 4; ++v)
+      for (int u = width / 2; u < width / 2 + width / 4; ++u)
+        labels(u, v) = static_cast<std::uint8_t>(label);
+    for (std::size_t i = 0; i < labels.size(); ++i) ++view.pixels[labels.data()[i]];
+    view.labels = std::as_const(labels).view();
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  [[nodiscard]] OverlayInput input() const {
+    return {std::as_const(color).view(), {}, view, 3, std::nullopt, {}};
+  }
+
+  Image<Rgb8> color;
+  Image<std::uint8_t> labels;
+  LabelView view;
+};
+
+TEST(Overlay, BlendsTheLabelAndKeepsTheScene) {
+  for (const Label label : {Label::front, Label::occluded, Label::unknown, Label::beyond}) {
+    const Scene scene(640, 480, label);
+    Image<Rgb8> out;
+    draw_overlay(scene.input(), out);
+    ASSERT_EQ(out.width(), 640);
+    ASSERT_EQ(out.height(), 480);
+    const Rgb8 inside = out(400, 300), wanted = label_color(label);
+    EXPECT_EQ(inside.r, (100 + wanted.r) / 2);
+    EXPECT_EQ(inside.g, (100 + wanted.g) / 2);
+    EXPECT_EQ(inside.b, (100 + wanted.b) / 2);
+    EXPECT_EQ(out(600, 460), (Rgb8{100, 100, 100}));
+  }
+}
+
+TEST(Overlay, DrawsTheOutlineWhiteWithinAndBlackWithout) {
+  const Scene scene(640, 480, Label::occluded);
+  Image<Rgb8> out;
+  draw_overlay(scene.input(), out);
+  EXPECT_EQ(out(320, 300), white);
+  EXPECT_EQ(out(319, 300), black);
+  EXPECT_EQ(out(400, 240), white);
+  EXPECT_EQ(out(400, 239), black);
+  EXPECT_EQ(out(318, 300), (Rgb8{100, 100, 100}));
+}
+
+TEST(Overlay, ShowsDepthWithoutColor) {
+  Image<float> metres(64, 480, 0.0F);
+  for (int v = 0; v < 480; ++v) {
+    metres(50, v) = 0.5F;
+    metres(51, v) = 2.0F;
+    metres(52, v) = std::numeric_limits<float>::quiet_NaN();
+    metres(53, v) = std::numeric_limits<float>::infinity();
+    metres(54, v) = -1.0F;
+    metres(55, v) = 0.001F;
+  }
+  Image<std::uint16_t> millimetres(64, 480, 0);
+  for (int v = 0; v < 480; ++v) millimetres(50, v) = 500, millimetres(51, v) = 2000;
+  Image<Rgb8> of_metres, of_millimetres;
+  OverlayInput input;
+  input.depth = std::as_const(metres).view();
+  draw_overlay(input, of_metres);
+  input.depth = std::as_const(millimetres).view();
+  draw_overlay(input, of_millimetres);
+  EXPECT_GT(of_metres(50, 400).r, of_metres(51, 400).r);
+  EXPECT_GT(of_metres(51, 400).r, 0);
+  for (int u = 52; u < 55; ++u) EXPECT_EQ(of_metres(u, 400), black) << u;
+  EXPECT_EQ(of_metres(55, 400), white);
+  EXPECT_EQ(of_metres(50, 400), of_millimetres(50, 400));
+  EXPECT_EQ(of_metres(51, 400), of_millimetres(51, 400));
+}
+
+// The legend lies in the corner where it hides the least of the robot.
+TEST(Overlay, LegendGivesWayToTheRobot) {
+  Scene scene(640, 480, Label::occluded);
+  scene.labels = Image<std::uint8_t>(640, 480, 2);
+  for (int v = 300; v < 480; ++v)
+    for (int u = 400; u < 640; ++u) scene.labels(u, v) = 0;
+  scene.view.labels = std::as_const(scene.labels).view();
+  Image<Rgb8> out;
+  draw_overlay(scene.input(), out);
+  const Rgb8 robot = out(5, 5);
+  EXPECT_EQ(robot.r, (100 + label_color(Label::occluded).r) / 2);
+  EXPECT_LT(out(637, 477).r, 60);
+}
+
+TEST(Overlay, LegendHidesLittle) {
+  for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}}) {
+    const Scene scene(width, height, Label::occluded);
+    OverlayInput input = scene.input();
+    input.stamp = 1700000000123456789;
+    Image<Rgb8> out;
+    draw_overlay(input, out);
+    std::size_t changed = 0;
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        changed += scene.labels(u, v) == 0 && !(out(u, v) == Rgb8{100, 100, 100}) ? 1 : 0;
+    EXPECT_LT(static_cast<double>(changed), 0.16 * width * height) << width;
+    EXPECT_GT(changed, 1000U);
+  }
+}
+
+TEST(Overlay, WorksAtAnySize) {
+  std::mt19937_64 random = test::seeded_random(1);
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 400}, {400, 1}, {7, 5}, {33, 719}, {641, 361}, {2001, 1500}}) {
+    Image<std::uint8_t> labels(width, height);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      labels.data()[i] = static_cast<std::uint8_t>(random() % label_count);
+    LabelView view;
+    view.labels = std::as_const(labels).view();
+    view.pixels = {1, 2, 3, 4, std::size_t{1} << 60};
+    OverlayInput input;
+    input.labels = view;
+    input.index = std::numeric_limits<std::int64_t>::max();
+    input.stamp = std::numeric_limits<std::int64_t>::min();
+    const std::string message(3000, '\xE9');
+    input.message = message;
+    Image<Rgb8> out;
+    draw_overlay(input, out);
+    EXPECT_EQ(out.width(), width);
+    EXPECT_EQ(out.height(), height);
+  }
+}
+
+// Every pair of label colours stays apart for normal sight and for people who lack one kind of
+// cone: simulation matrices of severity 1 by Machado, Oliveira and Fernandes (2009), which work on
+// linear RGB; distance in CIELAB (1976), where 2.3 is just noticeable.
+TEST(Overlay, ColorsAreToldApartByAll) {
+  constexpr double clearly_apart = 20.0;
+  using Matrix = Eigen::Matrix3d;
+  const Matrix protan{{0.152286, 1.052583, -0.204868},
+                      {0.114503, 0.786281, 0.099216},
+                      {-0.003882, -0.048116, 1.051998}};
+  const Matrix deutan{{0.367322, 0.860646, -0.227968},
+                      {0.280085, 0.672501, 0.047413},
+                      {-0.011820, 0.042940, 0.968881}};
+  const Matrix tritan{{1.255528, -0.076749, -0.178779},
+                      {-0.078411, 0.930809, 0.147602},
+                      {0.004733, 0.691367, 0.303900}};
+  const Matrix to_xyz{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+  const auto linear = [](std::uint8_t value) {
+    const double c = value / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  const auto lab = [&](Rgb8 c, const Matrix& sight) {
+    const Eigen::Vector3d seen =
+        (sight * Eigen::Vector3d(linear(c.r), linear(c.g), linear(c.b))).cwiseMax(0).cwiseMin(1);
+    const Eigen::Vector3d xyz = (to_xyz * seen).cwiseQuotient(Eigen::Vector3d(0.9505, 1.0, 1.089));
+    const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
+    return Eigen::Vector3d(116 * f(xyz.y()) - 16, 500 * (f(xyz.x()) - f(xyz.y())),
+                           200 * (f(xyz.y()) - f(xyz.z())));
+  };
+  const Matrix normal = Matrix::Identity();
+  for (const Matrix* sight : {&normal, &protan, &deutan, &tritan})
+    for (int a = 1; a < 5; ++a)
+      for (int b = 1; b < a; ++b)
+        EXPECT_GT((lab(label_color(static_cast<Label>(a)), *sight) -
+                   lab(label_color(static_cast<Label>(b)), *sight))
+                      .norm(),
+                  clearly_apart)
+            << a << " and " << b;
+}
+
+TEST(BitmapFont, DrawsEveryLetterDifferently) {
+  std::vector<std::string> drawn;
+  for (char c = ' '; c <= '~'; ++c) {
+    Image<Rgb8> image(BitmapFont::advance, BitmapFont::height);
+    BitmapFont::draw(std::string(1, c), 0, 0, 1, white, image);
+    std::string ink;
+    for (int v = 0; v < image.height(); ++v)
+      for (int u = 0; u < image.width(); ++u) ink += image(u, v) == white ? '#' : ' ';
+    EXPECT_EQ(std::find(drawn.begin(), drawn.end(), ink), drawn.end()) << c;
+    EXPECT_EQ(ink.find('#') == std::string::npos, c == ' ') << c;
+    drawn.push_back(ink);
+  }
+}
+
+TEST(BitmapFont, CutsAtTheImageAndReplacesOtherBytes) {
+  Image<Rgb8> image(20, 10), question(20, 10);
+  BitmapFont::draw("WWWWWWWWWW", -7, -3, 3, white, image);
+  BitmapFont::draw("W", 100, 100, 3, white, image);
+  image = Image<Rgb8>(20, 10);
+  BitmapFont::draw("\xC3\t", 0, 0, 1, white, image);
+  BitmapFont::draw("??", 0, 0, 1, white, question);
+  EXPECT_TRUE(std::equal(image.data(), image.data() + image.size(), question.data()));
+}
+
+}  // namespace
+}  // namespace penumbra::io
