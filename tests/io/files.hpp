@@ -50,6 +50,9 @@ inline std::string read_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Whether long tests are asked for.
+inline bool full() { return std::getenv("PENUMBRA_FULL") != nullptr; }
+
 /// The message of the InputError that `call` throws; it must be one line.
 template <typename F>
 std::string input_error(const F& call) {

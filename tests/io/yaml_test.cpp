@@ -128,11 +128,11 @@ TEST(Yaml, SurvivesTruncation) {
     test::only_input_errors([&] { static_cast<void>(parse(whole.substr(0, length))); });
 }
 
-TEST(Yaml, SurvivesRandomDamage) {
+void survive_random_damage(int rounds) {
   std::mt19937_64 random = test::seeded_random(1);
   const std::string whole = sample;
   const std::string special = "{}[]:,-?&*!|>'\"%@`#\n \t\0\\~<=";
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     std::string damaged = whole;
     for (int n = 0; n < 1 + i % 6; ++n) {
       const std::size_t at = random() % damaged.size();
@@ -145,6 +145,13 @@ TEST(Yaml, SurvivesRandomDamage) {
     }
     test::only_input_errors([&] { static_cast<void>(parse(damaged)); });
   }
+}
+
+TEST(Yaml, SurvivesRandomDamage) { survive_random_damage(5000); }
+
+TEST(YamlFull, SurvivesRandomDamage) {
+  if (!test::full()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  survive_random_damage(1000000);
 }
 
 }  // namespace
