@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Measures what labelling rules make of a real recording in which nothing stands before the robot,
+// and of objects pasted into it. Writes docs/tolerance.md's tables, its plot and a CSV file.
+#include "tolerance_study.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::study {
+namespace {
+
+constexpr std::uint64_t seed = 20230206;
+
+LabelRule rule_of(const Tolerance& tolerance, int width, int margin) {
+  LabelRule rule;
+  rule.tolerance = tolerance;
+  rule.front_min_width = width;
+  rule.edge_margin = margin;
+  return rule;
+}
+
+std::vector<NamedRule> compared_rules() {
+  return {{"default", LabelRule{}},
+          {"paper: 0.01", LabelRule::paper()},
+          {"0.015 + 0.006 z², opening 7", rule_of({0.015, 0, 0.006}, 7, 0)},
+          {"0.02 + 0.012 z², no clean-up", rule_of({0.02, 0, 0.012}, 0, 0)}};
+}
+
+std::vector<NamedKind> kinds() {
+  return {{"square 5 cm", {test::Shape::square, 0.05, 0.0}},
+          {"disc 5 cm", {test::Shape::disc, 0.05, 0.0}},
+          {"square 5 cm, tilted 35°", {test::Shape::square, 0.05, 0.61}},
+          {"square 8 cm", {test::Shape::square, 0.08, 0.0}},
+          {"disc 10 cm, tilted 20°", {test::Shape::disc, 0.10, 0.35}}};
+}
+
+/// The default with one thing changed.
+std::vector<NamedRule> variants() {
+  const LabelRule base;
+  std::vector<NamedRule> rules = {{"default", base}};
+  const auto add = [&](const std::string& name, auto change) {
+    LabelRule rule = base;
+    change(rule);
+    rules.push_back({name, rule});
+  };
+  for (const double a : {0.005, 0.01, 0.02, 0.025})
+    add("a = " + std::to_string(a).substr(0, 5), [&](LabelRule& r) { r.tolerance.a = a; });
+  for (const double c : {0.0, 0.003, 0.009, 0.012})
+    add("c = " + std::to_string(c).substr(0, 5), [&](LabelRule& r) { r.tolerance.c = c; });
+  for (const int width : {3, 5, 9, 11})
+    add("front_min_width = " + std::to_string(width),
+        [&](LabelRule& r) { r.front_min_width = width; });
+  for (const int margin : {0, 4, 12, 16})
+    add("edge_margin = " + std::to_string(margin), [&](LabelRule& r) { r.edge_margin = margin; });
+  return rules;
+}
+
+std::string number(double value, int digits) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+/// A table in Markdown: a row of heads, then rows of cells.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::ostringstream out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const std::string& cell : rows[i]) out << "| " << cell << ' ';
+    out << "|\n";
+    if (i > 0) continue;
+    out << "|---";
+    for (std::size_t j = 1; j < rows[i].size(); ++j) out << "|---:";
+    out << "|\n";
+  }
+  return out.str();
+}
+
+struct Study {
+  std::vector<test::RealFrame> frames;
+  int placements;
+  std::ostringstream csv;
+  std::vector<Curve> curves;
+
+  std::string untouched() {
+    std::vector<std::vector<std::string>> rows = {{"% of the robot mask"}};
+    for (std::size_t i = 0; i < frames.size(); ++i) rows[0].push_back("frame " + std::to_string(i));
+    rows[0].insert(rows[0].end(), {"mean"});
+    const auto rules = compared_rules();
+    const auto results = study_untouched(frames, rules);
+    const auto add = [&](const std::string& name, const std::vector<double>& values) {
+      std::vector<std::string> cells = {name};
+      csv << "untouched," << name << ",,";
+      for (const double value : values) {
+        cells.push_back(number(value, 2));
+        csv << ',' << number(value, 4);
+      }
+      cells.push_back(number(mean(values), 2));
+      csv << ',' << number(mean(values), 4) << '\n';
+      rows.push_back(cells);
+    };
+    for (std::size_t i = 0; i < rules.size(); ++i)
+      add("false front: " + rules[i].name, results[i].front);
+    add("false beyond: default", results[0].beyond);
+    add("unknown", results[0].unknown);
+    return table(rows);
+  }
+
+  std::string objects(const NamedKind& named) {
+    const auto rules = compared_rules();
+    std::vector<std::vector<std::string>> rows = {{named.name + ", cm before"}};
+    for (const NamedRule& rule : rules) rows[0].push_back(rule.name);
+    const bool plotted = curves.empty();
+    if (plotted)
+      for (const NamedRule& rule : rules) curves.push_back({rule.name, {}, {}});
+    for (int gap = 1; gap <= 10; ++gap) {
+      const auto seen = study_objects(frames, rules, named.kind, 0.01 * gap, placements, seed);
+      rows.push_back({std::to_string(gap)});
+      for (std::size_t i = 0; i < rules.size(); ++i) {
+        rows.back().push_back(number(seen[i].core, 1) + " (" + number(seen[i].band, 0) + ")");
+        csv << "object," << rules[i].name << ',' << named.name << ',' << gap << ','
+            << number(seen[i].core, 3) << ',' << number(seen[i].band, 3) << '\n';
+        if (!plotted) continue;
+        curves[i].x.push_back(gap);
+        curves[i].y.push_back(seen[i].core);
+      }
+      std::cerr << named.name << ' ' << gap << " cm\n";
+    }
+    return table(rows);
+  }
+
+  std::string tuning() {
+    const auto rules = variants();
+    const auto untouched = study_untouched(frames, rules);
+    const test::ObjectKind kind = kinds().front().kind;
+    std::vector<std::vector<Seen>> seen;
+    for (const double gap : {0.02, 0.03, 0.05})
+      seen.push_back(study_objects(frames, rules, kind, gap, placements, seed));
+    std::vector<std::vector<std::string>> rows = {
+        {"changed", "false front, mean", "worst frame", "front at 2 cm", "at 3 cm", "at 5 cm"}};
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+      rows.push_back({rules[i].name, number(mean(untouched[i].front), 2),
+                      number(largest(untouched[i].front), 2)});
+      csv << "tuning," << rules[i].name << ",," << number(mean(untouched[i].front), 4) << ','
+          << number(largest(untouched[i].front), 4);
+      for (const auto& at_gap : seen) {
+        rows.back().push_back(number(at_gap[i].core, 1));
+        csv << ',' << number(at_gap[i].core, 3);
+      }
+      csv << '\n';
+    }
+    return table(rows);
+  }
+};
+
+void write_file(const std::filesystem::path& file, const std::string& content) {
+  std::ofstream out(file, std::ios::binary);
+  out << content;
+  if (!out.flush()) throw InputError(file.string() + ": cannot be written");
+}
+
+/// Replaces what lies between the document's two markers.
+void update_document(const std::filesystem::path& file, const std::string& tables) {
+  std::ostringstream old;
+  old << std::ifstream(file, std::ios::binary).rdbuf();
+  const std::string text = old.str();
+  const std::string first = "<!-- begin: tolerance_study -->\n";
+  const auto begin = text.find(first), end = text.find("<!-- end: tolerance_study -->");
+  if (begin == std::string::npos || end == std::string::npos)
+    throw InputError(file.string() + ": has no markers of tolerance_study");
+  write_file(file, text.substr(0, begin + first.size()) + tables + text.substr(end));
+}
+
+void run(const std::filesystem::path& recording, const std::filesystem::path& root,
+         int placements) {
+  Study study{test::load_real_frames(recording), placements, {}, {}};
+  std::ostringstream out;
+  out << "\nSeed " << seed << ", " << placements << " placements in each of " << study.frames.size()
+      << " frames for every figure about objects.\n\n"
+      << study.untouched()
+      << "\nPixels of the object labelled front, % (in brackets: of the 2-pixel band at its "
+         "edge):\n";
+  for (const NamedKind& kind : kinds()) out << '\n' << study.objects(kind);
+  out << "\nThe default with one thing changed (objects: square 5 cm):\n\n"
+      << study.tuning() << '\n';
+  std::cout << out.str();
+  write_file(root / "bench/results/tolerance.csv", study.csv.str());
+  write_file(root / "docs/tolerance.svg",
+             svg_plot("Square of 5 cm before the robot", study.curves));
+  update_document(root / "docs/tolerance.md", out.str());
+}
+
+}  // namespace
+}  // namespace penumbra::study
+
+int main(int argc, char** argv) {
+  if (argc < 3 || argc > 4) {
+    std::cerr << "usage: tolerance_study RECORDING REPOSITORY [PLACEMENTS]\n";
+    return 2;
+  }
+  try {
+    penumbra::study::run(argv[1], argv[2], argc > 3 ? std::atoi(argv[3]) : 100);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

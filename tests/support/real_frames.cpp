@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "real_frames.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <io/frame_reader.hpp>
+#include <io/png.hpp>
+#include <io/recording.hpp>
+
+namespace penumbra::test {
+namespace {
+
+std::vector<Body> bodies_of(const Robot& robot) {
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < robot.links().size(); ++i)
+    bodies.push_back({robot.links()[i], robot.meshes(i)});
+  return bodies;
+}
+
+RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rendered,
+                     Image<std::uint16_t> measured) {
+  RealFrame frame{.intrinsics = intrinsics,
+                  .robot = {intrinsics.width(), intrinsics.height()},
+                  .tiles = *rendered.touched,
+                  .measured = std::move(measured)};
+  for (int v = 0; v < intrinsics.height(); ++v) {
+    for (int u = 0; u < intrinsics.width(); ++u) {
+      frame.robot(u, v) = rendered.depth(u, v);
+      if (rendered.depth(u, v) > 0.0f) frame.robot_indices.push_back(v * intrinsics.width() + u);
+    }
+  }
+  frame.robot_pixels = frame.robot_indices.size();
+  return frame;
+}
+
+}  // namespace
+
+std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
+  const io::Recording recording = io::Recording::open(folder);
+  const Robot robot = Robot::load(recording.urdf, recording.robot);
+  const Intrinsics& intrinsics = recording.camera.camera.intrinsics;
+  const std::vector<Body> bodies = bodies_of(robot);
+  const auto renderer = make_depth_renderer(Backend::reference, intrinsics, bodies);
+  const io::FrameReader reader(recording, robot);
+  const std::size_t parent = robot.find_link(recording.camera.parent).value();
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  std::vector<RealFrame> frames;
+  io::FrameData data;
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    reader.read(i, false, data);
+    if (data.status != io::FrameStatus::ok) throw InputError(data.message);
+    robot.forward_kinematics(data.positions, poses);
+    const Eigen::Isometry3d T_camera_root =
+        (poses[parent] * recording.camera.T_parent_camera).inverse();
+    for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
+    frames.push_back(real_frame(intrinsics, renderer->render(poses),
+                                std::get<Image<std::uint16_t>>(data.depth)));
+    Image<std::uint8_t> mask;
+    const auto name = "robot_mask_" + std::to_string(data.index) + ".png";
+    io::read_png(recording.file.parent_path() / name, mask).require();
+    frames.back().mask_pixels = static_cast<std::size_t>(
+        std::count_if(mask.data(), mask.data() + mask.size(), [](auto m) { return m != 0; }));
+  }
+  return frames;
+}
+
+}  // namespace penumbra::test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/base/tile_mask.hpp>
+#include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+
+namespace penumbra::test {
+
+/// A recorded depth image beside the robot rendered at its pose.
+struct RealFrame {
+  Intrinsics intrinsics;
+  Image<float> robot;  ///< virtual depth, metres
+  TileMask tiles;
+  Image<std::uint16_t> measured;        ///< millimetres
+  std::size_t robot_pixels = 0;         ///< where the virtual depth is not 0
+  std::size_t mask_pixels = 0;          ///< of robot_mask_N.png, the robot seen in the colour image
+  std::vector<int> robot_indices = {};  ///< v * width + u of the robot's pixels
+
+  [[nodiscard]] VirtualDepthView view() const {
+    return {.depth = robot.view(), .links = {}, .touched = &tiles};
+  }
+};
+
+/// Reads a recording of a rectified camera without lens distortion whose folder holds
+/// robot_mask_N.png, and renders the robot with the reference renderer. Throws InputError.
+[[nodiscard]] std::vector<RealFrame> load_real_frames(const std::filesystem::path& recording);
+
+}  // namespace penumbra::test
