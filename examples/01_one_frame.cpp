@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of a recording, from files to an answer: what of this view is real, and what is robot?
+#include <cstdlib>
+#include <iostream>
+
+#include <io/frame_reader.hpp>
+#include <io/recording.hpp>
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+using namespace penumbra;
+
+namespace {
+
+void run(const std::filesystem::path& folder, std::size_t number) {
+  const io::Recording recording = io::Recording::open(folder);
+  Robot robot = Robot::load(recording.urdf, recording.robot);
+  const io::FrameReader frames(recording, robot);
+
+  PipelineConfig config;
+  config.camera_parent = recording.camera.parent;
+  config.T_parent_camera = recording.camera.T_parent_camera;
+  Pipeline pipeline(std::move(robot), recording.camera.camera, config);
+
+  io::FrameData frame;
+  frames.read(number, /*with_color=*/false, frame);
+  const FrameReport& report = pipeline.process(
+      {.stamp = frame.stamp, .depth = frame.depth_view(), .joints = frame.positions});
+  if (report.status != FrameStatus::ok) throw InputError(report.message);
+
+  std::cout << "robot " << report.pixels.robot.value() << " pixels: front " << report.pixels.front
+            << ", occluded " << report.pixels.occluded << ", unknown " << report.pixels.unknown
+            << ", beyond " << report.pixels.beyond << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  run(argc > 1 ? argv[1] : "examples/arm_over_table",
+      argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 6);
+} catch (const InputError& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole method on the shipped recording, against its truth: an independent ray caster's.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/frame_reader.hpp>
+#include <io/recording.hpp>
+
+namespace penumbra::test {
+namespace {
+
+enum Truth : std::uint8_t { no_robot = 0, robot_seen = 1, before_robot = 2, hidden = 3 };
+
+// Pixels at a border that depth noise may blur: the recording's borders wander by about one pixel,
+// and a measurement mixes a neighbourhood of one more.
+constexpr int edge_band = 2;
+
+// Of the robot's pixels: tessellated cylinders and float meshes against exact ones, at silhouettes.
+constexpr double most_covered_differently = 0.002;
+
+constexpr double most_false_front = 0.005;  // of the pixels where the robot is seen
+constexpr double least_found_front = 0.99;  // of the measured pixels of things before the robot
+
+/// Whether `rule` holds for every truth within `reach` of (u, v).
+template <typename Rule>
+bool all_near(const Image<std::uint8_t>& truth, int u, int v, int reach, Rule&& rule) {
+  for (int y = std::max(0, v - reach); y <= std::min(truth.height() - 1, v + reach); ++y)
+    for (int x = std::max(0, u - reach); x <= std::min(truth.width() - 1, u + reach); ++x)
+      if (!rule(truth(x, y))) return false;
+  return true;
+}
+
+struct Counts {
+  std::size_t robot = 0, covered_differently = 0, inner_covered_differently = 0;
+  std::size_t seen = 0, false_front = 0, before = 0, found = 0;
+};
+
+void count(const FrameReport& report, const Image<std::uint8_t>& truth,
+           ImageView<const std::uint16_t> depth, Counts& counts) {
+  for (int v = 0; v < truth.height(); ++v) {
+    for (int u = 0; u < truth.width(); ++u) {
+      const std::uint8_t value = truth(u, v);
+      const auto same = [value](std::uint8_t other) { return other == value; };
+      const bool front = report.labels(u, v) == static_cast<std::uint8_t>(Label::front);
+      if (value != no_robot) ++counts.robot;
+      if ((value != no_robot) != (report.virtual_depth.depth(u, v) > 0.0F)) {
+        ++counts.covered_differently;
+        if (all_near(truth, u, v, 1, same)) ++counts.inner_covered_differently;
+      }
+      if (value == robot_seen || value == hidden) {
+        ++counts.seen;
+        // The border of what stands before the robot may be measured outside of it.
+        const auto free = [](std::uint8_t other) { return other != before_robot; };
+        if (front && all_near(truth, u, v, edge_band, free)) ++counts.false_front;
+      }
+      if (value == before_robot && depth(u, v) != 0 && all_near(truth, u, v, edge_band, same)) {
+        ++counts.before;
+        if (front) ++counts.found;
+      }
+    }
+  }
+}
+
+Counts judge_recording() {
+  const std::filesystem::path folder = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
+  const auto recording = io::Recording::open(folder);
+  Robot robot = Robot::load(recording.urdf, recording.robot);
+  const io::FrameReader frames(recording, robot);
+  PipelineConfig config;
+  config.camera_parent = recording.camera.parent;
+  config.T_parent_camera = recording.camera.T_parent_camera;
+  Pipeline pipeline(std::move(robot), recording.camera.camera, config);
+
+  Counts counts;
+  io::FrameData frame;
+  Image<std::uint8_t> truth;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames.read(i, false, frame);
+    const auto& report = pipeline.process(
+        {.stamp = frame.stamp, .depth = frame.depth_view(), .joints = frame.positions});
+    EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
+    io::read_png(folder / "truth" / (std::to_string(i) + ".png"), truth).require();
+    count(report, truth, std::get<Image<std::uint16_t>>(frame.depth).view(), counts);
+  }
+  return counts;
+}
+
+double part(std::size_t some, std::size_t all) {
+  return static_cast<double>(some) / static_cast<double>(all);
+}
+
+TEST(ShippedExample, LabelsAgreeWithTheTruth) {
+  const Counts counts = judge_recording();
+  std::cout << "robot " << counts.robot << ", covered differently " << counts.covered_differently
+            << " (" << counts.inner_covered_differently << " inside)\nfalse front "
+            << counts.false_front << " of " << counts.seen << ", found " << counts.found << " of "
+            << counts.before << '\n';
+  EXPECT_GT(counts.robot, 100'000U);
+  EXPECT_EQ(counts.inner_covered_differently, 0U);
+  EXPECT_LE(part(counts.covered_differently, counts.robot), most_covered_differently);
+  EXPECT_LE(part(counts.false_front, counts.seen), most_false_front);
+  EXPECT_GT(counts.before, 5'000U);
+  EXPECT_GE(part(counts.found, counts.before), least_found_front);
+}
+
+}  // namespace
+}  // namespace penumbra::test
