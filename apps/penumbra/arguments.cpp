@@ -257,7 +257,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   CLI::App* const run_app = app.add_subcommand("run", "label every frame of a recording");
   CLI::App* const render_app = app.add_subcommand("render", "render one virtual depth image");
   CLI::App* const inspect_app = app.add_subcommand("inspect", "tell what of a URDF is drawn");
@@ -274,7 +274,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   }
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;
-  return inspect;
+  if (inspect_app->parsed()) return inspect;
+  throw InputError("a command is needed: run, render or inspect (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

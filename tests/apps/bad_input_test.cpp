@@ -242,12 +242,19 @@ TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
 }
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {
-  const std::vector<std::vector<std::string>> lines = {
-      {}, {"walk"}, {"run"}, {"run", "x.mcap", "-o", "out"}, {"render"}, {"inspect"}};
-  for (const auto& line : lines) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
+      {{}, "run, render or inspect"},
+      {{"walk"}, "walk"},
+      {{"run"}, "INPUT"},
+      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
+      {{"render"}, "--robot"},
+      {{"inspect"}, "URDF"},
+      {{"inspect", "nowhere.urdf"}, "nowhere.urdf"}};
+  for (const auto& [line, word] : lines) {
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(line) << outcome.err;
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
   }
 }
 
