@@ -829,13 +829,15 @@ void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileS
                  const Output& output) {
   const auto id_mask = hn::Set(di, packing.id_mask);
   const auto half_step = hn::Set(di, packing.half_step);
+  const auto smallest = hn::BitCast(di, hn::Set(df, 1e-30F));  // 1/m
   std::int32_t* const packed = canvases[0].packed.data();
   const std::span<Canvas> others = canvases.subspan(1);
   const std::size_t stride = output.stride;
   const auto depth_of = [&](VI word) HWY_ATTR {
-    const auto inverse = hn::BitCast(df, hn::Or(hn::AndNot(id_mask, word), half_step));
+    // An empty lane's half step would be a denormal, which divides slowly: keep it a normal number.
+    const auto bits = hn::Max(hn::Or(hn::AndNot(id_mask, word), half_step), smallest);
     return hn::IfThenElseZero(hn::RebindMask(df, hn::Ne(word, hn::Zero(di))),
-                              hn::Div(hn::Set(df, 1.0F), inverse));
+                              hn::Div(hn::Set(df, 1.0F), hn::BitCast(df, bits)));
   };
   const auto id_of = [&](VI word) HWY_ATTR { return hn::BitCast(df, hn::And(word, id_mask)); };
   const auto store_depth = [](auto d, auto values, float* to)
