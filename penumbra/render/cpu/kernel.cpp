@@ -378,19 +378,18 @@ HWY_INLINE VF LaneU() {
 HWY_INLINE VF LaneV() { return hn::ConvertTo(df, hn::ShiftRight<2>(hn::Iota(di, 0))); }
 
 template <int kWidth, int kHeight>
-void FillBlocks(const RecordBin& bin, const Target& target) {
+void FillBlocks(std::span<const Record> records, const Target& target) {
   const auto lane_u = LaneU();
   const auto lane_v = LaneV();
-  for (const Record* record = bin.records.data(); record != bin.end; ++record) {
-    const Record& r = *record;
+  for (const Record& r : records) {
     const auto id = hn::Set(di, r.id);
     Values row = Start(r, lane_u, lane_v);
     [[maybe_unused]] const Values right = Slope(r.du, block_width);
     [[maybe_unused]] const Values down = Slope(r.dv, kBlockHeight);
     std::int32_t* block = target.packed + r.offset;
-    HWY_UNROLL(4) for (int y = 0; y < kHeight; ++y) {
+    HWY_UNROLL(8) for (int y = 0; y < kHeight; ++y) {
       Values values = row;
-      HWY_UNROLL(3) for (int x = 0; x < kWidth; ++x) {
+      HWY_UNROLL(4) for (int x = 0; x < kWidth; ++x) {
         Update(block + x * kLanes, values, target.keep, id);
         if (x + 1 < kWidth) Advance(values, right);
       }
@@ -422,7 +421,7 @@ void FillPieces(const PieceBin& bin, const Record* records, const Target& target
 
 template <std::size_t... kLengths>
 void FlushPieces(Scratch& s, const Target& target, std::index_sequence<kLengths...> /*lengths*/) {
-  const Record* records = s.first_record();
+  const Record* records = s.records.data();
   (FillPieces<static_cast<int>(kLengths + 1)>(s.pieces[kLengths], records, target), ...);
   for (PieceBin& bin : s.pieces) bin.count = 0;
   s.piece_count = 0;
@@ -541,7 +540,7 @@ void AddLongRuns(Scratch& s, const Runs& runs, std::int32_t record, std::uint32_
 
 /// Cuts a large triangle into runs of blocks along its block rows.
 HWY_INLINE void CutIntoPieces(Scratch& s, const Record& r, int height, const Target& target) {
-  const auto index = static_cast<std::int32_t>(&r - s.first_record());
+  const auto index = static_cast<std::int32_t>(&r - s.records.data());
   const LargeTriangle triangle(r);
   const auto row_lanes = static_cast<std::int32_t>(target.lanes_per_row);
   auto row_offsets = hn::Mul(hn::Iota(di, 0), hn::Set(di, row_lanes));
@@ -563,9 +562,8 @@ HWY_INLINE void CutIntoPieces(Scratch& s, const Record& r, int height, const Tar
 template <std::size_t kBin>
 void CutBin(Scratch& s, const Target& target) {
   constexpr bool any = kBin + 1 == Scratch::large_bins;
-  const RecordBin& bin = s.bins[Scratch::small_bins + kBin];
-  for (const Record* r = bin.records.data(); r != bin.end; ++r) {
-    CutIntoPieces(s, *r, any ? r->height : static_cast<int>(kBin + 1) * kLanes, target);
+  for (const Record& r : s.bin(Scratch::small_bins + kBin)) {
+    CutIntoPieces(s, r, any ? r.height : static_cast<int>(kBin + 1) * kLanes, target);
   }
 }
 
@@ -574,12 +572,11 @@ template <std::size_t... kSmall, std::size_t... kLarge>
 void Flush(Scratch& s, const Target& target, std::index_sequence<kSmall...> /*small*/,
            std::index_sequence<kLarge...> /*large*/) {
   (FillBlocks<static_cast<int>(kSmall % Scratch::small_width + 1),
-              static_cast<int>(kSmall / Scratch::small_width + 1)>(s.bins[kSmall], target),
+              static_cast<int>(kSmall / Scratch::small_width + 1)>(s.bin(kSmall), target),
    ...);
   (CutBin<kLarge>(s, target), ...);
   FlushPieces(s, target);
-  for (RecordBin& bin : s.bins) bin.end = bin.records.data();
-  s.records = 0;
+  s.clear_bins();
 }
 
 void Flush(Scratch& s, const Target& target) {
@@ -722,14 +719,14 @@ void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scra
   const hn::Full128<float> quartet;
   for (std::size_t i = 0; i < count; ++i) {
     const auto which = static_cast<std::size_t>(bin[i]);
-    auto* record = reinterpret_cast<float*>(s.bins[which].end++);
+    auto* record = reinterpret_cast<float*>(s.bin_ends[which]++);
     hn::Store(hn::Load(quartet, base + 4 * i), quartet, record);
     hn::Store(hn::Load(quartet, du + 4 * i), quartet, record + 4);
     hn::Store(hn::Load(quartet, dv + 4 * i), quartet, record + 8);
     hn::Store(hn::Load(quartet, rest + 4 * i), quartet, record + 12);
   }
-  s.records += count;
-  if (s.records > RecordBin::budget) Flush(s, target);
+  s.record_count += count;
+  if (s.record_count > Scratch::budget) Flush(s, target);
 }
 
 void SetUpSurvivors(const FrameContext& frame, Scratch& s, const Target& target) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <penumbra/render/clusters.hpp>
 
@@ -24,7 +25,7 @@ static_assert(sizeof(Record) == 64);
 
 /// A run of blocks in one block row of a large triangle.
 struct Piece {
-  std::int32_t record;
+  std::int32_t record;  // index into Scratch::records
   std::int32_t offset;  // of its first block in the canvas, lanes
   float du, dv;         // of its first pixel from the record's, pixels
 };
@@ -49,27 +50,16 @@ struct PieceBin {
   }
 };
 
-/// Records of one size.
-struct RecordBin {
-  static constexpr std::size_t budget = 1024;  // records of all bins together before a flush
-  static constexpr std::size_t slack = 16;     // one vector
-
-  RecordBin() = default;
-  RecordBin(const RecordBin&) = delete;  // `end` points inside
-  RecordBin& operator=(const RecordBin&) = delete;
-
-  Record* end = records.data();
-  std::array<Record, budget + slack> records;
-};
-
 /// Triangles are sorted by the shape of their bounding box in blocks, so that each shape is filled
 /// by one straight routine: the cost of loops with varying counts is mispredicted branches.
 struct Scratch {
-  static constexpr int small_width = 3;   // blocks
-  static constexpr int small_height = 4;  // blocks
+  static constexpr int small_width = 4;   // blocks
+  static constexpr int small_height = 6;  // blocks
   static constexpr std::size_t small_bins = small_width * small_height;
-  static constexpr std::size_t large_bins = 4;     // by vectors of block rows: 1, 2, 3, any
-  static constexpr std::size_t slack = 16;         // one vector
+  static constexpr std::size_t large_bins = 4;  // by vectors of block rows: 1, 2, 3, any
+  static constexpr std::size_t slack = 16;      // one vector
+  static constexpr std::size_t budget = 1024;   // records of all bins together before a flush
+  static constexpr std::size_t bin_size = budget + slack;
   static constexpr std::size_t longest_piece = 8;  // blocks
   static constexpr std::size_t max_front = ClusteredScene::max_triangles;
   /// A clipped triangle has at most eight corners: six triangles.
@@ -91,9 +81,21 @@ struct Scratch {
   alignas(64) std::array<std::uint32_t, max_survivors + max_corners + slack> survivor_triangle;
   alignas(64) std::array<std::uint32_t, max_survivors + max_corners + slack> survivor_cluster;
 
-  std::size_t records = 0;  // in all bins
-  std::array<RecordBin, small_bins + large_bins> bins;
-  [[nodiscard]] const Record* first_record() const { return bins[small_bins].records.data(); }
+  std::size_t record_count = 0;  // in all bins
+  std::array<Record, (small_bins + large_bins) * bin_size> records;
+  std::array<Record*, small_bins + large_bins> bin_ends;
+
+  Scratch() { clear_bins(); }
+  Scratch(const Scratch&) = delete;  // bin_ends point inside
+  Scratch& operator=(const Scratch&) = delete;
+
+  [[nodiscard]] std::span<const Record> bin(std::size_t i) const {
+    return {&records[i * bin_size], bin_ends[i]};
+  }
+  void clear_bins() {
+    for (std::size_t i = 0; i < bin_ends.size(); ++i) bin_ends[i] = &records[i * bin_size];
+    record_count = 0;
+  }
 
   std::size_t piece_count = 0;                 // an upper bound over all lengths
   std::array<PieceBin, longest_piece> pieces;  // by length
