@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// From image points to records: edge functions, depth planes, bins.
+#if defined(PENUMBRA_RENDER_CPU_SETUP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef PENUMBRA_RENDER_CPU_SETUP_INL
+#undef PENUMBRA_RENDER_CPU_SETUP_INL
+#else
+#define PENUMBRA_RENDER_CPU_SETUP_INL
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include <penumbra/render/cpu/kernel.hpp>
+#include <penumbra/render/cpu/pieces-inl.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace penumbra::cpu {
+namespace HWY_NAMESPACE {
+
+/// Bounding boxes of up to kStep triangles, and where their first blocks are.
+struct Boxes {
+  VF first_u, first_v;  // the first block's first pixel
+  VI offset, width, height, bin;
+  VF extent;  // pixels, unclipped
+};
+
+HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
+                             std::size_t lanes_per_row) {
+  const auto& [u0, v0, u1, v1, u2, v2] = p;
+  const auto u_min = hn::Min(hn::Min(u0, u1), u2);
+  const auto v_min = hn::Min(hn::Min(v0, v1), v2);
+  const auto u_max = hn::Max(hn::Max(u0, u1), u2);
+  const auto v_max = hn::Max(hn::Max(v0, v1), v2);
+  const auto last_u = hn::Set(df, static_cast<float>(k.width() - 1));
+  const auto last_v = hn::Set(df, static_cast<float>(k.height() - 1));
+  constexpr int kHeightShift = kBlockHeight == 4 ? 2 : kBlockHeight == 2 ? 1 : 0;
+  const auto left = hn::ShiftRight<2>(hn::ConvertTo(di, hn::Max(hn::Ceil(u_min), hn::Zero(df))));
+  const auto top =
+      hn::ShiftRight<kHeightShift>(hn::ConvertTo(di, hn::Max(hn::Ceil(v_min), hn::Zero(df))));
+  const auto right = hn::ShiftRight<2>(hn::ConvertTo(di, hn::Min(hn::Floor(u_max), last_u)));
+  const auto bottom =
+      hn::ShiftRight<kHeightShift>(hn::ConvertTo(di, hn::Min(hn::Floor(v_max), last_v)));
+  Boxes b;
+  b.first_u = hn::ConvertTo(df, hn::ShiftLeft<2>(left));
+  b.first_v = hn::ConvertTo(df, hn::ShiftLeft<kHeightShift>(top));
+  b.offset = hn::Add(hn::Mul(top, hn::Set(di, static_cast<std::int32_t>(lanes_per_row))),
+                     hn::Mul(left, hn::Set(di, kLanes)));
+  b.width = hn::Add(hn::Sub(right, left), hn::Set(di, 1));
+  b.height = hn::Add(hn::Sub(bottom, top), hn::Set(di, 1));
+  const auto small = hn::And(hn::Lt(b.width, hn::Set(di, Scratch::small_width + 1)),
+                             hn::Lt(b.height, hn::Set(di, Scratch::small_height + 1)));
+  const auto row = hn::Mul(hn::Sub(b.height, hn::Set(di, 1)), hn::Set(di, Scratch::small_width));
+  constexpr int kLanesShift = kBlockHeight == 4 ? 4 : kBlockHeight == 2 ? 3 : 2;
+  const auto batches = hn::ShiftRight<kLanesShift>(hn::Sub(b.height, hn::Set(di, 1)));
+  const auto large = hn::Min(batches, hn::Set(di, static_cast<int>(Scratch::large_bins) - 1));
+  b.bin = hn::IfThenElse(small, hn::Add(row, hn::Sub(b.width, hn::Set(di, 1))),
+                         hn::Add(large, hn::Set(di, static_cast<int>(Scratch::small_bins))));
+  b.extent = hn::Add(hn::Sub(u_max, u_min), hn::Sub(v_max, v_min));
+  return b;
+}
+
+struct EdgeFunction {
+  VF base, du, dv;
+};
+
+/// The edge from p to q. Its bias exceeds the rounding of all later sums.
+HWY_INLINE EdgeFunction MakeEdge(VF pu, VF pv, VF qu, VF qv, const Boxes& b) {
+  EdgeFunction e;
+  e.du = hn::Sub(qv, pv);
+  e.dv = hn::Sub(pu, qu);
+  const auto reach = hn::Mul(hn::Add(b.extent, hn::Set(df, 16.0F)), hn::Set(df, 0x1p-20F));
+  const auto bias = hn::Mul(hn::Add(hn::Abs(e.du), hn::Abs(e.dv)), reach);
+  e.base = hn::MulAdd(e.du, hn::Sub(b.first_u, pu), hn::MulAdd(e.dv, hn::Sub(b.first_v, pv), bias));
+  return e;
+}
+
+struct DepthPlanes {
+  VF base, du, dv;
+};
+
+/// Inverse depth of the survivors' planes at their first pixels.
+HWY_INLINE DepthPlanes MakeDepthPlanes(const FrameContext& frame, const Scratch& s,
+                                       std::size_t start, std::size_t count, const Boxes& b) {
+  const ClusteredScene& scene = *frame.scene;
+  const BodyFrame& body = frame.bodies[s.survivor_body];
+  HWY_ALIGN std::array<std::array<float, kStep>, 4> plane;
+  for (std::size_t i = 0; i < kStep; ++i) {
+    const std::size_t t = s.survivor_triangle[start + i];
+    plane[0][i] = scene.plane_x[t];
+    plane[1][i] = scene.plane_y[t];
+    plane[2][i] = scene.plane_z[t];
+    plane[3][i] = scene.plane_d[t];
+  }
+  const auto x = hn::Load(df, plane[0].data());
+  const auto y = hn::Load(df, plane[1].data());
+  const auto z = hn::Load(df, plane[2].data());
+  const auto height = hn::MulAdd(
+      x, hn::Set(df, body.centre[0]),
+      hn::MulAdd(y, hn::Set(df, body.centre[1]),
+                 hn::MulSub(z, hn::Set(df, body.centre[2]), hn::Load(df, plane[3].data()))));
+  const auto scale = hn::Div(hn::Set(df, -1.0F), height);
+  DepthPlanes out;
+  out.du = hn::Mul(Dot3(&body.inverse_depth[0], x, y, z), scale);
+  out.dv = hn::Mul(Dot3(&body.inverse_depth[3], x, y, z), scale);
+  const auto origin = hn::Mul(Dot3(&body.inverse_depth[6], x, y, z), scale);
+  out.base = hn::MulAdd(out.du, b.first_u, hn::MulAdd(out.dv, b.first_v, origin));
+  const auto grazing = hn::Lt(hn::Abs(height), hn::Set(df, body.grazing));
+  if (HWY_LIKELY(hn::AllFalse(df, grazing))) return out;
+  HWY_ALIGN std::array<float, kStep> base, du, dv, first_u, first_v, grazes;
+  hn::Store(out.base, df, base.data());
+  hn::Store(out.du, df, du.data());
+  hn::Store(out.dv, df, dv.data());
+  hn::Store(b.first_u, df, first_u.data());
+  hn::Store(b.first_v, df, first_v.data());
+  hn::Store(hn::IfThenElseZero(grazing, hn::Set(df, 1.0F)), df, grazes.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grazes[i] == 0.0F) continue;
+    const InverseDepth exact = grazing_inverse_depth(
+        scene, scene.clusters[s.survivor_cluster[start + i]], s.survivor_triangle[start + i], body,
+        *frame.view, first_u[i], first_v[i]);
+    base[i] = exact.base;
+    du[i] = exact.du;
+    dv[i] = exact.dv;
+  }
+  return {hn::Load(df, base.data()), hn::Load(df, du.data()), hn::Load(df, dv.data())};
+}
+
+/// Makes records of up to kStep survivors and sorts them into the bins.
+void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scratch& s,
+           const Target& target) {
+  std::array<VF, 6> p;
+  for (std::size_t j = 0; j < p.size(); ++j) p[j] = hn::LoadU(df, &s.survivor_pixels[j][start]);
+  const Boxes b = BoundBlocks(p, frame.view->intrinsics, target.lanes_per_row);
+  const EdgeFunction e0 = MakeEdge(p[0], p[1], p[2], p[3], b);
+  const EdgeFunction e1 = MakeEdge(p[2], p[3], p[4], p[5], b);
+  const EdgeFunction e2 = MakeEdge(p[4], p[5], p[0], p[1], b);
+  const DepthPlanes z = MakeDepthPlanes(frame, s, start, count, b);
+  const auto as_float = [](VI v) HWY_ATTR { return hn::BitCast(df, v); };
+  HWY_ALIGN float base[4 * kStep];
+  HWY_ALIGN float du[4 * kStep];
+  HWY_ALIGN float dv[4 * kStep];
+  HWY_ALIGN float rest[4 * kStep];
+  HWY_ALIGN std::int32_t bin[kStep];
+  hn::StoreInterleaved4(e0.base, e1.base, e2.base, z.base, df, base);
+  hn::StoreInterleaved4(e0.du, e1.du, e2.du, z.du, df, du);
+  hn::StoreInterleaved4(e0.dv, e1.dv, e2.dv, z.dv, df, dv);
+  hn::StoreInterleaved4(as_float(b.offset), as_float(hn::Set(di, frame.bodies[s.survivor_body].id)),
+                        as_float(b.width), as_float(b.height), df, rest);
+  hn::Store(b.bin, di, bin);
+  const hn::Full128<float> quartet;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto which = static_cast<std::size_t>(bin[i]);
+    auto* record = reinterpret_cast<float*>(s.bin_ends[which]++);
+    hn::Store(hn::Load(quartet, base + 4 * i), quartet, record);
+    hn::Store(hn::Load(quartet, du + 4 * i), quartet, record + 4);
+    hn::Store(hn::Load(quartet, dv + 4 * i), quartet, record + 8);
+    hn::Store(hn::Load(quartet, rest + 4 * i), quartet, record + 12);
+  }
+  s.record_count += count;
+  if (s.record_count > Scratch::budget) Flush(s, target);
+}
+
+void SetUpSurvivors(const FrameContext& frame, Scratch& s, const Target& target) {
+  // Lanes behind the last survivor are computed too: with some triangle's plane.
+  std::fill_n(s.survivor_triangle.begin() + static_cast<std::ptrdiff_t>(s.survivors), kStep, 0U);
+  for (std::size_t i = 0; i < s.survivors; i += kStep) {
+    SetUp(frame, i, std::min(kStep, s.survivors - i), s, target);
+  }
+  s.survivors = 0;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace penumbra::cpu
+HWY_AFTER_NAMESPACE();
+
+#endif  // PENUMBRA_RENDER_CPU_SETUP_INL
