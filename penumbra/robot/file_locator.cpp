@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "file_locator-inl.hpp"
-#include "package_search-inl.hpp"
-#include "text-inl.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/file_locator-inl.hpp>
+#include <penumbra/robot/package_search-inl.hpp>
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glob-inl.hpp"
-
 #include <cstddef>
+
+#include <penumbra/robot/glob-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robot_tree-inl.hpp"
-#include "text-inl.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -10,6 +7,8 @@
 #include <unordered_set>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/robot_tree-inl.hpp>
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robot_model-inl.hpp"
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include <penumbra/robot/robot_model-inl.hpp>
 
 namespace penumbra {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "glob-inl.hpp"
-#include "link_choice-inl.hpp"
-#include "text-inl.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/glob-inl.hpp>
+#include <penumbra/robot/link_choice-inl.hpp>
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

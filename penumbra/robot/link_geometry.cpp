@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "link_geometry-inl.hpp"
-#include "text-inl.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/primitives.hpp>
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

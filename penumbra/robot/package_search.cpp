@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "package_search-inl.hpp"
-#include "xml_document-inl.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +8,8 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/package_search-inl.hpp>
+#include <penumbra/robot/xml_document-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

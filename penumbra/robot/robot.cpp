@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "link_geometry-inl.hpp"
-#include "robot_model-inl.hpp"
-#include "robot_tree-inl.hpp"
-
 #include <fstream>
 #include <iterator>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/robot/robot_model-inl.hpp>
+#include <penumbra/robot/robot_tree-inl.hpp>
 
 namespace penumbra {
 namespace {

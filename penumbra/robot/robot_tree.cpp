@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robot_tree-inl.hpp"
-#include "text-inl.hpp"
-
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/robot_tree-inl.hpp>
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text-inl.hpp"
-
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+
+#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

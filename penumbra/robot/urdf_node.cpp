@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text-inl.hpp"
-#include "urdf_node-inl.hpp"
-
 #include <algorithm>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/text-inl.hpp>
+#include <penumbra/robot/urdf_node-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

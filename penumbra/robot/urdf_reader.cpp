@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text-inl.hpp"
-#include "urdf-inl.hpp"
-#include "urdf_node-inl.hpp"
-
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/text-inl.hpp>
+#include <penumbra/robot/urdf-inl.hpp>
+#include <penumbra/robot/urdf_node-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text-inl.hpp"
-#include "xml_document-inl.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include <tinyxml2.h>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/text-inl.hpp>
+#include <penumbra/robot/xml_document-inl.hpp>
 
 namespace penumbra::detail {
 namespace {
