@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -46,13 +47,103 @@ class PositionIndex {
   std::vector<std::uint32_t> slots_;
 };
 
-bool is_degenerate(const std::vector<Eigen::Vector3f>& vertices, const Triangle& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
+bool has_equal_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+bool has_area(const std::vector<Eigen::Vector3f>& vertices, const Triangle& t) {
   const Eigen::Vector3d a = vertices[t[0]].cast<double>();
   const Eigen::Vector3d ab = vertices[t[1]].cast<double>() - a;
   const Eigen::Vector3d ac = vertices[t[2]].cast<double>() - a;
-  return ab.cross(ac).isZero(0.0);
+  return !ab.cross(ac).isZero(0.0);
 }
+
+/// Removes triangles of zero area so that no piece opens: the neighbour across a sliver's longest
+/// edge is split where the sliver's third corner lies on that edge.
+class SliverRemover {
+ public:
+  explicit SliverRemover(TriangleMesh& mesh) : mesh_(mesh) {}
+
+  void run() {
+    constexpr int passes = 16;  // a split may leave slivers on the next longer edge
+    for (int pass = 0; pass < passes && find_slivers(); ++pass) {
+      index_edges();
+      for (const std::uint32_t i : slivers_) remove(i);
+      std::erase_if(mesh_.triangles, has_equal_corners);
+    }
+    std::erase_if(mesh_.triangles,
+                  [this](const Triangle& t) { return !has_area(mesh_.vertices, t); });
+  }
+
+ private:
+  static constexpr Triangle dead{0, 0, 0};
+
+  static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
+    return std::uint64_t{from} << 32 | to;
+  }
+
+  bool find_slivers() {
+    slivers_.clear();
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
+      if (!has_area(mesh_.vertices, mesh_.triangles[i])) slivers_.push_back(i);
+    return !slivers_.empty();
+  }
+
+  /// Edges between corners of slivers; `none` where several triangles run one.
+  void index_edges() {
+    std::vector<bool> is_corner(mesh_.vertices.size(), false);
+    for (const std::uint32_t i : slivers_)
+      for (const std::uint32_t corner : mesh_.triangles[i]) is_corner[corner] = true;
+    triangle_of_.clear();
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Triangle& t = mesh_.triangles[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t to = t[(k + 1) % 3];
+        if (!is_corner[t[k]] || !is_corner[to]) continue;
+        const auto [entry, is_new] = triangle_of_.emplace(key(t[k], to), i);
+        if (!is_new) entry->second = none;
+      }
+    }
+  }
+
+  /// The sliver turned so that its longest edge comes first.
+  [[nodiscard]] Triangle longest_first(Triangle t) const {
+    const auto length = [this](std::uint32_t a, std::uint32_t b) {
+      return (mesh_.vertices[a] - mesh_.vertices[b]).cast<double>().squaredNorm();
+    };
+    while (length(t[0], t[1]) < length(t[1], t[2]) || length(t[0], t[1]) < length(t[2], t[0]))
+      std::rotate(t.begin(), t.begin() + 1, t.end());
+    return t;
+  }
+
+  void remove(std::uint32_t i) {
+    if (mesh_.triangles[i] == dead) return;
+    const auto [p, q, r] = longest_first(mesh_.triangles[i]);
+    const auto found = triangle_of_.find(key(q, p));
+    mesh_.triangles[i] = dead;
+    if (found == triangle_of_.end() || found->second == none) return;  // it closed nothing
+    const std::uint32_t neighbour = found->second;
+    const Triangle across = mesh_.triangles[neighbour];
+    const std::size_t k =
+        static_cast<std::size_t>(std::find(across.begin(), across.end(), q) - across.begin());
+    if (k == 3 || across[(k + 1) % 3] != p) return;  // it was split itself, in this pass
+    const std::uint32_t d = across[(k + 2) % 3];
+    mesh_.triangles[neighbour] = dead;
+    if (d == r) return;  // two slivers back to back
+    replace(neighbour, {q, r, d});
+    replace(i, {r, p, d});
+  }
+
+  void replace(std::uint32_t i, const Triangle& t) {
+    mesh_.triangles[i] = t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto edge = triangle_of_.find(key(t[k], t[(k + 1) % 3]));
+      if (edge != triangle_of_.end() && edge->second != none) edge->second = i;
+    }
+  }
+
+  TriangleMesh& mesh_;
+  std::vector<std::uint32_t> slivers_;
+  std::unordered_map<std::uint64_t, std::uint32_t> triangle_of_;
+};
 
 /// A triangle's run along an edge, seen from the edge's lower vertex.
 struct EdgeUse {
@@ -158,8 +249,9 @@ TriangleMesh weld(const TriangleMesh& mesh) {
       if (number == none) number = positions.find_or_add(mesh.vertices[given[k]], welded.vertices);
       t[k] = number;
     }
-    if (!is_degenerate(welded.vertices, t)) welded.triangles.push_back(t);
+    if (!has_equal_corners(t)) welded.triangles.push_back(t);
   }
+  SliverRemover(welded).run();
   return welded;
 }
 

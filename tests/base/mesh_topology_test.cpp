@@ -153,6 +153,31 @@ TEST(MeshTopology, DegenerateTrianglesAndUnusedVerticesGo) {
   EXPECT_TRUE(is_watertight(welded));
 }
 
+TEST(MeshTopology, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
+  // The cube's edge 0-1 is cut at one and at two points, on one of its sides only; slivers close
+  // it.
+  for (const bool two : {false, true}) {
+    TriangleMesh cube = unit_cube();
+    cube.vertices.emplace_back(0.25F, 0.0F, 0.0F);
+    cube.vertices.emplace_back(0.75F, 0.0F, 0.0F);
+    ASSERT_EQ(cube.triangles[4], (Triangle{0, 1, 4}));
+    if (two) {
+      cube.triangles[4] = {0, 8, 4};
+      cube.triangles.insert(cube.triangles.end(), {{8, 9, 4}, {9, 1, 4}, {0, 1, 9}, {0, 9, 8}});
+    } else {
+      cube.triangles[4] = {0, 8, 4};
+      cube.triangles.insert(cube.triangles.end(), {{8, 1, 4}, {0, 1, 8}});
+    }
+    ASSERT_TRUE(connected_components(cube)[0].closed);
+    const TriangleMesh welded = weld(cube);
+    EXPECT_EQ(welded.triangles.size(), two ? 16U : 14U);
+    const auto pieces = connected_components(welded);
+    ASSERT_EQ(pieces.size(), 1U);
+    EXPECT_TRUE(pieces[0].closed);
+    EXPECT_DOUBLE_EQ(pieces[0].signed_volume, 1.0);
+  }
+}
+
 TEST(MeshTopology, MissingFlippedDoubledAndThirdTrianglesOpenAPiece) {
   TriangleMesh missing = unit_cube();
   missing.triangles.pop_back();
