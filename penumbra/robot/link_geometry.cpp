@@ -8,6 +8,7 @@
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/primitives.hpp>
+#include <penumbra/robot/surface_offset.hpp>
 #include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
@@ -107,8 +108,10 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
     out.report.reason += std::string("; missing: ") + error.what();
     return;
   }
-  if (out.report.margin != 0.0)
-    throw InputError(source + ": margins are not available; leave them out");
+  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
+  if (mesh.triangles.empty())
+    throw InputError(source + ": nothing is left of it with a margin of " +
+                     printed(out.report.margin) + " m");
   out.meshes.push_back(std::move(mesh));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf_text.hpp"
 
+#include <penumbra/robot/surface_offset.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -83,6 +85,15 @@ TEST(LinkChoice, PatternWithoutALinkIsAnError) {
         RobotOptions{.margins = {{"nil*", 0.01}}}})
     EXPECT_TRUE(
         holds(message_of([&] { (void)parse(four_links(), options); }), "\"nil*\" matches no link"));
+}
+
+TEST(LinkChoice, NameGoesBeforePatternsAndPatternsMustAgree) {
+  RobotOptions options{.margins = {{"*", 0.01}, {"a", 0.02}}};
+  EXPECT_EQ(report_of(parse(four_links(), options), "a").margin, 0.02);
+  EXPECT_EQ(report_of(parse(four_links(), options), "d").margin, 0.01);
+  options.margins = {{"*", 0.01}, {"[ad]", 0.02}};
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(four_links(), options); }),
+                    "\"*\" and \"[ad]\" give it different values"));
 }
 
 TEST(LinkChoice, SenselessMarginIsAnError) {
@@ -214,6 +225,22 @@ TEST_F(MeshFiles, UnusedGeometryIsNotRead) {
       "r.urdf", robot_xml(link_xml("a", collision_xml("<mesh filename=\"meshes/t.stl\"/>") +
                                             visual_xml("<mesh filename=\"gone.dae\"/>"))));
   EXPECT_TRUE(Robot::load(file).report()[0].drawn);
+}
+
+TEST_F(MeshFiles, MarginMovesTheSurface) {
+  const Robot robot = load("filename=\"meshes/t.stl\"", {.margins = {{"a", 0.1}}});
+  EXPECT_EQ(robot.report()[0].margin, 0.1);
+  EXPECT_NEAR(robot.report()[0].bounds.min().x(), -0.1, 0.1 * offset_error);
+}
+
+TEST_F(MeshFiles, NegativeMarginOfAnOpenMeshIsAnErrorOfTheLink) {
+  folder_.write("open.stl",
+                "solid o\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                "vertex 0 1 0\nendloop\nendfacet\nendsolid o\n");
+  const RobotOptions options{.margins = {{"a", -0.01}}, .allow_missing_meshes = true};
+  EXPECT_TRUE(
+      holds(message_of([&] { (void)load("filename=\"open.stl\"", options); }), "link \"a\""));
+  EXPECT_FALSE(load("filename=\"open.stl\"").report()[0].watertight);
 }
 
 }  // namespace
