@@ -17,7 +17,9 @@ endif()
 add_library(penumbra_flags INTERFACE)
 # Contraction to FMA is decided in the kernels, never inherited from the compiler.
 target_compile_options(penumbra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                       -Wold-style-cast -Wunused -Woverloaded-virtual -ffp-contract=off)
+                       -Wold-style-cast -Wunused -Woverloaded-virtual -ffp-contract=off
+                       # GCC 12 warns falsely of strings put together with + (its bug 105651).
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 if(PENUMBRA_WARNINGS_AS_ERRORS)
   target_compile_options(penumbra_flags INTERFACE -Werror)
 endif()
