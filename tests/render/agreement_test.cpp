@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The judges themselves: that they agree with each other, and find every kind of fault.
+#include "agreement.hpp"
+
+#include "brute_force_oracle.hpp"
+#include "random.hpp"
+#include "render_test.hpp"
+#include "shapes.hpp"
+
+#include <random>
+#ifdef PENUMBRA_HAS_EMBREE
+#include "embree_oracle.hpp"
+#endif
+
+namespace penumbra::test {
+namespace {
+
+const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
+
+class AgreementTest : public ::testing::Test {
+ protected:
+  AgreementTest() {
+    scene_.add(sphere(0.3F, 12), at(0.1, 0.05, 1.5));
+    scene_.add(box({0.4F, 0.1F, 0.1F}),
+               at(-0.1, 0.1, 2.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
+    image_ = cast_image(oracle(), camera);
+    depth_ = Image<float>(camera.width(), camera.height());
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+      depth_.data()[i] = static_cast<float>(image_.depth.data()[i]);
+    }
+    links_ = image_.links;
+  }
+
+  [[nodiscard]] BruteForceOracle oracle() const { return {scene_.bodies(), scene_.poses}; }
+  [[nodiscard]] Agreement judge() const {
+    return compare({depth_.view(), links_.view(), nullptr}, oracle(), image_, camera);
+  }
+
+  Scene scene_;
+  OracleImage image_;
+  Image<float> depth_;
+  Image<std::uint16_t> links_;
+};
+
+// Inside the sphere's image, and inside the box's; both found in the constructor's scene.
+constexpr int sphere_u = 91, sphere_v = 63;
+constexpr int box_u = 47, box_v = 57;
+
+TEST_F(AgreementTest, TheSameImageAgrees) {
+  const Agreement agreement = judge();
+  EXPECT_EQ(agreement.errors, 0U);
+  EXPECT_EQ(agreement.differing_share(), 0.0);
+  EXPECT_EQ(image_.links(sphere_u, sphere_v), 1);
+  EXPECT_EQ(image_.links(box_u, box_v), 2);
+  EXPECT_GT(agreement.robot_pixels, 2000U);
+  EXPECT_LT(agreement.worst_interior, 1e-7);
+}
+
+TEST_F(AgreementTest, FindsAHole) {
+  depth_(sphere_u, sphere_v) = 0.0F;
+  links_(sphere_u, sphere_v) = 0;
+  EXPECT_EQ(judge().errors, 1U);
+}
+
+TEST_F(AgreementTest, FindsRobotWhereThereIsNone) {
+  depth_(5, 5) = 1.0F;
+  links_(5, 5) = 1;
+  EXPECT_EQ(judge().errors, 1U);
+}
+
+TEST_F(AgreementTest, FindsAWrongDepth) {
+  depth_(sphere_u, sphere_v) *= 1.0F + 2e-4F;
+  depth_(box_u, box_v) *= 1.0F - 2e-4F;
+  EXPECT_EQ(judge().errors, 2U);
+}
+
+TEST_F(AgreementTest, FindsAWrongLink) {
+  links_(sphere_u, sphere_v) = 2;
+  EXPECT_EQ(judge().errors, 1U);
+}
+
+TEST_F(AgreementTest, FindsDepthWithoutLink) {
+  links_(sphere_u, sphere_v) = 0;
+  depth_(box_u, box_v) = 0.0F;
+  EXPECT_EQ(judge().errors, 2U);
+}
+
+TEST_F(AgreementTest, CountsCoverageThatDiffersAtSilhouettes) {
+  // The camera a fifth of a pixel off: silhouettes and inner edges move, nothing else.
+  const Intrinsics moved(160, 120, 150.0, 155.0, 81.5, 57.9);
+  const OracleImage other = cast_image(oracle(), moved);
+  for (std::size_t i = 0; i < depth_.size(); ++i) {
+    if ((other.links.data()[i] == 0) == (links_.data()[i] == 0)) continue;
+    depth_.data()[i] = static_cast<float>(other.depth.data()[i]);
+    links_.data()[i] = other.links.data()[i];
+  }
+  const Agreement agreement = judge();
+  EXPECT_GT(agreement.silhouette_pixels, 10U);
+  EXPECT_EQ(agreement.worst_shift, 0.2);
+  EXPECT_EQ(agreement.errors, 0U);
+  EXPECT_GT(agreement.differing_share(), differing_limit);
+}
+
+TEST_F(AgreementTest, InnerEdgesMayMoveByOneHundredthOfAPixelOnly) {
+  for (const auto& [shift, moves] : {std::pair{0.009, false}, {0.3, true}}) {
+    const Intrinsics moved(160, 120, 150.0, 155.0, 81.3 + shift, 57.9);
+    const OracleImage other = cast_image(oracle(), moved);
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+      if (other.links.data()[i] == 0 || image_.links.data()[i] == 0) continue;
+      const bool edge = other.links.data()[i] != image_.links.data()[i];
+      depth_.data()[i] = static_cast<float>(edge ? other.depth.data()[i] : image_.depth.data()[i]);
+      links_.data()[i] = other.links.data()[i];
+    }
+    EXPECT_EQ(judge().errors > 0, moves);
+  }
+}
+
+#ifdef PENUMBRA_HAS_EMBREE
+TEST_F(AgreementTest, EmbreeAgreesWithBruteForce) {
+  std::mt19937_64 random = seeded_random(95);
+  Agreement total;
+  for (int round = 0; round < 10; ++round) {
+    Scene scene;
+    scene.add(triangle_soup(random, 20, 1.5F), at(0, 0, 0.8));
+    scene.add(box({0.1F, 0.1F, 0.4F}), random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}));
+    const BruteForceOracle brute(scene.bodies(), scene.poses);
+    const OracleImage traced = cast_image(EmbreeOracle(scene.bodies(), scene.poses), camera);
+    Image<float> depth(camera.width(), camera.height());
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      depth.data()[i] = static_cast<float>(traced.depth.data()[i]);
+    }
+    total += compare({depth.view(), traced.links.view(), nullptr}, brute, cast_image(brute, camera),
+                     camera);
+  }
+  EXPECT_EQ(total.errors, 0U) << total;
+  EXPECT_LE(total.worst_shift, edge_shift) << total;
+  EXPECT_LE(total.differing_share(), differing_limit) << total;
+}
+
+TEST_F(AgreementTest, EmbreeTellsWhetherTheCameraIsInside) {
+  EXPECT_FALSE(EmbreeOracle(scene_.bodies(), scene_.poses).camera_is_inside());
+  scene_.poses[0] = at(0.1, 0.1, 0.1);
+  EXPECT_TRUE(EmbreeOracle(scene_.bodies(), scene_.poses).camera_is_inside());
+  scene_.poses[0] = at(0.2, 0.2, 0.2);
+  EXPECT_FALSE(EmbreeOracle(scene_.bodies(), scene_.poses).camera_is_inside());
+}
+#endif
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bodies and meshes are drawn, and that frames do not depend on each other.
+#include "random.hpp"
+#include "render_test.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3f;
+
+class Bodies : public RenderTest {};
+PENUMBRA_FOR_EACH_BACKEND(Bodies, 2);
+
+const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
+
+TEST_P(Bodies, OpenMeshIsSeenFromItsBackToo) {
+  Scene front;
+  front.add(image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, 1.0));
+  Scene back;
+  back.add(image_rectangle(camera, 90.5, 20.5, 20.5, 90.5, 1.0));
+  const Frame seen_from_front = render(camera, front);
+  EXPECT_EQ(seen_from_front.covered(), 4900U);
+  EXPECT_EQ(render(camera, back).covered(), 4900U);
+}
+
+TEST_P(Bodies, MirroredMeshShowsItsNearSide) {
+  Scene scene;
+  scene.add(mirrored(sphere(0.4F, 12)), at(0.1, 0.0, 1.5));
+  const Agreement agreement =
+      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  EXPECT_GT(agreement.robot_pixels, 3000U);
+}
+
+TEST_P(Bodies, OneBodyOfOpenClosedAndMirroredMeshes) {
+  Scene scene;
+  scene.add(
+      {sphere(0.2F, 8), mirrored(box({0.1F, 0.3F, 0.1F})),
+       quad({-0.3F, -0.3F, 0.1F}, {0.3F, -0.3F, 0.1F}, {0.3F, 0.3F, 0.1F}, {-0.3F, 0.3F, 0.F})},
+      at(0.0, 0.0, 1.0) * Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()));
+  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+}
+
+TEST_P(Bodies, InwardWoundMeshOfTwoPieces) {
+  // One piece wound outwards and one inwards, in one mesh: neither side may be culled as a whole.
+  TriangleMesh pieces = box({0.1F, 0.1F, 0.1F});
+  const auto first = static_cast<std::uint32_t>(pieces.vertices.size());
+  const TriangleMesh other = mirrored(box({0.1F, 0.1F, 0.1F}));
+  for (const Vector3f& vertex : other.vertices) {
+    pieces.vertices.emplace_back(vertex + Vector3f(0.3F, 0, 0));
+  }
+  for (const auto& [a, b, c] : other.triangles) {
+    pieces.triangles.push_back({a + first, b + first, c + first});
+  }
+  Scene scene;
+  scene.add(pieces, at(-0.15, 0.0, 0.8) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()));
+  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+}
+
+TEST_P(Bodies, DegenerateTrianglesDrawNothing) {
+  TriangleMesh mesh = image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, 1.0);
+  mesh.vertices.emplace_back(0.0F, 0.0F, 0.5F);
+  mesh.vertices.emplace_back(0.1F, 0.1F, 0.5F);
+  mesh.vertices.emplace_back(0.2F, 0.2F, 0.5F);
+  mesh.triangles.push_back({4, 4, 4});
+  mesh.triangles.push_back({4, 5, 5});
+  mesh.triangles.push_back({4, 5, 6});
+  mesh.triangles.push_back({4, 6, 4});
+  Scene scene;
+  scene.add(mesh);
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), 4900U);
+  EXPECT_NEAR(frame.depth(81, 58), 1.0, interior_tolerance);
+}
+
+TEST_P(Bodies, SliversAndEdgeOnFaces) {
+  std::mt19937_64 random = seeded_random(61);
+  std::uniform_real_distribution<float> coordinate(-0.4F, 0.4F);
+  TriangleMesh slivers;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const float x = coordinate(random);
+    const float y = coordinate(random);
+    const Vector3f a(x, y, coordinate(random));
+    const float w = 1e-3F * coordinate(random);
+    slivers.vertices.push_back(a);
+    slivers.vertices.emplace_back(-a + Vector3f(w, -w, w));
+    slivers.vertices.emplace_back(-a + Vector3f(-w, w, 0.0F));
+    slivers.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  Scene scene;
+  scene.add(slivers, at(0, 0, 1));
+  // A thin plate whose broad faces pass close to the camera's centre.
+  scene.add(box({0.3F, 0.0005F, 0.3F}), at(0, 0.0007, 1.4));
+  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+}
+
+TEST_P(Bodies, TwoHundredBodies) {
+  Scene scene;
+  for (int i = 0; i < 200; ++i) {
+    const double u = 4.5 + 7.5 * (i % 20);
+    const double v = 5.0 + 11.0 * static_cast<double>(i / 20);
+    scene.add(box({0.02F, 0.01F, 0.015F}),
+              Eigen::Translation3d(camera.ray(u, v)) *
+                  Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d(1, 2, 3).normalized()));
+  }
+  const Agreement agreement =
+      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  EXPECT_GT(agreement.robot_pixels, 1000U);
+}
+
+TEST_P(Bodies, MostBodiesThatThereMayBe) {
+  Scene scene;
+  for (std::size_t i = 0; i < DepthRenderer::max_bodies; ++i) {
+    const double u = static_cast<double>(i % 40) * 4.0;
+    const double v = static_cast<double>(i / 40) * 4.0;
+    scene.add(image_rectangle(camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
+  }
+  const Frame frame = render(camera, scene);
+  for (std::size_t i = 0; i < DepthRenderer::max_bodies; ++i) {
+    EXPECT_EQ(frame.links(4 * static_cast<int>(i % 40), 4 * static_cast<int>(i / 40)), i + 1);
+  }
+  scene.add(box({0.1F, 0.1F, 0.1F}));
+  EXPECT_THROW(static_cast<void>(make(GetParam(), camera, scene.bodies())), InputError);
+}
+
+TEST_P(Bodies, NoBodyAndBodiesOfNothing) {
+  Scene scene;
+  EXPECT_EQ(render(camera, scene).covered(), 0U);
+  scene.add(std::vector<TriangleMesh>{});
+  scene.add(TriangleMesh{});
+  EXPECT_EQ(render(camera, scene).covered(), 0U);
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  const Frame frame = render(camera, scene);
+  EXPECT_GT(frame.covered(), 0U);
+  EXPECT_EQ(frame.links(81, 58), 3);
+}
+
+TEST_P(Bodies, CoincidingBodiesNameOneOfThem) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+}
+
+TEST_P(Bodies, NothingOfThePreviousFrameSurvives) {
+  std::mt19937_64 random = seeded_random(62);
+  Scene scene;
+  scene.add(box({0.2F, 0.1F, 0.3F}));
+  scene.add(sphere(0.15F, 12));
+  scene.add(triangle_soup(random, 6, 0.4F));
+  const auto reused = make(GetParam(), camera, scene.bodies());
+  for (int round = 0; round < 12; ++round) {
+    for (auto& pose : scene.poses) {
+      pose = round % 4 == 3 ? at(0, 0, -3)  // an empty frame
+                            : random_pose(random, {-0.7, -0.5, 0.6}, {0.7, 0.5, 2.0});
+    }
+    const VirtualDepthView again = reused->render(scene.poses);
+    expect_consistent(again, camera, scene.poses.size());
+    expect_same_bits(again, render(camera, scene).view());
+  }
+}
+
+TEST_P(Bodies, TriangleAndBodyCountsAreTold) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}));
+  scene.add({box({0.1F, 0.1F, 0.1F}), sphere(0.1F, 4)});
+  const auto renderer = make(GetParam(), camera, scene.bodies());
+  EXPECT_EQ(renderer->body_count(), 2U);
+  EXPECT_EQ(renderer->triangle_count(), 12U + 12U + 48U);
+  EXPECT_EQ(renderer->intrinsics(), camera);
+  EXPECT_EQ(renderer->info().backend, GetParam().backend);
+  if (GetParam().backend == Backend::cpu) {
+    EXPECT_EQ(renderer->info().isa, GetParam().isa);
+    EXPECT_EQ(renderer->info().threads, GetParam().threads);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

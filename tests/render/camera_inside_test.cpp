@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "random.hpp"
+#include "scene.hpp"
+#include "shapes.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(CameraInside, TellsTheFirstBodyThatHoldsTheCamera) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  scene.add(sphere(0.3F, 10), at(0, 0, 0.2));
+  scene.add(box({1.0F, 1.0F, 1.0F}));
+  CameraInsideCheck check(scene.bodies());
+  EXPECT_EQ(check.find(scene.poses), 1U);
+  scene.poses[1] = at(0, 0, 0.5);
+  EXPECT_EQ(check.find(scene.poses), 2U);
+  scene.poses[2] = at(3, 0, 0);
+  EXPECT_EQ(check.find(scene.poses), std::nullopt);
+  scene.poses[1] = at(0, 0, 0.2);
+  EXPECT_EQ(check.find(scene.poses), 1U);
+}
+
+TEST(CameraInside, OpenAndEmptyBodiesHoldNothing) {
+  Scene scene;
+  TriangleMesh open = box({0.2F, 0.2F, 0.2F});
+  open.triangles.pop_back();
+  scene.add(open);
+  scene.add(TriangleMesh{});
+  scene.add(std::vector<TriangleMesh>{});
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+}
+
+TEST(CameraInside, MirroredBodiesAreSolidToo) {
+  Scene scene;
+  scene.add(mirrored(box({0.2F, 0.2F, 0.2F})));
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+}
+
+TEST(CameraInside, AgreesWithTheFormulaOfABox) {
+  std::mt19937_64 random = seeded_random(91);
+  Scene scene;
+  const Vector3d half(0.3, 0.2, 0.1);
+  scene.add(box(half.cast<float>()));
+  CameraInsideCheck check(scene.bodies());
+  int inside_count = 0;
+  for (int round = 0; round < 400; ++round) {
+    scene.poses[0] = random_pose(random, {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
+    const Vector3d camera = scene.poses[0].inverse() * Vector3d::Zero();
+    const bool inside = (camera.cwiseAbs() - half).maxCoeff() < 0.0;
+    inside_count += inside ? 1 : 0;
+    EXPECT_EQ(check.find(scene.poses).has_value(), inside) << round;
+  }
+  EXPECT_GT(inside_count, 20);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes whose images have a formula.
+#include "render_test.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+class ClosedForm : public RenderTest {};
+PENUMBRA_FOR_EACH_BACKEND(ClosedForm, 2);
+
+const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
+
+/// Expects every pixel's depth to be expected(ray), which is 0 where nothing is.
+template <typename Depth>
+void expect_depth(const Frame& frame, const Intrinsics& intrinsics, Depth&& expected) {
+  double worst = 0.0;
+  for (int v = 0; v < intrinsics.height(); ++v) {
+    for (int u = 0; u < intrinsics.width(); ++u) {
+      const double z = expected(intrinsics.ray(u, v));
+      const double error = std::abs(frame.depth(u, v) - z);
+      worst = std::max(worst, z > 0.0 ? error / z : error);
+    }
+  }
+  EXPECT_LE(worst, interior_tolerance);
+}
+
+TEST_P(ClosedForm, FacingPlaneFillsTheImage) {
+  Scene scene;
+  scene.add(image_rectangle(camera, -50, -50, 250, 250, 1.5));
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), frame.depth.size());
+  expect_depth(frame, camera, [](const Vector3d&) { return 1.5; });
+}
+
+TEST_P(ClosedForm, TriangleCoversWhatItsEdgesEnclose) {
+  Scene scene;
+  const auto corner = [](double u, double v, double z) -> Vector3f {
+    return (camera.ray(u, v) * z).cast<float>();
+  };
+  scene.add(triangle(corner(20.3, 10.1, 1.0), corner(140.2, 33.3, 2.0), corner(61.7, 110.9, 1.4)));
+  const Agreement agreement =
+      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  // Half of the cross product of two edges in the image.
+  const double area = 0.5 * (119.9 * 100.8 - 41.4 * 23.2);
+  EXPECT_NEAR(static_cast<double>(agreement.robot_pixels), area, 0.01 * area);
+}
+
+TEST_P(ClosedForm, TiltedPlanes) {
+  for (const double degrees : {-80.0, -45.0, -5.0, 20.0, 60.0, 75.0}) {
+    for (const Vector3d& axis : {Vector3d::UnitX().eval(), Vector3d::UnitY().eval()}) {
+      const Eigen::AngleAxisd tilt(degrees * M_PI / 180.0, axis);
+      Scene scene;
+      scene.add(quad({-40, -40, 0}, {-40, 40, 0}, {40, 40, 0}, {40, -40, 0}),
+                Eigen::Translation3d(0, 0, 2) * tilt);
+      const Vector3d normal = tilt * Vector3d::UnitZ();
+      const Frame frame = render(camera, scene);
+      expect_depth(frame, camera, [&](const Vector3d& ray) {
+        const double z = normal.z() * 2.0 / normal.dot(ray);
+        const Vector3d on_plane = tilt.inverse() * (ray * z - Vector3d(0, 0, 2));
+        return z > 0 && on_plane.cwiseAbs().maxCoeff() <= 40 ? z : 0.0;
+      });
+    }
+  }
+}
+
+TEST_P(ClosedForm, SphereFollowsItsFormula) {
+  constexpr double radius = 0.5;
+  constexpr int rings = 100;
+  // How far the triangles, with corners on the sphere, lie inside of it: half a facet's diagonal
+  // spans an angle of pi / (rings sqrt 2).
+  const double sagitta = radius * (1.0 - std::cos(M_PI / (rings * std::sqrt(2.0))));
+  const Vector3d centre(0.1, -0.07, 2.0);
+  Scene scene;
+  scene.add(sphere(radius, rings),
+            Eigen::Translation3d(centre) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  const Frame frame = render(camera, scene);
+  for (int v = 0; v < camera.height(); ++v) {
+    for (int u = 0; u < camera.width(); ++u) {
+      const Vector3d ray = camera.ray(u, v);
+      const double a = ray.squaredNorm();
+      const double b = ray.dot(centre);
+      const double root = b * b - a * (centre.squaredNorm() - radius * radius);
+      if (root < -0.01) {
+        EXPECT_EQ(frame.depth(u, v), 0.0F) << u << ' ' << v;
+      }
+      if (root < 0.05) continue;  // too close to the silhouette for the formula
+      const double z = (b - std::sqrt(root)) / a;
+      const double steepness = (centre - ray * z).dot(ray) / radius;
+      EXPECT_GE(frame.depth(u, v), z * (1 - interior_tolerance)) << u << ' ' << v;
+      EXPECT_LE(frame.depth(u, v), (z + sagitta / steepness) * (1 + interior_tolerance))
+          << u << ' ' << v;
+    }
+  }
+}
+
+TEST_P(ClosedForm, BoxShowsItsFrontFace) {
+  Scene scene;
+  scene.add(box({0.2F, 0.1F, 0.3F}), at(0.0, 0.0, 1.3));
+  const Frame frame = render(camera, scene);
+  // The camera sees the front face at 1.0 m only: its image encloses those of the others.
+  expect_depth(frame, camera, [](const Vector3d& ray) {
+    return std::abs(ray.x()) <= 0.2 && std::abs(ray.y()) <= 0.1 ? 1.0 : 0.0;
+  });
+}
+
+TEST_P(ClosedForm, PrincipalPointMayLieAnywhere) {
+  for (const auto& [cx, cy] :
+       {std::pair{0.0, 0.0}, {-300.0, 40.0}, {1000.5, -700.25}, {80.0, 5000.0}}) {
+    const Intrinsics shifted(160, 120, 150.0, 155.0, cx, cy);
+    const Vector3d middle = shifted.ray(80, 60) * 1.2;
+    Scene scene;
+    scene.add(
+        box({0.15F, 0.2F, 0.1F}),
+        Eigen::Translation3d(middle) * Eigen::AngleAxisd(0.5, Vector3d(0.3, 1, 0.2).normalized()));
+    const Agreement agreement =
+        expect_agrees_with_brute_force(render(shifted, scene).view(), scene, shifted);
+    EXPECT_GT(agreement.robot_pixels, 1000U);
+  }
+}
+
+TEST_P(ClosedForm, NearestSurfaceWinsInAnyOrder) {
+  for (const bool near_first : {true, false}) {
+    Scene scene;
+    const double first = near_first ? 1.0 : 2.0;
+    scene.add(image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, first));
+    scene.add(image_rectangle(camera, 60.5, 60.5, 140.5, 110.5, 3.0 - first));
+    const Frame frame = render(camera, scene);
+    EXPECT_NEAR(frame.depth(70, 70), 1.0, interior_tolerance);
+    EXPECT_EQ(frame.links(70, 70), near_first ? 1 : 2);
+    EXPECT_EQ(frame.links(30, 30), 1);
+    EXPECT_EQ(frame.links(130, 100), 2);
+    EXPECT_EQ(frame.links(10, 10), 0);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

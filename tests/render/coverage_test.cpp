@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pixels are covered: the pixel-centre convention, shared edges, image sizes.
+#include "random.hpp"
+#include "render_test.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+
+class Coverage : public RenderTest {};
+PENUMBRA_FOR_EACH_BACKEND(Coverage, 2);
+
+/// Powers of two, and depth 1: image points on a grid of 1/256 pixel have exact coordinates.
+const Intrinsics exact_camera(128, 96, 512.0, 512.0, 64.0, 48.0);
+
+std::size_t covered_inside(const Frame& frame, int u0, int v0, int u1, int v1) {
+  std::size_t count = 0;
+  for (int v = v0; v <= v1; ++v) {
+    for (int u = u0; u <= u1; ++u) count += frame.depth(u, v) > 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST_P(Coverage, PixelCentresAreAtIntegers) {
+  // Edges half-way between centres, and moved by just less than half a pixel: the same pixels.
+  for (const double shift : {0.0, 0.49, -0.49}) {
+    Scene scene;
+    scene.add(
+        image_rectangle(exact_camera, 9.5 + shift, 4.5 + shift, 19.5 + shift, 14.5 + shift, 1.0));
+    const Frame frame = render(exact_camera, scene);
+    EXPECT_EQ(frame.covered(), 100U) << shift;
+    EXPECT_EQ(covered_inside(frame, 10, 5, 19, 14), 100U) << shift;
+  }
+  Scene scene;
+  scene.add(image_rectangle(exact_camera, 10.01, 5.01, 20.01, 15.01, 1.0));
+  const Frame frame = render(exact_camera, scene);
+  EXPECT_EQ(covered_inside(frame, 11, 6, 20, 15), 100U);
+  EXPECT_EQ(frame.covered(), 100U);
+}
+
+TEST_P(Coverage, SmallestFeaturesAreSeenAtTheirCentreOnly) {
+  Scene scene;
+  scene.add(image_rectangle(exact_camera, 29.98, 39.98, 30.02, 40.02, 1.0));
+  scene.add(image_rectangle(exact_camera, 50.1, 40.1, 50.9, 40.9, 1.0));
+  const Frame frame = render(exact_camera, scene);
+  EXPECT_EQ(frame.covered(), 1U);
+  EXPECT_EQ(frame.links(30, 40), 1);
+}
+
+/// A grid over a rectangle in the image whose inner corners are moved about: onto pixel centres, by
+/// steps of the sub-pixel grid, or anyhow.
+TriangleMesh jittered_grid(std::mt19937_64& random, const Vector2d& low, const Vector2d& high,
+                           int cells, double depth_wave) {
+  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
+  const Vector2d step = (high - low) / cells;
+  TriangleMesh mesh;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) {
+      Vector2d p = low + step.cwiseProduct(Vector2d(i, j));
+      if (i > 0 && i < cells) p.x() += jitter(random) * step.x();
+      if (j > 0 && j < cells) p.y() += jitter(random) * step.y();
+      const auto kind = random() % 4;
+      if (kind < 2 && step.minCoeff() > 3) {
+        const Vector2d snapped(std::round(p.x()), kind == 0 ? std::round(p.y()) : p.y());
+        if (i > 0 && i < cells) p.x() = snapped.x();
+        if (j > 0 && j < cells) p.y() = snapped.y();
+      }
+      const double z = 1.0 + depth_wave * std::sin(0.1 * p.x() + 0.07 * p.y());
+      mesh.vertices.emplace_back((exact_camera.ray(p.x(), p.y()) * z).cast<float>());
+    }
+  }
+  const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(j * (cells + 1) + i); };
+  for (int j = 0; j < cells; ++j) {
+    for (int i = 0; i < cells; ++i) {
+      // Either diagonal, either winding.
+      const bool flip = random() % 2 == 0;
+      const std::uint32_t a = index(i + (flip ? 1 : 0), j);
+      const std::uint32_t b = index(i + (flip ? 1 : 0), j + 1);
+      const std::uint32_t c = index(i + (flip ? 0 : 1), j + 1);
+      const std::uint32_t d = index(i + (flip ? 0 : 1), j);
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back(random() % 2 == 0 ? std::array{b, c, d} : std::array{b, d, c});
+      if (flip) std::swap(mesh.triangles.back(), mesh.triangles[mesh.triangles.size() - 2]);
+    }
+  }
+  return mesh;
+}
+
+TEST_P(Coverage, GridsHaveNoCracks) {
+  std::mt19937_64 random = seeded_random(41);
+  for (const double depth_wave : {0.0, 0.05}) {
+    for (const int cells : {1, 2, 3, 7, 16, 40, 150}) {
+      Scene scene;
+      scene.add(jittered_grid(random, {9.5, 4.5}, {109.5, 84.5}, cells, depth_wave));
+      const Frame frame = render(exact_camera, scene);
+      EXPECT_EQ(covered_inside(frame, 10, 5, 109, 84), 8000U) << cells << " cells";
+      if (depth_wave == 0.0) {
+        EXPECT_EQ(frame.covered(), 8000U) << cells << " cells";
+      }
+    }
+  }
+}
+
+TEST_P(Coverage, TriangulatedFansHaveNoCracks) {
+  std::mt19937_64 random = seeded_random(42);
+  for (int round = 0; round < 20; ++round) {
+    // The hub lies on a pixel's centre, and every spoke runs through further centres.
+    const int hub_u = 40 + static_cast<int>(random() % 40);
+    const int hub_v = 30 + static_cast<int>(random() % 30);
+    std::vector<Vector2d> rim;
+    const int stride = 1 + static_cast<int>(random() % 10);
+    for (int u = 10; u < 110; u += stride) rim.emplace_back(u, 5);
+    for (int v = 5; v < 85; v += stride) rim.emplace_back(110, v);
+    for (int u = 110; u > 10; u -= stride) rim.emplace_back(u, 85);
+    for (int v = 85; v > 5; v -= stride) rim.emplace_back(10, v);
+    TriangleMesh fan;
+    fan.vertices.emplace_back(exact_camera.ray(hub_u, hub_v).cast<float>());
+    for (const Vector2d& p : rim) {
+      fan.vertices.emplace_back(exact_camera.ray(p.x(), p.y()).cast<float>());
+    }
+    const auto count = static_cast<std::uint32_t>(rim.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
+    }
+    Scene scene;
+    scene.add(fan);
+    const Frame frame = render(exact_camera, scene);
+    EXPECT_EQ(covered_inside(frame, 11, 6, 109, 84), 99U * 79U) << "round " << round;
+  }
+}
+
+TEST_P(Coverage, FineClosedSpheresHaveNoCracks) {
+  std::mt19937_64 random = seeded_random(43);
+  for (const int rings : {12, 60, 250}) {
+    Scene scene;
+    scene.add(sphere(0.1F, rings), random_pose(random, {-0.01, -0.01, 1.0}, {0.01, 0.01, 1.4}));
+    const Frame frame = render(exact_camera, scene);
+    const Eigen::Vector3d centre = scene.poses[0].translation();
+    // A hole would show as 0, or as a depth of the far side.
+    const double inner = 0.1 * std::cos(M_PI / rings) * 0.99;
+    for (int v = 0; v < exact_camera.height(); ++v) {
+      for (int u = 0; u < exact_camera.width(); ++u) {
+        const Eigen::Vector3d ray = exact_camera.ray(u, v);
+        const double miss = (centre - ray * (ray.dot(centre) / ray.squaredNorm())).norm();
+        if (miss > inner) continue;
+        EXPECT_GT(frame.depth(u, v), 0.0F) << rings << " rings, " << u << ' ' << v;
+        EXPECT_LT(frame.depth(u, v), centre.z()) << rings << " rings, " << u << ' ' << v;
+      }
+    }
+  }
+}
+
+TEST_P(Coverage, EveryImageSize) {
+  std::mt19937_64 random = seeded_random(44);
+  for (const auto& [width, height] : {std::pair{1, 1},
+                                      {1, 50},
+                                      {2, 3},
+                                      {3, 2},
+                                      {5, 7},
+                                      {15, 16},
+                                      {17, 15},
+                                      {33, 17},
+                                      {63, 9},
+                                      {65, 8},
+                                      {4095, 3}}) {
+    const Intrinsics camera(width, height, 0.8 * width, 0.9 * width, 0.4 * width, 0.6 * height);
+    for (int round = 0; round < 3; ++round) {
+      Scene scene;
+      scene.add(box({0.2F, 0.3F, 0.15F}), random_pose(random, {-0.4, -0.4, 0.8}, {0.4, 0.4, 1.5}));
+      scene.add(triangle_soup(random, 5, 2.0F), at(0, 0, 2.5));
+      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+    }
+  }
+}
+
+TEST_P(Coverage, LargestImageSize) {
+  const Intrinsics camera(Intrinsics::max_size, 2, 20000.0, 20000.0, 16000.0, 0.5);
+  Scene scene;
+  scene.add(image_rectangle(camera, -5.0, -5.0, 32766.5, 5.0, 1.25));
+  scene.add(image_rectangle(camera, 20000.5, -5.0, 20001.5, 5.0, 1.0));
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), frame.depth.size());
+  EXPECT_EQ(frame.links(20001, 1), 2);
+  EXPECT_EQ(frame.links(20000, 1), 1);
+  EXPECT_EQ(frame.links(20002, 0), 1);
+  EXPECT_NEAR(frame.depth(Intrinsics::max_size - 1, 1), 1.25, 1.25 * interior_tolerance);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// What passes through, behind and around the camera.
+#include "random.hpp"
+#include "render_test.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+class NearPlane : public RenderTest {};
+PENUMBRA_FOR_EACH_BACKEND(NearPlane, 2);
+
+const Intrinsics camera(96, 72, 80.0, 82.0, 47.0, 36.25);
+
+TEST_P(NearPlane, FloorThatPassesUnderTheCamera) {
+  Scene scene;
+  scene.add(quad({-200, 1, -100}, {-200, 1, 100}, {200, 1, 100}, {200, 1, -100}));
+  const Frame frame = render(camera, scene);
+  for (int v = 0; v < camera.height(); ++v) {
+    const double z = camera.fy() / (v - camera.cy());
+    for (int u = 0; u < camera.width(); ++u) {
+      if (z > 0 && z < 99.0) {
+        EXPECT_NEAR(frame.depth(u, v), z, interior_tolerance * z) << u << ' ' << v;
+      } else if (z < 0 || z > 101.0) {
+        EXPECT_EQ(frame.depth(u, v), 0.0F) << u << ' ' << v;
+      }
+    }
+  }
+}
+
+TEST_P(NearPlane, NothingNearerThanTheNearPlane) {
+  for (const double z : {-1.0, 0.0, 0.005, 0.00999}) {
+    Scene scene;
+    scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, z));
+    EXPECT_EQ(render(camera, scene).covered(), 0U) << z;
+  }
+  Scene scene;
+  scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, 0.0101));
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), frame.depth.size());
+}
+
+TEST_P(NearPlane, TriangleThroughTheCameraPlane) {
+  std::mt19937_64 random = seeded_random(51);
+  for (int round = 0; round < 40; ++round) {
+    Scene scene;
+    scene.add(triangle_soup(random, 1, 1.0F), at(0, 0, 0.2));
+    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  }
+}
+
+TEST_P(NearPlane, MeshCutOpenShowsItsInside) {
+  // The front face is 5 mm before the camera: nearer than the near plane. Its back is 0.4 m off.
+  Scene scene;
+  scene.add(box({0.5F, 0.5F, 0.2F}), at(0, 0, 0.205));
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), frame.depth.size());
+  EXPECT_NEAR(frame.depth(47, 36), 0.405, 0.405 * interior_tolerance);
+  expect_agrees_with_brute_force(frame.view(), scene, camera);
+}
+
+TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
+  std::mt19937_64 random = seeded_random(52);
+  std::uniform_real_distribution<double> gap(0.0005, 0.02);
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 30; ++round) {
+    Scene scene;
+    const double radius = 0.15;
+    const double x = normal(random);
+    const double y = normal(random);
+    const Vector3d side = Vector3d(x, y, std::abs(normal(random)) + 0.3).normalized();
+    const Vector3d centre = side * (radius + gap(random));
+    scene.add(sphere(static_cast<float>(radius), 10), random_pose(random, centre, centre));
+    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  }
+}
+
+TEST_P(NearPlane, OpenTubeAroundTheCamera) {
+  // A room without a front and a back wall.
+  Scene scene;
+  TriangleMesh tube = box({0.6F, 0.4F, 3.0F});
+  tube.triangles.erase(tube.triangles.begin(), tube.triangles.begin() + 4);
+  scene.add(tube, Eigen::Isometry3d(Eigen::AngleAxisd(0.2, Vector3d(1, 1, 0).normalized())));
+  const Agreement agreement =
+      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  EXPECT_GT(agreement.robot_pixels, 3000U);
+}
+
+TEST_P(NearPlane, BodyWhollyBehindIsNotDrawn) {
+  Scene scene;
+  scene.add(box({0.5F, 0.5F, 0.2F}), at(0, 0, -0.3));
+  scene.add(sphere(1.0F, 20), at(0.3, 0.2, -1.1));
+  EXPECT_EQ(render(camera, scene).covered(), 0U);
+}
+
+TEST_P(NearPlane, HugeTriangles) {
+  std::mt19937_64 random = seeded_random(53);
+  std::uniform_real_distribution<float> far(-1e4F, 1e4F);
+  for (int round = 0; round < 30; ++round) {
+    Scene scene;
+    const auto corner = [&] {
+      const float x = far(random);
+      const float y = far(random);
+      return Vector3f(x, y, far(random));
+    };
+    const Vector3f a = corner();
+    const Vector3f b = corner();
+    scene.add(triangle(a, b, corner()));
+    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  }
+  Scene scene;
+  scene.add(triangle({-1e4F, -1e4F, 1}, {1e4F, -1e4F, 1}, {0, 1e4F, 1}));
+  const Frame frame = render(camera, scene);
+  EXPECT_EQ(frame.covered(), frame.depth.size());
+  EXPECT_NEAR(frame.depth(50, 30), 1.0, interior_tolerance);
+}
+
+TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
+  std::mt19937_64 random = seeded_random(54);
+  Agreement total;
+  for (int round = 0; round < 25; ++round) {
+    Scene scene;
+    scene.add(triangle_soup(random, 12, 1.5F), at(0, 0, 0.8));
+    scene.add(triangle_soup(random, 4, 10.0F));
+    scene.add(sphere(0.2F, 9), random_pose(random, {0.3, -0.4, -0.3}, {0.6, 0.4, 1.5}));
+    scene.add(mirrored(sphere(0.15F, 9)), random_pose(random, {-0.6, -0.4, 0}, {-0.2, 0.4, 1.5}));
+    scene.add(box({0.1F, 0.1F, 0.4F}), random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}));
+    total +=
+        expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera, cut_edge_shift);
+  }
+  std::cout << total << '\n';
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agreement.hpp"
+#include "scene.hpp"
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+
+namespace penumbra::test {
+
+struct BackendChoice {
+  Backend backend = Backend::reference;
+  std::string isa;
+  int threads = 1;
+};
+
+std::ostream& operator<<(std::ostream& out, const BackendChoice& choice);
+
+/// The reference, the cpu renderer with every SIMD target that this machine has, and the best of
+/// them with 2 to max_threads threads.
+[[nodiscard]] std::vector<BackendChoice> backend_choices(int max_threads);
+
+[[nodiscard]] std::unique_ptr<DepthRenderer> make(const BackendChoice& choice,
+                                                  const Intrinsics& intrinsics,
+                                                  const std::vector<Body>& bodies);
+
+/// A copy of a rendered frame that outlives the renderer's next call.
+struct Frame {
+  Image<float> depth;
+  Image<std::uint16_t> links;
+
+  explicit Frame(const VirtualDepthView& view);
+  [[nodiscard]] VirtualDepthView view() const { return {depth.view(), links.view(), nullptr}; }
+  [[nodiscard]] std::size_t covered() const;
+};
+
+/// Expects what holds of every frame: images of the camera's size, depths and links that are 0
+/// together, nothing before the near plane, and nothing outside of the touched tiles.
+void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsics,
+                       std::size_t bodies);
+
+/// Expects every pixel to agree with a brute-force ray caster. Returns the counts.
+Agreement expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
+                                         const Intrinsics& intrinsics,
+                                         double inner_edge_shift = edge_shift);
+
+/// Pixels by which an edge may be off that was cut where it leaves the guard band. The cpu renderer
+/// widens triangles by 2^-20 of their image's width and height, so that rounding makes no cracks; a
+/// triangle cut by the near plane may span the guard band of about 2 x 8192 pixels.
+inline constexpr double cut_edge_shift = 0.05;
+
+/// Expects two frames to have the same bits.
+void expect_same_bits(const VirtualDepthView& a, const VirtualDepthView& b);
+
+/// A test for each backend.
+class RenderTest : public ::testing::TestWithParam<BackendChoice> {
+ protected:
+  /// Renders once and expects a consistent frame.
+  [[nodiscard]] static Frame render(const Intrinsics& intrinsics, const Scene& scene);
+};
+
+[[nodiscard]] std::string backend_name(const ::testing::TestParamInfo<BackendChoice>& info);
+
+}  // namespace penumbra::test
+
+/// Instantiates a RenderTest for all backends.
+#define PENUMBRA_FOR_EACH_BACKEND(suite, max_threads)                                         \
+  INSTANTIATE_TEST_SUITE_P(Backends, suite,                                                   \
+                           ::testing::ValuesIn(penumbra::test::backend_choices(max_threads)), \
+                           penumbra::test::backend_name)

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real robots against Embree: DESIGN.md section 5, accuracy.
+#include "data.hpp"
+#include "embree_oracle.hpp"
+#include "random.hpp"
+#include "render_test.hpp"
+#include "robot_views.hpp"
+
+#include <cstdlib>
+#include <iostream>
+
+namespace penumbra::test {
+namespace {
+
+constexpr int views_per_camera = 5;
+
+struct RobotCase {
+  std::string name;
+  Geometry geometry;
+};
+
+std::ostream& operator<<(std::ostream& out, const RobotCase& robot) {
+  return out << robot.name << (robot.geometry == Geometry::visual ? "_visual" : "_collision");
+}
+
+class RobotAgainstEmbree : public ::testing::TestWithParam<RobotCase> {};
+
+/// Two cameras outside for each eye-in-hand and each one at the skin.
+ViewKind kind_of(int view) {
+  switch (view % views_per_camera) {
+    case 3:
+      return ViewKind::eye_in_hand;
+    case 4:
+      return ViewKind::at_the_skin;
+    default:
+      return ViewKind::outside;
+  }
+}
+
+/// Which edges were cut, and so may be off by more, depends on the view's kind.
+double edge_shift_of(ViewKind kind) {
+  return kind == ViewKind::outside ? edge_shift : cut_edge_shift;
+}
+
+/// Compares every backend's images of one random camera.
+void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agreement>& totals) {
+  const std::vector<BackendChoice> choices = backend_choices(1);
+  const std::vector<Body> bodies = bodies_of(robot);
+  const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
+  std::vector<std::unique_ptr<DepthRenderer>> renderers;
+  for (const BackendChoice& choice : choices) {
+    renderers.push_back(make(choice, intrinsics, bodies));
+  }
+  for (int view = 0; view < views_per_camera; ++view) {
+    const ViewKind kind = kind_of(view);
+    const auto poses = random_view(random, robot, bodies, intrinsics, kind);
+    const EmbreeOracle oracle(bodies, poses);
+    const OracleImage expected = cast_image(oracle, intrinsics);
+    for (std::size_t i = 0; i < renderers.size(); ++i) {
+      const VirtualDepthView rendered = renderers[i]->render(poses);
+      expect_consistent(rendered, intrinsics, bodies.size());
+      totals[i] += compare(rendered, oracle, expected, intrinsics, edge_shift_of(kind));
+    }
+  }
+}
+
+TEST_P(RobotAgainstEmbree, RandomPosesAndCameras) {
+  PENUMBRA_REQUIRE_DATA();
+  const Robot robot = load_robot(GetParam().name, GetParam().geometry);
+  std::mt19937_64 random = seeded_random(101);
+  const int cameras = std::getenv("PENUMBRA_FULL") != nullptr ? 20 : 2;
+  const std::vector<BackendChoice> choices = backend_choices(1);
+  std::vector<Agreement> totals(choices.size());
+  for (int camera = 0; camera < cameras; ++camera) compare_views(random, robot, totals);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    std::cout << choices[i] << ": " << totals[i] << '\n';
+    EXPECT_EQ(totals[i].errors, 0U) << choices[i];
+    EXPECT_LT(totals[i].differing_share(), differing_limit) << choices[i];
+    EXPECT_GT(totals[i].robot_pixels, 10000U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, RobotAgainstEmbree,
+                         ::testing::Values(RobotCase{"ur5e", Geometry::collision},
+                                           RobotCase{"ur5e", Geometry::visual},
+                                           RobotCase{"xarm7", Geometry::collision},
+                                           RobotCase{"xarm7", Geometry::visual}),
+                         ::testing::PrintToStringParamName());
+
+TEST(RobotThreads, AnyNumberGivesTheSameBits) {
+  PENUMBRA_REQUIRE_DATA();
+  const Robot robot = load_robot("xarm7", Geometry::collision);
+  const std::vector<Body> bodies = bodies_of(robot);
+  std::mt19937_64 random = seeded_random(102);
+  const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
+  for (const BackendChoice& choice : backend_choices(1)) {
+    std::vector<std::unique_ptr<DepthRenderer>> renderers;
+    for (int threads = 1; threads <= 4; ++threads) {
+      renderers.push_back(make({choice.backend, choice.isa, threads}, intrinsics, bodies));
+    }
+    for (int view = 0; view < views_per_camera; ++view) {
+      const auto poses = random_view(random, robot, bodies, intrinsics, kind_of(view));
+      const VirtualDepthView expected = renderers[0]->render(poses);
+      for (const auto& renderer : renderers) expect_same_bits(renderer->render(poses), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

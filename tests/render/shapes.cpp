@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shapes.hpp"
+
+#include <cmath>
+
+namespace penumbra::test {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+TriangleMesh triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+  return {{a, b, c}, {{0, 1, 2}}};
+}
+
+TriangleMesh quad(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+  return {{a, b, c, d}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+TriangleMesh image_rectangle(const Intrinsics& intrinsics, double u0, double v0, double u1,
+                             double v1, double z) {
+  const auto corner = [&](double u, double v) -> Vector3f {
+    return (intrinsics.ray(u, v) * z).cast<float>();
+  };
+  return quad(corner(u0, v0), corner(u0, v1), corner(u1, v1), corner(u1, v0));
+}
+
+TriangleMesh box(const Vector3f& half_size) {
+  TriangleMesh mesh;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vector3f signs((i & 1U) != 0 ? 1.0F : -1.0F, (i & 2U) != 0 ? 1.0F : -1.0F,
+                         (i & 4U) != 0 ? 1.0F : -1.0F);
+    mesh.vertices.emplace_back(signs.cwiseProduct(half_size));
+  }
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+TriangleMesh sphere(float radius, int rings) {
+  TriangleMesh mesh;
+  const int around = 2 * rings;
+  for (int i = 1; i < rings; ++i) {
+    for (int j = 0; j < around; ++j) {
+      const double polar = M_PI * i / rings;
+      const double azimuth = M_PI * j / rings;
+      const Vector3d unit(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                          std::cos(polar));
+      mesh.vertices.emplace_back(unit.cast<float>() * radius);
+    }
+  }
+  const auto at_ring = [&](int i, int j) {
+    return static_cast<std::uint32_t>((i - 1) * around + j % around);
+  };
+  const auto north = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto south = north + 1;
+  mesh.vertices.emplace_back(0.0F, 0.0F, radius);
+  mesh.vertices.emplace_back(0.0F, 0.0F, -radius);
+  for (int j = 0; j < around; ++j) {
+    mesh.triangles.push_back({north, at_ring(1, j), at_ring(1, j + 1)});
+    mesh.triangles.push_back({south, at_ring(rings - 1, j + 1), at_ring(rings - 1, j)});
+    for (int i = 1; i + 1 < rings; ++i) {
+      mesh.triangles.push_back({at_ring(i, j), at_ring(i + 1, j), at_ring(i + 1, j + 1)});
+      mesh.triangles.push_back({at_ring(i, j), at_ring(i + 1, j + 1), at_ring(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh mirrored(TriangleMesh mesh) {
+  for (Vector3f& vertex : mesh.vertices) vertex.x() = -vertex.x();
+  return mesh;
+}
+
+TriangleMesh triangle_soup(std::mt19937_64& random, int count, float extent) {
+  std::uniform_real_distribution<float> coordinate(-extent, extent);
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int j = 0; j < 3; ++j) {
+      const float x = coordinate(random);
+      const float y = coordinate(random);
+      mesh.vertices.emplace_back(x, y, coordinate(random));
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+Eigen::Isometry3d random_pose(std::mt19937_64& random, const Vector3d& low_corner,
+                              const Vector3d& high_corner) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double w = normal(random);
+  const double x = normal(random);
+  const double y = normal(random);
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(w, x, y, normal(random)).normalized();
+  Vector3d position;
+  for (int i = 0; i < 3; ++i) {
+    position[i] = low_corner[i] + unit(random) * (high_corner[i] - low_corner[i]);
+  }
+  return Eigen::Translation3d(position) * rotation;
+}
+
+}  // namespace penumbra::test

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+
+namespace penumbra::test {
+
+/// Meshes for tests. Closed ones are wound outwards.
+
+[[nodiscard]] TriangleMesh triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                    const Eigen::Vector3f& c);
+
+/// Two triangles over four corners in order.
+[[nodiscard]] TriangleMesh quad(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                                const Eigen::Vector3f& c, const Eigen::Vector3f& d);
+
+/// A rectangle that faces the camera at depth z and whose image is [u0, u1] x [v0, v1].
+[[nodiscard]] TriangleMesh image_rectangle(const Intrinsics& intrinsics, double u0, double v0,
+                                           double u1, double v1, double z);
+
+/// A box about the origin.
+[[nodiscard]] TriangleMesh box(const Eigen::Vector3f& half_size);
+
+/// A sphere about the origin, its corners on the surface: `rings` from pole to pole, twice as many
+/// around.
+[[nodiscard]] TriangleMesh sphere(float radius, int rings);
+
+/// The mesh as a mirror shows it: x negated, corners in the order they had, so wound inwards.
+[[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
+
+/// Triangles with no order at all, corners within `extent` of the origin.
+[[nodiscard]] TriangleMesh triangle_soup(std::mt19937_64& random, int count, float extent);
+
+[[nodiscard]] Eigen::Isometry3d random_pose(std::mt19937_64& random,
+                                            const Eigen::Vector3d& low_corner,
+                                            const Eigen::Vector3d& high_corner);
+
+[[nodiscard]] inline Eigen::Isometry3d at(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+}  // namespace penumbra::test
