@@ -14,6 +14,6 @@ step(${CMAKE_COMMAND} -S ${source} -B ${work}/build -G Ninja -D CMAKE_BUILD_TYPE
      -D CMAKE_PREFIX_PATH=${work}/prefix)
 step(${CMAKE_COMMAND} --build ${work}/build)
 step(${work}/build/consumer)
-if(NOT output MATCHES "penumbra ${version}: 0 pieces")
+if(NOT output MATCHES "penumbra ${version}: depth 1.4, occluded 81")
   message(FATAL_ERROR "the consumer said: ${output}")
 endif()
