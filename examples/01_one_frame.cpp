@@ -3,10 +3,11 @@
 #include <cstdlib>
 #include <iostream>
 
-#include <io/frame_reader.hpp>
-#include <io/recording.hpp>
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/frame_reader.hpp>
+#include <io/recording.hpp>
 
 using namespace penumbra;
 

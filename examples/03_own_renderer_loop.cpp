@@ -84,7 +84,7 @@ void run(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  run(argc > 1 ? argv[1] : "examples/arm_over_table/robot");
+  run(argc > 1 ? argv[1] : "examples/arm_over_table/arm_description");
 } catch (const InputError& error) {
   std::cerr << error.what() << '\n';
   return 2;

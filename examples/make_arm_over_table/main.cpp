@@ -54,9 +54,9 @@ constexpr const char* recording = R"(# SPDX-License-Identifier: Apache-2.0
 # A six-axis arm over a table, drawn and measured by examples/make_arm_over_table. Paths are
 # relative to this file.
 robot:
-  urdf: robot/arm.urdf
+  urdf: arm_description/arm.urdf
   packages:                      # package://NAME/... resolves to these folders
-    arm_description: robot
+    arm_description: arm_description
 camera:
   info: camera_info.yaml         # ROS camera_info YAML
   parent: base_link              # robot link that the pose is given in
@@ -82,7 +82,7 @@ void make(const std::filesystem::path& folder, int first, int last) {
     std::filesystem::create_directories(folder / part);
   const Arm arm;
   const View view;
-  arm.write(folder / "robot");
+  arm.write(folder / "arm_description");
   write_file(folder / "camera_info.yaml", camera_info());
   write_file(folder / "camera_pose.csv", camera_pose(view));
   write_file(folder / "joint_states.csv", joint_states());

@@ -82,6 +82,7 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"embree", "libembree-dev"},
                                                   {"OpenCV", "libopencv-calib3d-dev"},
                                                   {"Threads", "g++"},
+                                                  {"ZLIB", "zlib1g-dev"},
                                                   {"PkgConfig", "pkgconf"},
                                                   {"meshoptimizer", "libmeshoptimizer-dev"},
                                                   {"OpenGL", "libegl-dev"}};
