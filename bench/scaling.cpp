@@ -54,7 +54,7 @@ class Table {
 
   template <typename Measure>
   void row(const std::string& value, Measure&& measure) {
-    json row{{axis_, value}};
+    json row{{"value", value}};
     for (const std::string& isa : isas()) {
       const Measurement m = measure(isa);
       if (!row.contains("triangles")) {

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Rewrites the tables of a performance page, and draws its plot, from the benchmarks' JSON files.
+
+performance_page.py RESULTS PAGE: reads RESULTS/renderers.json and RESULTS/scaling.json; replaces
+what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md; writes
+PAGE/performance.svg.
+"""
+import json
+import math
+import pathlib
+import re
+import sys
+
+WIDTH, HEIGHT, MARGIN = 460, 300, 56
+COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows])
+
+
+def renderers_table(report):
+    rows = []
+    for scene in report["scenes"]:
+        for c in scene["contenders"]:
+            rows.append((scene["scene"], c["name"], f'{c["typical_ms"]:.3f}', f'{c["median_ms"]:.3f}',
+                         f'{c["min_ms"]:.3f}', f'{c["cold_ms"]:.3f}',
+                         f'{c["coverage_differs"]} / {c["depth_differs"]} of {c["robot_pixels"]}'))
+    return table(("frame", "renderer", "typical ms", "median", "min", "cold",
+                  "pixels wrong: coverage / depth"), rows)
+
+
+def ratios_table(report):
+    rows = [(scene["scene"], r["isa"], f'{r["against_llvmpipe"]:.1f}', f'{r["against_embree"]:.1f}')
+            for scene in report["scenes"] for r in scene["ratios"]]
+    return table(("frame", "SIMD target", "times llvmpipe's speed", "times Embree's speed"), rows)
+
+
+def settings(renderers, scaling):
+    widths = ", ".join(f"{bits} bits {ms:.2f} ms" for bits, ms in
+                       renderers["llvmpipe_vector_width_trials_ms"].items())
+    return (f'{renderers["cpu"]}; one thread; {renderers["rounds"]} rounds of '
+            f'{renderers["frames"]} frames, seed {renderers["seed"]}. OpenGL: '
+            f'{renderers["scenes"][0]["opengl"]}; its vector widths tried (geometric mean of the '
+            f'scenes): {widths}; used: {renderers["llvmpipe_vector_width"]} bits. Scaling: '
+            f'{scaling["rounds"]} rounds of {scaling["frames"]} frames.')
+
+
+def axis_table(axis, rows):
+    isas = list(rows[0]["ms"])
+    return table((axis, "triangles", "robot pixels", *(f"{isa}, ms" for isa in isas)),
+                 [(r["value"], r["triangles"], r["robot_pixels"],
+                   *(f'{r["ms"][isa]:.4f}' for isa in isas)) for r in rows])
+
+
+def abscissa(axis, row):
+    if axis == "image":
+        width, height = row["value"].split("x")
+        return int(width) * int(height)
+    return row["triangles"] if axis == "triangles" else int(row["value"])
+
+
+def panel(axis, rows, left, top):
+    """One plot with both axes logarithmic."""
+    points = {isa: [(math.log10(abscissa(axis, r)), math.log10(r["ms"][isa])) for r in rows]
+              for isa in rows[0]["ms"]}
+    xs = [x for line in points.values() for x, _ in line]
+    ys = [y for line in points.values() for _, y in line]
+    x0, x1, y0, y1 = min(xs), max(xs), math.floor(min(ys)), math.ceil(max(ys))
+
+    def place(x, y):
+        return (left + MARGIN + (x - x0) / (x1 - x0) * (WIDTH - 2 * MARGIN),
+                top + HEIGHT - MARGIN - (y - y0) / (y1 - y0) * (HEIGHT - 2 * MARGIN))
+
+    out = []
+    for decade in range(y0, y1 + 1):
+        a, b = place(x0, decade), place(x1, decade)
+        out.append(f'<path class="grid" d="M{a[0]:.1f},{a[1]:.1f} L{b[0]:.1f},{b[1]:.1f}"/>')
+        out.append(f'<text x="{a[0] - 6:.1f}" y="{a[1] + 4:.1f}" text-anchor="end">'
+                   f'{10.0 ** decade:g} ms</text>')
+    for row in rows:
+        x, y = place(math.log10(abscissa(axis, row)), y0)
+        out.append(f'<text transform="translate({x:.1f},{y + 12:.1f}) rotate(30)">'
+                   f'{row["value"]}</text>')
+    for i, (colour, (isa, line)) in enumerate(zip(COLOURS, points.items())):
+        path = " L".join("{:.1f},{:.1f}".format(*place(*p)) for p in line)
+        out.append(f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
+        out.append(f'<text x="{left + MARGIN + 8 + 50 * i}" y="{top + MARGIN + 14}" '
+                   f'fill="{colour}">{isa}</text>')
+    out.append(f'<text x="{left + WIDTH / 2}" y="{top + 28}" text-anchor="middle" '
+               f'font-weight="bold">ms per frame by {axis}</text>')
+    return out
+
+
+def plot(scaling):
+    body = []
+    for i, (axis, rows) in enumerate(scaling["axes"].items()):
+        body += panel(axis, rows, (i % 2) * WIDTH, (i // 2) * HEIGHT)
+    return "\n".join([
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {2 * WIDTH} {2 * HEIGHT}" '
+        'font-family="sans-serif" font-size="11">',
+        "<style>.grid{stroke:#ccc;stroke-width:1}</style>",
+        f'<rect width="{2 * WIDTH}" height="{2 * HEIGHT}" fill="white"/>', *body, "</svg>", ""])
+
+
+def main():
+    results, page = (pathlib.Path(argument) for argument in sys.argv[1:3])
+    renderers = json.loads((results / "renderers.json").read_text())
+    scaling = json.loads((results / "scaling.json").read_text())
+    parts = {"settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
+             "ratios": ratios_table(renderers)}
+    parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
+    document = page / "performance.md"
+    text = document.read_text()
+    for name, content in parts.items():
+        pattern = re.compile(rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
+        text, count = pattern.subn(lambda m, c=content: m[1] + c + "\n" + m[2], text)
+        if count != 1:
+            sys.exit(f"performance_page.py: {document} has no place for '{name}'")
+    document.write_text(text)
+    (page / "performance.svg").write_text(plot(scaling))
+
+
+if __name__ == "__main__":
+    main()
