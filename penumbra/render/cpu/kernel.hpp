@@ -38,8 +38,9 @@ struct Kernel {
   void (*draw)(const FrameContext& frame, std::span<const DrawItem> items, Scratch& scratch,
                Canvas& canvas);
 
-  /// Writes tile row `row` of the output from the nearest of all canvases, clears what they and
-  /// the previous frame left there, and returns the union of their touched tiles in the row.
+  /// Writes tile row `row` of the output from the nearest of all canvases, and clears what they and
+  /// the previous frame (whose tiles are `previous`) left there. Returns the tiles that hold
+  /// pixels.
   std::uint64_t (*resolve)(std::span<Canvas> canvases, const Packing& packing,
                            std::uint64_t previous, std::size_t row, const Output& output);
 };

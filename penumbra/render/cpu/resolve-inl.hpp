@@ -44,10 +44,29 @@ HWY_INLINE void StoreRows(VF left, VF right, T* image, std::size_t stride, Store
   }
 }
 
-struct TileSpan {
-  std::size_t u, v;    // first pixel
-  std::size_t blocks;  // in a row; even
+/// A tile of the image: its first pixel, and blocks in its rows (an even number).
+struct Tile {
+  std::size_t u, v, blocks;
+
+  [[nodiscard]] std::size_t offset(const Canvas& canvas, std::size_t block_row) const {
+    return (v / kBlockHeight + block_row) * canvas.lanes_per_row + u / block_width * kStep;
+  }
 };
+constexpr std::size_t kTileBlockRows = TileMask::tile_height / kBlockHeight;
+
+/// Whether nothing was drawn in the tile.
+HWY_INLINE bool IsEmpty(std::span<const Canvas> canvases, const Tile& tile) {
+  auto any = hn::Zero(di);
+  for (const Canvas& canvas : canvases) {
+    for (std::size_t row = 0; row < kTileBlockRows; ++row) {
+      const std::int32_t* block = canvas.packed.data() + tile.offset(canvas, row);
+      for (std::size_t i = 0; i < tile.blocks; ++i) {
+        any = hn::Or(any, hn::Load(di, block + i * kStep));
+      }
+    }
+  }
+  return hn::AllTrue(di, hn::Eq(any, hn::Zero(di)));
+}
 
 /// Takes the nearest of all canvases and empties them.
 HWY_INLINE VI TakeBlock(std::int32_t* first, std::span<Canvas> others, std::size_t offset) {
@@ -61,7 +80,7 @@ HWY_INLINE VI TakeBlock(std::int32_t* first, std::span<Canvas> others, std::size
   return word;
 }
 
-void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileSpan& span,
+void ResolveTile(std::span<Canvas> canvases, const Packing& packing, const Tile& tile,
                  const Output& output) {
   const auto id_mask = hn::Set(di, packing.id_mask);
   const auto half_step = hn::Set(di, packing.half_step);
@@ -83,12 +102,12 @@ void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileS
     const hn::RebindToSigned<decltype(d)> wide;
     hn::StoreU(hn::DemoteTo(narrow, hn::BitCast(wide, values)), narrow, to);
   };
-  for (std::size_t v = span.v; v < span.v + TileMask::tile_height; v += kBlockHeight) {
-    const std::size_t offset =
-        v / kBlockHeight * canvases[0].lanes_per_row + span.u / block_width * kStep;
-    float* depth = output.depth + v * stride + span.u;
-    std::uint16_t* links = output.links + v * stride + span.u;
-    for (std::size_t i = 0; i < span.blocks; i += 2) {
+  for (std::size_t row = 0; row < kTileBlockRows; ++row) {
+    const std::size_t offset = tile.offset(canvases[0], row);
+    const std::size_t first = (tile.v + row * kBlockHeight) * stride + tile.u;
+    float* depth = output.depth + first;
+    std::uint16_t* links = output.links + first;
+    for (std::size_t i = 0; i < tile.blocks; i += 2) {
       const auto left = TakeBlock(packed, others, offset + i * kStep);
       const auto right = TakeBlock(packed, others, offset + (i + 1) * kStep);
       StoreRows(depth_of(left), depth_of(right), depth + i * block_width, stride, store_depth);
@@ -99,17 +118,18 @@ void ResolveSpan(std::span<Canvas> canvases, const Packing& packing, const TileS
 
 std::uint64_t Resolve(std::span<Canvas> canvases, const Packing& packing, std::uint64_t previous,
                       std::size_t row, const Output& output) {
+  std::uint64_t marked = 0;
+  for (Canvas& canvas : canvases) marked |= std::exchange(canvas.touched.rows[row], 0);
+  const auto width = static_cast<std::size_t>(canvases[0].touched.tile_width);
   std::uint64_t touched = 0;
-  for (Canvas& canvas : canvases) touched |= std::exchange(canvas.touched.rows[row], 0);
-  const auto tile_width = static_cast<std::size_t>(canvases[0].touched.tile_width);
-  for (std::uint64_t bits = touched | previous; bits != 0;) {
-    const int first = std::countr_zero(bits);
-    const int count = std::countr_one(bits >> first);
-    ResolveSpan(canvases, packing,
-                {static_cast<std::size_t>(first) * tile_width, row * TileMask::tile_height,
-                 static_cast<std::size_t>(count) * tile_width / block_width},
-                output);
-    bits = first + count >= 64 ? 0 : bits & (~std::uint64_t{0} << (first + count));
+  for (std::uint64_t bits = marked | previous; bits != 0; bits &= bits - 1) {
+    const std::uint64_t bit = bits & (~bits + 1);
+    const auto column = static_cast<std::size_t>(std::countr_zero(bits));
+    const Tile tile{column * width, row * TileMask::tile_height, width / block_width};
+    // Clusters are marked by bounding boxes: many marked tiles stay empty.
+    const bool empty = (marked & bit) == 0 || IsEmpty(canvases, tile);
+    if (!empty) touched |= bit;
+    if (!empty || (previous & bit) != 0) ResolveTile(canvases, packing, tile, output);
   }
   return touched;
 }
