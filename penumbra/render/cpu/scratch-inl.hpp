@@ -54,7 +54,7 @@ struct PieceBin {
 /// by one straight routine: the cost of loops with varying counts is mispredicted branches.
 struct Scratch {
   static constexpr int small_width = 4;   // blocks
-  static constexpr int small_height = 6;  // blocks
+  static constexpr int small_height = 8;  // blocks
   static constexpr std::size_t small_bins = small_width * small_height;
   static constexpr std::size_t large_bins = 4;  // by vectors of block rows: 1, 2, 3, any
   static constexpr std::size_t slack = 16;      // one vector
