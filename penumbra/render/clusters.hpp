@@ -35,7 +35,7 @@ struct Shell {
 /// `padding` lanes may be loaded from any cluster's start to its end.
 struct ClusteredScene {
   static constexpr std::uint32_t padding = 16;
-  static constexpr std::uint32_t max_vertices = 64;
+  static constexpr std::uint32_t max_vertices = 96;
   static constexpr std::uint32_t max_triangles = 128;
 
   explicit ClusteredScene(std::span<const Body> bodies);

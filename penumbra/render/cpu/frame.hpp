@@ -37,16 +37,29 @@ using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
 inline constexpr int block_width = 4;  // pixels; a block is one vector: 4 x (lanes / 4) pixels
 
+/// A side of the view as a plane through the camera's centre: inside, s across + t z >= 0.
+struct ViewSide {
+  float s, t;
+  ViewSide(double sign, double tangent)
+      : s(static_cast<float>(sign / std::hypot(1.0, tangent))),
+        t(static_cast<float>(tangent / std::hypot(1.0, tangent))) {}
+};
+
 /// The camera as the kernel needs it. Beyond the guard band around the principal point triangles
 /// are clipped, since pixel coordinates in float lose digits far away.
 struct View {
   explicit View(const Intrinsics& k)
       : intrinsics(k),
+        left(1.0, (k.cx() + 1.0) / k.fx()),
+        right(-1.0, (k.width() - k.cx()) / k.fx()),
+        top(1.0, (k.cy() + 1.0) / k.fy()),
+        bottom(-1.0, (k.height() - k.cy()) / k.fy()),
         guard_u(8192.0 + std::abs(k.cx()) + k.width()),
         guard_v(8192.0 + std::abs(k.cy()) + k.height()) {}
 
   Intrinsics intrinsics;
-  double guard_u, guard_v;  // pixels from the principal point
+  ViewSide left, right, top, bottom;  // one pixel outside of the image
+  double guard_u, guard_v;            // pixels from the principal point
 };
 
 /// A body's pose as the kernel needs it.

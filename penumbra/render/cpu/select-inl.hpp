@@ -22,26 +22,14 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-/// A side of the view as a plane through the camera's centre: inside, s x + t z >= 0.
-struct Side {
-  float s, t;
-  Side(double sign, double tangent)
-      : s(static_cast<float>(sign / std::hypot(1.0, tangent))),
-        t(static_cast<float>(tangent / std::hypot(1.0, tangent))) {}
-};
-
 std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides, DrawItem* items) {
   const ClusteredScene& scene = *frame.scene;
   const BodyFrame& body = frame.bodies[shell.body];
-  const Intrinsics& k = frame.view->intrinsics;
-  // One pixel of margin on each side.
-  const Side left(1.0, (k.cx() + 1.0) / k.fx());
-  const Side right(-1.0, (k.width() - k.cx()) / k.fx());
-  const Side top(1.0, (k.cy() + 1.0) / k.fy());
-  const Side bottom(-1.0, (k.height() - k.cy()) / k.fy());
+  const View& view = *frame.view;
+  const Intrinsics& k = view.intrinsics;
   const auto near = hn::Set(df, static_cast<float>(DepthRenderer::near_plane));
-  const auto tan_u = hn::Set(df, static_cast<float>(frame.view->guard_u / k.fx()));
-  const auto tan_v = hn::Set(df, static_cast<float>(frame.view->guard_v / k.fy()));
+  const auto tan_u = hn::Set(df, static_cast<float>(view.guard_u / k.fx()));
+  const auto tan_v = hn::Set(df, static_cast<float>(view.guard_v / k.fy()));
   std::size_t count = 0;
   const std::uint32_t end = shell.first_cluster + shell.cluster_count;
   for (std::uint32_t i = shell.first_cluster; i < end; i += kStep) {
@@ -52,11 +40,11 @@ std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides,
     const auto x = Affine(&body.to_camera[0], x0, y0, z0);
     const auto y = Affine(&body.to_camera[4], x0, y0, z0);
     const auto z = Affine(&body.to_camera[8], x0, y0, z0);
-    const auto inside = [&](const Side& side, VF across) HWY_ATTR {
+    const auto inside = [&](const ViewSide& side, VF across) HWY_ATTR {
       return hn::MulAdd(hn::Set(df, side.s), across, hn::MulAdd(hn::Set(df, side.t), z, r));
     };
-    const auto nearest = hn::Min(hn::Min(inside(left, x), inside(right, x)),
-                                 hn::Min(inside(top, y), inside(bottom, y)));
+    const auto nearest = hn::Min(hn::Min(inside(view.left, x), inside(view.right, x)),
+                                 hn::Min(inside(view.top, y), inside(view.bottom, y)));
     const auto visible = hn::And(hn::Ge(nearest, hn::Zero(df)), hn::Ge(hn::Add(z, r), near));
     const auto z_min = hn::Sub(z, r);
     const auto tame = hn::And(hn::Gt(z_min, near),
