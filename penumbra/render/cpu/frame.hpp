@@ -54,8 +54,8 @@ struct View {
         right(-1.0, (k.width() - k.cx()) / k.fx()),
         top(1.0, (k.cy() + 1.0) / k.fy()),
         bottom(-1.0, (k.height() - k.cy()) / k.fy()),
-        guard_u(8192.0 + std::abs(k.cx()) + k.width()),
-        guard_v(8192.0 + std::abs(k.cy()) + k.height()) {}
+        guard_u(2048.0 + std::abs(k.cx()) + k.width()),
+        guard_v(2048.0 + std::abs(k.cy()) + k.height()) {}
 
   Intrinsics intrinsics;
   ViewSide left, right, top, bottom;  // one pixel outside of the image

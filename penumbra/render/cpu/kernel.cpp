@@ -7,7 +7,7 @@
 // routine per size), resolve (packed 1/z to depth and link images).
 //
 // Edge functions are those of Pineda 1988, "A parallel algorithm for polygon rasterization". They
-// get a bias above their rounding error, some 1e-6 of the triangle's size, so that a pixel on a
+// get a bias above their rounding error, 5e-7 of the triangle's size, so that a pixel on a
 // shared edge belongs to one of its triangles at least. The depth buffer takes the maximum of 1/z:
 // covering a pixel twice is harmless.
 #include <penumbra/render/cpu/kernel.hpp>

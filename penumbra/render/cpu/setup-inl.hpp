@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 struct Boxes {
   VF first_u, first_v;  // the first block's first pixel
   VI offset, width, height, bin;
-  VF extent;  // pixels, unclipped
+  VF width_px, height_px;  // unclipped
 };
 
 HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
@@ -55,7 +55,8 @@ HWY_INLINE Boxes BoundBlocks(const std::array<VF, 6>& p, const Intrinsics& k,
   const auto large = hn::Min(batches, hn::Set(di, static_cast<int>(Scratch::large_bins) - 1));
   b.bin = hn::IfThenElse(small, hn::Add(row, hn::Sub(b.width, hn::Set(di, 1))),
                          hn::Add(large, hn::Set(di, static_cast<int>(Scratch::small_bins))));
-  b.extent = hn::Add(hn::Sub(u_max, u_min), hn::Sub(v_max, v_min));
+  b.width_px = hn::Sub(u_max, u_min);
+  b.height_px = hn::Sub(v_max, v_min);
   return b;
 }
 
@@ -63,13 +64,17 @@ struct EdgeFunction {
   VF base, du, dv;
 };
 
-/// The edge from p to q. Its bias exceeds the rounding of all later sums.
+/// The edge from p to q. Its bias exceeds the rounding of its value at any pixel: some six
+/// roundings (2^-24 each) of terms over the whole triangle, unclipped, and a dozen over the last 32
+/// pixels.
 HWY_INLINE EdgeFunction MakeEdge(VF pu, VF pv, VF qu, VF qv, const Boxes& b) {
   EdgeFunction e;
   e.du = hn::Sub(qv, pv);
   e.dv = hn::Sub(pu, qu);
-  const auto reach = hn::Mul(hn::Add(b.extent, hn::Set(df, 16.0F)), hn::Set(df, 0x1p-20F));
-  const auto bias = hn::Mul(hn::Add(hn::Abs(e.du), hn::Abs(e.dv)), reach);
+  const auto margin = hn::Set(df, 48.0F);
+  const auto terms = hn::MulAdd(hn::Abs(e.du), hn::Add(b.width_px, margin),
+                                hn::Mul(hn::Abs(e.dv), hn::Add(b.height_px, margin)));
+  const auto bias = hn::Mul(terms, hn::Set(df, 0x1p-21F));
   e.base = hn::MulAdd(e.du, hn::Sub(b.first_u, pu), hn::MulAdd(e.dv, hn::Sub(b.first_v, pv), bias));
   return e;
 }
