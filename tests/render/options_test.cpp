@@ -124,8 +124,7 @@ TEST(Isas, AgreeWithEachOtherAndTheReferenceAsWithAnOracle) {
     const OracleImage expected = cast_image(oracle, small);
     for (const BackendChoice& choice : choices) {
       const auto renderer = make(choice, small, scene.bodies());
-      const Agreement agreement =
-          compare(renderer->render(scene.poses), oracle, expected, small, cut_edge_shift);
+      const Agreement agreement = compare(renderer->render(scene.poses), oracle, expected, small);
       EXPECT_EQ(agreement.errors, 0U) << choice << ": " << agreement;
     }
   }

@@ -78,10 +78,9 @@ void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsic
 }
 
 Agreement expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
-                                         const Intrinsics& intrinsics, double inner_edge_shift) {
+                                         const Intrinsics& intrinsics) {
   const BruteForceOracle oracle(scene.bodies(), scene.poses);
-  const Agreement agreement =
-      compare(view, oracle, cast_image(oracle, intrinsics), intrinsics, inner_edge_shift);
+  const Agreement agreement = compare(view, oracle, cast_image(oracle, intrinsics), intrinsics);
   EXPECT_EQ(agreement.errors, 0U) << agreement;
   return agreement;
 }

@@ -49,13 +49,7 @@ void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsic
 
 /// Expects every pixel to agree with a brute-force ray caster. Returns the counts.
 Agreement expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
-                                         const Intrinsics& intrinsics,
-                                         double inner_edge_shift = edge_shift);
-
-/// Pixels by which an edge may be off that was cut where it leaves the guard band. The cpu renderer
-/// widens triangles by 2^-20 of their image's width and height, so that rounding makes no cracks; a
-/// triangle cut by the near plane may span the guard band of about 2 x 8192 pixels.
-inline constexpr double cut_edge_shift = 0.05;
+                                         const Intrinsics& intrinsics);
 
 /// Expects two frames to have the same bits.
 void expect_same_bits(const VirtualDepthView& a, const VirtualDepthView& b);

@@ -37,11 +37,6 @@ ViewKind kind_of(int view) {
   }
 }
 
-/// Which edges were cut, and so may be off by more, depends on the view's kind.
-double edge_shift_of(ViewKind kind) {
-  return kind == ViewKind::outside ? edge_shift : cut_edge_shift;
-}
-
 /// Compares every backend's images of one random camera.
 void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agreement>& totals) {
   const std::vector<BackendChoice> choices = backend_choices(1);
@@ -59,7 +54,7 @@ void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agre
     for (std::size_t i = 0; i < renderers.size(); ++i) {
       const VirtualDepthView rendered = renderers[i]->render(poses);
       expect_consistent(rendered, intrinsics, bodies.size());
-      totals[i] += compare(rendered, oracle, expected, intrinsics, edge_shift_of(kind));
+      totals[i] += compare(rendered, oracle, expected, intrinsics);
     }
   }
 }

@@ -108,10 +108,10 @@ double shift_that_explains(const Inquiry& inquiry, const Pixel& pixel) {
 }
 
 void judge(Agreement& agreement, const Inquiry& inquiry, const Pixel& pixel, double expected,
-           unsigned expected_link, double inner_edge_shift) {
+           unsigned expected_link) {
   const double shift = shift_that_explains(inquiry, pixel);
   const bool coverage_differs = pixel.link == 0 || expected_link == 0;
-  if (shift > (coverage_differs ? silhouette_shift : inner_edge_shift)) {
+  if (shift > (coverage_differs ? silhouette_shift : edge_shift)) {
     add_error(agreement, pixel, expected, expected_link, shift);
     return;
   }
@@ -157,8 +157,7 @@ std::ostream& operator<<(std::ostream& out, const Agreement& agreement) {
 }
 
 Agreement compare(const VirtualDepthView& rendered, const RayOracle& oracle,
-                  const OracleImage& expected, const Intrinsics& intrinsics,
-                  double inner_edge_shift) {
+                  const OracleImage& expected, const Intrinsics& intrinsics) {
   Agreement agreement;
   agreement.images = 1;
   for (int v = 0; v < intrinsics.height(); ++v) {
@@ -177,7 +176,7 @@ Agreement compare(const VirtualDepthView& rendered, const RayOracle& oracle,
       const bool close = link != 0 && pixel.link != 0 && error <= interior_tolerance * z;
       if (close) agreement.worst_interior = std::max(agreement.worst_interior, error / z);
       if (close && pixel.link == link) continue;
-      judge(agreement, Inquiry(oracle, intrinsics, pixel), pixel, z, link, inner_edge_shift);
+      judge(agreement, Inquiry(oracle, intrinsics, pixel), pixel, z, link);
     }
   }
   return agreement;

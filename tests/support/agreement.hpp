@@ -53,9 +53,8 @@ struct Agreement {
 std::ostream& operator<<(std::ostream& out, const Agreement& agreement);
 
 /// Compares every pixel of a rendered image with what the oracle sees. Pixels that differ are
-/// looked at again through rays near them; `inner_edge_shift` (pixels) may explain another surface.
+/// looked at again through rays near them.
 [[nodiscard]] Agreement compare(const VirtualDepthView& rendered, const RayOracle& oracle,
-                                const OracleImage& expected, const Intrinsics& intrinsics,
-                                double inner_edge_shift = edge_shift);
+                                const OracleImage& expected, const Intrinsics& intrinsics);
 
 }  // namespace penumbra::test
