@@ -19,35 +19,32 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-/// An edge function solved for u along block rows: columns u >= low(e) and u <= high(e) are inside,
-/// one of which does not bound.
+/// An edge function solved for u along pixel rows: inside are low(v) <= u <= high(v), one of which
+/// does not bound. Rounding stays below the edge function's bias; 0.01 pixel more only costs
+/// blocks.
 struct EdgeLine {
-  VF base, slope_v;
-  VF low_scale, low_offset, high_scale, high_offset;
+  VF low_base, low_slope, high_base, high_slope;
 
-  EdgeLine(float value, float slope_u, float slope_v_) {
-    // A block row is entered where any of its pixel rows is.
-    const float reach = std::max(slope_v_, 0.0F) * static_cast<float>(kBlockHeight - 1);
+  EdgeLine(float value, float slope_u, float slope_v) {
     constexpr float flat = 1e-30F;  // an edge along the row: all of it, or none
-    const float divisor = std::abs(slope_u) < flat ? flat : slope_u;
     constexpr float far = 1e9F;
-    const float scale = -1.0F / divisor;
-    base = hn::Set(df, value + reach);
-    slope_v = hn::Set(df, slope_v_);
-    low_scale = hn::Set(df, divisor > 0 ? scale : 0.0F);
-    low_offset = hn::Set(df, divisor > 0 ? 0.0F : -far);
-    high_scale = hn::Set(df, divisor > 0 ? 0.0F : scale);
-    high_offset = hn::Set(df, divisor > 0 ? far : 0.0F);
+    constexpr float margin = 0.01F;
+    const float divisor = std::abs(slope_u) < flat ? flat : slope_u;
+    const float base = -value / divisor;
+    const float slope = -slope_v / divisor;
+    low_base = hn::Set(df, divisor > 0 ? base - margin : -far);
+    low_slope = hn::Set(df, divisor > 0 ? slope : 0.0F);
+    high_base = hn::Set(df, divisor > 0 ? far : base + margin);
+    high_slope = hn::Set(df, divisor > 0 ? 0.0F : slope);
   }
-  [[nodiscard]] HWY_INLINE VF at(VF v) const { return hn::MulAdd(slope_v, v, base); }
-  [[nodiscard]] HWY_INLINE VF low(VF e) const { return hn::MulAdd(e, low_scale, low_offset); }
-  [[nodiscard]] HWY_INLINE VF high(VF e) const { return hn::MulAdd(e, high_scale, high_offset); }
+  [[nodiscard]] HWY_INLINE VF low(VF v) const { return hn::MulAdd(v, low_slope, low_base); }
+  [[nodiscard]] HWY_INLINE VF high(VF v) const { return hn::MulAdd(v, high_slope, high_base); }
 };
 
 /// What is constant while a large triangle is cut into runs.
 struct LargeTriangle {
   EdgeLine a, b, c;
-  VF end;  // pixels from its first
+  VF end;  // pixels from its first column
   VI offset, height;
 
   explicit LargeTriangle(const Record& r)
@@ -78,25 +75,31 @@ struct Runs {
 };
 
 HWY_INLINE Runs FindRuns(const LargeTriangle& t, int y, VI row_offsets) {
+  const auto one = hn::Set(df, 1.0F);
   const auto rows = hn::Add(hn::Iota(di, 0), hn::Set(di, y));
-  const auto v = hn::Mul(hn::ConvertTo(df, rows), hn::Set(df, static_cast<float>(kBlockHeight)));
-  const auto a = t.a.at(v);
-  const auto b = t.b.at(v);
-  const auto c = t.c.at(v);
-  const auto rounding = hn::Set(df, 0.01F);  // pixels; more only costs blocks
-  const auto low = hn::Sub(hn::Max(hn::Max(t.a.low(a), t.b.low(b)), t.c.low(c)), rounding);
-  const auto high = hn::Add(hn::Min(hn::Min(t.a.high(a), t.b.high(b)), t.c.high(c)), rounding);
-  const auto low_pixel = hn::Min(hn::Max(hn::Ceil(low), hn::Zero(df)), t.end);
-  const auto high_pixel =
-      hn::Min(hn::Max(hn::Floor(high), hn::Set(df, -1.0F)), hn::Sub(t.end, hn::Set(df, 1.0F)));
-  const auto first = hn::ShiftRight<2>(hn::ConvertTo(di, low_pixel));
-  const auto last = hn::ShiftRight<2>(hn::ConvertTo(di, high_pixel));
+  const auto v0 = hn::Mul(hn::ConvertTo(df, rows), hn::Set(df, static_cast<float>(kBlockHeight)));
+  auto first = t.end;
+  auto last = hn::Neg(one);
+  auto v = v0;
+  for (int i = 0; i < kBlockHeight; ++i) {
+    // Thin triangles pass between the pixel centres of many rows.
+    const auto low = hn::Max(hn::Max(t.a.low(v), t.b.low(v)), t.c.low(v));
+    const auto high = hn::Min(hn::Min(t.a.high(v), t.b.high(v)), t.c.high(v));
+    const auto from = hn::Max(hn::Ceil(low), hn::Zero(df));
+    const auto to = hn::Min(hn::Floor(high), hn::Sub(t.end, one));
+    const auto any = hn::Le(from, to);
+    first = hn::IfThenElse(any, hn::Min(first, from), first);
+    last = hn::IfThenElse(any, hn::Max(last, to), last);
+    v = hn::Add(v, one);
+  }
+  const auto first_block = hn::ShiftRight<2>(hn::ConvertTo(di, first));
+  const auto last_block = hn::ShiftRight<2>(hn::ConvertTo(di, last));
+  const auto blocks = hn::Sub(hn::Add(last_block, hn::Set(di, 1)), first_block);
   Runs runs;
-  runs.blocks =
-      hn::IfThenElseZero(hn::Gt(t.height, rows), hn::Sub(hn::Add(last, hn::Set(di, 1)), first));
-  runs.offset = hn::Add(hn::Add(row_offsets, hn::Mul(first, hn::Set(di, kLanes))), t.offset);
-  runs.du = hn::ConvertTo(df, hn::ShiftLeft<2>(first));
-  runs.dv = v;
+  runs.blocks = hn::IfThenElseZero(hn::Gt(t.height, rows), blocks);
+  runs.offset = hn::Add(hn::Add(row_offsets, hn::Mul(first_block, hn::Set(di, kLanes))), t.offset);
+  runs.du = hn::ConvertTo(df, hn::ShiftLeft<2>(first_block));
+  runs.dv = v0;
   return runs;
 }
 
