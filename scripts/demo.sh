@@ -9,5 +9,6 @@ scripts/packages.sh --install build
 cmake --preset release -DPENUMBRA_BUILD_TESTS=OFF -B build/demo >/dev/null
 cmake --build build/demo --target penumbra_app
 
-build/demo/apps/penumbra/penumbra run examples/arm_over_table -o "$out" --save overlay,labels,links,vdi
+build/demo/apps/penumbra/penumbra run examples/arm_over_table -o "$out" \
+  --save overlay,labels,links,vdi
 echo "pictures: $out/overlay/*.png   labels: $out/labels/*.png   report: $out/report.json"

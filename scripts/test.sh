@@ -84,18 +84,30 @@ groups=(build test lint)
 ! $full || groups+=(bench)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
-sanitizer_scope=(-DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
+# Every option is given, so that no earlier choice in a build tree leaves anything out.
+everything=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
+sanitizer_scope=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
+benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 tidy_scope='penumbra|io|apps'
 if $full; then
   export PENUMBRA_FULL=1
-  sanitizer_scope=(-DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
+  sanitizer_scope=("${everything[@]}")
+  benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=ON
   tidy_scope+='|tests|examples|bench'
 fi
 
 check format check_format
-if check "build (release)" build release all -DPENUMBRA_BUILD_BENCHMARKS="$($full && echo ON || echo OFF)"; then
+if check "build (release)" build release all "${everything[@]}" "$benchmarks"; then
   run_tests release
   check clang-tidy check_tidy "$tidy_scope"
+fi
+if $full; then
+  if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
+    check "benchmarks run" build/release/bench/render_benchmark --benchmark_min_time=0.01
+  else
+    skipped=$((skipped + 1))
+    echo "== benchmarks run: skipped: no data"
+  fi
 fi
 if check "build (asan)" build asan all "${sanitizer_scope[@]}"; then
   run_tests asan
