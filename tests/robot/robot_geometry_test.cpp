@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf_text.hpp"
 
-#include <penumbra/robot/surface_offset.hpp>
-
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include <penumbra/robot/surface_offset.hpp>
 
 namespace penumbra::test {
 namespace {
