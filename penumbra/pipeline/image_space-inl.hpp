@@ -73,12 +73,12 @@ class RectifiedDepth {
  public:
   explicit RectifiedDepth(const Rectification& rectification);
 
-  /// Depth at the pixels of the touched tiles; elsewhere anything. Valid until the next call.
-  DepthView rectify(const DepthView& raw, const TileMask& touched);
+  /// The whole image: the labels' clean-up looks past the robot's tiles. Valid until the next call.
+  DepthView rectify(const DepthView& raw);
 
  private:
   template <typename T>
-  DepthView rectify_into(Image<T>& image, ImageView<const T> raw, const TileMask& touched);
+  DepthView rectify_into(Image<T>& image, ImageView<const T> raw);
 
   PixelMap map_;
   Image<std::uint16_t> millimetres_;  // each is made when the first depth image of its kind comes

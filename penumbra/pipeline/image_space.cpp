@@ -80,18 +80,16 @@ LabelView RawImages::labels(const LabelView& labels) {
 RectifiedDepth::RectifiedDepth(const Rectification& rectification)
     : map_(rectification.pinhole_to_raw(), rectification.raw_to_pinhole().width) {}
 
-DepthView RectifiedDepth::rectify(const DepthView& raw, const TileMask& touched) {
+DepthView RectifiedDepth::rectify(const DepthView& raw) {
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&raw))
-    return rectify_into(millimetres_, *millimetres, touched);
-  return rectify_into(metres_, std::get<ImageView<const float>>(raw), touched);
+    return rectify_into(millimetres_, *millimetres);
+  return rectify_into(metres_, std::get<ImageView<const float>>(raw));
 }
 
 template <typename T>
-DepthView RectifiedDepth::rectify_into(Image<T>& image, ImageView<const T> raw,
-                                       const TileMask& touched) {
+DepthView RectifiedDepth::rectify_into(Image<T>& image, ImageView<const T> raw) {
   if (image.empty()) image = Image<T>(map_.width(), map_.height());
-  touched.for_each_span(
-      [&](int u0, int u1, int v0, int v1) { map_.gather(raw, u0, u1, v0, v1, image.view()); });
+  map_.gather(raw, 0, map_.width(), 0, map_.height(), image.view());
   return ImageView<const T>(image.view());
 }
 

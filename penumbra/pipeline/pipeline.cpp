@@ -43,6 +43,15 @@ std::vector<std::string> missing_links_of(const Robot& robot) {
   return links;
 }
 
+/// A robot of which nothing is drawn would make every pixel look clear.
+Robot drawn(Robot robot) {
+  for (const LinkReport& link : robot.report())
+    if (link.drawn || link.missing) return robot;
+  throw InputError("robot '" + robot.name() +
+                   "': no link is drawn; it needs geometry of the chosen kind that ignore_links "
+                   "and only_links leave");
+}
+
 Camera checked(const Camera& camera) {
   camera.check();
   return camera;
@@ -69,7 +78,7 @@ struct Pipeline::State {
   std::optional<std::span<const Eigen::Isometry3d>> pose_links(std::span<const double> positions);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
-  DepthView seen_depth(const VirtualDepthView& virtual_depth, const DepthView& measured);
+  DepthView seen_depth(const DepthView& measured);
   const FrameReport& without_pose(FrameStatus status);
   const FrameReport& finish(FrameStatus status, const VirtualDepthView& virtual_depth,
                             const LabelView& labels);
@@ -94,7 +103,7 @@ struct Pipeline::State {
 };
 
 Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig& config)
-    : robot(std::move(robot_)),
+    : robot(drawn(std::move(robot_))),
       camera(checked(camera_)),
       rectification(rectification_of(camera)),
       render_intrinsics(rectification ? rectification->pinhole() : camera.intrinsics),
@@ -180,16 +189,15 @@ VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_ca
 LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,
                                     const DepthView& measured) {
   const StageTimer timer(report.timing.classify);
-  const LabelView labels = classifier.classify(virtual_depth, seen_depth(virtual_depth, measured));
+  const LabelView labels = classifier.classify(virtual_depth, seen_depth(measured));
   return raw_images ? raw_images->labels(labels) : labels;
 }
 
-DepthView Pipeline::State::seen_depth(const VirtualDepthView& virtual_depth,
-                                      const DepthView& measured) {
+DepthView Pipeline::State::seen_depth(const DepthView& measured) {
   if (std::visit([](const auto& view) { return view.empty(); }, measured))
     return ImageView<const std::uint16_t>{no_depth_row.data(), output_intrinsics.width(),
                                           output_intrinsics.height(), 0};
-  if (rectified_depth) return rectified_depth->rectify(measured, *virtual_depth.touched);
+  if (rectified_depth) return rectified_depth->rectify(measured);
   return measured;
 }
 

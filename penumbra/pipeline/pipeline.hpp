@@ -36,8 +36,9 @@ struct PipelineConfig {
 /// after the first of its kind. One instance serves one thread at a time.
 class Pipeline {
  public:
-  /// Throws InputError for a camera parent that is no link, a camera pose that is no rigid
-  /// transform, and what Camera, LabelRule and make_depth_renderer refuse.
+  /// Throws InputError for a robot of which nothing is drawn, a camera parent that is no link, a
+  /// camera pose that is no rigid transform, and what Camera, LabelRule and make_depth_renderer
+  /// refuse.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;

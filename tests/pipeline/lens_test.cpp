@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/random.hpp"
 #include "slab_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tests/support/random.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -144,6 +148,47 @@ TEST(Lens, RectifiedImagesArePinholeImages) {
   }
   EXPECT_EQ(report.pixels.robot, robot);
   EXPECT_EQ(report.pixels.uncovered, 0U);
+}
+
+/// Blocks of an object, of the wall and of no measurement at random places.
+Image<float> random_depth(const Intrinsics& k, std::mt19937_64& random) {
+  Image<float> depth(k.width(), k.height(), static_cast<float>(wall_depth));
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int i = 0; i < 60; ++i) {
+    const int u0 = below(k.width()), v0 = below(k.height());
+    const float value = i % 4 == 0 ? 0.0F : i % 4 == 1 ? static_cast<float>(wall_depth) : 0.4F;
+    for (int v = v0; v < std::min(v0 + 4 + below(24), k.height()); ++v)
+      std::fill_n(depth.view().row(v) + u0, std::min(4 + below(8), k.width() - u0), value);
+  }
+  return depth;
+}
+
+TEST(Lens, RectifiedLabelsAreThoseOfTheWholeRectifiedDepthImage) {
+  std::mt19937_64 random = seeded_random(7);
+  const Camera camera = lens_camera();
+  PipelineConfig config;  // with the clean-up, which looks beside the robot
+  config.image = ImageSpace::rectified;
+  Pipeline pipeline(slab_robot(), camera, config);
+  const Intrinsics& k = pipeline.intrinsics();
+  Classifier classifier(k.width(), k.height(), config.rule, "scalar");
+  Image<float> rectified(k.width(), k.height());
+  std::size_t front = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    // A robot that fills the image behind an object that does too, then a smaller one: what the
+    // first left beside the second must not count.
+    const bool near = frame % 2 == 0;
+    const std::vector<double> positions = {near ? -0.85 : -0.3};
+    const Image<float> depth =
+        near ? Image<float>(camera.intrinsics.width(), camera.intrinsics.height(), 0.05F)
+             : random_depth(camera.intrinsics, random);
+    const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+    remap(pipeline.rectification()->pinhole_to_raw(), depth.view(), 0.0F, rectified.view());
+    const ImageView<const float> whole = std::as_const(rectified).view();
+    const LabelView expected = classifier.classify(report.virtual_depth, whole);
+    front += report.pixels.front;
+    ASSERT_EQ(pixels_of(report.labels), pixels_of(expected.labels)) << "frame " << frame;
+  }
+  EXPECT_GT(front, 1000U);
 }
 
 TEST(Lens, ALensWithoutDistortionChangesNothing) {
