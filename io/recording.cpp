@@ -10,8 +10,6 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::int64_t max_front_width = 1000;  // pixels
-
 // Runs `check`; what it throws is told as a fault of `node`.
 template <typename F>
 auto at_node(const YamlNode& node, const F& check) {
@@ -89,9 +87,9 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
   }
   if (const YamlNode* width = node.find("front_min_width")) {
     const std::int64_t pixels = width->integer();
-    if (pixels < 0 || pixels > max_front_width)
-      width->fail("is " + std::to_string(pixels) + "; 0 to " + std::to_string(max_front_width) +
-                  " pixels are possible");
+    if (pixels < 0 || pixels > LabelRule::max_width)
+      width->fail("is " + std::to_string(pixels) + "; 0 to " +
+                  std::to_string(LabelRule::max_width) + " pixels are possible");
     camera.front_min_width = static_cast<int>(pixels);
   }
   if (const YamlNode* range = node.find("range")) {

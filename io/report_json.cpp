@@ -70,7 +70,7 @@ Json faults_json(const Statistics& statistics) {
   return faults;
 }
 
-Json summary_json(const Statistics& statistics, const Json& missing_links) {
+Json summary_json(const Statistics& statistics, const Json& missing_links, const Json& notes) {
   Json timing;
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const auto q = statistics.timing(i);
@@ -79,9 +79,13 @@ Json summary_json(const Statistics& statistics, const Json& missing_links) {
   }
   Json pixels = pixels_json(statistics.pixels());
   pixels["uncovered"] = statistics.pixels().uncovered;
-  return {{"frames", statistics.frames()},     {"bad_frames", statistics.bad_frames()},
-          {"timing_ms", std::move(timing)},    {"pixels", std::move(pixels)},
-          {"faults", faults_json(statistics)}, {"missing_links", missing_links}};
+  return {{"frames", statistics.frames()},
+          {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},
+          {"pixels", std::move(pixels)},
+          {"faults", faults_json(statistics)},
+          {"missing_links", missing_links},
+          {"notes", notes}};
 }
 
 Json link_json(const LinkReport& link) {
@@ -139,6 +143,7 @@ struct ReportWriter::State {
   OutputFile output;
   std::string waiting;
   Json missing_links;
+  Json notes;
   bool first = true;
   bool finished = false;
 };
@@ -148,6 +153,7 @@ ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& 
   std::error_code gone;
   std::filesystem::remove(file, gone);
   state_->missing_links = list(head.missing_links);
+  state_->notes = list(head.notes);
   state_->write("{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
                 ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
                 ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [");
@@ -165,7 +171,8 @@ void ReportWriter::add(const FrameReport& report) {
 
 void ReportWriter::finish(const Statistics& statistics) {
   State& s = *state_;
-  s.write("\n],\n\"summary\": " + dump(summary_json(statistics, s.missing_links)) + "}\n", true);
+  s.write("\n],\n\"summary\": " + dump(summary_json(statistics, s.missing_links, s.notes)) + "}\n",
+          true);
   s.output.close();
   std::error_code error;
   std::filesystem::rename(s.part, s.file, error);

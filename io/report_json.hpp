@@ -21,6 +21,7 @@ struct ReportHead {
   RendererInfo renderer;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
+  std::span<const std::string> notes;          ///< Robot::notes()
 };
 
 /// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file

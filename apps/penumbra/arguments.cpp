@@ -96,11 +96,14 @@ Tolerance to_tolerance(const std::string& text) {
   return {*a, *b, *c};
 }
 
-int to_count(const std::string& option, const std::string& text, int least) {
-  constexpr std::int64_t most = 1'000'000;
+constexpr int most_threads = 512;  // beyond, starting them may fail
+constexpr int most_repeats = 1'000'000;
+
+int to_count(const std::string& option, const std::string& text, int least, int most) {
   const auto value = io::parse_number<std::int64_t>(text);
   if (!value || *value < least || *value > most)
-    refuse(option, text, "a whole number from " + std::to_string(least) + " to 1000000");
+    refuse(option, text,
+           "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(*value);
 }
 
@@ -177,8 +180,9 @@ void add_list(CLI::App& app, const std::string& names, const std::string& help,
 void add_renderer(CLI::App& app, Backend& backend, int& threads) {
   add_option(app, "--renderer", "cpu, reference or auto (= cpu); default auto", "NAME",
              [&](const std::string& text) { backend = to_backend(text); });
-  add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
-             [&](const std::string& text) { threads = to_count("--threads", text, 1); });
+  add_option(
+      app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
+      [&](const std::string& text) { threads = to_count("--threads", text, 1, most_threads); });
 }
 
 void add_robot(CLI::App& app, RobotOptions& options) {
@@ -204,7 +208,7 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.tolerance = to_tolerance(text); });
   add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",
              [&](const std::string& text) {
-               run.front_min_width = to_count("--front-min-width", text, 0);
+               run.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
              });
   add_option(app, "--labels", "full (default), or paper: constant 0.01 m, no clean-up, no beyond",
              "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
@@ -237,7 +241,9 @@ void add_render(CLI::App& app, RenderArguments& render) {
       ->type_name("PNG");
   add_renderer(app, render.backend, render.threads);
   add_option(app, "--repeat", "render N times and print the times", "N",
-             [&](const std::string& text) { render.repeat = to_count("--repeat", text, 1); });
+             [&](const std::string& text) {
+               render.repeat = to_count("--repeat", text, 1, most_repeats);
+             });
   app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
 }
 

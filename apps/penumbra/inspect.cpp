@@ -121,7 +121,8 @@ int execute(const InspectArguments& arguments) {
     print_robot(robot);
   }
   for (const LinkReport& link : robot.report())
-    if (link.missing) throw InputError("link '" + link.link + "': " + link.reason);
+    if (link.missing)
+      throw InputError(arguments.robot.string() + ": link '" + link.link + "': " + link.reason);
   return 0;
 }
 

@@ -56,7 +56,7 @@ Image<float> copy(ImageView<const float> from) {
 }
 
 void write_images(const RenderArguments& arguments, const FrameReport& report) {
-  if (!has_pose(report.status)) throw InputError("--joint: " + report.message);
+  if (!has_pose(report.status)) throw InputError("--joint or --pose: " + report.message);
   io::write_npy(arguments.output, report.virtual_depth.depth);
   if (arguments.links) io::write_png(*arguments.links, report.virtual_depth.links);
 }
@@ -73,12 +73,16 @@ void print_text(const RenderArguments& arguments, const io::RenderResult& result
 }  // namespace
 
 int execute(const RenderArguments& arguments) {
+  if (arguments.links == arguments.output)
+    throw InputError("--links: " + arguments.output.string() + " is the file of -o too");
   Robot robot = Robot::load(arguments.robot, arguments.options);
+  tell_notes(robot);
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, false);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
 
-  const FrameReport& first = pipeline.process({.joints = positions});
+  const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
+  const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
   write_images(arguments, first);
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),

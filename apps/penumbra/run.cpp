@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/frame_reader.hpp>
+#include <io/names.hpp>
 #include <io/recording.hpp>
 #include <io/report_json.hpp>
 
@@ -39,8 +41,13 @@ LabelRule rule_of(const RunArguments& arguments, const io::RecordingCamera& came
   return rule;
 }
 
-Pipeline make_pipeline(const RunArguments& arguments, const io::RecordingCamera& camera,
-                       Robot robot) {
+Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recording, Robot robot) {
+  const io::RecordingCamera& camera = recording.camera;
+  if (!robot.find_link(camera.parent)) {
+    const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
+    throw InputError(recording.file.string() + ": camera.parent: '" + camera.parent +
+                     "' is no link of the robot" + io::near_names(camera.parent, known));
+  }
   PipelineConfig config;
   config.backend = arguments.backend;
   config.renderer.threads = arguments.threads;
@@ -94,7 +101,8 @@ Frame frame_of(const io::FrameData& data) {
   frame.source_status = status_of(data.status);
   frame.source_message = data.message;
   frame.index = static_cast<std::size_t>(data.index);
-  if (data.stamp) frame.joints.age = 0;  // a recording's joint row is of the frame's own stamp
+  // A recording's joint row is of the frame's own stamp.
+  if (data.stamp && !data.positions.empty()) frame.joints.age = 0;
   return frame;
 }
 
@@ -147,14 +155,15 @@ void tell_summary(const Statistics& statistics, const std::filesystem::path& rep
 int execute(const RunArguments& arguments) {
   const io::Recording recording = open_recording(arguments);
   Robot robot = Robot::load(recording.urdf, recording.robot);
+  tell_notes(robot);
   const io::FrameReader reader(recording, robot);
   const std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
-  Pipeline pipeline = make_pipeline(arguments, recording.camera, std::move(robot));
+  Pipeline pipeline = make_pipeline(arguments, recording, std::move(robot));
 
   OutputFolder output(arguments.output, arguments.saves, pipeline.rectification());
   io::ReportWriter writer(output.report_file(),
                           {arguments.input.string(), pipeline.renderer(), pipeline.robot().links(),
-                           pipeline.missing_links()});
+                           pipeline.missing_links(), pipeline.robot().notes()});
   Statistics statistics;
   ColorFaults color;
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <charconv>
+#include <iostream>
 
 #include <apps/penumbra/text.hpp>
 
@@ -20,6 +21,10 @@ std::string fixed(double value, int digits) {
   const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value,
                                     std::chars_format::fixed, std::min(digits, 20));
   return {buffer, result.ptr};
+}
+
+void tell_notes(const Robot& robot) {
+  for (const std::string& note : robot.notes()) std::cerr << "penumbra: note: " << note << '\n';
 }
 
 }  // namespace penumbra::app

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <penumbra/robot/robot.hpp>
+
 namespace penumbra::app {
 
 /// The parts between separators; one empty part of an empty text.
@@ -12,5 +14,8 @@ namespace penumbra::app {
 
 /// A value with `digits` after the point.
 [[nodiscard]] std::string fixed(double value, int digits);
+
+/// Prints Robot::notes() on stderr, a line each.
+void tell_notes(const Robot& robot);
 
 }  // namespace penumbra::app

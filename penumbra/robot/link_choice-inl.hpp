@@ -14,7 +14,8 @@ struct LinkChoice {
   bool draw = false;
   Geometry geometry = Geometry::collision;
   double margin = 0.0;
-  std::string reason;  ///< why it is not drawn, or what was chosen
+  bool lacks_geometry = false;  ///< not drawn: it has geometry, but none of the kind `geometry`
+  std::string reason;           ///< why it is not drawn, or what was chosen
 };
 
 /// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for
@@ -22,6 +23,10 @@ struct LinkChoice {
 /// margin that is no sensible number, and where no link has the chosen geometry but some have the
 /// other.
 [[nodiscard]] std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options);
+
+/// Which links lack the chosen geometry but have the other, a line for each kind.
+[[nodiscard]] std::vector<std::string> lacking_notes(const Urdf& urdf,
+                                                     const std::vector<LinkChoice>& choices);
 
 [[nodiscard]] std::string to_string(Geometry geometry);
 

@@ -59,6 +59,7 @@ void choose_geometry(const UrdfLink& link, Geometry wanted, bool fallback, LinkC
     choice.reason = to_string(other(wanted)) + ", as it has no " + to_string(wanted);
   } else if (has_other) {
     choice.reason = "has no " + to_string(wanted) + ", only " + to_string(other(wanted));
+    choice.lacks_geometry = true;
   } else {
     choice.reason = "has no geometry";
   }
@@ -114,6 +115,20 @@ std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& optio
     choices.push_back(std::move(choice));
   }
   return choices;
+}
+
+std::vector<std::string> lacking_notes(const Urdf& urdf, const std::vector<LinkChoice>& choices) {
+  std::vector<std::string> notes;
+  for (const Geometry wanted : {Geometry::collision, Geometry::visual}) {
+    std::string names;
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i].lacks_geometry && choices[i].geometry == wanted)
+        names += (names.empty() ? "" : ", ") + urdf.links[i].name;
+    if (!names.empty())
+      notes.push_back("not drawn, as they have no " + to_string(wanted) + ", only " +
+                      to_string(other(wanted)) + ": " + names);
+  }
+  return notes;
 }
 
 std::string to_string(Geometry geometry) {

@@ -111,7 +111,9 @@ class Robot {
 
   [[nodiscard]] std::span<const LinkReport> report() const;
 
-  /// One line for each package found without being given ("package NAME: taken from ...").
+  /// What a user should know though nothing is wrong, a line each: where a package was found that
+  /// was not given ("package NAME: taken from ..."), and which links have geometry, but none of the
+  /// chosen kind, and so are not drawn.
   [[nodiscard]] std::span<const std::string> notes() const;
 
   /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, within

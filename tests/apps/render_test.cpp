@@ -87,6 +87,9 @@ TEST_F(RenderTest, RefusesBadInput) {
   expect_refused(render({"--joint", "slide=1e9"}), "'board'");
   expect_refused(render({"--joint", "slide=-1"}), "ignore_links");
   expect_refused(render({"--parent", "bass"}), "bass");
+  expect_refused(render({"--links", folder_.path() / "vdi.npy"}), "--links");
+  EXPECT_EQ(render({"--joint", "slide=1e9"}).err.find("no depth image"), std::string::npos)
+      << "render takes none";
   expect_refused(render({"--repeat", "0"}), "--repeat");
   expect_refused(render({"--package", "name"}), "--package");
   expect_refused(render({"--renderer", "gl"}), "OpenGL");
@@ -133,7 +136,7 @@ TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
   const Outcome outcome = inspect();
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("board"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("tiny.urdf: link 'board'"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("MISSING"), std::string::npos) << outcome.out;
 }
 

@@ -156,6 +156,23 @@ TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
   ASSERT_EQ(run().status, 0);
   EXPECT_EQ(report()["frames"][0]["stamp_ns"], 1700000000123456789);
   EXPECT_EQ(report()["frames"][0]["joint_age_ms"], 0.0);
+
+  write_file(folder_.path() / "joint_states.csv", "frame,stamp,slide\n0,5,0.0\n1,6,far\n");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(report()["frames"][1]["stamp_ns"], 6);
+  EXPECT_TRUE(report()["frames"][1]["joint_age_ms"].is_null()) << "of joints that are missing";
+}
+
+TEST_F(RunTest, TellsLinksThatLackTheChosenGeometry) {
+  edit_file(folder_.path() / "tiny.urdf", "<link name=\"base\"/>",
+            "<link name=\"base\"><visual><origin xyz=\"5 5 5\"/><geometry><sphere "
+            "radius=\"0.1\"/></geometry></visual></link>");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err,
+            "penumbra: note: not drawn, as they have no collision, only visual: base\n");
+  EXPECT_EQ(report()["summary"]["notes"],
+            Json{"not drawn, as they have no collision, only visual: base"});
 }
 
 TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {

@@ -72,6 +72,20 @@ TEST(LinkChoice, ReportSaysWhyALinkIsNotDrawn) {
   EXPECT_TRUE(report_of(robot, "d").bounds.isEmpty());
 }
 
+TEST(LinkChoice, NotesTellLinksThatLackTheChosenGeometry) {
+  const auto notes = [](const RobotOptions& options) {
+    const Robot robot = parse(four_links(), options);
+    return std::vector<std::string>(robot.notes().begin(), robot.notes().end());
+  };
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notes({}), Notes{"not drawn, as they have no collision, only visual: b"});
+  EXPECT_EQ(notes({.geometry = Geometry::visual}),
+            Notes{"not drawn, as they have no visual, only collision: d"});
+  EXPECT_EQ(notes({.ignore_links = {"b"}}), Notes{});
+  EXPECT_EQ(notes({.geometry_of_links = {{"b", Geometry::visual}}}), Notes{});
+  EXPECT_EQ(notes({.geometry_fallback = true}), Notes{});
+}
+
 TEST(LinkChoice, IgnoreAndOnlyTakePatterns) {
   EXPECT_EQ(drawn({.ignore_links = {"[ab]"}}), "d");
   EXPECT_EQ(drawn({.only_links = {"a", "c"}}), "a");
