@@ -26,8 +26,10 @@ int main(int argc, char** argv) {
   try {
     const auto command = penumbra::app::parse_arguments(argc, argv);
     if (!command) return 0;
-    return std::visit([](const auto& arguments) { return penumbra::app::execute(arguments); },
-                      *command);
+    const int status = std::visit(
+        [](const auto& arguments) { return penumbra::app::execute(arguments); }, *command);
+    if (!std::cout.flush()) return fail(users_fault, "standard output: cannot be written");
+    return status;
   } catch (const penumbra::InputError& error) {
     return fail(users_fault, error.what());
   } catch (const std::bad_alloc&) {

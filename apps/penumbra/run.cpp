@@ -2,6 +2,7 @@
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,15 @@ io::Recording open_recording(const RunArguments& arguments) {
   io::Recording recording = io::Recording::open(arguments.input);
   if (arguments.geometry) recording.robot.geometry = *arguments.geometry;
   return recording;
+}
+
+/// Images of an earlier run are removed from the output folder: they must not be the recording's.
+void check_output(const std::filesystem::path& output, const io::Recording& recording) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(recording.file).parent_path();
+  if (std::filesystem::equivalent(output, folder, error))
+    throw InputError("--output: " + output.string() +
+                     " is the recording's own folder; choose another, or one inside of it");
 }
 
 /// The command line's choice before the recording's before the default.
@@ -154,6 +164,7 @@ void tell_summary(const Statistics& statistics, const std::filesystem::path& rep
 
 int execute(const RunArguments& arguments) {
   const io::Recording recording = open_recording(arguments);
+  check_output(arguments.output, recording);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   tell_notes(robot);
   const io::FrameReader reader(recording, robot);

@@ -226,6 +226,10 @@ class BadOutputTest : public testing::Test {
 
 TEST_F(BadOutputTest, IsAFile) { expect_refused(folder_.path() / "tiny.urdf", "tiny.urdf"); }
 
+TEST_F(BadOutputTest, IsTheRecordingItself) {
+  expect_refused(folder_.path() / ".", "the recording's own folder");
+}
+
 TEST_F(BadOutputTest, LiesInAFile) {
   expect_refused(folder_.path() / "tiny.urdf" / "out", "tiny.urdf");
 }

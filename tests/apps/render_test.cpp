@@ -2,12 +2,14 @@
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 #include <io/npy.hpp>
 #include <io/png.hpp>
@@ -129,6 +131,16 @@ TEST_F(InspectTest, TellsTheSameAsJson) {
   EXPECT_EQ(json["joints"][0]["upper"], 1.0);
   EXPECT_TRUE(json["joints"][0]["mimic"].is_null());
   EXPECT_EQ(json["variables"], Json{"slide"});
+}
+
+TEST_F(InspectTest, TellsWhereItsOutputCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const std::string line = std::string(PENUMBRA_PROGRAM) + " inspect " +
+                           (folder_.path() / "tiny.urdf").string() + " > /dev/full 2> " +
+                           (folder_.path() / "err").string();
+  const int result = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(result), 2);
+  EXPECT_EQ(read_file(folder_.path() / "err"), "penumbra: standard output: cannot be written\n");
 }
 
 TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
