@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
@@ -12,6 +13,9 @@ Intrinsics::Intrinsics(int width, int height, double fx, double fy, double cx, d
   std::ostringstream what;
   if (width < 1 || height < 1 || width > max_size || height > max_size) {
     what << "camera: image size " << width << " x " << height << " is not within 1 .. " << max_size;
+  } else if (std::int64_t{width} * height > max_pixels) {
+    what << "camera: image size " << width << " x " << height << " has more than " << max_pixels
+         << " pixels";
   } else if (!(fx > 0 && fy > 0 && std::isfinite(fx) && std::isfinite(fy))) {
     what << "camera: focal lengths fx = " << fx << ", fy = " << fy
          << " must be positive, finite numbers of pixels";

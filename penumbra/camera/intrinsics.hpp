@@ -10,10 +10,11 @@ namespace penumbra {
 /// z forward), as in OpenCV and ROS. The principal point may lie anywhere, outside the image too.
 class Intrinsics {
  public:
-  static constexpr int max_size = 32767;  ///< largest width or height
+  static constexpr int max_size = 32767;      ///< largest width or height
+  static constexpr int max_pixels = 1 << 26;  ///< largest width times height; 8 K has half of it
 
   /// Lengths in pixels. Throws InputError, with the values it got, unless fx, fy > 0, all values
-  /// are finite and 1 <= width, height <= max_size.
+  /// are finite, 1 <= width, height <= max_size and width * height <= max_pixels.
   Intrinsics(int width, int height, double fx, double fy, double cx, double cy);
 
   [[nodiscard]] int width() const { return width_; }

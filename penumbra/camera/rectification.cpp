@@ -49,7 +49,8 @@ std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw
   const Eigen::Array2d shift = (0.5 - (extent.low * focal + centre)).floor();
   const Eigen::Array2d size = (extent.high * focal + centre + shift + 0.5).floor() + 1;
   const double raw_pixels = static_cast<double>(raw.width()) * raw.height();
-  const double most = std::max(static_cast<double>(Rectification::max_pixels), 4 * raw_pixels);
+  const double wanted = std::max(static_cast<double>(Rectification::max_pixels), 4 * raw_pixels);
+  const double most = std::min(wanted, static_cast<double>(Intrinsics::max_pixels));
   if (!(size.maxCoeff() <= Intrinsics::max_size && size.prod() <= most)) return std::nullopt;
   return Intrinsics(static_cast<int>(size.x()), static_cast<int>(size.y()), focal.x(), focal.y(),
                     centre.x() + shift.x(), centre.y() + shift.y());

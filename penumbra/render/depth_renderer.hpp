@@ -42,8 +42,10 @@ struct RendererInfo {
 /// at near_plane and has no far cut. One instance serves one thread at a time.
 class DepthRenderer {
  public:
-  static constexpr double near_plane = 0.01;       ///< metres
-  static constexpr std::size_t max_bodies = 1023;  ///< the body index shares a word with the depth
+  static constexpr double near_plane = 0.01;  ///< metres
+  /// The cpu backend keeps the body's index in the low bits of the depth: with n bodies depths are
+  /// rounded to 2^-(24 - bits of n) of themselves, 1 micrometre at 1 m for 12 bodies, 61 for 1023.
+  static constexpr std::size_t max_bodies = 1023;
 
   virtual ~DepthRenderer() = default;
 

@@ -38,7 +38,9 @@ TEST(Intrinsics, ProjectUndoesRay) {
 
 TEST(Intrinsics, RefusesWhatIsNoCamera) {
   EXPECT_NO_THROW(Intrinsics(1, 1, 1e-3, 1e-3, -1e6, 1e6));
-  EXPECT_NO_THROW(Intrinsics(Intrinsics::max_size, Intrinsics::max_size, 1, 1, 0, 0));
+  EXPECT_NO_THROW(Intrinsics(Intrinsics::max_size, 2048, 1, 1, 0, 0));
+  EXPECT_NO_THROW(Intrinsics(8192, 8192, 1, 1, 0, 0));
+  EXPECT_THROW(Intrinsics(8192, 8193, 1, 1, 0, 0), InputError);
   EXPECT_THROW(Intrinsics(0, 1, 1, 1, 0, 0), InputError);
   EXPECT_THROW(Intrinsics(1, -1, 1, 1, 0, 0), InputError);
   EXPECT_THROW(Intrinsics(Intrinsics::max_size + 1, 1, 1, 1, 0, 0), InputError);
