@@ -22,20 +22,6 @@ FileResult read_depth(const FramePattern& pattern, ImageSize size, FrameData& fr
 
 }  // namespace
 
-std::string_view to_string(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::ok:
-      return "ok";
-    case FrameStatus::missing_joints:
-      return "missing_joints";
-    case FrameStatus::missing_depth:
-      return "missing_depth";
-    case FrameStatus::bad_depth:
-      break;
-  }
-  return "bad_depth";
-}
-
 DepthView FrameData::depth_view() const {
   return std::visit([](const auto& image) { return DepthView(image.view()); }, depth);
 }

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <io/joint_file.hpp>
@@ -18,18 +18,13 @@
 
 namespace penumbra::io {
 
-enum class FrameStatus { ok, missing_joints, missing_depth, bad_depth };
-
-/// The report's name of the status.
-[[nodiscard]] std::string_view to_string(FrameStatus status);
-
 /// One recorded frame. Buffers are reused from frame to frame.
 struct FrameData {
   std::int64_t index = 0;
-  std::optional<std::int64_t> stamp;  ///< nanoseconds
-  FrameStatus status = FrameStatus::ok;
-  std::string message;            ///< one line that names the file; empty if ok
-  std::vector<double> positions;  ///< order of Robot::variables(); empty if missing_joints
+  std::optional<std::int64_t> stamp;     ///< nanoseconds
+  FrameStatus status = FrameStatus::ok;  ///< or missing_joints, missing_depth, bad_depth
+  std::string message;                   ///< one line that names the file; empty if ok
+  std::vector<double> positions;         ///< order of Robot::variables(); empty if missing_joints
   std::variant<Image<std::uint16_t>, Image<float>> depth;  ///< valid unless missing or bad
   Image<Rgb8> color;          ///< empty where not asked for, not recorded or not usable
   std::string color_message;  ///< why a recorded colour image is not usable; empty if it is

@@ -96,7 +96,6 @@ Tolerance to_tolerance(const std::string& text) {
   return {*a, *b, *c};
 }
 
-constexpr int most_threads = 512;  // beyond, starting them may fail
 constexpr int most_repeats = 1'000'000;
 
 int to_count(const std::string& option, const std::string& text, int least, int most) {
@@ -180,9 +179,10 @@ void add_list(CLI::App& app, const std::string& names, const std::string& help,
 void add_renderer(CLI::App& app, Backend& backend, int& threads) {
   add_option(app, "--renderer", "cpu, reference or auto (= cpu); default auto", "NAME",
              [&](const std::string& text) { backend = to_backend(text); });
-  add_option(
-      app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
-      [&](const std::string& text) { threads = to_count("--threads", text, 1, most_threads); });
+  add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
+             [&](const std::string& text) {
+               threads = to_count("--threads", text, 1, RendererOptions::max_threads);
+             });
 }
 
 void add_robot(CLI::App& app, RobotOptions& options) {

@@ -89,26 +89,12 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameR
   return selected;
 }
 
-FrameStatus status_of(io::FrameStatus status) {
-  switch (status) {
-    case io::FrameStatus::ok:
-      return FrameStatus::ok;
-    case io::FrameStatus::missing_joints:
-      return FrameStatus::missing_joints;
-    case io::FrameStatus::missing_depth:
-      return FrameStatus::missing_depth;
-    case io::FrameStatus::bad_depth:
-      break;
-  }
-  return FrameStatus::bad_depth;
-}
-
 Frame frame_of(const io::FrameData& data) {
   Frame frame;
   frame.stamp = data.stamp;
   frame.depth = data.depth_view();
   frame.joints = data.positions;
-  frame.source_status = status_of(data.status);
+  frame.source_status = data.status;
   frame.source_message = data.message;
   frame.index = static_cast<std::size_t>(data.index);
   // A recording's joint row is of the frame's own stamp.

@@ -28,6 +28,8 @@ enum class Backend { cpu, reference };
 [[nodiscard]] std::string_view to_string(Backend backend);
 
 struct RendererOptions {
+  static constexpr int max_threads = 512;
+
   int threads = 1;  ///< of the cpu backend; results do not depend on it
   std::string isa;  ///< cpu backend: a SIMD target by name ("AVX2"); empty: the best there is
 };
@@ -69,8 +71,8 @@ class DepthRenderer {
   RendererInfo info_;
 };
 
-/// Makes a renderer. Throws InputError for more than max_bodies, threads < 1, or an isa that is
-/// none of simd_target_names().
+/// Makes a renderer. Throws InputError for more than max_bodies, threads that are not within
+/// 1..max_threads or more than the machine gives, or an isa that is none of simd_target_names().
 [[nodiscard]] std::unique_ptr<DepthRenderer> make_depth_renderer(
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});

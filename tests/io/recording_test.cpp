@@ -305,13 +305,6 @@ TEST_F(RecordingFolder, TellsFaultsOfAFrameInItsStatus) {
   EXPECT_TRUE(frame.color.empty());
 }
 
-TEST_F(RecordingFolder, NamesStatusesAsTheReportDoes) {
-  EXPECT_EQ(to_string(FrameStatus::ok), "ok");
-  EXPECT_EQ(to_string(FrameStatus::missing_joints), "missing_joints");
-  EXPECT_EQ(to_string(FrameStatus::missing_depth), "missing_depth");
-  EXPECT_EQ(to_string(FrameStatus::bad_depth), "bad_depth");
-}
-
 TEST_F(RecordingFolder, SurvivesDamage) {
   std::mt19937_64 random = test::seeded_random(1);
   const std::string whole = minimal;

@@ -53,7 +53,7 @@ TEST(RendererOptions, BestIsaIsTheDefault) {
 }
 
 TEST(RendererOptions, ThreadsBelowOneAreRefused) {
-  for (const int threads : {0, -1}) {
+  for (const int threads : {0, -1, RendererOptions::max_threads + 1}) {
     EXPECT_THROW(static_cast<void>(make({Backend::cpu, "", threads}, camera, {})), InputError);
   }
 }

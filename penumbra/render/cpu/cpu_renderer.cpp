@@ -136,8 +136,9 @@ class CpuRenderer final : public DepthRenderer {
 std::unique_ptr<DepthRenderer> make_cpu_renderer(const Intrinsics& intrinsics,
                                                  std::span<const Body> bodies,
                                                  const RendererOptions& options) {
-  if (options.threads < 1) {
-    throw InputError("threads is " + std::to_string(options.threads) + "; it must be 1 or more");
+  if (options.threads < 1 || options.threads > RendererOptions::max_threads) {
+    throw InputError("threads is " + std::to_string(options.threads) + "; it must be 1 to " +
+                     std::to_string(RendererOptions::max_threads));
   }
   return std::make_unique<CpuRenderer>(intrinsics, bodies, options.threads,
                                        simd_target(options.isa));

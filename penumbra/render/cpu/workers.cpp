@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <system_error>
+
+#include <penumbra/base/error.hpp>
 #include <penumbra/render/cpu/workers.hpp>
 
 namespace penumbra::cpu {
 
 Workers::Workers(int size) {
-  for (int worker = 1; worker < size; ++worker) {
-    threads_.emplace_back([this, worker] { serve(worker); });
+  try {
+    for (int worker = 1; worker < size; ++worker) {
+      threads_.emplace_back([this, worker] { serve(worker); });
+    }
+  } catch (const std::system_error& error) {
+    const std::size_t started = threads_.size() + 1;
+    stop();
+    throw InputError("threads: this machine gives no more than " + std::to_string(started) +
+                     " of " + std::to_string(size) + " (" + error.what() + ")");
   }
 }
 
-Workers::~Workers() {
+Workers::~Workers() { stop(); }
+
+void Workers::stop() {
   stop_ = true;
   ++round_;
   round_.notify_all();

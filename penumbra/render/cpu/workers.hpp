@@ -11,6 +11,7 @@ namespace penumbra::cpu {
 /// A fixed team that runs one job at a time, the caller included. A team of one has no threads.
 class Workers {
  public:
+  /// Throws InputError if the machine does not give as many threads.
   explicit Workers(int size);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -21,6 +22,7 @@ class Workers {
 
  private:
   void serve(int worker);
+  void stop();
 
   void (*job_)(void*, int) = nullptr;
   void* context_ = nullptr;
