@@ -7,6 +7,7 @@
 //
 #include <hwy/highway.h>
 
+#include <penumbra/occlusion/certain_pixels-inl.hpp>
 #include <penumbra/occlusion/front_cleanup-inl.hpp>
 #include <penumbra/occlusion/pixel_labels-inl.hpp>
 
@@ -18,13 +19,14 @@ template <typename T>
 Counts label_image(Work& work, ImageView<const float> virtual_depth, ImageView<const T> measured) {
   Counts counts{};
   if (!work.rule.cleans_up()) {
-    label_tiles<false>(work, work.touched, virtual_depth, measured, counts);
+    label_tiles<false>(work, virtual_depth, measured, counts);
     return counts;
   }
-  if (work.rule.cells > 0) fill_cells(work, virtual_depth);
-  label_tiles<true>(work, work.touched, virtual_depth, measured, counts);
-  if (work.rule.cells > 0 && work.mark_rim())
-    label_tiles<true>(work, work.rim_tiles, virtual_depth, measured, counts);
+  label_tiles<true>(work, virtual_depth, measured, counts);
+  if (!any(work.front_tiles)) return counts;
+  find_certain(work, work.front_tiles, virtual_depth, measured);
+  work.mark_rim();
+  find_certain(work, work.rim_tiles, virtual_depth, measured);
   const std::size_t dropped = drop_unconfirmed(work);
   counts[static_cast<std::size_t>(Label::front)] -= dropped;
   counts[static_cast<std::size_t>(Label::occluded)] += dropped;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include <penumbra/base/image.hpp>
@@ -43,6 +44,16 @@ class BitRows {
   [[nodiscard]] std::uint64_t* row(int v) { return bits_.data() + (v + margin) * pitch_ + left; }
   void clear(int u0, int u1, int v0, int v1);  ///< pixels [u0, u1) x [v0, v1), whole bytes
 
+  /// The 32 pixels that begin at (u, v), u a multiple of 32.
+  [[nodiscard]] std::uint32_t get(int u, int v) {
+    std::uint32_t value;
+    std::memcpy(&value, reinterpret_cast<const unsigned char*>(row(v)) + u / 8, sizeof value);
+    return value;
+  }
+  void put(int u, int v, std::uint32_t value) {
+    std::memcpy(reinterpret_cast<unsigned char*>(row(v)) + u / 8, &value, sizeof value);
+  }
+
  private:
   static constexpr std::ptrdiff_t left = 2;
   static constexpr std::ptrdiff_t spare = 8;  // words that whole vectors may run over
@@ -75,28 +86,33 @@ struct Work {
   /// Takes the touched tiles of a new image and clears what the last one left.
   void begin(const TileMask& new_touched);
 
-  /// Fills rim_tiles: the tiles that are not touched, but hold pixels whose being certain decides
-  /// about a front pixel. Whether there are any.
-  bool mark_rim();
+  /// Fills rim_tiles: those beside front_tiles that hold pixels whose being certain decides about a
+  /// front pixel.
+  void mark_rim();
+
+  /// The touched tiles whose cells decide which pixels of `tiles` are certain and that were not
+  /// marked before.
+  const TileMask& mark_cells(const TileMask& tiles);
 
   Rule rule;
   int width;
   int height;
   Image<std::uint8_t> labels;
   TileMask touched;  ///< tiles of `labels` that may hold other than clear
-  Cells cells;
 
+  // Of the clean-up, which looks at tiles near front pixels alone.
   TileMask front_tiles;    ///< tiles that hold bits of `front`
   TileMask certain_tiles;  ///< tiles that hold pixels both front and certain
   TileMask rim_tiles;
   BitRows front, certain, unmeasured, scratch;
+  Cells cells;
 
   std::vector<float> nearest, limits;  ///< one row of pixels each, with room for whole vectors
   Image<std::uint8_t> marks;           ///< the scalar twin's, which has no use for bit rows
 
  private:
-  void forget(const TileMask& tiles);
-  TileMask stale_;
+  TileMask cell_tiles_;  // tiles whose cells are filled
+  TileMask scratch_tiles_;
 };
 
 [[nodiscard]] inline bool any(const TileMask& tiles) {

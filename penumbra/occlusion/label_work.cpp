@@ -11,13 +11,14 @@ constexpr int vector_room = 128;  // pixels that whole vectors may run over a ro
 
 int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
 
-/// The tiles at most `columns` and `rows` from the tile row j's marked ones.
-std::uint64_t marked_around(const TileMask& tiles, int j, int columns, int rows) {
-  const int last = static_cast<int>(tiles.rows.size()) - 1;
+/// The tiles of tile row j that hold pixels at most `pixels` from a marked tile in u and v.
+std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
+  const auto rows = static_cast<std::size_t>(tiles_across(pixels, TileMask::tile_height));
   std::uint64_t bits = 0;
-  for (int i = std::max(0, j - rows); i <= std::min(last, j + rows); ++i)
-    bits |= tiles.rows[static_cast<std::size_t>(i)];
-  for (int i = 0; i < columns && bits != 0; ++i) bits |= bits << 1 | bits >> 1;
+  for (std::size_t i = j - std::min(j, rows); i < std::min(tiles.rows.size(), j + rows + 1); ++i)
+    bits |= tiles.rows[i];
+  for (int i = tiles_across(pixels, tiles.tile_width); i > 0 && bits != 0; --i)
+    bits |= bits << 1 | bits >> 1;
   const int in_image = tiles_across(tiles.width, tiles.tile_width);
   return bits & (~std::uint64_t{0} >> (64 - in_image));
 }
@@ -62,7 +63,6 @@ Work::Work(int image_width, int image_height, const Rule& label_rule)
       height(image_height),
       labels(image_width, image_height),
       touched(image_width, image_height),
-      cells(image_width, image_height, rule.cells),
       front_tiles(touched),
       certain_tiles(touched),
       rim_tiles(touched),
@@ -70,46 +70,52 @@ Work::Work(int image_width, int image_height, const Rule& label_rule)
       certain(image_width, image_height),
       unmeasured(image_width, image_height),
       scratch(image_width, image_height),
+      cells(image_width, image_height, rule.cells),
       nearest(static_cast<std::size_t>(image_width + 2 * rule.cells + vector_room)),
       limits(static_cast<std::size_t>(image_width + vector_room)),
-      stale_(touched) {}
-
-void Work::forget(const TileMask& tiles) {
-  tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (int v = v0; v < v1; ++v)
-      std::fill(&labels(u0, v), &labels(u0, v) + (u1 - u0), std::uint8_t{0});
-    if (!rule.cleans_up()) return;
-    for (BitRows* rows : {&front, &certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
-    cells.clear(u0, u1, v0, v1);
-  });
-}
+      cell_tiles_(touched),
+      scratch_tiles_(touched) {}
 
 void Work::begin(const TileMask& new_touched) {
-  const bool same_tiles = touched.tile_width == new_touched.tile_width;
-  stale_ = touched;
-  for (std::size_t j = 0; j < stale_.rows.size(); ++j) {
-    stale_.rows[j] |= rim_tiles.rows[j];
-    if (same_tiles) stale_.rows[j] &= ~new_touched.rows[j];
-  }
-  forget(stale_);
+  front_tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (BitRows* rows : {&front, &certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
+  });
+  rim_tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (BitRows* rows : {&certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
+  });
+  cell_tiles_.for_each_span([&](int u0, int u1, int v0, int v1) { cells.clear(u0, u1, v0, v1); });
+  TileMask& stale = scratch_tiles_;
+  stale = touched;
+  if (touched.tile_width == new_touched.tile_width)
+    for (std::size_t j = 0; j < stale.rows.size(); ++j) stale.rows[j] &= ~new_touched.rows[j];
+  stale.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v)
+      std::fill(&labels(u0, v), &labels(u0, v) + (u1 - u0), std::uint8_t{0});
+  });
   touched = new_touched;
-  for (TileMask* mask : {&front_tiles, &certain_tiles, &rim_tiles}) {
+  for (TileMask* mask : {&front_tiles, &certain_tiles, &rim_tiles, &cell_tiles_, &scratch_tiles_}) {
     mask->tile_width = touched.tile_width;
     std::fill(mask->rows.begin(), mask->rows.end(), std::uint64_t{0});
   }
 }
 
-bool Work::mark_rim() {
-  if (!any(certain_tiles)) return false;
+void Work::mark_rim() {
+  if (!any(certain_tiles)) return;
   // A square that holds a seed ends width - 1 pixels from it at the most, and a pixel without
   // measurement in it looks for certain ones `width` further.
   const int pixels = 2 * rule.width - 1;
-  const int columns = tiles_across(pixels, touched.tile_width);
-  const int rows = tiles_across(pixels, TileMask::tile_height);
   for (std::size_t j = 0; j < rim_tiles.rows.size(); ++j)
-    rim_tiles.rows[j] =
-        marked_around(certain_tiles, static_cast<int>(j), columns, rows) & ~touched.rows[j];
-  return any(rim_tiles);
+    rim_tiles.rows[j] = marked_around(certain_tiles, j, pixels) & ~front_tiles.rows[j];
+}
+
+const TileMask& Work::mark_cells(const TileMask& tiles) {
+  const int pixels = (rule.cells + 1) * LabelRule::cell - 1;
+  for (std::size_t j = 0; j < cell_tiles_.rows.size(); ++j) {
+    const std::uint64_t wanted = marked_around(tiles, j, pixels) & touched.rows[j];
+    scratch_tiles_.rows[j] = wanted & ~cell_tiles_.rows[j];
+    cell_tiles_.rows[j] |= wanted;
+  }
+  return scratch_tiles_;
 }
 
 }  // namespace penumbra::labelling
