@@ -11,6 +11,7 @@
 #include <array>
 #include <limits>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <penumbra/occlusion/label_vectors-inl.hpp>
@@ -130,8 +131,12 @@ void find_certain(Work& work, const TileMask& tiles, ImageView<const float> virt
       if (has_margin && v % LabelRule::cell == 0)
         fill_limits(work, rule, v / LabelRule::cell, u0, u1);
       const T* const row = measured.row(v);
+      const T* const next = measured.row(std::min(v + TileMask::tile_height, measured.height - 1));
       int u = u0;
-      for (; u + bits_width <= u1; u += bits_width) find(row + u, u, v);
+      for (; u + bits_width <= u1; u += bits_width) {
+        hwy::Prefetch(next + u);
+        find(row + u, u, v);
+      }
       if (u == u1) continue;
       std::array<T, bits_width> cut{};  // no pixel beside the image is measured
       std::copy(row + u, row + u1, cut.begin());

@@ -59,18 +59,40 @@ inline Box box_of(const TileMask& tiles) {
           std::min((last + 1) * TileMask::tile_height, tiles.height)};
 }
 
+/// Bit u of the result: whether any of the bits u - reach .. u - 1 of the row is set, 0 < reach
+/// < 64.
+HWY_INLINE VW any_left(const std::uint64_t* row, int reach) {
+  VW before = hn::ShiftLeft<1>(hn::LoadU(W(), row - 1)), here = from_left(row, 1);
+  for (int n = 1, s; n < reach; n += s) {
+    s = std::min(n, reach - n);
+    here = hn::Or(here, hn::Or(hn::ShiftLeftSame(here, s), hn::ShiftRightSame(before, 64 - s)));
+    before = hn::Or(before, hn::ShiftLeftSame(before, s));
+  }
+  return here;
+}
+
+/// Bit u of the result: whether any of the bits u + 1 .. u + reach of the row is set, 0 < reach
+/// < 64.
+HWY_INLINE VW any_right(const std::uint64_t* row, int reach) {
+  VW after = hn::ShiftRight<1>(hn::LoadU(W(), row + 1)), here = from_right(row, 1);
+  for (int n = 1, s; n < reach; n += s) {
+    s = std::min(n, reach - n);
+    here = hn::Or(here, hn::Or(hn::ShiftRightSame(here, s), hn::ShiftLeftSame(after, 64 - s)));
+    after = hn::Or(after, hn::ShiftRightSame(after, s));
+  }
+  return here;
+}
+
 /// Whether a row's pixels have a certain one within `reach` left and right of them, or above and
 /// below.
 HWY_INLINE VW between_certain(Work& work, int v, int w, int reach) {
   const std::uint64_t* const row = work.certain.row(v) + w;
-  VW left = hn::Zero(W()), right = left, above = left, below = left;
-  for (int s = 1; s <= reach; ++s) {
-    left = hn::Or(left, from_left(row, s));
-    right = hn::Or(right, from_right(row, s));
-    above = hn::Or(above, hn::LoadU(W(), work.certain.row(v - s) + w));
-    below = hn::Or(below, hn::LoadU(W(), work.certain.row(v + s) + w));
+  VW above = hn::Zero(W()), below = above;
+  for (std::ptrdiff_t s = 1; s <= reach; ++s) {
+    above = hn::Or(above, hn::LoadU(W(), row - s * work.certain.pitch()));
+    below = hn::Or(below, hn::LoadU(W(), row + s * work.certain.pitch()));
   }
-  return hn::Or(hn::And(left, right), hn::And(above, below));
+  return hn::Or(hn::And(any_left(row, reach), any_right(row, reach)), hn::And(above, below));
 }
 
 /// scratch = what counts as certain, worn away from the right by width - 1 pixels.

@@ -42,8 +42,6 @@ class BitRows {
 
   [[nodiscard]] std::ptrdiff_t pitch() const { return pitch_; }
   [[nodiscard]] std::uint64_t* row(int v) { return bits_.data() + (v + margin) * pitch_ + left; }
-  void clear(int u0, int u1, int v0, int v1);  ///< pixels [u0, u1) x [v0, v1), whole bytes
-
   /// The 32 pixels that begin at (u, v), u a multiple of 32.
   [[nodiscard]] std::uint32_t get(int u, int v) {
     std::uint32_t value;
@@ -53,6 +51,7 @@ class BitRows {
   void put(int u, int v, std::uint32_t value) {
     std::memcpy(reinterpret_cast<unsigned char*>(row(v)) + u / 8, &value, sizeof value);
   }
+  void clear(int u0, int u1, int v0, int v1);  ///< pixels [u0, u1) x [v0, v1), 32 at a time
 
  private:
   static constexpr std::ptrdiff_t left = 2;

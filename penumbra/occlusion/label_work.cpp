@@ -38,10 +38,8 @@ Rule::Rule(const LabelRule& rule)
       reach(rule.edge_margin / 2) {}
 
 void BitRows::clear(int u0, int u1, int v0, int v1) {
-  for (int v = v0; v < v1; ++v) {
-    auto* const bytes = reinterpret_cast<unsigned char*>(row(v));
-    std::fill(bytes + u0 / 8, bytes + (u1 + 7) / 8, static_cast<unsigned char>(0));
-  }
+  for (int v = v0; v < v1; ++v)
+    for (int u = u0; u < u1; u += 32) put(u, v, 0);
 }
 
 Cells::Cells(int width, int height, int reach)
