@@ -12,4 +12,7 @@ void cancel_opposites(TriangleMesh& mesh);
 /// every edge has one pair and the mesh counts as closed.
 void separate_edges(TriangleMesh& mesh);
 
+/// Moves vertices of equal position apart by float steps, so that weld() keeps them apart.
+void separate_vertices(TriangleMesh& mesh);
+
 }  // namespace penumbra::offset

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <set>
 #include <tuple>
 
 #include <penumbra/robot/offset_cleanup-inl.hpp>
@@ -106,6 +109,15 @@ void cancel_opposites(TriangleMesh& mesh) {
 void separate_edges(TriangleMesh& mesh) {
   constexpr int passes = 16;  // a triangle may have several such edges
   for (int pass = 0; pass < passes && separate_some(mesh); ++pass) {
+  }
+}
+
+void separate_vertices(TriangleMesh& mesh) {
+  std::set<std::array<float, 3>> taken;
+  for (Eigen::Vector3f& v : mesh.vertices) {
+    v.array() += 0.0F;  // -0.0 becomes 0.0
+    while (!taken.insert({v.x(), v.y(), v.z()}).second)
+      v.x() = std::nextafter(v.x(), std::numeric_limits<float>::infinity());
   }
 }
 

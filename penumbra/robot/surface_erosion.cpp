@@ -9,13 +9,22 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/robot/depth_refinement-inl.hpp>
+#include <penumbra/robot/depth_surface-inl.hpp>
+#include <penumbra/robot/offset_cleanup-inl.hpp>
 #include <penumbra/robot/surface_erosion-inl.hpp>
-#include <penumbra/robot/triangle_tree-inl.hpp>
+#include <penumbra/robot/surface_offset.hpp>
 
 namespace penumbra::offset {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double widest_cell = 0.9;        // of the depth
+constexpr double sure_cell = 0.3;          // of the depth: nothing of substance slips through
+constexpr double fewest_triangles = 60e3;  // of a grid's result, on the average
+constexpr double most_triangles = 1e6;
+constexpr std::size_t most_cells = 16'000'000;
 
 std::string millimetres(double metres) { return std::to_string(1e3 * metres) + " mm"; }
 
@@ -64,34 +73,57 @@ TriangleMesh move_planes(const TriangleMesh& mesh, double depth) {
 }
 
 [[noreturn]] void refuse(double depth, const std::string& why) {
-  throw InputError("a margin of -" + millimetres(depth) + " " + why +
-                   "; take a margin nearer to 0 or a simpler mesh");
+  throw InputError("a margin of -" + millimetres(depth) + " " + why);
 }
 
-/// Every piece still has an inside, and every face looks its way and lies `depth` from the nearest
-/// of the old ones.
-void verify(const TriangleMesh& mesh, const TriangleMesh& moved, double depth) {
-  for (const MeshComponent& piece : connected_components(moved))
-    if (piece.signed_volume <= 0.0) refuse(depth, "makes the body or a part of it vanish");
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (normal_of(mesh, i).dot(normal_of(moved, i)) < 0.5)
-      refuse(depth, "makes a detail of the mesh vanish");
-  const TriangleTree old(mesh);
+DepthBounds bounds(double depth, double outwards, double inwards) {
   constexpr double rounding = 1e-6;  // metres, of float corners
-  const double least = depth * (1.0 - erosion_error) - rounding;
-  const double most = depth * (1.0 + erosion_error) + rounding;
-  const auto check = [&](const Vector3d& p) {
-    if (old.comes_within(p, least) || !old.comes_within(p, most))
-      refuse(depth, "does not leave a surface of that distance everywhere");
-  };
-  for (std::size_t i = 0; i < moved.triangles.size(); ++i) {
-    Vector3d centre = Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      check((corner(moved, i, k) + corner(moved, i, (k + 1) % 3)) / 2.0);
-      centre += corner(moved, i, k) / 3.0;
-    }
-    check(centre);
+  return {depth, depth * (1.0 - outwards) - rounding, depth * (1.0 + inwards) + rounding};
+}
+
+/// Every piece still has an inside, and every face looks its way and lies at the depth.
+bool keeps_details(const TriangleMesh& mesh, const TriangleMesh& moved, const TriangleTree& old,
+                   double depth) {
+  for (const MeshComponent& piece : connected_components(moved))
+    if (piece.signed_volume <= 0.0) return false;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (normal_of(mesh, i).dot(normal_of(moved, i)) < 0.5) return false;
+  return keeps_depth(moved, old, bounds(depth, plane_error, plane_error));
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3d a = corner(mesh, i, 0);
+    sum += (corner(mesh, i, 1) - a).cross(corner(mesh, i, 2) - a).norm() / 2.0;
   }
+  return sum;
+}
+
+TriangleMesh erode_on_grid(const TriangleMesh& solid, const TriangleTree& tree, double depth) {
+  const double area = area_of(solid);
+  const auto cell_for = [area](double triangles) { return std::sqrt(3.0 * area / triangles); };
+  const DepthBounds wanted = bounds(depth, shrink_error_outwards, shrink_error_inwards);
+  constexpr double refinement = 0.7;
+  bool vanishes = false;
+  for (double cell = std::min(widest_cell * depth, cell_for(fewest_triangles));
+       cell >= cell_for(most_triangles); cell *= refinement) {
+    const DepthGrid grid(solid, tree, depth, cell, most_cells);
+    if (!grid.fits()) break;
+    if (grid.misses(wanted.most)) continue;
+    TriangleMesh eroded = extract_surface(grid, tree, depth);
+    vanishes = eroded.triangles.empty();
+    if (vanishes && cell < sure_cell * depth) break;
+    if (vanishes) continue;
+    if (!refine_to_depth(eroded, tree, wanted)) continue;
+    separate_vertices(eroded);
+    return eroded;
+  }
+  if (vanishes) refuse(depth, "leaves nothing of the mesh; take a margin nearer to 0");
+  const double easier =
+      std::max(1.5 * depth, cell_for(most_triangles) / (refinement * widest_cell));
+  refuse(depth, "would need millions of triangles; take 0 or try -" + millimetres(easier) +
+                    " or a mesh with fewer fine details");
 }
 
 }  // namespace
@@ -100,15 +132,15 @@ TriangleMesh erode_surface(const TriangleMesh& welded, double depth) {
   TriangleMesh outward = welded;
   for (const MeshComponent& piece : connected_components(welded)) {
     if (!piece.closed)
-      throw InputError("a margin of -" + millimetres(depth) +
-                       " needs a closed mesh, and this one is open; take 0 or a positive margin");
+      refuse(depth, "needs a closed mesh, and this one is open; take 0 or a positive margin");
     if (piece.signed_volume >= 0.0) continue;
     for (const std::size_t i : piece.triangles)
       std::swap(outward.triangles[i][1], outward.triangles[i][2]);
   }
+  const TriangleTree tree(outward);
   TriangleMesh moved = move_planes(outward, depth);
-  verify(outward, moved, depth);
-  return moved;
+  if (keeps_details(outward, moved, tree, depth)) return moved;
+  return erode_on_grid(outward, tree, depth);
 }
 
 }  // namespace penumbra::offset

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/robot/offset_oracle.hpp>
+#include <tests/robot/offset_shapes.hpp>
 #include <tests/support/data.hpp>
 #include <tests/support/random.hpp>
 
@@ -18,6 +19,9 @@ namespace penumbra {
 namespace {
 
 using Eigen::Vector3d;
+using test::append;
+using test::crumpled;
+using test::extrude;
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-6;  // metres, of float corners of models below 2 m
@@ -26,30 +30,6 @@ double volume(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const MeshComponent& piece : connected_components(weld(mesh))) sum += piece.signed_volume;
   return sum;
-}
-
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vector3d& shift) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const auto& v : other.vertices) mesh.vertices.push_back(v + shift.cast<float>());
-  for (const auto& t : other.triangles)
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
-/// A polygon in x, y (counter-clockwise, star-shaped about its first corner), extruded to height.
-TriangleMesh extrude(const std::vector<Eigen::Vector2d>& polygon, double height) {
-  TriangleMesh mesh;
-  const auto n = static_cast<std::uint32_t>(polygon.size());
-  for (const double z : {0.0, height})
-    for (const auto& p : polygon) mesh.vertices.push_back(Vector3d(p.x(), p.y(), z).cast<float>());
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t j = (i + 1) % n;
-    mesh.triangles.push_back({i, j, n + j});
-    mesh.triangles.push_back({i, n + j, n + i});
-    if (i == 0 || j == 0) continue;
-    mesh.triangles.push_back({0, j, i});
-    mesh.triangles.push_back({n, n + i, n + j});
-  }
-  return mesh;
 }
 
 TriangleMesh l_shape() {
@@ -73,14 +53,6 @@ TriangleMesh torus(double ring, double tube, std::uint32_t n) {
       mesh.triangles.push_back({p, t, s});
     }
   }
-  return mesh;
-}
-
-/// A sphere whose vertices are moved in and out at random: sharp, convex and concave everywhere.
-TriangleMesh crumpled(std::mt19937_64& random, double amount) {
-  TriangleMesh mesh = make_sphere(0.003);
-  std::uniform_real_distribution<float> stretch(static_cast<float>(1 - amount), 1.0F);
-  for (auto& v : mesh.vertices) v *= 30.0F * stretch(random);
   return mesh;
 }
 

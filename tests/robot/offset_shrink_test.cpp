@@ -50,7 +50,7 @@ void expect_depth(const TriangleMesh& mesh, const TriangleMesh& shrunk, double d
     worst = std::max(worst, std::abs(test::distance(mesh, p) - depth));
   }
   std::cout << "off by at most " << 100 * worst / depth << " % of the depth\n";
-  EXPECT_LE(worst, offset::erosion_error * depth + rounding);
+  EXPECT_LE(worst, offset::plane_error * depth + rounding);
 }
 
 TEST(OffsetShrink, VolumesAreTheClosedForms) {
@@ -87,14 +87,6 @@ TEST(OffsetShrink, OpenMeshesAndVanishingBodiesAreRefused) {
   EXPECT_NE(refusal(make_box({0.3, 0.2, 0.1}), -0.5), "");
   EXPECT_NE(refusal(make_sphere(0.05), -0.0501), "");
   EXPECT_NE(refusal(make_cylinder(0.05, 0.01), -0.006), "");
-}
-
-TEST(OffsetShrink, TwoBodiesThatOverlapShrinkEachOrAreRefused) {
-  TriangleMesh two = make_box({0.1, 0.1, 0.1});
-  const TriangleMesh other = make_box({0.1, 0.1, 0.1});
-  for (const auto& v : other.vertices) two.vertices.push_back(v + Eigen::Vector3f(0.05F, 0, 0));
-  for (const auto& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
-  EXPECT_NE(refusal(two, -0.01), "");
 }
 
 }  // namespace
