@@ -12,7 +12,8 @@
 namespace penumbra::mesh_formats {
 namespace {
 
-constexpr int deepest = 200;  // Assimp's reader recurses
+constexpr int deepest = 200;          // Assimp's reader recurses
+constexpr double largest_unit = 1e6;  // metres
 
 [[noreturn]] void damaged(const std::string& what) {
   throw FormatError(what + "; it is truncated or damaged; export or copy it again");
@@ -74,6 +75,16 @@ std::uint64_t count_numbers(std::string_view element, std::string_view text) {
       damaged("Collada: '" + std::string(word.substr(0, 40)) + "' is no number in <" +
               std::string(element) + ">");
   return count;
+}
+
+/// Assimp takes a unit that it cannot read for a metre.
+void check_unit(std::string_view tag) {
+  const std::string text = attribute(tag, "meter");
+  if (text.empty() && tag.find("meter=") == std::string_view::npos) return;
+  const auto metres = parse_number<double>(text);
+  if (!metres || !(*metres > 0.0 && *metres <= largest_unit))
+    throw FormatError("Collada: unit meter=\"" + text.substr(0, 40) +
+                      "\" is no length; write how many metres the unit has");
 }
 
 /// The numbers of a Collada file: Assimp never ends at a letter in a list of indices, and reads
@@ -145,6 +156,9 @@ class ColladaCheck {
     }
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       if (unfold(i, 0) > most_nodes) damaged("Collada: its nodes unfold to more than a million");
+    const auto is_shown = [](const Node& node) { return node.in_scene && node.shows_geometry; };
+    if (std::none_of(nodes_.begin(), nodes_.end(), is_shown))
+      throw FormatError("Collada: its scene shows no geometry; export the mesh as part of a scene");
   }
 
  private:
@@ -152,6 +166,8 @@ class ColladaCheck {
     std::vector<std::size_t> children;
     std::vector<std::string> instances;
     double unfolded = 0.0;  // how many nodes it stands for; 0: not counted yet
+    bool in_scene = false;
+    bool shows_geometry = false;  // itself or a node in it
   };
 
   static constexpr double most_nodes = 1e6;
@@ -165,8 +181,12 @@ class ColladaCheck {
     if (!is_empty && ++depth_ > deepest)
       damaged("Collada: elements are nested more than " + std::to_string(deepest) + " deep");
     if (name == "geometry" || name == "controller") geometries_.insert(attribute(tag, "id"));
-    if (name == "instance_geometry" || name == "instance_controller")
+    if (name == "unit") check_unit(tag);
+    if (name == "visual_scene") in_scene_ = !is_empty;
+    if (name == "instance_geometry" || name == "instance_controller") {
       geometries_used_.push_back(attribute(tag, "url"));
+      if (!open_nodes_.empty()) nodes_[open_nodes_.back()].shows_geometry = true;
+    }
     if (name == "instance_node" && !open_nodes_.empty())
       nodes_[open_nodes_.back()].instances.push_back(attribute(tag, "url"));
     if (name == "node") open_node(attribute(tag, "id"), is_empty);
@@ -174,7 +194,7 @@ class ColladaCheck {
 
   void open_node(const std::string& id, bool is_empty) {
     const std::size_t number = nodes_.size();
-    nodes_.emplace_back();
+    nodes_.emplace_back().in_scene = in_scene_;
     if (!id.empty()) node_of_id_.emplace(id, number);
     if (!open_nodes_.empty()) nodes_[open_nodes_.back()].children.push_back(number);
     if (!is_empty) open_nodes_.push_back(number);
@@ -182,6 +202,7 @@ class ColladaCheck {
 
   void close(std::string_view name) {
     --depth_;
+    if (name == "visual_scene") in_scene_ = false;
     if (name == "node" && !open_nodes_.empty()) open_nodes_.pop_back();
   }
 
@@ -189,17 +210,22 @@ class ColladaCheck {
     if (depth > deepest) damaged("Collada: its nodes contain each other");
     if (nodes_[number].unfolded > 0.0) return nodes_[number].unfolded;
     double sum = 1.0;
-    for (const std::size_t child : nodes_[number].children) sum += unfold(child, depth + 1);
+    const auto take_in = [&](std::size_t other) {
+      sum += unfold(other, depth + 1);
+      nodes_[number].shows_geometry |= nodes_[other].shows_geometry;
+    };
+    for (const std::size_t child : nodes_[number].children) take_in(child);
     for (const std::string& url : nodes_[number].instances) {
       const auto found = url.starts_with('#') ? node_of_id_.find(url.substr(1)) : node_of_id_.end();
       if (found == node_of_id_.end()) missing(url);
-      sum += unfold(found->second, depth + 1);
+      take_in(found->second);
     }
     return nodes_[number].unfolded = sum;
   }
 
   ColladaNumbers numbers_;
   int depth_ = 0;
+  bool in_scene_ = false;
   std::set<std::string> geometries_;
   std::vector<std::string> geometries_used_;
   std::vector<Node> nodes_;

@@ -61,7 +61,14 @@ TEST_F(MeshBadFile, NoTriangles) {
   expect_refused("a.stl", test::binary_stl({}), "no triangles");
   expect_refused("b.stl", "solid x\nendsolid x\n", "no triangles");
   expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "triangles");
-  expect_refused("a.dae", test::collada("", ""), "");
+  const std::string in_library = "<library_nodes>" + test::collada_node() + "</library_nodes>";
+  for (const char* scene : {"", "<node id=\"n\"/>"}) {
+    expect_refused("a.dae", test::collada("", scene), "shows no geometry");
+    expect_refused("b.dae",
+                   replaced(test::collada("", scene), "<library_visual_scenes>",
+                            in_library + "<library_visual_scenes>"),
+                   "shows no geometry");
+  }
   TriangleMesh line = test::tetrahedron();
   for (auto& v : line.vertices) v = {v.x(), 0, 0};
   expect_refused("line.stl", test::binary_stl(line), "zero area");
@@ -90,6 +97,14 @@ TEST_F(MeshBadFile, CoordinatesThatAreNoPlaces) {
                             std::string("0 ") + bad + " 0 0 0 3"),
                    "");
   }
+}
+
+TEST_F(MeshBadFile, UnitsThatAreNoLength) {
+  for (const char* bad : {"x", "", "0", "-1", "nan", "inf", "1 inch", "0,01", "1e9"})
+    expect_refused("a.dae",
+                   test::collada(std::string("<unit name=\"odd\" meter=\"") + bad + "\"/>",
+                                 test::collada_node()),
+                   "write how many metres");
 }
 
 TEST_F(MeshBadFile, IndicesBeyondTheVertices) {

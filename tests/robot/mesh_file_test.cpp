@@ -88,6 +88,7 @@ TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
 TEST_F(MeshFile, ColladaUnitIsAppliedOnce) {
   expect_tetrahedron(load_collada("", test::collada_node()));
   expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>", test::collada_node()));
+  expect_tetrahedron(load_collada("<unit name=\"meter\"/>", test::collada_node()));
   expect_tetrahedron(load_collada("<unit name=\"mm\" meter=\"0.001\"/>", test::collada_node()),
                      0.001);
   const TriangleMesh moved = load_collada("<unit name=\"inch\" meter=\"0.0254\"/>",
