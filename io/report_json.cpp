@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <system_error>
 #include <utility>
 
@@ -104,12 +103,6 @@ Json link_json(const LinkReport& link) {
           {"load_ms", link.load_ms}};
 }
 
-std::string_view type_name(JointType type) {
-  constexpr std::array<std::string_view, 6> names = {"revolute", "continuous", "prismatic",
-                                                     "fixed",    "planar",     "floating"};
-  return names[static_cast<std::size_t>(type)];
-}
-
 Json joint_json(const Robot& robot, const Joint& joint) {
   Json mimic = nullptr;
   if (joint.mimics && joint.variable)
@@ -117,7 +110,7 @@ Json joint_json(const Robot& robot, const Joint& joint) {
              {"multiplier", joint.multiplier},
              {"offset", joint.offset}};
   return {{"name", joint.name},
-          {"type", type_name(joint.type)},
+          {"type", to_string(joint.type)},
           {"parent", robot.links()[joint.parent]},
           {"child", robot.links()[joint.child]},
           {"lower", or_null(joint.lower)},

@@ -66,28 +66,10 @@ std::string mimic_of(const Robot& robot, const Joint& joint) {
          fixed(joint.offset, 4);
 }
 
-std::string_view type_of(const Joint& joint) {
-  switch (joint.type) {
-    case JointType::revolute:
-      return "revolute";
-    case JointType::continuous:
-      return "continuous";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::fixed:
-      return "fixed";
-    case JointType::planar:
-      return "planar";
-    case JointType::floating:
-      return "floating";
-  }
-  return "";
-}
-
 void print_joints(const Robot& robot) {
   std::vector<Row> rows = {{"JOINT", "TYPE", "PARENT", "CHILD", "LIMITS (rad, m)", "MIMICS"}};
   for (const Joint& joint : robot.joints())
-    rows.push_back({joint.name, std::string(type_of(joint)), robot.links()[joint.parent],
+    rows.push_back({joint.name, std::string(to_string(joint.type)), robot.links()[joint.parent],
                     robot.links()[joint.child], limits_of(joint), mimic_of(robot, joint)});
   if (rows.size() > 1) print_table(rows);
 }

@@ -33,6 +33,24 @@ std::optional<std::size_t> find(const std::map<std::string, std::size_t, std::le
 
 }  // namespace
 
+std::string_view to_string(JointType type) {
+  switch (type) {
+    case JointType::revolute:
+      return "revolute";
+    case JointType::continuous:
+      return "continuous";
+    case JointType::prismatic:
+      return "prismatic";
+    case JointType::fixed:
+      return "fixed";
+    case JointType::planar:
+      return "planar";
+    case JointType::floating:
+      break;
+  }
+  return "floating";
+}
+
 std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
                                                       const fs::path& folder,
                                                       const RobotOptions& options) {

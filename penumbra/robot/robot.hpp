@@ -49,6 +49,9 @@ struct LinkReport {
 
 enum class JointType { revolute, continuous, prismatic, fixed, planar, floating };
 
+/// The type's name in a URDF.
+[[nodiscard]] std::string_view to_string(JointType type);
+
 /// A joint of the tree. Its frame is the child link's frame at position 0.
 struct Joint {
   std::string name;

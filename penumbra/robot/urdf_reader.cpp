@@ -60,10 +60,9 @@ constexpr double kLargestMimic = 1e9;
 constexpr double kShortestAxis = 1e-9;
 constexpr double kUnitQuaternion = 1e-3;
 
-constexpr std::pair<std::string_view, JointType> kJointTypes[] = {
-    {"revolute", JointType::revolute},   {"continuous", JointType::continuous},
-    {"prismatic", JointType::prismatic}, {"fixed", JointType::fixed},
-    {"planar", JointType::planar},       {"floating", JointType::floating}};
+constexpr JointType kJointTypes[] = {JointType::revolute,  JointType::continuous,
+                                     JointType::prismatic, JointType::fixed,
+                                     JointType::planar,    JointType::floating};
 
 ElementRule leaf(std::span<const std::string_view> attributes) { return {attributes, {}, {}, {}}; }
 
@@ -162,8 +161,8 @@ UrdfLink read_link(const UrdfNode& unnamed) {
 
 JointType read_type(const UrdfNode& node) {
   const std::string& type = node.text("type");
-  for (const auto& [name, value] : kJointTypes)
-    if (name == type) return value;
+  for (const JointType known : kJointTypes)
+    if (to_string(known) == type) return known;
   node.fail("unknown type " + in_quotes(type) +
             "; expected revolute, continuous, prismatic, fixed, planar or floating");
 }
