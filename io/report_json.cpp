@@ -38,11 +38,9 @@ Json renderer_json(const RendererInfo& info) {
 }
 
 Json pixels_json(const PixelCounts& pixels) {
-  return {{"robot", or_null(pixels.robot)},
-          {"front", pixels.front},
-          {"occluded", pixels.occluded},
-          {"unknown", pixels.unknown},
-          {"beyond", pixels.beyond}};
+  return {{"robot", or_null(pixels.robot)}, {"front", pixels.front},
+          {"occluded", pixels.occluded},    {"unknown", pixels.unknown},
+          {"beyond", pixels.beyond},        {"uncovered", pixels.uncovered}};
 }
 
 Json frame_json(const FrameReport& report) {
@@ -54,6 +52,7 @@ Json frame_json(const FrameReport& report) {
           {"stamp_ns", or_null(report.stamp)},
           {"joint_age_ms", age},
           {"status", to_string(report.status)},
+          {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
           {"pixels", pixels_json(report.pixels)},
           {"timing_ms", std::move(timing)},
           {"targets", Json::array()}};
@@ -61,11 +60,16 @@ Json frame_json(const FrameReport& report) {
 
 Json faults_json(const Statistics& statistics) {
   Json faults = Json::array();
-  for (const Fault& fault : statistics.faults())
+  for (const Fault& fault : statistics.faults()) {
+    Json reasons = Json::array();
+    for (const Reason& reason : fault.reasons)
+      reasons.push_back(
+          {{"message", reason.message}, {"frames", reason.frames}, {"first_index", reason.first}});
     faults.push_back({{"status", to_string(fault.status)},
                       {"frames", fault.frames},
-                      {"first_index", fault.first},
-                      {"first_message", fault.message}});
+                      {"reasons", std::move(reasons)},
+                      {"frames_of_other_reasons", fault.other_reasons}});
+  }
   return faults;
 }
 
@@ -76,12 +80,10 @@ Json summary_json(const Statistics& statistics, const Json& missing_links, const
     timing[stages[i].name] =
         q ? Json{{"median", q->median}, {"p99", q->p99}, {"max", q->max}} : Json(nullptr);
   }
-  Json pixels = pixels_json(statistics.pixels());
-  pixels["uncovered"] = statistics.pixels().uncovered;
   return {{"frames", statistics.frames()},
           {"bad_frames", statistics.bad_frames()},
           {"timing_ms", std::move(timing)},
-          {"pixels", std::move(pixels)},
+          {"pixels", pixels_json(statistics.pixels())},
           {"faults", faults_json(statistics)},
           {"missing_links", missing_links},
           {"notes", notes}};

@@ -54,7 +54,8 @@ LabelView labels_of(const FrameReport& report) {
                           static_cast<std::size_t>(report.labels.height);
   const std::size_t labelled = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   return {report.labels,
-          {all - labelled, pixels.front, pixels.occluded, pixels.unknown, pixels.beyond},
+          {all - labelled - pixels.uncovered, pixels.front, pixels.occluded, pixels.unknown,
+           pixels.beyond},
           nullptr};
 }
 

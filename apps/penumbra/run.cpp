@@ -102,6 +102,21 @@ Frame frame_of(const io::FrameData& data) {
   return frame;
 }
 
+/// Where a later frame's joints put the camera inside of a link, that frame is bad and the others
+/// are judged; where no frame before was usable, it is the recording that is wrong.
+const FrameReport& judge(Pipeline& pipeline, Frame frame, const Statistics& before) {
+  try {
+    return pipeline.process(frame);
+  } catch (const InputError& error) {
+    if (before.usable_frames() == 0) throw;
+    std::string message(frame.source_message);
+    message += (message.empty() ? "" : "; ") + std::string(error.what());
+    frame.source_status = FrameStatus::missing_transform;
+    frame.source_message = message;
+    return pipeline.process(frame);
+  }
+}
+
 /// Counts the overlays that could not show the recorded colour.
 struct ColorFaults {
   std::size_t frames = 0;
@@ -114,13 +129,19 @@ struct ColorFaults {
   }
 };
 
+std::string more_reasons(const Fault& fault) {
+  if (fault.frames == fault.reasons.front().frames) return "";
+  return " (other frames for other reasons, see the report)";
+}
+
 void tell_faults(const Statistics& statistics, const ColorFaults& color) {
   const auto frames = [&](std::size_t n) {
     return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
   };
   for (const Fault& fault : statistics.faults())
     std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
-              << ", first in frame " << fault.first << ": " << fault.message << '\n';
+              << ", first in frame " << fault.reasons.front().first << ": "
+              << fault.reasons.front().message << more_reasons(fault) << '\n';
   if (color.frames > 0)
     std::cerr << "penumbra: no colour in the overlay of " << frames(color.frames)
               << ", first: " << color.first << '\n';
@@ -168,7 +189,7 @@ int execute(const RunArguments& arguments) {
     io::FrameData data;
     for (const std::size_t i : selected) {
       reader.read(i, arguments.saves.overlay, data);
-      const FrameReport& report = pipeline.process(frame_of(data));
+      const FrameReport& report = judge(pipeline, frame_of(data), statistics);
       statistics.add(report);
       color.add(data.color_message);
       writer.add(report);

@@ -25,7 +25,7 @@ enum class FrameStatus {
   missing_link,       ///< drawn without a link whose mesh could not be read
   missing_depth,      ///< no depth image: every robot pixel is unknown
   bad_depth,          ///< a depth image that cannot be used: every robot pixel is unknown
-  missing_transform,  ///< the camera's pose is unknown
+  missing_transform,  ///< the camera's pose is unknown, or impossible: inside of a link
 };
 
 /// The status's name in report.json.
@@ -62,14 +62,17 @@ struct Frame {
   std::optional<std::size_t> index = {};  ///< in its source; nothing: the pipeline counts its calls
 };
 
-/// How many pixels of the label image have each label.
+/// How many pixels of the label image have each label. Where the robot's pose is known,
+/// robot = front + occluded + unknown + beyond.
 struct PixelCounts {
   std::optional<std::size_t> robot;  ///< VDI > 0; nothing where the robot's pose is unknown
   std::size_t front = 0;
   std::size_t occluded = 0;
-  std::size_t unknown = 0;  ///< robot without measurement, and `uncovered`
+  std::size_t unknown = 0;  ///< robot without measurement; every covered pixel without a pose
   std::size_t beyond = 0;
-  std::size_t uncovered = 0;  ///< of `unknown`: pixels that the lens model does not reach
+
+  /// Pixels that the lens model does not reach: labelled unknown, counted here alone.
+  std::size_t uncovered = 0;
 };
 
 /// Wall time of the stages, milliseconds; nothing for a stage that did not run.

@@ -51,7 +51,7 @@ class RawImages {
   VirtualDepthView virtual_depth(const VirtualDepthView& pinhole);
 
   /// The labels of `virtual_depth`'s image, with every pixel unknown that the pinhole image does
-  /// not cover, and without a tile mask; valid until the next call.
+  /// not cover, and without a tile mask; its counts leave those out. Valid until the next call.
   LabelView labels(const LabelView& labels);
 
   [[nodiscard]] std::size_t uncovered() const { return uncovered_count_; }

@@ -73,7 +73,6 @@ LabelView RawImages::labels(const LabelView& labels) {
   labels_touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
   LabelView covered{labels_.view(), labels.pixels, nullptr};
   covered.pixels[static_cast<std::size_t>(Label::clear)] -= uncovered_count_;
-  covered.pixels[static_cast<std::size_t>(Label::unknown)] += uncovered_count_;
   return covered;
 }
 

@@ -79,6 +79,7 @@ struct Pipeline::State {
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
+  [[nodiscard]] std::size_t uncovered() const { return raw_images ? raw_images->uncovered() : 0; }
   const FrameReport& without_pose(FrameStatus status);
   const FrameReport& finish(FrameStatus status, const VirtualDepthView& virtual_depth,
                             const LabelView& labels);
@@ -204,7 +205,9 @@ DepthView Pipeline::State::seen_depth(const DepthView& measured) {
 const FrameReport& Pipeline::State::without_pose(FrameStatus status) {
   report.status = status;
   report.labels = {unknown_row.data(), output_intrinsics.width(), output_intrinsics.height(), 0};
-  report.pixels.unknown = unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height());
+  report.pixels.uncovered = uncovered();
+  report.pixels.unknown =
+      unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height()) - uncovered();
   return report;
 }
 
@@ -217,8 +220,8 @@ const FrameReport& Pipeline::State::finish(FrameStatus status,
   pixels.occluded = count(Label::occluded);
   pixels.unknown = count(Label::unknown);
   pixels.beyond = count(Label::beyond);
-  pixels.uncovered = raw_images ? raw_images->uncovered() : 0;
-  pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond - pixels.uncovered;
+  pixels.uncovered = uncovered();
+  pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   report.status = status;
   report.virtual_depth = virtual_depth;
   report.labels = labels.labels;

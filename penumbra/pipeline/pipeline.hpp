@@ -46,7 +46,8 @@ class Pipeline {
 
   /// Judges one frame; the report is valid until the next call. Whatever is wrong with the frame is
   /// its status: an image of another frame never shows. Throws InputError if the camera's centre
-  /// lies inside of a closed link.
+  /// lies inside of a closed link, which is the user's to mend if the first frame shows it. Whoever
+  /// takes it for a later frame's own fault calls again with source_status missing_transform.
   const FrameReport& process(const Frame& frame);
 
   [[nodiscard]] const Robot& robot() const;

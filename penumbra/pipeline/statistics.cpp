@@ -29,14 +29,28 @@ void Statistics::add(const FrameReport& report) {
 
   if (report.status == FrameStatus::ok || report.status == FrameStatus::missing_link)
     ++usable_frames_;
-  if (report.status == FrameStatus::ok) return;
-  const auto known = std::find_if(faults_.begin(), faults_.end(), [&](const Fault& fault) {
-    return fault.status == report.status;
+  if (report.status != FrameStatus::ok) add_fault(report);
+}
+
+void Statistics::add_fault(const FrameReport& report) {
+  auto fault = std::find_if(faults_.begin(), faults_.end(),
+                            [&](const Fault& known) { return known.status == report.status; });
+  if (fault == faults_.end()) {
+    faults_.emplace_back().status = report.status;
+    fault = faults_.end() - 1;
+  }
+  ++fault->frames;
+
+  std::vector<Reason>& reasons = fault->reasons;
+  const auto reason = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& known) {
+    return known.message == report.message;
   });
-  if (known == faults_.end())
-    faults_.push_back({report.status, 1, report.index, report.message});
+  if (reason != reasons.end())
+    ++reason->frames;
+  else if (reasons.size() < Fault::max_reasons)
+    reasons.push_back({report.message, 1, report.index});
   else
-    ++known->frames;
+    ++fault->other_reasons;
 }
 
 std::size_t Statistics::bad_frames() const {

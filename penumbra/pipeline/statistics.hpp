@@ -30,12 +30,21 @@ inline constexpr std::array stages = {
     Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
     Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
 
-/// How often a status other than ok came, and what was said first.
-struct Fault {
-  FrameStatus status = FrameStatus::ok;
+/// What was said of frames, and of how many.
+struct Reason {
+  std::string message;
   std::size_t frames = 0;
   std::size_t first = 0;  ///< index of its first frame
-  std::string message;    ///< of its first frame
+};
+
+/// How often a status other than ok came, and why.
+struct Fault {
+  static constexpr std::size_t max_reasons = 16;  ///< messages may differ in every frame
+
+  FrameStatus status = FrameStatus::ok;
+  std::size_t frames = 0;
+  std::vector<Reason> reasons;    ///< the first distinct ones, in the order they came
+  std::size_t other_reasons = 0;  ///< frames of further ones
 };
 
 /// What many frames come to.
@@ -58,6 +67,8 @@ class Statistics {
   [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
 
  private:
+  void add_fault(const FrameReport& report);
+
   std::size_t frames_ = 0;
   std::size_t usable_frames_ = 0;
   std::vector<Fault> faults_;

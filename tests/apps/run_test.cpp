@@ -34,9 +34,11 @@ void expect_report(const Json& report) {
   EXPECT_EQ(keys(report["renderer"]), (Keys{"backend", "isa", "threads"}));
   const Keys stages{"kinematics", "render", "classify", "targets"};
   for (const Json& frame : report["frames"]) {
-    EXPECT_EQ(keys(frame), (Keys{"index", "stamp_ns", "joint_age_ms", "status", "pixels",
+    EXPECT_EQ(keys(frame), (Keys{"index", "stamp_ns", "joint_age_ms", "status", "message", "pixels",
                                  "timing_ms", "targets"}));
-    EXPECT_EQ(keys(frame["pixels"]), (Keys{"robot", "front", "occluded", "unknown", "beyond"}));
+    EXPECT_EQ(frame["message"].is_null(), frame["status"] == "ok");
+    EXPECT_EQ(keys(frame["pixels"]),
+              (Keys{"robot", "front", "occluded", "unknown", "beyond", "uncovered"}));
     EXPECT_EQ(keys(frame["timing_ms"]), stages);
     EXPECT_TRUE(frame["timing_ms"]["targets"].is_null());
     EXPECT_EQ(frame["targets"], Json::array());
@@ -125,6 +127,7 @@ TEST_F(RunTest, GoesOnAfterFaultyFrames) {
   expect_report(json);
   EXPECT_EQ(json["summary"]["bad_frames"], 2);
   EXPECT_EQ(json["frames"][0]["status"], "missing_depth");
+  EXPECT_NE(json["frames"][0]["message"].get<std::string>().find("depth_0.png"), std::string::npos);
   EXPECT_EQ(json["frames"][0]["pixels"]["unknown"], json["frames"][0]["pixels"]["robot"]);
   EXPECT_EQ(json["frames"][1]["status"], "missing_joints");
   EXPECT_TRUE(json["frames"][1]["pixels"]["robot"].is_null());
@@ -135,6 +138,53 @@ TEST_F(RunTest, GoesOnAfterFaultyFrames) {
   const Image<std::uint8_t> image = labels("000001.png");
   EXPECT_EQ(std::set<std::uint8_t>(image.data(), image.data() + image.size()),
             std::set<std::uint8_t>{3});
+}
+
+TEST_F(RunTest, TellsEveryReasonOfBadFrames) {
+  write_file(folder_.path() / "depth_0.png", "no image");
+  fs::copy_file(folder_.path() / "color_1.png", folder_.path() / "depth_1.png",
+                fs::copy_options::overwrite_existing);
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("other reasons"), std::string::npos) << outcome.err;
+  const Json json = report();
+  const Json& fault = json["summary"]["faults"].at(0);
+  EXPECT_EQ(keys(fault), (Keys{"status", "frames", "reasons", "frames_of_other_reasons"}));
+  EXPECT_EQ(fault["frames"], 2);
+  ASSERT_EQ(fault["reasons"].size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(fault["reasons"][i]["message"], json["frames"][i]["message"]);
+    EXPECT_EQ(fault["reasons"][i]["first_index"], i);
+  }
+}
+
+TEST_F(RunTest, OnlyTheFrameIsBadWhoseJointsPutTheCameraInsideOfALink) {
+  // From slide = -1.05 to -0.95 the board, 0.1 m thick, holds the camera's centre.
+  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,-1.0\n2,0.1\n");
+  const Outcome outcome = run({"--save", "vdi,labels"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("'board'"), std::string::npos) << outcome.err;
+  const Json json = report();
+  expect_report(json);
+  EXPECT_EQ(json["summary"]["bad_frames"], 1);
+  EXPECT_EQ(json["frames"][1]["status"], "missing_transform");
+  EXPECT_TRUE(json["frames"][1]["pixels"]["robot"].is_null());
+  EXPECT_EQ(json["frames"][2]["status"], "ok");
+  EXPECT_FALSE(fs::exists(out() / "vdi/000001.npy"));
+  const Image<std::uint8_t> image = labels("000001.png");
+  EXPECT_EQ(std::set<std::uint8_t>(image.data(), image.data() + image.size()),
+            std::set<std::uint8_t>{3});
+}
+
+TEST_F(RunTest, ACameraInsideOfALinkFromTheStartIsTheRecordingsFault) {
+  fs::remove(folder_.path() / "depth_0.png");
+  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,-1.0\n2,0.1\n");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 2) << "frame 0 is not usable, so frame 1 is the first";
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("ignore_links"), std::string::npos) << outcome.err;
 }
 
 TEST_F(RunTest, TakesARangeOfFrames) {

@@ -96,7 +96,31 @@ TEST(Lens, RawImagesShowWhatRaysThroughTheLensMeet) {
     }
     EXPECT_GT(uncovered, 100U) << "the corners";
     EXPECT_EQ(report.pixels.uncovered, uncovered);
-    EXPECT_EQ(report.pixels.unknown, uncovered + report.pixels.robot.value());
+    EXPECT_EQ(report.pixels.unknown, report.pixels.robot) << "uncovered pixels stand apart";
+  }
+}
+
+TEST(Lens, CountsOfAFrameAddUp) {
+  const Camera camera = lens_camera();
+  const std::vector<double> positions = {0.0};
+  const Image<float> depth(camera.intrinsics.width(), camera.intrinsics.height(), 0.6F);
+  for (const ImageSpace image : {ImageSpace::raw, ImageSpace::rectified}) {
+    PipelineConfig config = plain_config();
+    config.image = image;
+    Pipeline pipeline(slab_robot(), camera, config);
+    for (const DepthView& seen : {DepthView{}, DepthView{depth.view()}}) {
+      const FrameReport& report = pipeline.process({.depth = seen, .joints = positions});
+      const PixelCounts& p = report.pixels;
+      EXPECT_EQ(p.robot, p.front + p.occluded + p.unknown + p.beyond);
+      const auto labels = pixels_of(report.labels);
+      EXPECT_EQ(std::count(labels.begin(), labels.end(), unknown),
+                static_cast<std::ptrdiff_t>(p.unknown + p.uncovered));
+    }
+    const PixelCounts lost = pipeline.process({.depth = depth.view()}).pixels;
+    EXPECT_EQ(lost.uncovered > 0, image == ImageSpace::raw);
+    EXPECT_EQ(lost.unknown + lost.uncovered,
+              static_cast<std::size_t>(pipeline.intrinsics().width()) *
+                  static_cast<std::size_t>(pipeline.intrinsics().height()));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numeric>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -44,12 +45,40 @@ TEST(Statistics, CountsFaultsByKind) {
   EXPECT_EQ(statistics.usable_frames(), 1U);
   ASSERT_EQ(statistics.faults().size(), 1U);
   EXPECT_EQ(statistics.faults()[0].frames, 2U);
-  EXPECT_EQ(statistics.faults()[0].first, 5U);
-  EXPECT_EQ(statistics.faults()[0].message, "frame 5");
+  ASSERT_EQ(statistics.faults()[0].reasons.size(), 2U);
+  EXPECT_EQ(statistics.faults()[0].reasons[0].first, 5U);
+  EXPECT_EQ(statistics.faults()[0].reasons[0].message, "frame 5");
   EXPECT_EQ(statistics.pixels().robot, 10U);
   EXPECT_EQ(statistics.pixels().unknown, 200U);
   EXPECT_EQ(statistics.timing(1)->max, 0.5);
   EXPECT_FALSE(statistics.timing(0).has_value());
+}
+
+TEST(Statistics, KeepsEveryReasonUpToABound) {
+  Statistics statistics;
+  FrameReport report;
+  report.status = FrameStatus::bad_depth;
+  for (const char* const message : {"truncated", "8 bits", "truncated"}) {
+    report.message = message;
+    statistics.add(report);
+    ++report.index;
+  }
+  const Fault& fault = statistics.faults().at(0);
+  ASSERT_EQ(fault.reasons.size(), 2U);
+  EXPECT_EQ(fault.reasons[0].frames, 2U);
+  EXPECT_EQ(fault.reasons[1].message, "8 bits");
+  EXPECT_EQ(fault.reasons[1].first, 1U);
+  EXPECT_EQ(fault.other_reasons, 0U);
+
+  for (int i = 0; i < 100; ++i) {
+    report.message = "reason " + std::to_string(i);
+    statistics.add(report);
+  }
+  EXPECT_EQ(fault.reasons.size(), Fault::max_reasons);
+  std::size_t told = 0;
+  for (const Reason& reason : fault.reasons) told += reason.frames;
+  EXPECT_EQ(told + fault.other_reasons, fault.frames);
+  EXPECT_EQ(fault.frames, 103U);
 }
 
 }  // namespace
