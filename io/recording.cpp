@@ -113,7 +113,9 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
   refuse_depth_camera(node, folder);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
-  RecordingCamera camera{.camera = read_camera_info(file_of(node.at("info"), folder), is_rectified),
+  const std::filesystem::path info = file_of(node.at("info"), folder);
+  RecordingCamera camera{.info = info,
+                         .camera = read_camera_info(info, is_rectified),
                          .rectified = is_rectified,
                          .parent = node.at("parent").text(),
                          .T_parent_camera = read_pose_csv(file_of(node.at("pose"), folder))};

@@ -21,7 +21,8 @@ enum class BeyondMeans { occluded, visible };
 
 /// The camera of a recording. What is not set was not written there.
 struct RecordingCamera {
-  Camera camera;  ///< `range` holds camera.range where that is written
+  std::filesystem::path info;  ///< the camera_info file
+  Camera camera;               ///< `range` holds camera.range where that is written
   bool rectified = false;
   std::string parent;                       ///< the link that the camera sits on
   Eigen::Isometry3d T_parent_camera;        ///< pose of the optical frame in the parent link

@@ -45,7 +45,7 @@ Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Came
   config.renderer.threads = arguments.threads;
   config.camera_parent = arguments.parent;
   config.T_parent_camera = io::read_pose_csv(arguments.pose);
-  return {std::move(robot), camera, config};
+  return app::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
 }
 
 Image<float> copy(ImageView<const float> from) {

@@ -65,7 +65,7 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
   config.image = arguments.image;
   config.camera_parent = camera.parent;
   config.T_parent_camera = camera.T_parent_camera;
-  return {std::move(robot), camera.camera, config};
+  return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);
 }
 
 /// Which of the reader's frames are wanted; the range must lie inside the recording.

@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/text.hpp>
 
 namespace penumbra::app {
+
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t start = 0; start <= text.size();) {
@@ -21,6 +25,15 @@ std::string fixed(double value, int digits) {
   const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value,
                                     std::chars_format::fixed, std::min(digits, 20));
   return {buffer, result.ptr};
+}
+
+Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& config,
+                       const std::filesystem::path& camera_info) {
+  try {
+    return {std::move(robot), camera, config};
+  } catch (const LensError& error) {
+    throw InputError(camera_info.string() + ": " + error.what());
+  }
 }
 
 void tell_notes(const Robot& robot) {

@@ -16,9 +16,9 @@ Intrinsics::Intrinsics(int width, int height, double fx, double fy, double cx, d
   } else if (std::int64_t{width} * height > max_pixels) {
     what << "camera: image size " << width << " x " << height << " has more than " << max_pixels
          << " pixels";
-  } else if (!(fx > 0 && fy > 0 && std::isfinite(fx) && std::isfinite(fy))) {
+  } else if (!(fx > 0 && fy > 0 && fx <= max_focal && fy <= max_focal)) {
     what << "camera: focal lengths fx = " << fx << ", fy = " << fy
-         << " must be positive, finite numbers of pixels";
+         << " must be positive numbers of pixels, at most " << max_focal;
   } else if (!std::isfinite(cx) || !std::isfinite(cy)) {
     what << "camera: principal point cx = " << cx << ", cy = " << cy << " must be finite";
   } else {

@@ -12,9 +12,10 @@ class Intrinsics {
  public:
   static constexpr int max_size = 32767;      ///< largest width or height
   static constexpr int max_pixels = 1 << 26;  ///< largest width times height; 8 K has half of it
+  static constexpr double max_focal = 1e7;    ///< largest fx or fy; telescopes have 1e5
 
-  /// Lengths in pixels. Throws InputError, with the values it got, unless fx, fy > 0, all values
-  /// are finite, 1 <= width, height <= max_size and width * height <= max_pixels.
+  /// Lengths in pixels. Throws InputError, with the values it got, unless 0 < fx, fy <= max_focal,
+  /// cx and cy are finite, 1 <= width, height <= max_size and width * height <= max_pixels.
   Intrinsics(int width, int height, double fx, double fy, double cx, double cy);
 
   [[nodiscard]] int width() const { return width_; }

@@ -52,6 +52,7 @@ std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw
   const double wanted = std::max(static_cast<double>(Rectification::max_pixels), 4 * raw_pixels);
   const double most = std::min(wanted, static_cast<double>(Intrinsics::max_pixels));
   if (!(size.maxCoeff() <= Intrinsics::max_size && size.prod() <= most)) return std::nullopt;
+  if (!(focal.maxCoeff() <= Intrinsics::max_focal)) return std::nullopt;
   return Intrinsics(static_cast<int>(size.x()), static_cast<int>(size.y()), focal.x(), focal.y(),
                     centre.x() + shift.x(), centre.y() + shift.y());
 }
@@ -86,7 +87,7 @@ class ExtentByAngle {
       what << "camera: the lens distortion reaches no pixel of the " << raw.width() << " x "
            << raw.height() << " image within " << max_angle_ * 180 / std::numbers::pi
            << " degrees of the optical axis; distortion coefficients and intrinsics must fit";
-      throw InputError(what.str());
+      throw LensError(what.str());
     }
     return {*best, angle};
   }

@@ -5,11 +5,18 @@
 #include <cstdint>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/camera/camera.hpp>
 
 namespace penumbra {
+
+/// Distortion coefficients with which no ray reaches the image.
+class LensError : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// Maps between a camera's raw, distorted image and a pinhole image that covers it, computed once.
 /// Both ways take the nearest pixel: depths are never mixed.
@@ -32,7 +39,7 @@ class Rectification {
   /// Covers rays up to `max_half_angle` (radians, below 90 degrees) from the optical axis, or up to
   /// a smaller angle, see half_angle(), where the pinhole image would exceed max_pixels or
   /// Intrinsics::max_size or the lens exceeds max_stretch.
-  /// Throws InputError if the lens model reaches no pixel of the image.
+  /// Throws LensError if the lens model reaches no pixel of the image.
   explicit Rectification(const Camera& raw, double max_half_angle = 1.3);
 
   [[nodiscard]] const Intrinsics& pinhole() const { return pinhole_; }

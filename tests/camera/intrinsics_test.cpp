@@ -45,7 +45,8 @@ TEST(Intrinsics, RefusesWhatIsNoCamera) {
   EXPECT_THROW(Intrinsics(1, -1, 1, 1, 0, 0), InputError);
   EXPECT_THROW(Intrinsics(Intrinsics::max_size + 1, 1, 1, 1, 0, 0), InputError);
   EXPECT_THROW(Intrinsics(1, Intrinsics::max_size + 1, 1, 1, 0, 0), InputError);
-  for (const double bad : {0.0, -1.0, nan, inf}) {
+  EXPECT_NO_THROW(Intrinsics(1, 1, Intrinsics::max_focal, Intrinsics::max_focal, 0, 0));
+  for (const double bad : {0.0, -1.0, nan, inf, 1.1 * Intrinsics::max_focal, 1e300}) {
     EXPECT_THROW(Intrinsics(1, 1, bad, 1, 0, 0), InputError) << bad;
     EXPECT_THROW(Intrinsics(1, 1, 1, bad, 0, 0), InputError) << bad;
   }
