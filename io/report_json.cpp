@@ -190,6 +190,7 @@ std::string render_json(const RenderResult& result) {
   for (std::size_t i = 0; i < result.variables.size(); ++i)
     joints[result.variables[i]] = result.positions[i];
   json["joints"] = std::move(joints);
+  json["missing_links"] = list(result.missing_links);
   return dump(json, 2);
 }
 

@@ -47,9 +47,10 @@ struct RenderResult {
   std::size_t triangles = 0;
   std::size_t robot_pixels = 0;
   RendererInfo renderer;
-  std::span<const std::string> variables;  ///< names of the joint positions
-  std::span<const double> positions;       ///< in their order, rad and m
-  Statistics statistics;                   ///< timings of the repeats
+  std::span<const std::string> variables;      ///< names of the joint positions
+  std::span<const double> positions;           ///< in their order, rad and m
+  std::span<const std::string> missing_links;  ///< as in ReportHead
+  Statistics statistics;                       ///< timings of the repeats
 };
 
 [[nodiscard]] std::string render_json(const RenderResult& result);

@@ -185,6 +185,13 @@ void add_renderer(CLI::App& app, Backend& backend, int& threads) {
              });
 }
 
+void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
+  app.add_flag("--allow-missing-meshes", allow_missing_meshes,
+               "go on without meshes that cannot be read; every result names the missing links");
+  app.add_flag("--geometry-fallback", geometry_fallback,
+               "draw links that have only the other geometry by that; inspect says which");
+}
+
 void add_robot(CLI::App& app, RobotOptions& options) {
   add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
            [&](const std::string& text) {
@@ -193,6 +200,26 @@ void add_robot(CLI::App& app, RobotOptions& options) {
            });
   add_option(app, "--geometry", "collision or visual; default collision", "NAME",
              [&](const std::string& text) { options.geometry = to_geometry(text); });
+  add_leniency(app, options.allow_missing_meshes, options.geometry_fallback);
+}
+
+/// Options of versions to come are told apart from mistyped ones; --help does not show them.
+void add_unbuilt(CLI::App& app) {
+  for (const char* const name : {"--targets", "--report", "--time-offset"})
+    app.add_option_function<std::vector<std::string>>(
+           name,
+           [name](const std::vector<std::string>&) {
+             throw InputError(std::string(name) + " is not built into this version; leave it out");
+           })
+        ->group("")
+        ->expected(0, 1);
+}
+
+void check_threads(Backend backend, int threads) {
+  if (backend == Backend::reference && threads > 1)
+    throw InputError("--threads " + std::to_string(threads) +
+                     ": the reference renderer uses one thread; leave --threads out, or choose "
+                     "--renderer cpu");
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
@@ -204,6 +231,7 @@ void add_run(CLI::App& app, RunArguments& run) {
   add_renderer(app, run.backend, run.threads);
   add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
              "NAME", [&](const std::string& text) { run.geometry = to_geometry(text); });
+  add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
   add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
              [&](const std::string& text) { run.tolerance = to_tolerance(text); });
   add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",
@@ -218,6 +246,7 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.frames = to_range(text); });
   add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
              [&](const std::string& text) { run.saves = to_saves(text); });
+  add_unbuilt(app);
 }
 
 void add_render(CLI::App& app, RenderArguments& render) {
@@ -278,6 +307,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::Error& error) {
     throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
   }
+  check_threads(run.backend, run.threads);
+  check_threads(render.backend, render.threads);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;
   if (inspect_app->parsed()) return inspect;

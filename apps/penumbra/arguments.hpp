@@ -32,6 +32,8 @@ struct RunArguments {
   Backend backend = Backend::cpu;
   int threads = 1;
   std::optional<Geometry> geometry;
+  bool geometry_fallback = false;     ///< as in RobotOptions, on top of the recording's
+  bool allow_missing_meshes = false;  ///< likewise
   std::optional<Tolerance> tolerance;
   std::optional<int> front_min_width;  ///< pixels
   bool paper_labels = false;

@@ -102,6 +102,7 @@ int execute(const InspectArguments& arguments) {
   } else {
     print_robot(robot);
   }
+  if (arguments.options.allow_missing_meshes) return 0;
   for (const LinkReport& link : robot.report())
     if (link.missing)
       throw InputError(arguments.robot.string() + ": link '" + link.link + "': " + link.reason);

@@ -57,6 +57,8 @@ Image<float> copy(ImageView<const float> from) {
 
 void write_images(const RenderArguments& arguments, const FrameReport& report) {
   if (!has_pose(report.status)) throw InputError("--joint or --pose: " + report.message);
+  if (report.status == FrameStatus::missing_link)
+    std::cerr << "penumbra: " << to_string(report.status) << ": " << report.message << '\n';
   io::write_npy(arguments.output, report.virtual_depth.depth);
   if (arguments.links) io::write_png(*arguments.links, report.virtual_depth.links);
 }
@@ -90,6 +92,7 @@ int execute(const RenderArguments& arguments) {
                           .renderer = pipeline.renderer(),
                           .variables = pipeline.robot().variables(),
                           .positions = positions,
+                          .missing_links = pipeline.missing_links(),
                           .statistics = {}};
   const Image<float> seen = copy(first.virtual_depth.depth);
   for (int i = 0; i < arguments.repeat; ++i)

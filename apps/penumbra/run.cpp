@@ -28,6 +28,8 @@ io::Recording open_recording(const RunArguments& arguments) {
                      ": ROS 2 bags are not supported by this build; give a recording folder");
   io::Recording recording = io::Recording::open(arguments.input);
   if (arguments.geometry) recording.robot.geometry = *arguments.geometry;
+  recording.robot.geometry_fallback |= arguments.geometry_fallback;
+  recording.robot.allow_missing_meshes |= arguments.allow_missing_meshes;
   return recording;
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The tiny recording with one more link on its base.
+class LeniencyTest : public testing::Test {
+ protected:
+  LeniencyTest() { write_tiny_recording(folder_.path()); }
+
+  void add_link(const std::string& geometry) {
+    edit_file(file("tiny.urdf"), "</robot>",
+              "<link name=\"more\">" + geometry +
+                  "</link><joint name=\"fix\" type=\"fixed\"><parent link=\"base\"/>"
+                  "<child link=\"more\"/></joint></robot>");
+  }
+  void add_link_without_mesh() {
+    add_link("<collision><geometry><mesh filename=\"nowhere.stl\"/></geometry></collision>");
+  }
+
+  [[nodiscard]] std::string file(const char* name) const { return folder_.path() / name; }
+  [[nodiscard]] Outcome run(const std::vector<std::string>& options) const {
+    return with({"run", folder_.path(), "-o", file("out")}, options);
+  }
+  [[nodiscard]] Outcome render(const std::vector<std::string>& options) const {
+    return with({"render", "--robot", file("tiny.urdf"), "--camera", file("camera_info.yaml"),
+                 "--pose", file("camera_pose.csv"), "-o", file("vdi.npy"), "--json"},
+                options);
+  }
+  [[nodiscard]] Outcome inspect(const std::vector<std::string>& options) const {
+    return with({"inspect", file("tiny.urdf"), "--json"}, options);
+  }
+
+ private:
+  static Outcome with(std::vector<std::string> line, const std::vector<std::string>& options) {
+    line.insert(line.end(), options.begin(), options.end());
+    return penumbra(line);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LeniencyTest, AMissingMeshIsAnErrorUnlessItIsAllowed) {
+  add_link_without_mesh();
+  for (const Outcome& outcome : {run({}), render({}), inspect({})}) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("nowhere.stl"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
+  add_link_without_mesh();
+  const std::vector<std::string> allowed = {"--allow-missing-meshes"};
+
+  const Outcome ran = run(allowed);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("missing_link in 3 of 3 frames"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("'more'"), std::string::npos) << ran.err;
+  const Json report = Json::parse(read_file(file("out/report.json")));
+  EXPECT_EQ(report["summary"]["missing_links"], Json{"more"});
+  EXPECT_EQ(report["frames"][0]["status"], "missing_link");
+  EXPECT_NE(report["frames"][0]["message"].get<std::string>().find("'more'"), std::string::npos);
+
+  const Outcome rendered = render(allowed);
+  ASSERT_EQ(rendered.status, 0) << rendered.err;
+  EXPECT_EQ(rendered.err, "penumbra: missing_link: no geometry of link 'more'\n");
+  EXPECT_EQ(Json::parse(rendered.out)["missing_links"], Json{"more"});
+
+  const Outcome inspected = inspect(allowed);
+  ASSERT_EQ(inspected.status, 0) << inspected.err;
+  EXPECT_EQ(Json::parse(inspected.out)["links"][2]["missing"], true);
+}
+
+TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreDrawnWhereThatIsAskedFor) {
+  add_link("<visual><origin xyz=\"0 0 2\"/><geometry><sphere radius=\"1\"/></geometry></visual>");
+  const std::vector<std::string> fallback = {"--geometry-fallback"};
+  const auto robot_pixels = [&](const std::vector<std::string>& options) {
+    return Json::parse(render(options).out)["robot_pixels"].get<int>();
+  };
+  EXPECT_GT(robot_pixels(fallback), robot_pixels({}));
+  EXPECT_EQ(run(fallback).err, "");
+  EXPECT_NE(run({}).err.find("not drawn"), std::string::npos);
+  const Json link = Json::parse(inspect(fallback).out)["links"][2];
+  EXPECT_EQ(link["drawn"], true);
+  EXPECT_EQ(link["reason"], "visual, as it has no collision");
+}
+
+}  // namespace
+}  // namespace penumbra::test
