@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <penumbra/base/triangle_mesh.hpp>
 
 namespace penumbra::offset {
@@ -14,5 +17,8 @@ void separate_edges(TriangleMesh& mesh);
 
 /// Moves vertices of equal position apart by float steps, so that weld() keeps them apart.
 void separate_vertices(TriangleMesh& mesh);
+
+/// Removes steps of a closed loop of vertices that are taken back at once.
+void drop_returns(std::vector<std::uint32_t>& loop);
 
 }  // namespace penumbra::offset

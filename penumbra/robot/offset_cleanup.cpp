@@ -121,4 +121,31 @@ void separate_vertices(TriangleMesh& mesh) {
   }
 }
 
+void drop_returns(std::vector<std::uint32_t>& loop) {
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t v : loop) {
+    if (!kept.empty() && kept.back() == v) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == v)
+      kept.pop_back();
+    else
+      kept.push_back(v);
+  }
+  std::size_t begin = 0;  // the loop's end meets its begin
+  while (kept.size() - begin > 1) {
+    const std::size_t last = kept.size() - 1;
+    if (kept[last] == kept[begin]) {
+      kept.pop_back();
+    } else if (last - begin > 1 && kept[last - 1] == kept[begin]) {
+      kept.resize(last - 1);
+    } else if (last - begin > 1 && kept[last] == kept[begin + 1]) {
+      kept.pop_back();
+      ++begin;
+    } else {
+      break;
+    }
+  }
+  if (kept.size() - begin < 3) begin = kept.size();
+  loop.assign(kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.end());
+}
+
 }  // namespace penumbra::offset

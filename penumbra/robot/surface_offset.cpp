@@ -9,7 +9,9 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/robot/offset_burial-inl.hpp>
 #include <penumbra/robot/offset_cleanup-inl.hpp>
+#include <penumbra/robot/offset_directions-inl.hpp>
 #include <penumbra/robot/offset_sides-inl.hpp>
 #include <penumbra/robot/surface_erosion-inl.hpp>
 #include <penumbra/robot/surface_offset.hpp>
@@ -17,6 +19,10 @@
 namespace penumbra {
 namespace {
 
+using offset::along;
+using offset::angle_between;
+using offset::Cap;
+using offset::drop_returns;
 using offset::Sides;
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -29,40 +35,12 @@ const double merging = 0.6 * reach;    // between a face's normal and the u of i
 const double arc_step = 1.2 * reach;   // between neighbouring u of an arc, twice its own share
 const double ring_step = 1.1 * reach;  // between rings of a patch
 
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return 2.0 * std::atan2((a - b).norm(), (a + b).norm());
-}
-
-/// The unit vector a share `t` of the way along the great circle; a and b not opposite.
-Eigen::Vector3d along(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t) {
-  const double angle = angle_between(a, b);
-  if (angle < 1e-9) return a;
-  return (std::sin((1.0 - t) * angle) * a + std::sin(t * angle) * b).normalized();
-}
-
-/// The smallest cap that was found around directions that were added one by one.
-struct Cap {
-  Eigen::Vector3d centre;
-  double radius = 0.0;
-
-  /// False, and unchanged, where the cap would grow beyond `limit`.
-  bool add(const Eigen::Vector3d& u, double limit) {
-    const double distance = angle_between(centre, u);
-    if (distance <= radius) return true;
-    const double grown = (radius + distance) / 2.0;
-    if (grown > limit) return false;
-    centre = along(centre, u, (grown - radius) / distance);
-    radius = grown;
-    return true;
-  }
-};
-
 /// Moves the faces of `sides` out, puts strips of arcs between them at sharp edges and patches of
 /// spheres at corners. Each new vertex is an old one plus margin times a unit vector.
 class Grower {
  public:
   Grower(const TriangleMesh& mesh, double margin)
-      : mesh_(mesh), margin_(margin), sides_(offset::collect_sides(mesh)) {
+      : mesh_(mesh), margin_(margin), sides_(offset::collect_sides(mesh)), burial_(mesh, margin) {
     moved_.assign(sides_.start.size(), none);
     arcs_.resize(sides_.start.size());
   }
@@ -144,7 +122,7 @@ class Grower {
       arcs_[fan[i]] = {before};
       if (before != moved_[fan[i]]) sharp.push_back(fan[i]);
     }
-    const bool farthest = can_be_farthest(sharp);
+    const bool farthest = can_be_farthest(sharp) && !is_buried(fan, sharp);
     Chain loop;
     for (std::size_t i = 0; i < sharp.size(); ++i) {
       Chain& arc = arcs_[sharp[i]];
@@ -182,6 +160,20 @@ class Grower {
     return false;
   }
 
+  [[nodiscard]] bool is_buried(const Chain& fan, const Chain& sharp) const {
+    if (sharp.size() < 3) return false;  // no patch
+    std::vector<Eigen::Vector3d> normals;
+    for (const std::uint32_t h : fan) normals.push_back(normal(h));
+    return burial_.hides_corner(mesh_.vertices[sides_.start[fan.front()]].cast<double>(),
+                                patch_centre(fan), normals);
+  }
+
+  [[nodiscard]] bool is_buried(std::uint32_t h) const {
+    return burial_.hides_edge(mesh_.vertices[sides_.start[h]].cast<double>(),
+                              mesh_.vertices[sides_.start[Sides::next(h)]].cast<double>(),
+                              normal(h), normal(sides_.twin[h]));
+  }
+
   [[nodiscard]] bool is_concave(std::uint32_t h) const {
     const Eigen::Vector3d into = direction_of(Sides::previous(sides_.twin[h])) * -1.0;
     return into.dot(normal(h)) > 1e-3;
@@ -197,7 +189,8 @@ class Grower {
     constexpr double short_way_is_clear = 0.45 * std::numbers::pi;
     const Eigen::Vector3d a = directions_[from];
     const Eigen::Vector3d b = directions_[to];
-    const double step = fine || !is_concave(h) ? arc_step : std::numbers::pi;
+    const bool exact = fine || !(is_concave(h) || is_buried(h));
+    const double step = exact ? arc_step : std::numbers::pi;
     if (angle_between(a, b) > short_way_is_clear) {
       const Eigen::Vector3d middle = sides_.middle[h].cast<double>().normalized();
       append_arc(a, middle, h, step);
@@ -221,34 +214,6 @@ class Grower {
     const int steps = static_cast<int>(std::ceil(angle_between(a, b) / step));
     for (int i = 1; i < steps; ++i)
       arcs_[h].push_back(add_vertex(sides_.start[h], along(a, b, static_cast<double>(i) / steps)));
-  }
-
-  /// Removes steps that are taken back at once.
-  static void drop_returns(Chain& loop) {
-    Chain kept;
-    for (const std::uint32_t v : loop) {
-      if (!kept.empty() && kept.back() == v) continue;
-      if (kept.size() > 1 && kept[kept.size() - 2] == v)
-        kept.pop_back();
-      else
-        kept.push_back(v);
-    }
-    std::size_t begin = 0;  // the loop's end meets its begin
-    while (kept.size() - begin > 1) {
-      const std::size_t last = kept.size() - 1;
-      if (kept[last] == kept[begin]) {
-        kept.pop_back();
-      } else if (last - begin > 1 && kept[last - 1] == kept[begin]) {
-        kept.resize(last - 1);
-      } else if (last - begin > 1 && kept[last] == kept[begin + 1]) {
-        kept.pop_back();
-        ++begin;
-      } else {
-        break;
-      }
-    }
-    if (kept.size() - begin < 3) begin = kept.size();
-    loop.assign(kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.end());
   }
 
   /// Fills the loop: ears as long as they are small, then rings inwards with ears cut off each.
@@ -389,6 +354,7 @@ class Grower {
   const TriangleMesh& mesh_;
   double margin_;
   Sides sides_;
+  offset::Burial burial_;
   std::vector<std::uint32_t> moved_;         // per half-edge: the new vertex of its start
   std::vector<Chain> arcs_;                  // per half-edge: at its start, from its twin's side
   std::vector<Eigen::Vector3d> directions_;  // per new vertex: the unit vector of its move

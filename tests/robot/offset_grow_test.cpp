@@ -151,7 +151,7 @@ TEST(OffsetGrow, ConvexAndConcaveSolids) {
     for (const TriangleMesh& mesh :
          {make_box({0.3, 0.2, 0.1}), make_cylinder(0.04, 0.1), l_shape(), torus(0.1, 0.03, 24)}) {
       const TriangleMesh grown = offset_surface(mesh, m);
-      expect_offset(mesh, grown, m, 1000);
+      expect_offset(mesh, grown, m, 400);
       if (m < 0.1) expect_closed(grown);
     }
   }
@@ -163,7 +163,7 @@ TEST(OffsetGrow, CrumpledSolids) {
     for (const double m : {0.002, 0.01, 0.04}) {
       const TriangleMesh mesh = crumpled(random, amount);
       const TriangleMesh grown = offset_surface(mesh, m);
-      expect_offset(mesh, grown, m, 1000);
+      expect_offset(mesh, grown, m, 400);
       expect_closed(grown);
     }
   }
@@ -176,7 +176,7 @@ TEST(OffsetGrow, SpikesAndWedges) {
       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
   for (const TriangleMesh& mesh : {wedge, needle}) {
     ASSERT_GT(volume(mesh), 0.0);
-    expect_offset(mesh, offset_surface(mesh, 0.01), 0.01, 1000);
+    expect_offset(mesh, offset_surface(mesh, 0.01), 0.01, 400);
   }
 }
 
@@ -200,7 +200,7 @@ TEST(OffsetGrow, OpenMeshesGrowOnBothSides) {
     for (const TriangleMesh& mesh : {open_box, sheet, fins}) {
       const TriangleMesh grown = offset_surface(mesh, m);
       expect_closed(grown);
-      expect_offset(mesh, grown, m, 1000);
+      expect_offset(mesh, grown, m, 400);
     }
   }
 }
@@ -209,7 +209,7 @@ TEST(OffsetGrow, SeveralPieces) {
   TriangleMesh mesh = make_box({0.1, 0.1, 0.1});
   append(mesh, make_sphere(0.03), {0.06, 0, 0});
   append(mesh, {{{0, 0, 0}, {0.2F, 0, 0}, {0, 0.2F, 0}}, {{0, 1, 2}}}, {0, 0, 0.1});
-  expect_offset(mesh, offset_surface(mesh, 0.01), 0.01, 1000);
+  expect_offset(mesh, offset_surface(mesh, 0.01), 0.01, 400);
 }
 
 TEST(OffsetGrow, RealLinks) {
@@ -218,9 +218,9 @@ TEST(OffsetGrow, RealLinks) {
   for (const char* file : {"ur5e/ur_description/meshes/ur5e/collision/forearm.stl",
                            "xarm7/xarm_description/meshes/xarm7/visual/link3.STL"}) {
     const TriangleMesh mesh = load_mesh(robots / file);
-    for (const double m : {0.002, 0.01, 0.05}) {
+    for (const double m : {0.002, 0.05}) {
       const TriangleMesh grown = offset_surface(mesh, m);
-      expect_offset(mesh, grown, m, 300);
+      expect_offset(mesh, grown, m, 100);
     }
   }
 }
@@ -254,7 +254,7 @@ TEST(OffsetGrow, RealRobotsStaySmallAndClosed) {
   EXPECT_LT(ur5e.grown, 4 * ur5e.given);
   const Growth xarm = grow_folder(robots / "xarm7/xarm_description/meshes/xarm7/visual");
   EXPECT_TRUE(xarm.closed);
-  EXPECT_LT(xarm.grown, 16 * xarm.given);  // threads and holes: each sharp edge is rounded
+  EXPECT_LT(xarm.grown, 12 * xarm.given);  // threads and holes: each sharp edge is rounded
 }
 
 }  // namespace
