@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -96,17 +98,17 @@ TriangleMesh finned(double thickness) {
 
 TEST(OffsetGrid, DetailsThatVanishLeaveTheRest) {
   constexpr double depth = 0.002;
-  for (const double thickness : {0.003, 0.0045, 0.0055, 0.008}) {
+  for (const double thickness : {0.003, 0.0055}) {
     const TriangleMesh mesh = finned(thickness);
-    expect_eroded(mesh, offset_surface(mesh, -depth), depth, {2000, 1000});
+    expect_eroded(mesh, offset_surface(mesh, -depth), depth, {1000, 500});
   }
 }
 
 TEST(OffsetGrid, ConvexAndConcaveEverywhere) {
   auto random = test::seeded_random(52);
-  for (const double depth : {0.002, 0.01, 0.02}) {
+  for (const double depth : {0.005, 0.02}) {
     const TriangleMesh mesh = test::crumpled(random, 0.4);
-    expect_eroded(mesh, offset_surface(mesh, -depth), depth, {2000, 1000});
+    expect_eroded(mesh, offset_surface(mesh, -depth), depth, {1000, 500});
   }
 }
 
@@ -114,7 +116,7 @@ TEST(OffsetGrid, SurfacesInsideOtherPiecesAreWalls) {
   constexpr double depth = 0.01;
   TriangleMesh two = make_box({0.1, 0.1, 0.1});
   test::append(two, make_box({0.1, 0.08, 0.06}), {0.05, 0, 0});
-  expect_eroded(two, offset_surface(two, -depth), depth, {2000, 1000});
+  expect_eroded(two, offset_surface(two, -depth), depth, {1000, 500});
   for (auto& t : two.triangles) std::swap(t[0], t[1]);
   const TriangleMesh eroded = offset_surface(two, -depth);
   EXPECT_GT(windings(eroded, {-0.03, 0, 0}), 0);
@@ -141,13 +143,20 @@ TEST(OffsetGrid, RealLinks) {
   PENUMBRA_REQUIRE_DATA();
   const auto robots = test::data_folder() / "robots";
   for (const char* file : {"ur5e/ur_description/meshes/ur5e/collision/wrist3.stl",
-                           "ur5e/ur_description/meshes/ur5e/collision/wrist1.stl",
-                           "xarm7/xarm_description/meshes/xarm7/visual/link7.STL",
-                           "xarm7/xarm_description/meshes/xarm7/visual/link_base.STL"}) {
+                           "xarm7/xarm_description/meshes/xarm7/visual/link7.STL"}) {
     const TriangleMesh mesh = load_mesh(robots / file);
-    for (const double depth : {0.002, 0.004})
-      expect_eroded(mesh, offset_surface(mesh, -depth), depth, {1000, 200});
+    expect_eroded(mesh, offset_surface(mesh, -0.002), 0.002, {500, 100});
   }
+}
+
+/// Thin walls, which the grid cuts into pieces.
+TEST(OffsetGridFull, LinkOfThinWalls) {
+  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  PENUMBRA_REQUIRE_DATA();
+  const TriangleMesh mesh = load_mesh(
+      test::data_folder() / "robots/xarm7/xarm_description/meshes/xarm7/visual/link_base.STL");
+  for (const double depth : {0.002, 0.004})
+    expect_eroded(mesh, offset_surface(mesh, -depth), depth, {2000, 500});
 }
 
 TEST(OffsetGridFull, EveryClosedLinkOfARealRobot) {
