@@ -75,8 +75,8 @@ inline std::optional<Vector3d> cast(const TriangleMesh& mesh, const Vector3d& ey
 }
 
 /// Whether a ray comes within `reach` of the mesh, by steps that cannot jump over it.
-inline bool comes_within(const TriangleMesh& mesh, Vector3d eye, const Vector3d& ray, double reach,
-                         double length) {
+inline bool comes_within(const TriangleMesh& mesh, const Vector3d& eye, const Vector3d& ray,
+                         double reach, double length) {
   for (double t = 0.0; t < length;) {
     const double gap = distance(mesh, eye + t * ray) - reach;
     if (gap < 0.0) return true;
