@@ -76,7 +76,8 @@ bool is_ink(char letter, int column, int row) {
   const int index = letter - first_letter;
   const int strip_row = index / letters_per_strip * BitmapFont::height + row;
   const int strip_column = index % letters_per_strip * BitmapFont::advance + column;
-  return drawing[static_cast<std::size_t>(strip_row * strip_columns + strip_column)] == '#';
+  const int place = strip_row * strip_columns + strip_column;
+  return drawing[static_cast<std::size_t>(place)] == '#';
 }
 
 }  // namespace

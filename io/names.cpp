@@ -53,6 +53,7 @@ std::string near_names(std::string_view name, std::span<const std::string_view> 
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   if (near.size() > max_near) near.resize(max_near);
   std::vector<std::string_view> names;
+  names.reserve(near.size());
   for (const auto& [d, other] : near) names.push_back(other);
   return names.empty() ? "" : "; near are: " + joined(names);
 }
