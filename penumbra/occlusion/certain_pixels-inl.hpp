@@ -11,9 +11,6 @@
 #include <array>
 #include <limits>
 
-#include <hwy/cache_control.h>
-#include <hwy/highway.h>
-
 #include <penumbra/occlusion/label_vectors-inl.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <penumbra/occlusion/label_work-inl.hpp>
