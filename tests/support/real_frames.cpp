@@ -52,7 +52,7 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
   io::FrameData data;
   for (std::size_t i = 0; i < reader.size(); ++i) {
     reader.read(i, false, data);
-    if (data.status != io::FrameStatus::ok) throw InputError(data.message);
+    if (data.status != FrameStatus::ok) throw InputError(data.message);
     robot.forward_kinematics(data.positions, poses);
     const Eigen::Isometry3d T_camera_root =
         (poses[parent] * recording.camera.T_parent_camera).inverse();
