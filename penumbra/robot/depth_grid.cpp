@@ -121,6 +121,7 @@ void DepthGrid::drop_outer_blocks() {
   for (const Block& block : blocks_)
     (block.distance > half_diagonal * cell_ ? clear : kept).push_back(block);
   std::vector<Index> lower;
+  lower.reserve(clear.size());
   for (const Block& block : clear) lower.push_back(block.lower);
   const auto inside = which_inside(solid_, lower, block_side, [this](const Index& i) -> Vector3d {
     return position(i) + Vector3d::Constant(block_side * cell_ / 2.0);

@@ -181,7 +181,7 @@ class Extractor {
     constexpr double rim = 0.02;  // keeps vertices of neighbouring cells apart
     constexpr double beyond = -0.4;
     constexpr double near_enough = 0.02;
-    const Vertex vertex = descend(cell, start, rim);
+    Vertex vertex = descend(cell, start, rim);
     if (std::abs(vertex.off) < near_enough * depth_) return vertex;
     const Vertex other = descend(cell, start, beyond);
     return std::abs(other.off) < std::abs(vertex.off) ? other : vertex;

@@ -68,7 +68,7 @@ fs::path FileLocator::locate(const std::string& uri) {
     throw InputError(in_quotes(uri) + ": " + scheme +
                      ":// cannot be read; expected package://, model://, file:// or a path");
   const bool has_host = scheme == "file" && rest.starts_with("localhost/");
-  const fs::path file = existing(folder_, has_host ? rest.substr(9) : rest);
+  fs::path file = existing(folder_, has_host ? rest.substr(9) : rest);
   if (!is_file(file)) throw InputError("no file at " + file.string());
   return file;
 }
@@ -81,7 +81,7 @@ fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view
   const std::string name(rest.substr(0, slash));
   const std::string_view inside = rest.substr(slash + 1);
   const fs::path folder = package_folder(name, inside, is_model);
-  const fs::path file = existing(folder, inside);
+  fs::path file = existing(folder, inside);
   if (!is_file(file))
     throw InputError("no file at " + file.string() + " (package " + in_quotes(name) + " is " +
                      folder.string() + ")");
