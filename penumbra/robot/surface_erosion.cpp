@@ -81,23 +81,33 @@ DepthBounds bounds(double depth, double outwards, double inwards) {
   return {depth, depth * (1.0 - outwards) - rounding, depth * (1.0 + inwards) + rounding};
 }
 
-/// Every piece still has an inside, and every face looks its way and lies at the depth.
-bool keeps_details(const TriangleMesh& mesh, const TriangleMesh& moved, const TriangleTree& old,
-                   double depth) {
-  for (const MeshComponent& piece : connected_components(moved))
-    if (piece.signed_volume <= 0.0) return false;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (normal_of(mesh, i).dot(normal_of(moved, i)) < 0.5) return false;
-  return keeps_depth(moved, old, bounds(depth, plane_error, plane_error));
+double area_of(const TriangleMesh& mesh, std::size_t i) {
+  const Vector3d a = corner(mesh, i, 0);
+  return (corner(mesh, i, 1) - a).cross(corner(mesh, i, 2) - a).norm() / 2.0;
 }
 
 double area_of(const TriangleMesh& mesh) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d a = corner(mesh, i, 0);
-    sum += (corner(mesh, i, 1) - a).cross(corner(mesh, i, 2) - a).norm() / 2.0;
-  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum += area_of(mesh, i);
   return sum;
+}
+
+/// Whether a piece is thicker than the rounding of its corners, half its area taken for its width.
+bool has_inside(const TriangleMesh& mesh, const MeshComponent& piece) {
+  constexpr double thinnest = 1e-5;  // metres
+  double area = 0.0;
+  for (const std::size_t i : piece.triangles) area += area_of(mesh, i);
+  return piece.signed_volume > thinnest * area / 2.0;
+}
+
+/// Every piece still has an inside, and every face looks its way and lies at the depth.
+bool keeps_details(const TriangleMesh& mesh, const TriangleMesh& moved, const TriangleTree& old,
+                   double depth) {
+  for (const MeshComponent& piece : connected_components(moved))
+    if (!has_inside(moved, piece)) return false;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (normal_of(mesh, i).dot(normal_of(moved, i)) < 0.5) return false;
+  return keeps_depth(moved, old, bounds(depth, plane_error, plane_error));
 }
 
 TriangleMesh erode_on_grid(const TriangleMesh& solid, const TriangleTree& tree, double depth) {

@@ -85,6 +85,12 @@ TEST(OffsetShrink, OpenMeshesAndVanishingBodiesAreRefused) {
   EXPECT_NE(refusal(make_box({0.3, 0.2, 0.1}), -0.0501), "");
   EXPECT_NE(refusal(make_box({0.3, 0.2, 0.1}), -0.06), "");
   EXPECT_NE(refusal(make_box({0.3, 0.2, 0.1}), -0.5), "");
+  // A margin that leaves a flat body of rounded corners, a line or a point.
+  for (const Eigen::Vector3d& size :
+       {Eigen::Vector3d(0.2, 0.3, 0.4), Eigen::Vector3d(0.2, 0.2, 0.4),
+        Eigen::Vector3d(0.2, 0.2, 0.2)}) {
+    EXPECT_NE(refusal(make_box(size), -0.1), "") << size.transpose();
+  }
   EXPECT_NE(refusal(make_sphere(0.05), -0.0501), "");
   EXPECT_NE(refusal(make_cylinder(0.05, 0.01), -0.006), "");
 }
