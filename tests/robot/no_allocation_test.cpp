@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "allocations.hpp"
 #include "urdf_text.hpp"
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
 #include <gtest/gtest.h>
 
 #include <penumbra/robot/joint_buffer.hpp>
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace penumbra::test {
 namespace {
@@ -40,9 +23,9 @@ TEST(NoAllocation, InKinematics) {
   const Robot robot = every_kind();
   const auto positions = robot.rest_positions();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   robot.forward_kinematics(positions, poses);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
 }
 
 TEST(NoAllocation, InTheJointBufferOnceItIsWarm) {
@@ -59,9 +42,9 @@ TEST(NoAllocation, InTheJointBufferOnceItIsWarm) {
   };
   buffer.at(-1, answer);
   for (int i = 0; i < 1000; ++i) step();
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   for (int i = 0; i < 1000; ++i) step();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
   EXPECT_EQ(answer.status, JointStatus::ok);
 }
 
