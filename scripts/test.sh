@@ -115,5 +115,8 @@ fi
 if $full; then
   check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
 else
-  check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" && run_tests tsan -L threaded
+  # Where one thread runs there is no race to find. FrameReader needs the apps' libraries.
+  one_thread='/(reference|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
+  check "build (tsan)" build tsan threaded_tests "${everything[@]}" &&
+    run_tests tsan -L threaded -E "$one_thread"
 fi

@@ -5,6 +5,7 @@
 #include "robots.hpp"
 
 #include <random>
+#include <thread>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -229,6 +230,25 @@ TEST_F(RecordingFolder, ReadsFrames) {
   frames.read(1, false, frame);
   EXPECT_TRUE(frame.color.empty());
   EXPECT_EQ(frame.color_message, "");
+}
+
+TEST_F(RecordingFolder, ReadsFramesFromSeveralThreads) {
+  const FrameReader frames = reader();
+  const auto work = [&](std::size_t first) {
+    FrameData frame;
+    for (std::size_t round = 0; round < 20; ++round) {
+      const std::size_t i = (first + round) % 2;
+      frames.read(i, true, frame);
+      EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
+      EXPECT_EQ(frame.positions, i == 0 ? (std::vector{0.1, 0.2}) : (std::vector{0.3, 0.4}));
+      const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth_view());
+      EXPECT_EQ(view(7, 5), depth(i == 0 ? 5 : 7)(7, 5));
+      EXPECT_EQ(frame.color(2, 2), (Rgb8{1, 2, 3}));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < 4; ++i) threads.emplace_back(work, i);
+  for (std::thread& thread : threads) thread.join();
 }
 
 TEST_F(RecordingFolder, KeepsBuffersFromFrameToFrame) {

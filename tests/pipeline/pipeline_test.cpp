@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,26 @@ TEST(Pipeline, GivesTheSameImagesForEveryThreadCountAndEveryTime) {
       ASSERT_EQ(pixels_of(report.labels), labels) << threads << " threads";
     }
   }
+}
+
+TEST(Pipeline, InstancesSideBySideDoNotDisturbEachOther) {
+  const Camera camera = slab_camera();
+  const auto work = [&](double slide, int threads) {
+    const EditedScene scene = edited_scene(camera, slide);
+    const std::vector<double> positions = {slide};
+    PipelineConfig config = plain_config();
+    config.renderer.threads = threads;
+    Pipeline pipeline(slab_robot(), camera, config);
+    for (int round = 0; round < 5; ++round) {
+      const FrameReport& report =
+          pipeline.process({.depth = scene.depth.view(), .joints = positions});
+      EXPECT_EQ(pixels_of(report.labels), pixels_of(scene.labels.view())) << slide;
+    }
+  };
+  std::thread one(work, 0.1, 1);
+  std::thread two(work, -0.25, 2);
+  one.join();
+  two.join();
 }
 
 TEST(Pipeline, TakesTheCameraOnAMovingLink) {
