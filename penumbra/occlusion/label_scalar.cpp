@@ -16,11 +16,18 @@ float tolerance(const Rule& rule, float z) { return rule.a + (rule.b + rule.c * 
 float metres(float depth) { return depth; }
 float metres(std::uint16_t depth) { return static_cast<float>(depth) * metres_per_millimetre; }
 
-bool is_measurement(const Rule& rule, float d) { return rule.near <= d && d <= rule.far; }
+bool is_measurement(const Rule& rule, float d) {
+  return rule.metres.near <= d && d <= rule.metres.far;
+}
+bool is_measurement(const Rule& rule, std::uint16_t d) {
+  return is_measurement(rule, static_cast<float>(d / 1000.0));
+}
 
-Label label_of(const Rule& rule, float z, float d) {
+template <typename T>
+Label label_of(const Rule& rule, float z, T measured) {
   if (!(z > 0.0f)) return Label::clear;
-  if (!is_measurement(rule, d)) return Label::unknown;
+  if (!is_measurement(rule, measured)) return Label::unknown;
+  const float d = metres(measured);
   const float e = tolerance(rule, z);
   if (d < z - e) return Label::front;
   if (d > z + rule.beyond_factor * e) return Label::beyond;
@@ -95,12 +102,12 @@ void clean_up(Work& work, ImageView<const float> virtual_depth, ImageView<const 
   if (work.rule.cells > 0) fill_cells(work, virtual_depth);
   for (int v = 0; v < work.height; ++v) {
     for (int u = 0; u < work.width; ++u) {
-      const float d = metres(measured(u, v));
+      const T d = measured(u, v);
       const bool is_front = work.labels(u, v) == static_cast<std::uint8_t>(Label::front);
       std::uint8_t marks = is_front ? front : 0;
       if (!is_measurement(work.rule, d))
         marks |= unmeasured;
-      else if (work.rule.cells > 0 ? is_certain(work, u, v, d) : is_front)
+      else if (work.rule.cells > 0 ? is_certain(work, u, v, metres(d)) : is_front)
         marks |= certain;
       work.marks(u, v) = marks;
     }
@@ -118,8 +125,8 @@ template <typename T>
 Counts label_image(Work& work, ImageView<const float> virtual_depth, ImageView<const T> measured) {
   for (int v = 0; v < work.height; ++v)
     for (int u = 0; u < work.width; ++u)
-      work.labels(u, v) = static_cast<std::uint8_t>(
-          label_of(work.rule, virtual_depth(u, v), metres(measured(u, v))));
+      work.labels(u, v) =
+          static_cast<std::uint8_t>(label_of(work.rule, virtual_depth(u, v), measured(u, v)));
   if (work.rule.cleans_up()) clean_up(work, virtual_depth, measured);
   Counts counts{};
   for (int v = 0; v < work.height; ++v)

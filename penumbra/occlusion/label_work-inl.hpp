@@ -16,16 +16,24 @@ namespace penumbra::labelling {
 
 inline constexpr float metres_per_millimetre = 0.001f;
 
+/// Measurements lie in [near, far], metres; near is not 0 and far is finite.
+struct MeasuredRange {
+  float near, far;
+};
+
 /// A LabelRule as the kernels take it. All arithmetic is float32, products and sums each rounded.
 struct Rule {
   explicit Rule(const LabelRule& rule);
 
   float a, b, c;
   float beyond_factor;  ///< infinite where beyond is folded
-  float near, far;      ///< measurements lie in [near, far]; near is not 0 and far is finite
-  int width;            ///< front_min_width
-  int cells;            ///< how many cells the edge margin reaches; 0: no margin
-  int reach;            ///< how far from a seed a front pixel is confirmed
+  MeasuredRange metres;
+  /// The same for depths converted as load_metres does: millimetres * metres_per_millimetre is not
+  /// always the float nearest to the depth, as 3.0 m at the end of a range is.
+  MeasuredRange millimetres;
+  int width;  ///< front_min_width
+  int cells;  ///< how many cells the edge margin reaches; 0: no margin
+  int reach;  ///< how far from a seed a front pixel is confirmed
 
   [[nodiscard]] bool cleans_up() const { return width > 0; }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <ranges>
 
 #include <penumbra/occlusion/label_work-inl.hpp>
 
@@ -23,6 +25,18 @@ std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
   return bits & (~std::uint64_t{0} >> (64 - in_image));
 }
 
+/// The range of millimetres whose depths, as floats nearest to them, lie in a range.
+MeasuredRange in_millimetres(const MeasuredRange& range) {
+  constexpr auto depths = std::views::iota(0, std::numeric_limits<std::uint16_t>::max() + 1);
+  const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
+  const auto too_near = [&](int d) { return nearest(d) < range.near; };
+  const auto not_too_far = [&](int d) { return nearest(d) <= range.far; };
+  const auto first = std::ranges::partition_point(depths, too_near) - depths.begin();
+  const auto end = std::ranges::partition_point(depths, not_too_far) - depths.begin();
+  return {static_cast<float>(first) * metres_per_millimetre,
+          static_cast<float>(end - 1) * metres_per_millimetre};
+}
+
 }  // namespace
 
 Rule::Rule(const LabelRule& rule)
@@ -31,8 +45,9 @@ Rule::Rule(const LabelRule& rule)
       c(static_cast<float>(rule.tolerance.c)),
       beyond_factor(rule.fold_beyond ? std::numeric_limits<float>::infinity()
                                      : static_cast<float>(rule.beyond_factor)),
-      near(std::max(static_cast<float>(rule.range.near), std::numeric_limits<float>::min())),
-      far(std::min(static_cast<float>(rule.range.far), std::numeric_limits<float>::max())),
+      metres{std::max(static_cast<float>(rule.range.near), std::numeric_limits<float>::min()),
+             std::min(static_cast<float>(rule.range.far), std::numeric_limits<float>::max())},
+      millimetres(in_millimetres(metres)),
       width(rule.front_min_width),
       cells((rule.edge_margin + LabelRule::cell - 1) / LabelRule::cell),
       reach(rule.edge_margin / 2) {}
