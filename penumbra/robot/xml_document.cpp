@@ -30,14 +30,24 @@ std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml) {
   return attributes;
 }
 
+/// A '<!' declaration stands nowhere but before the root element, where check_prolog finds it.
+void check_known(const tinyxml2::XMLNode& node, const std::string& file) {
+  if (const auto* unknown = node.ToUnknown())
+    fail(file, node.GetLineNum(),
+         "is not well-formed XML: the declaration '<!" + std::string(unknown->Value()) +
+             ">' in or behind the root element");
+}
+
 // The depth is bounded by the parser, so that recursion is safe.
-XmlElement read_element(const tinyxml2::XMLElement& xml) {
+XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file) {
   XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml), {}, {}};
   for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) {
-      element.children.push_back(read_element(*child));
+      element.children.push_back(read_element(*child, file));
     } else if (const auto* text = node->ToText()) {
       element.text += trimmed(text->Value());
+    } else {
+      check_known(*node, file);
     }
   }
   return element;
@@ -52,6 +62,29 @@ void check_start(std::string_view xml, const std::string& file) {
     throw InputError(file + ": is not XML (it does not start with '<'); a URDF is expected");
 }
 
+/// What a DOCTYPE declares (entities, default attributes) is not read, so none is accepted.
+void check_prolog(std::string_view xml, const std::string& file) {
+  std::size_t at = xml.find('<');
+  for (std::string_view end; at != std::string_view::npos; at = xml.find('<', at)) {
+    if (xml.substr(at).starts_with("<?"))
+      end = "?>";
+    else if (xml.substr(at).starts_with("<!--"))
+      end = "-->";
+    else
+      break;
+    at = xml.find(end, at + end.size() + 1);
+    if (at == std::string_view::npos) return;  // which the parser tells
+  }
+  if (at == std::string_view::npos || !xml.substr(at).starts_with("<!")) return;
+  const std::string_view declaration = xml.substr(at, xml.find_first_of("[>\r\n", at) - at);
+  const auto line =
+      1 + std::count(xml.begin(), xml.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  fail(file, static_cast<int>(line),
+       "has a DOCTYPE (" + std::string(trimmed(declaration.substr(0, 60))) +
+           "), which is not accepted: what it declares is not read; remove it and write out its "
+           "entities");
+}
+
 std::string reason_of(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
@@ -62,6 +95,8 @@ std::string reason_of(const tinyxml2::XMLDocument& document) {
       return "text after which no tag follows";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
       return "a comment is not closed";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+      return "a '<!' declaration is not closed";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested more than 100 deep";
     default:
@@ -79,6 +114,7 @@ const std::string* XmlElement::attribute(std::string_view key) const {
 
 XmlElement read_xml(std::string_view xml, const std::string& file) {
   check_start(xml, file);
+  check_prolog(xml, file);
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
     fail(file, document.ErrorLineNum(), "is not well-formed XML: " + reason_of(document));
@@ -86,13 +122,14 @@ XmlElement read_xml(std::string_view xml, const std::string& file) {
   for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (node->ToText() != nullptr)
       fail(file, node->GetLineNum(), "is not well-formed XML: text outside of the root element");
+    check_known(*node, file);
     if (node->ToElement() == nullptr) continue;
     if (root != nullptr)
       fail(file, node->GetLineNum(), "is not well-formed XML: a second root element");
     root = node->ToElement();
   }
   if (root == nullptr) throw InputError(file + ": holds no XML element; a URDF is expected");
-  return read_element(*root);
+  return read_element(*root, file);
 }
 
 }  // namespace penumbra::detail
