@@ -17,11 +17,7 @@ void run(const std::filesystem::path& folder, std::size_t number) {
   const io::Recording recording = io::Recording::open(folder);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   const io::FrameReader frames(recording, robot);
-
-  PipelineConfig config;
-  config.camera_parent = recording.camera.parent;
-  config.T_parent_camera = recording.camera.T_parent_camera;
-  Pipeline pipeline(std::move(robot), recording.camera.camera, config);
+  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   io::FrameData frame;
   frames.read(number, /*with_color=*/false, frame);

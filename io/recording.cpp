@@ -156,4 +156,13 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
           .frames = frames_of(root.at("frames"), folder)};
 }
 
+PipelineConfig Recording::pipeline_config() const {
+  PipelineConfig config;
+  if (camera.tolerance) config.rule.tolerance = *camera.tolerance;
+  if (camera.front_min_width) config.rule.front_min_width = *camera.front_min_width;
+  config.camera_parent = camera.parent;
+  config.T_parent_camera = camera.T_parent_camera;
+  return config;
+}
+
 }  // namespace penumbra::io

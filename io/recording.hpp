@@ -9,6 +9,7 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/occlusion/labels.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <io/frame_pattern.hpp>
@@ -51,6 +52,10 @@ struct Recording {
   /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or
   /// values, a pose that is not rigid, and for what is not supported yet.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
+
+  /// The defaults of a pipeline with what the recording says: where the camera sits, and its
+  /// tolerance and front_min_width.
+  [[nodiscard]] PipelineConfig pipeline_config() const;
 };
 
 }  // namespace penumbra::io

@@ -43,11 +43,8 @@ void check_output(const std::filesystem::path& output, const io::Recording& reco
 }
 
 /// The command line's choice before the recording's before the default.
-LabelRule rule_of(const RunArguments& arguments, const io::RecordingCamera& camera) {
-  LabelRule rule;
-  if (camera.tolerance) rule.tolerance = *camera.tolerance;
-  if (camera.front_min_width) rule.front_min_width = *camera.front_min_width;
-  if (arguments.paper_labels) rule = LabelRule::paper();
+LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
+  LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
   if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
   if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
   return rule;
@@ -60,13 +57,11 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
     throw InputError(recording.file.string() + ": camera.parent: '" + camera.parent +
                      "' is no link of the robot" + io::near_names(camera.parent, known));
   }
-  PipelineConfig config;
+  PipelineConfig config = recording.pipeline_config();
   config.backend = arguments.backend;
   config.renderer.threads = arguments.threads;
-  config.rule = rule_of(arguments, camera);
+  config.rule = rule_of(arguments, config.rule);
   config.image = arguments.image;
-  config.camera_parent = camera.parent;
-  config.T_parent_camera = camera.T_parent_camera;
   return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);
 }
 

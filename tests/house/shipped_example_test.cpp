@@ -69,10 +69,8 @@ Counts judge_recording(const LabelRule& rule) {
   const auto recording = io::Recording::open(folder);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   const io::FrameReader frames(recording, robot);
-  PipelineConfig config;
+  PipelineConfig config = recording.pipeline_config();
   config.rule = rule;
-  config.camera_parent = recording.camera.parent;
-  config.T_parent_camera = recording.camera.T_parent_camera;
   Pipeline pipeline(std::move(robot), recording.camera.camera, config);
 
   Counts counts;

@@ -99,6 +99,7 @@ TEST_F(RecordingFolder, OpensByFolderAndByFile) {
     EXPECT_FALSE(recording.camera.rectified);
     EXPECT_FALSE(recording.camera.tolerance || recording.camera.front_min_width ||
                  recording.camera.range || recording.camera.beyond);
+    EXPECT_EQ(recording.pipeline_config().rule.tolerance.a, LabelRule{}.tolerance.a);
     EXPECT_EQ(recording.frames.depth.file(5), file("depth_5.png"));
     EXPECT_EQ(recording.frames.color.value().file(5), file("color_5.png"));
   }
@@ -138,6 +139,12 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
   EXPECT_EQ(recording.camera.tolerance->a, 0.02);
   EXPECT_EQ(recording.camera.tolerance->c, 0.01);
   EXPECT_EQ(recording.camera.front_min_width, 3);
+  const PipelineConfig config = recording.pipeline_config();
+  EXPECT_EQ(config.rule.tolerance.a, 0.02);
+  EXPECT_EQ(config.rule.tolerance.c, 0.01);
+  EXPECT_EQ(config.rule.front_min_width, 3);
+  EXPECT_EQ(config.camera_parent, "lower");
+  EXPECT_TRUE(config.T_parent_camera.isApprox(recording.camera.T_parent_camera, 0.0));
   ASSERT_TRUE(recording.camera.range);
   EXPECT_EQ(recording.camera.range->far, 4.0);
   EXPECT_EQ(recording.camera.camera.range.near, 0.3);

@@ -40,10 +40,7 @@ TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
   const io::Recording recording = io::Recording::open(folder);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   const io::FrameReader reader(recording, robot);
-  PipelineConfig config;
-  config.camera_parent = recording.camera.parent;
-  config.T_parent_camera = recording.camera.T_parent_camera;
-  Pipeline pipeline(std::move(robot), recording.camera.camera, config);
+  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   double sum = 0.0;
   io::FrameData data;
