@@ -103,7 +103,8 @@ if check "build (release)" build release all "${everything[@]}" "$benchmarks"; t
 fi
 if $full; then
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
-    check "benchmarks run" build/release/bench/render_benchmark --benchmark_min_time=0.01
+    check "render benchmark runs" build/release/bench/render_benchmark --benchmark_min_time=0.01
+    check "label benchmark runs" build/release/bench/label_benchmark --benchmark_min_time=0.01
   else
     skipped=$((skipped + 1))
     echo "== benchmarks run: skipped: no data"
