@@ -104,7 +104,8 @@ fi
 if $full; then
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
     check "render benchmark runs" build/release/bench/render_benchmark --benchmark_min_time=0.01
-    check "label benchmark runs" build/release/bench/label_benchmark --benchmark_min_time=0.01
+    check "label benchmark runs" build/release/bench/label_benchmark \
+      --benchmark_min_time=0.01 --benchmark_filter=640x480
   else
     skipped=$((skipped + 1))
     echo "== benchmarks run: skipped: no data"
