@@ -13,6 +13,11 @@ import re
 import sys
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
+RATIOS = ("against_llvmpipe", "against_embree_rectangle", "against_embree_hulls")
+# With AVX2: times llvmpipe's and Embree's speed, and what labels and clean-up may add.
+AIMS = {"UR5e collision, 640x480": (12, 20, "0.03"),
+        "UR5e collision, 1280x720": (12, 25, "0.06 + 0.03"),
+        "xArm 7, 1280x720": (15, 18, "0.07 + 0.03")}
 COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
 
 
@@ -33,9 +38,25 @@ def renderers_table(report):
 
 
 def ratios_table(report):
-    rows = [(scene["scene"], r["isa"], f'{r["against_llvmpipe"]:.1f}', f'{r["against_embree"]:.1f}')
+    rows = [(scene["scene"], r["isa"], *(f"{r[key]:.1f}" for key in RATIOS))
             for scene in report["scenes"] for r in scene["ratios"]]
-    return table(("frame", "SIMD target", "times llvmpipe's speed", "times Embree's speed"), rows)
+    return table(("frame", "SIMD target", "times llvmpipe's speed", "Embree's, rectangle",
+                  "Embree's, hulls"), rows)
+
+
+def aims_table(report):
+    rows = []
+    for scene in report["scenes"]:
+        if scene["scene"] not in AIMS:
+            continue
+        llvmpipe, embree, added = AIMS[scene["scene"]]
+        ratios = next(r for r in scene["ratios"] if r["isa"] == "AVX2")
+        ms = {c["name"]: c["typical_ms"] for c in scene["contenders"]}
+        rows.append((scene["scene"], f"{llvmpipe} / {embree}",
+                     " / ".join(f"{ratios[key]:.1f}" for key in RATIOS[:2]),
+                     f"{ratios[RATIOS[2]]:.1f}", f"{added} ms",
+                     f'{ms["cpu AVX2 + labels"] - ms["cpu AVX2"]:.3f} ms'))
+    return table(("frame", "aim", "measured", "Embree, hulls", "added: aim", "measured"), rows)
 
 
 def settings(renderers, scaling):
@@ -110,7 +131,7 @@ def main():
     renderers = json.loads((results / "renderers.json").read_text())
     scaling = json.loads((results / "scaling.json").read_text())
     parts = {"settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
-             "ratios": ratios_table(renderers)}
+             "ratios": ratios_table(renderers), "aims": aims_table(renderers)}
     parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
     document = page / "performance.md"
     text = document.read_text()
