@@ -7,12 +7,11 @@
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/mesh_edges-inl.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 
 namespace penumbra {
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -145,93 +144,6 @@ class SliverRemover {
   std::unordered_map<std::uint64_t, std::uint32_t> triangle_of_;
 };
 
-/// A triangle's run along an edge, seen from the edge's lower vertex.
-struct EdgeUse {
-  std::uint32_t upper;     // the edge's higher vertex
-  std::uint32_t triangle;  // 2 * index, + 1 where it runs from the higher to the lower vertex
-};
-
-/// Every use of every edge, grouped by lower vertex; first[v] .. first[v + 1] are those of v.
-struct EdgeUses {
-  std::vector<std::uint32_t> first;
-  std::vector<EdgeUse> uses;
-};
-
-EdgeUses collect_edges(const TriangleMesh& mesh) {
-  EdgeUses edges;
-  edges.first.assign(mesh.vertices.size() + 2, 0);
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) ++edges.first[std::min(t[k], t[(k + 1) % 3]) + 2];
-  std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
-
-  edges.uses.resize(3 * mesh.triangles.size());
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = mesh.triangles[i][k];
-      const std::uint32_t to = mesh.triangles[i][(k + 1) % 3];
-      const std::uint32_t at = edges.first[std::min(from, to) + 1]++;
-      edges.uses[at] = {std::max(from, to), 2 * i + (from > to ? 1U : 0U)};
-    }
-  }
-  edges.first.pop_back();
-  return edges;
-}
-
-/// Calls f(uses of one edge) for every edge.
-template <typename F>
-void for_each_edge(EdgeUses& edges, F&& f) {
-  for (std::size_t v = 0; v + 1 < edges.first.size(); ++v) {
-    EdgeUse* const begin = edges.uses.data() + edges.first[v];
-    EdgeUse* const end = edges.uses.data() + edges.first[v + 1];
-    std::sort(begin, end, [](const EdgeUse& a, const EdgeUse& b) {
-      return std::pair(a.upper, a.triangle) < std::pair(b.upper, b.triangle);
-    });
-    for (EdgeUse* run = begin; run != end;) {
-      EdgeUse* next = run + 1;
-      while (next != end && next->upper == run->upper) ++next;
-      f(run, next);
-      run = next;
-    }
-  }
-}
-
-/// Disjoint sets of triangles; a set is named by its lowest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-double signed_volume(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles) {
-  // Seen from a point of the component: cancels less than seen from a far origin.
-  const Eigen::Vector3d eye =
-      mesh.vertices[mesh.triangles[triangles.front()].front()].cast<double>();
-  double six_volumes = 0.0;
-  for (const std::size_t i : triangles) {
-    const Triangle& t = mesh.triangles[i];
-    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>() - eye;
-    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>() - eye;
-    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>() - eye;
-    six_volumes += a.dot(b.cross(c));
-  }
-  return six_volumes / 6.0;
-}
-
 }  // namespace
 
 TriangleMesh weld(const TriangleMesh& mesh) {
@@ -259,26 +171,21 @@ std::vector<MeshComponent> connected_components(const TriangleMesh& welded) {
   EdgeUses edges = collect_edges(welded);
   DisjointSets sets(welded.triangles.size());
   std::vector<bool> open(welded.triangles.size(), false);
-  for_each_edge(edges, [&](const EdgeUse* begin, const EdgeUse* end) {
-    const bool closed = end - begin == 2 && (begin[0].triangle & 1) != (begin[1].triangle & 1);
-    if (!closed) open[begin->triangle / 2] = true;
+  for_each_edge(edges, [&](std::uint32_t /*lower*/, const EdgeUse* begin, const EdgeUse* end) {
+    if (!is_regular(begin, end)) open[begin->triangle / 2] = true;
     for (const EdgeUse* use = begin + 1; use < end; ++use)
       sets.join(begin->triangle / 2, use->triangle / 2);
   });
 
   std::vector<MeshComponent> components;
-  std::vector<std::uint32_t> component_of(welded.triangles.size(), none);
-  for (std::uint32_t i = 0; i < welded.triangles.size(); ++i) {
-    std::uint32_t& number = component_of[sets.find(i)];
-    if (number == none) {
-      number = static_cast<std::uint32_t>(components.size());
-      components.push_back({{}, true, 0.0});
-    }
-    components[number].triangles.push_back(i);
-    if (open[i]) components[number].closed = false;
+  for (std::vector<std::size_t>& triangles : sets.members()) {
+    MeshComponent& component = components.emplace_back();
+    component.closed =
+        std::none_of(triangles.begin(), triangles.end(), [&](std::size_t i) { return open[i]; });
+    component.signed_volume =
+        signed_volume(welded, triangles, corners_of(welded, triangles.front())[0]);
+    component.triangles = std::move(triangles);
   }
-  for (MeshComponent& component : components)
-    component.signed_volume = signed_volume(welded, component.triangles);
   return components;
 }
 

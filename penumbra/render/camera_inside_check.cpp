@@ -3,7 +3,10 @@
 #include <numbers>
 #include <vector>
 
+#include <penumbra/base/mesh_edges-inl.hpp>
+#include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/base/solid_angle-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {
@@ -11,16 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Solid angle of a triangle seen from the origin, with its sign (van Oosterom and Strackee 1983).
-double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const double la = a.norm();
-  const double lb = b.norm();
-  const double lc = c.norm();
-  return 2.0 * std::atan2(a.dot(b.cross(c)),
-                          la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
-
-/// A closed piece of a body's surface.
+/// A piece of a body's surface that bounds it but for small holes.
 struct Shell {
   TriangleMesh mesh;
   Eigen::AlignedBox3d bounds;
@@ -28,23 +22,22 @@ struct Shell {
   [[nodiscard]] bool holds(const Vector3d& point) const {
     if (!bounds.contains(point)) return false;
     double angle = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      angle += solid_angle(mesh.vertices[a].cast<double>() - point,
-                           mesh.vertices[b].cast<double>() - point,
-                           mesh.vertices[c].cast<double>() - point);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      angle += solid_angle(corners_of(mesh, i), point);
     }
-    return std::abs(angle) > 2.0 * std::numbers::pi;  // 4 pi inside, 0 outside
+    // Inside 4 pi, outside 0, less or more by what the holes take up.
+    return std::abs(angle) > 2.0 * std::numbers::pi;
   }
 };
 
-std::vector<Shell> closed_shells(const TriangleMesh& mesh) {
+std::vector<Shell> solid_shells(const TriangleMesh& mesh) {
   const TriangleMesh welded = weld(mesh);
   std::vector<Shell> shells;
-  for (const MeshComponent& component : connected_components(welded)) {
-    if (!component.closed) continue;
+  for (const MeshSheet& sheet : mesh_sheets(welded)) {
+    if (sheet.facing == Facing::unknown) continue;
     Shell& shell = shells.emplace_back();
     shell.mesh.vertices = welded.vertices;
-    for (const std::size_t t : component.triangles) {
+    for (const std::size_t t : sheet.triangles) {
       shell.mesh.triangles.push_back(welded.triangles[t]);
       for (const auto i : welded.triangles[t]) {
         shell.bounds.extend(welded.vertices[i].cast<double>());
@@ -76,7 +69,7 @@ CameraInsideCheck::CameraInsideCheck(std::span<const Body> bodies) {
   for (const Body& body : bodies) {
     Solid& solid = solids_.emplace_back();
     for (const TriangleMesh& mesh : body.meshes) {
-      for (Shell& shell : closed_shells(mesh)) solid.shells.push_back(std::move(shell));
+      for (Shell& shell : solid_shells(mesh)) solid.shells.push_back(std::move(shell));
     }
   }
 }

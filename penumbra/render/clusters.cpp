@@ -4,29 +4,34 @@
 
 #include <meshoptimizer.h>
 
+#include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/render/clusters.hpp>
 
 namespace penumbra {
 namespace {
 
-/// The triangles of all closed pieces, turned outwards, and those of the open ones.
+/// Vertex indices, three for each triangle: of the closed sheets and of those with small holes, all
+/// turned outwards, and of the others.
 struct Pieces {
-  std::vector<std::uint32_t> closed, open;  // vertex indices, three for each triangle
+  std::vector<std::uint32_t> closed, pierced, open;
+  std::vector<Ball> holes;  // of the pierced
 };
 
 Pieces split(const TriangleMesh& welded) {
   Pieces pieces;
-  for (const MeshComponent& component : connected_components(welded)) {
-    auto& indices = component.closed ? pieces.closed : pieces.open;
-    // A closed piece that is wound inwards is turned: what is first seen of a closed surface from
-    // outside is then a front face, also where the piece is a cavity inside another.
-    const bool turn = component.closed && component.signed_volume < 0.0;
-    for (const std::size_t t : component.triangles) {
+  for (const MeshSheet& sheet : mesh_sheets(welded)) {
+    const bool solid = sheet.facing != Facing::unknown;
+    auto& indices = !solid ? pieces.open : sheet.holes.empty() ? pieces.closed : pieces.pierced;
+    // A solid sheet that is wound inwards is turned: what is first seen of it from outside is then
+    // a front face, also where it is a cavity inside another.
+    const bool turn = solid && sheet.facing == Facing::inwards;
+    for (const std::size_t t : sheet.triangles) {
       auto [a, b, c] = welded.triangles[t];
       if (turn) std::swap(b, c);
       indices.insert(indices.end(), {a, b, c});
     }
+    if (solid) pieces.holes.insert(pieces.holes.end(), sheet.holes.begin(), sheet.holes.end());
   }
   return pieces;
 }
@@ -38,8 +43,14 @@ ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
     for (const TriangleMesh& mesh : bodies[body].meshes) {
       const TriangleMesh welded = weld(mesh);
       Pieces pieces = split(welded);
-      add_shell(welded, pieces.closed, {.body = body, .closed = true});
-      add_shell(welded, pieces.open, {.body = body, .closed = false});
+      add_shell(welded, pieces.closed, {.body = body, .solid = true});
+      add_shell(welded, pieces.pierced,
+                {.body = body,
+                 .solid = true,
+                 .first_hole = static_cast<std::uint32_t>(holes.size()),
+                 .hole_count = static_cast<std::uint32_t>(pieces.holes.size())});
+      holes.insert(holes.end(), pieces.holes.begin(), pieces.holes.end());
+      add_shell(welded, pieces.open, {.body = body, .solid = false});
     }
   }
   const std::size_t padded = clusters.size() + padding;

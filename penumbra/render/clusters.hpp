@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/triangle_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
@@ -24,15 +25,18 @@ struct Cluster {
 /// Clusters that share one answer to "may back faces be skipped?".
 struct Shell {
   std::uint32_t body = 0;
-  bool closed = false;  ///< closed and wound outwards: back faces are never seen from outside
+  /// Bounds bodies and is wound outwards: from outside, back faces are only seen through the holes.
+  bool solid = false;
+  std::uint32_t first_hole = 0;  ///< into ClusteredScene::holes
+  std::uint32_t hole_count = 0;
   std::uint32_t first_cluster = 0;
   std::uint32_t cluster_count = 0;
   Eigen::AlignedBox3d bounds{};  ///< in the body's frame
 };
 
 /// All bodies' triangles made ready for a renderer: merged vertices, faces wound outwards where a
-/// piece of mesh is closed, small clusters, planes. Every array is padded so that vectors of up to
-/// `padding` lanes may be loaded from any cluster's start to its end.
+/// piece of mesh bounds a body, small clusters, planes. Every array is padded so that vectors of up
+/// to `padding` lanes may be loaded from any cluster's start to its end.
 struct ClusteredScene {
   static constexpr std::uint32_t padding = 16;
   static constexpr std::uint32_t max_vertices = 96;
@@ -42,6 +46,7 @@ struct ClusteredScene {
 
   std::vector<Shell> shells;  ///< by body
   std::vector<Cluster> clusters;
+  std::vector<Ball> holes;  ///< in the bodies' frames
 
   /// Bounding spheres of the clusters, in the body's frame; padded with spheres of radius 0.
   std::vector<float> sphere_x, sphere_y, sphere_z, sphere_radius;

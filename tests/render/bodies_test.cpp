@@ -62,6 +62,32 @@ TEST_P(Bodies, InwardWoundMeshOfTwoPieces) {
   expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
 }
 
+TEST_P(Bodies, PiercedBodiesShowTheirInsidesThroughTheirHoles) {
+  std::mt19937_64 random = seeded_random(63);
+  std::size_t seen_inside = 0;
+  for (int round = 0; round < 12; ++round) {
+    TriangleMesh pierced = sphere(0.3F, 24);
+    const auto victim = static_cast<std::size_t>(random() % pierced.triangles.size());
+    const Vector3f hole = pierced.vertices[pierced.triangles[victim][0]];
+    pierced.triangles.erase(pierced.triangles.begin() + static_cast<std::ptrdiff_t>(victim));
+    if (round % 3 == 0) pierced = mirrored(pierced);
+    if (round % 4 == 0) std::swap(pierced.triangles[5][0], pierced.triangles[5][1]);
+    // The hole turned towards the camera, more or less; now and then very close to it.
+    const Eigen::Quaterniond to_camera = Eigen::Quaterniond::FromTwoVectors(
+        (round % 3 == 0 ? Vector3f(-hole.x(), hole.y(), hole.z()) : hole).cast<double>(),
+        Eigen::Vector3d(0.1 * round, 0.2, -1.0));
+    Scene scene;
+    scene.add(pierced, at(0.02, -0.03, round % 2 == 0 ? 0.9 : 0.35) * to_camera);
+    const Frame frame = render(camera, scene);
+    expect_agrees_with_brute_force(frame.view(), scene, camera);
+    const double far_side = scene.poses[0].translation().z();
+    for (int v = 0; v < camera.height(); ++v) {
+      for (int u = 0; u < camera.width(); ++u) seen_inside += frame.depth(u, v) > far_side ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen_inside, 100U);
+}
+
 TEST_P(Bodies, DegenerateTrianglesDrawNothing) {
   TriangleMesh mesh = image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, 1.0);
   mesh.vertices.emplace_back(0.0F, 0.0F, 0.5F);

@@ -43,6 +43,16 @@ TEST(CameraInside, MirroredBodiesAreSolidToo) {
   EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
 }
 
+TEST(CameraInside, SmallHolesLetNobodyOut) {
+  Scene scene;
+  TriangleMesh pierced = sphere(0.3F, 24);
+  pierced.triangles.erase(pierced.triangles.begin() + 200);
+  scene.add(pierced, at(0.1, 0, 0.1));
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+  scene.poses[0] = at(0.1, 0, 0.4);
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+}
+
 TEST(CameraInside, AgreesWithTheFormulaOfABox) {
   std::mt19937_64 random = seeded_random(91);
   Scene scene;

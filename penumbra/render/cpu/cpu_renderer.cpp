@@ -18,6 +18,7 @@ namespace {
 using cpu::BodyFrame;
 using cpu::Canvas;
 using cpu::DrawItem;
+using cpu::Sides;
 
 class CpuRenderer final : public DepthRenderer {
  public:
@@ -29,6 +30,7 @@ class CpuRenderer final : public DepthRenderer {
         view_(intrinsics),
         packing_(bodies.size()),
         touched_(intrinsics.width(), intrinsics.height()),
+        holes_(scene_.holes.size()),
         items_(scene_.clusters.size()),
         workers_(threads) {
     for (int i = 0; i < threads; ++i) {
@@ -58,26 +60,33 @@ class CpuRenderer final : public DepthRenderer {
   }
 
   [[nodiscard]] cpu::FrameContext context() const {
-    return {&scene_, frames_.data(), &view_, packing_};
+    return {&scene_, frames_.data(), holes_.data(), &view_, packing_};
   }
 
   void cull() {
     item_count_ = 0;
-    for (const Shell& shell : scene_.shells) {
-      item_count_ += kernel_.cull(context(), shell, shows_both_sides(shell), &items_[item_count_]);
+    for (std::uint32_t i = 0; i < scene_.shells.size(); ++i) {
+      const Shell& shell = scene_.shells[i];
+      const BodyFrame& body = frames_[shell.body];
+      for (std::size_t hole = shell.first_hole; hole < shell.first_hole + shell.hole_count;
+           ++hole) {
+        holes_[hole] = cpu::bounds_of(scene_.holes[hole], body, intrinsics());
+      }
+      item_count_ += kernel_.cull(context(), i, sides_of(shell), &items_[item_count_]);
     }
   }
 
-  /// Back faces are seen of an open mesh, and of a closed one that the near plane may cut open or
-  /// that may hold the camera.
-  [[nodiscard]] bool shows_both_sides(const Shell& shell) const {
+  /// Backs are seen of an open mesh, of a solid one through its holes, and of one that the near
+  /// plane may cut open or that may hold the camera.
+  [[nodiscard]] Sides sides_of(const Shell& shell) const {
     const Intrinsics& k = intrinsics();
     const double u = std::max(std::abs(k.cx()), std::abs(k.width() - k.cx())) / k.fx();
     const double v = std::max(std::abs(k.cy()), std::abs(k.height() - k.cy())) / k.fy();
     const double reach = near_plane * std::sqrt(1.0 + u * u + v * v) + 1e-6;
     const auto& c = frames_[shell.body].centre;
     const Eigen::Vector3d centre(c[0], c[1], c[2]);
-    return !shell.closed || shell.bounds.exteriorDistance(centre) <= reach;
+    if (!shell.solid || shell.bounds.exteriorDistance(centre) <= reach) return Sides::both;
+    return shell.hole_count == 0 ? Sides::front : Sides::front_and_through_holes;
   }
 
   /// Lets the team take `count` parts of a stage, a few at a time.
@@ -119,6 +128,7 @@ class CpuRenderer final : public DepthRenderer {
   cpu::Packing packing_;
   TileMask touched_;
   std::vector<BodyFrame> frames_;
+  std::vector<cpu::Bounds> holes_;  // of scene_.holes
   std::vector<DrawItem> items_;
   std::size_t item_count_ = 0;
   std::vector<Canvas> canvases_;          // one per thread

@@ -77,12 +77,27 @@ struct BodyFrame {
   BodyFrame(const Eigen::Isometry3d& T, const Intrinsics& k, std::int32_t body_id);
 };
 
+/// A box in the image, pixels.
+struct Bounds {
+  float u0, v0, u1, v1;
+  [[nodiscard]] bool meets(const Bounds& other) const {
+    return u0 <= other.u1 && other.u0 <= u1 && v0 <= other.v1 && other.v0 <= v1;
+  }
+};
+
+/// Around the image of a ball; everywhere if the ball may reach past the near plane.
+Bounds bounds_of(const Ball& ball, const BodyFrame& body, const Intrinsics& k);
+
+/// Which sides of a shell's triangles can be seen; backs through holes only where those are.
+enum class Sides : std::uint8_t { front, front_and_through_holes, both };
+
 /// A cluster to draw.
 struct DrawItem {
   std::uint32_t cluster;
+  std::uint32_t shell;
   std::uint32_t body;
-  bool both_sides;  // of its triangles can be seen
-  bool clip;        // it may reach past the near plane or the guard band
+  Sides sides;
+  bool clip;  // it may reach past the near plane or the guard band
 };
 
 /// A depth buffer in blocks, and scratch space. Each lane holds the bits of a float 1/z whose low

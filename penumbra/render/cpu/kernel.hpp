@@ -22,6 +22,7 @@ using ScratchPtr = std::unique_ptr<Scratch, ScratchDeleter>;
 struct FrameContext {
   const ClusteredScene* scene;
   const BodyFrame* bodies;
+  const Bounds* holes;  // of ClusteredScene::holes
   const View* view;
   Packing packing;
 };
@@ -30,9 +31,8 @@ struct FrameContext {
 struct Kernel {
   int lanes;
 
-  /// Appends those clusters of the shell to `items` that may be in view; returns how many.
-  std::size_t (*cull)(const FrameContext& frame, const Shell& shell, bool both_sides,
-                      DrawItem* items);
+  /// Appends those clusters of a shell to `items` that may be in view; returns how many.
+  std::size_t (*cull)(const FrameContext& frame, std::uint32_t shell, Sides sides, DrawItem* items);
 
   /// Draws clusters into the canvas and marks the tiles it touches.
   void (*draw)(const FrameContext& frame, std::span<const DrawItem> items, Scratch& scratch,

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include <penumbra/render/cpu/kernel.hpp>
@@ -22,8 +23,10 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides, DrawItem* items) {
+std::size_t Cull(const FrameContext& frame, std::uint32_t shell_index, Sides sides,
+                 DrawItem* items) {
   const ClusteredScene& scene = *frame.scene;
+  const Shell& shell = scene.shells[shell_index];
   const BodyFrame& body = frame.bodies[shell.body];
   const View& view = *frame.view;
   const Intrinsics& k = view.intrinsics;
@@ -55,7 +58,7 @@ std::size_t Cull(const FrameContext& frame, const Shell& shell, bool both_sides,
     if (end - i < kStep) visible_bits &= (1U << (end - i)) - 1;
     for (; visible_bits != 0; visible_bits &= visible_bits - 1) {
       const int lane = std::countr_zero(visible_bits);
-      items[count++] = {i + static_cast<std::uint32_t>(lane), shell.body, both_sides,
+      items[count++] = {i + static_cast<std::uint32_t>(lane), shell_index, shell.body, sides,
                         ((tame_bits >> lane) & 1) == 0};
     }
   }
@@ -93,10 +96,6 @@ std::size_t FrontFaces(const ClusteredScene& scene, const Cluster& cluster, cons
   return count;
 }
 
-struct Bounds {
-  float u0, v0, u1, v1;
-};
-
 /// Image points of the cluster's vertices, as pairs, and their bounding box.
 Bounds Project(const ClusteredScene& scene, const Cluster& cluster, const BodyFrame& body,
                float* pixels) {
@@ -120,6 +119,18 @@ Bounds Project(const ClusteredScene& scene, const Cluster& cluster, const BodyFr
   }
   return {hn::GetLane(hn::MinOfLanes(df, u_min)), hn::GetLane(hn::MinOfLanes(df, v_min)),
           hn::GetLane(hn::MaxOfLanes(df, u_max)), hn::GetLane(hn::MaxOfLanes(df, v_max))};
+}
+
+/// Where the backs of a shell's triangles may be seen, if only somewhere: around its holes.
+std::span<const Bounds> Holes(const FrameContext& frame, const DrawItem& item) {
+  if (item.sides != Sides::front_and_through_holes) return {};
+  const Shell& shell = frame.scene->shells[item.shell];
+  return {frame.holes + shell.first_hole, shell.hole_count};
+}
+
+bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {
+  return std::any_of(holes.begin(), holes.end(),
+                     [&](const Bounds& hole) { return hole.meets(bounds); });
 }
 
 /// Marks the tiles of the pixel centres inside the bounds; false if there are none in the image.
