@@ -1,21 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cassert>
+#include <stdexcept>
 #include <string>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/cpu/cpu_renderer.hpp>
 #include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/gl/gl_renderer.hpp>
 #include <penumbra/render/reference.hpp>
 
 namespace penumbra {
 
 std::string_view to_string(Backend backend) {
-  return backend == Backend::cpu ? "cpu" : "reference";
+  switch (backend) {
+    case Backend::cpu:
+      return "cpu";
+    case Backend::gl:
+      return "gl";
+    case Backend::reference:
+      return "reference";
+  }
+  return "unknown";
 }
 
 DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
-                             RendererInfo info)
-    : intrinsics_(intrinsics), body_count_(bodies.size()), info_(std::move(info)) {
+                             RendererInfo info, int max_pending)
+    : intrinsics_(intrinsics),
+      body_count_(bodies.size()),
+      info_(std::move(info)),
+      max_pending_(max_pending) {
   if (bodies.size() > max_bodies) {
     throw InputError("the robot has " + std::to_string(bodies.size()) +
                      " links; the renderer takes " + std::to_string(max_bodies) + " at the most");
@@ -26,8 +39,28 @@ DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body>
 }
 
 VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {
+  if (pending_ > 0) {
+    throw std::logic_error("render: " + std::to_string(pending_) +
+                           " submitted frames are not collected yet");
+  }
+  submit(T_camera_body);
+  return collect();
+}
+
+void DepthRenderer::submit(std::span<const Eigen::Isometry3d> T_camera_body) {
   assert(T_camera_body.size() == body_count_);
-  return do_render(T_camera_body);
+  if (pending_ == max_pending_) {
+    throw std::logic_error("submit: " + std::to_string(pending_) +
+                           " frames are pending, the most there may be: collect one first");
+  }
+  do_submit(T_camera_body);
+  ++pending_;
+}
+
+VirtualDepthView DepthRenderer::collect() {
+  if (pending_ == 0) throw std::logic_error("collect: no frame was submitted");
+  --pending_;
+  return do_collect();
 }
 
 std::unique_ptr<DepthRenderer> make_depth_renderer(Backend backend, const Intrinsics& intrinsics,
@@ -36,6 +69,8 @@ std::unique_ptr<DepthRenderer> make_depth_renderer(Backend backend, const Intrin
   switch (backend) {
     case Backend::cpu:
       return make_cpu_renderer(intrinsics, bodies, options);
+    case Backend::gl:
+      return make_gl_renderer(intrinsics, bodies, options.gl_device);
     case Backend::reference:
       return make_reference_renderer(intrinsics, bodies);
   }

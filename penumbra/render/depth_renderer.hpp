@@ -23,7 +23,11 @@ struct Body {
   std::span<const TriangleMesh> meshes;  ///< in the body's frame; may be empty
 };
 
-enum class Backend { cpu, reference };
+enum class Backend {
+  cpu,        ///< SIMD
+  gl,         ///< OpenGL without a display
+  reference,  ///< plain scalar code
+};
 
 [[nodiscard]] std::string_view to_string(Backend backend);
 
@@ -32,12 +36,15 @@ struct RendererOptions {
 
   int threads = 1;  ///< of the cpu backend; results do not depend on it
   std::string isa;  ///< cpu backend: a SIMD target by name ("AVX2"); empty: the best there is
+  /// gl backend: index into gl_devices(); -1: the first usable one, hardware before software.
+  int gl_device = -1;
 };
 
 struct RendererInfo {
   Backend backend = Backend::cpu;
-  std::string isa;  ///< Highway's name of the SIMD target; "scalar" for the reference
+  std::string isa;  ///< Highway's name of the SIMD target; "scalar" for the reference; gl: empty
   int threads = 1;
+  std::string device{};  ///< gl: OpenGL's own words, "RENDERER, OpenGL VERSION"; others: empty
 };
 
 /// Renders bodies to metric z-depth at pixel centres, with which body is seen at each pixel. Clips
@@ -51,9 +58,24 @@ class DepthRenderer {
 
   virtual ~DepthRenderer() = default;
 
-  /// Draws the bodies at their poses, finite and rigid, one per body in the order of construction.
-  /// The view's link image holds body index + 1. It is valid until the next call.
+  /// Draws the bodies at their poses, finite and rigid, one per body in the order of construction:
+  /// submit() and collect() in one. The view's link image holds body index + 1. Throws
+  /// std::logic_error while earlier frames are pending.
   [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_body);
+
+  /// Begins a frame, for collect() to wait for; the caller may do other things meanwhile. The poses
+  /// need only live during the call. Throws std::logic_error if max_pending() frames are pending.
+  void submit(std::span<const Eigen::Isometry3d> T_camera_body);
+
+  /// The oldest pending frame; frames come in the order of submission. The view of the n-th frame
+  /// is valid until frame n + max_pending() is submitted or rendered. Throws std::logic_error if no
+  /// frame is pending, and std::runtime_error if the graphics device was lost: make a new renderer.
+  [[nodiscard]] VirtualDepthView collect();
+
+  /// Frames that were submitted and not yet collected.
+  [[nodiscard]] int pending() const { return pending_; }
+  /// Most frames that may be pending: 1 of the cpu backend and of the reference, 3 of gl.
+  [[nodiscard]] int max_pending() const { return max_pending_; }
 
   [[nodiscard]] const Intrinsics& intrinsics() const { return intrinsics_; }
   [[nodiscard]] std::size_t body_count() const { return body_count_; }
@@ -61,18 +83,24 @@ class DepthRenderer {
   [[nodiscard]] const RendererInfo& info() const { return info_; }
 
  protected:
-  DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, RendererInfo info);
-  virtual VirtualDepthView do_render(std::span<const Eigen::Isometry3d> T_camera_body) = 0;
+  DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, RendererInfo info,
+                int max_pending = 1);
+  virtual void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) = 0;
+  virtual VirtualDepthView do_collect() = 0;
 
  private:
   Intrinsics intrinsics_;
   std::size_t body_count_;
   std::size_t triangle_count_ = 0;
   RendererInfo info_;
+  int max_pending_;
+  int pending_ = 0;
 };
 
-/// Makes a renderer. Throws InputError for more than max_bodies, threads that are not within
-/// 1..max_threads or more than the machine gives, or an isa that is none of simd_target_names().
+/// Makes a renderer. Throws InputError for more than max_bodies; of the cpu backend, for threads
+/// that are not within 1..max_threads or more than the machine gives, or an isa that is none of
+/// simd_target_names(); of gl, where this build, the machine or the chosen device cannot draw (what
+/// was found and what to install), or an image or mesh is larger than the device takes.
 [[nodiscard]] std::unique_ptr<DepthRenderer> make_depth_renderer(
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});

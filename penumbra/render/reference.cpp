@@ -29,7 +29,7 @@ struct PixelBox {
 class ReferenceRenderer final : public DepthRenderer {
  public:
   ReferenceRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies)
-      : DepthRenderer(intrinsics, bodies, {Backend::reference, "scalar", 1}),
+      : DepthRenderer(intrinsics, bodies, {.backend = Backend::reference, .isa = "scalar"}),
         depth_(intrinsics.width(), intrinsics.height()),
         links_(intrinsics.width(), intrinsics.height()),
         touched_(intrinsics.width(), intrinsics.height()) {
@@ -37,15 +37,16 @@ class ReferenceRenderer final : public DepthRenderer {
   }
 
  private:
-  VirtualDepthView do_render(std::span<const Isometry3d> T_camera_body) override {
+  void do_submit(std::span<const Isometry3d> T_camera_body) override {
     std::fill_n(depth_.data(), depth_.size(), 0.0F);
     std::fill_n(links_.data(), links_.size(), std::uint16_t{0});
     std::fill(touched_.rows.begin(), touched_.rows.end(), std::uint64_t{0});
     for (std::size_t body = 0; body < meshes_.size(); ++body) {
       for (const TriangleMesh& mesh : meshes_[body]) draw(mesh, T_camera_body[body], body);
     }
-    return {depth_.view(), links_.view(), &touched_};
   }
+
+  VirtualDepthView do_collect() override { return {depth_.view(), links_.view(), &touched_}; }
 
   void draw(const TriangleMesh& mesh, const Isometry3d& T_camera_body, std::size_t body) {
     points_.clear();

@@ -24,7 +24,9 @@ class CpuRenderer final : public DepthRenderer {
  public:
   CpuRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, int threads,
               std::int64_t target)
-      : DepthRenderer(intrinsics, bodies, {Backend::cpu, simd_target_name(target), threads}),
+      : DepthRenderer(
+            intrinsics, bodies,
+            {.backend = Backend::cpu, .isa = simd_target_name(target), .threads = threads}),
         kernel_(cpu::kernel_for(target)),
         scene_(bodies),
         view_(intrinsics),
@@ -44,7 +46,7 @@ class CpuRenderer final : public DepthRenderer {
   }
 
  private:
-  VirtualDepthView do_render(std::span<const Eigen::Isometry3d> T_camera_body) override {
+  void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) override {
     frames_.clear();
     for (const Eigen::Isometry3d& T : T_camera_body) {
       frames_.emplace_back(T, intrinsics(), static_cast<std::int32_t>(frames_.size() + 1));
@@ -52,6 +54,9 @@ class CpuRenderer final : public DepthRenderer {
     cull();
     run<&CpuRenderer::draw>(item_count_);
     run<&CpuRenderer::resolve>(touched_.rows.size());
+  }
+
+  VirtualDepthView do_collect() override {
     const int width = intrinsics().width();
     const int height = intrinsics().height();
     const auto stride = static_cast<std::ptrdiff_t>(stride_);
