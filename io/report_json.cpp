@@ -33,8 +33,16 @@ Json list(std::span<const std::string> names) {
   return array;
 }
 
-Json renderer_json(const RendererInfo& info) {
-  return {{"backend", to_string(info.backend)}, {"isa", info.isa}, {"threads", info.threads}};
+Json or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json renderer_json(const UsedRenderer& used) {
+  const RendererInfo& info = used.info;
+  return {{"backend", to_string(info.backend)},
+          {"isa", or_null(info.isa)},
+          {"threads", info.backend == Backend::gl ? Json(nullptr) : Json(info.threads)},
+          {"device", or_null(info.device)},
+          {"requested", used.requested ? to_string(*used.requested) : "auto"},
+          {"reason", or_null(used.reason)}};
 }
 
 Json pixels_json(const PixelCounts& pixels) {
@@ -191,6 +199,7 @@ std::string render_json(const RenderResult& result) {
     joints[result.variables[i]] = result.positions[i];
   json["joints"] = std::move(joints);
   json["missing_links"] = list(result.missing_links);
+  json["notes"] = list(result.notes);
   return dump(json, 2);
 }
 

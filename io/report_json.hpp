@@ -10,18 +10,25 @@
 
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/statistics.hpp>
-#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/renderer_choice.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::io {
 
+/// Which renderer was asked for, which is used, and why.
+struct UsedRenderer {
+  RendererInfo info;
+  std::optional<Backend> requested;  ///< nothing: auto
+  std::string reason;                ///< RendererChoice::reason
+};
+
 /// What a report says before its frames.
 struct ReportHead {
   std::string input;
-  RendererInfo renderer;
+  UsedRenderer renderer;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
-  std::span<const std::string> notes;          ///< Robot::notes()
+  std::span<const std::string> notes;          ///< Robot::notes(), RendererChoice::warnings
 };
 
 /// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file
@@ -46,10 +53,11 @@ class ReportWriter {
 struct RenderResult {
   std::size_t triangles = 0;
   std::size_t robot_pixels = 0;
-  RendererInfo renderer;
+  UsedRenderer renderer;
   std::span<const std::string> variables;      ///< names of the joint positions
   std::span<const double> positions;           ///< in their order, rad and m
   std::span<const std::string> missing_links;  ///< as in ReportHead
+  std::span<const std::string> notes;          ///< likewise
   Statistics statistics;                       ///< timings of the repeats
 };
 

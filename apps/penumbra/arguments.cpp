@@ -21,6 +21,7 @@ Examples:
   penumbra run recording/ -o out             label every frame of a recording
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
   penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
+  penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
@@ -35,7 +36,8 @@ Examples:
   penumbra run recording/ -o out
   penumbra run recording/ -o out --save labels,overlay --frames 10:20
   penumbra run recording/ -o out --labels paper
-  penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0)";
+  penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
+  penumbra run recording/ -o out --renderer auto)";
 
 constexpr const char* render_examples = R"(
 Joints that are not given stand at rest (0, or no rotation); --json lists every position.
@@ -54,18 +56,25 @@ Examples:
   penumbra inspect arm.urdf
   penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
 
+constexpr const char* doctor_examples = R"(
+Prints versions, SIMD targets, OpenGL devices and their faults, and which renderer
+--renderer auto would take for a small robot at 640x480. The exit status is 0 without OpenGL too.
+
+Examples:
+  penumbra doctor
+  penumbra doctor --json)";
+
 [[noreturn]] void refuse(const std::string& option, const std::string& value,
                          const std::string& wanted) {
   throw InputError(option + ": '" + value + "' is not " + wanted);
 }
 
-Backend to_backend(const std::string& name) {
-  if (name == "cpu" || name == "auto") return Backend::cpu;
-  if (name == "reference") return Backend::reference;
-  if (name == "gl")
-    throw InputError(
-        "--renderer: this build has no OpenGL renderer (gl); choose cpu, reference or auto");
-  refuse("--renderer", name, "one of cpu, reference, auto, gl");
+/// Nothing for auto.
+std::optional<Backend> to_backend(const std::string& name) {
+  if (name == "auto") return std::nullopt;
+  for (const Backend backend : {Backend::cpu, Backend::gl, Backend::reference})
+    if (name == to_string(backend)) return backend;
+  refuse("--renderer", name, "one of cpu, gl, reference, auto");
 }
 
 Geometry to_geometry(const std::string& name) {
@@ -96,6 +105,7 @@ Tolerance to_tolerance(const std::string& text) {
   return {*a, *b, *c};
 }
 
+constexpr int most_gl_devices = 1000;
 constexpr int most_repeats = 1'000'000;
 
 int to_count(const std::string& option, const std::string& text, int least, int most) {
@@ -176,12 +186,18 @@ void add_list(CLI::App& app, const std::string& names, const std::string& help,
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_renderer(CLI::App& app, Backend& backend, int& threads) {
-  add_option(app, "--renderer", "cpu, reference or auto (= cpu); default auto", "NAME",
-             [&](const std::string& text) { backend = to_backend(text); });
+void add_renderer(CLI::App& app, RendererArguments& renderer) {
+  add_option(app, "--renderer",
+             "cpu (default), gl (OpenGL), reference, or auto: the faster of cpu and gl, measured",
+             "NAME", [&](const std::string& text) { renderer.backend = to_backend(text); });
+  add_option(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
+             [&](const std::string& text) {
+               renderer.options.gl_device = to_count("--gl-device", text, 0, most_gl_devices);
+             });
   add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
              [&](const std::string& text) {
-               threads = to_count("--threads", text, 1, RendererOptions::max_threads);
+               renderer.options.threads =
+                   to_count("--threads", text, 1, RendererOptions::max_threads);
              });
 }
 
@@ -215,11 +231,18 @@ void add_unbuilt(CLI::App& app) {
         ->expected(0, 1);
 }
 
-void check_threads(Backend backend, int threads) {
-  if (backend == Backend::reference && threads > 1)
-    throw InputError("--threads " + std::to_string(threads) +
-                     ": the reference renderer uses one thread; leave --threads out, or choose "
-                     "--renderer cpu");
+/// Options that the chosen renderer would not heed are refused.
+void check_renderer(const RendererArguments& renderer) {
+  const std::optional<Backend> backend = renderer.backend;
+  const int threads = renderer.options.threads, device = renderer.options.gl_device;
+  if (backend && backend != Backend::cpu && threads > 1)
+    throw InputError("--threads " + std::to_string(threads) + ": the " +
+                     std::string(to_string(*backend)) +
+                     " renderer uses one thread; leave --threads out, or choose --renderer cpu");
+  if (backend && backend != Backend::gl && device >= 0)
+    throw InputError("--gl-device " + std::to_string(device) + ": the " +
+                     std::string(to_string(*backend)) +
+                     " renderer uses no OpenGL; choose --renderer gl or auto");
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
@@ -228,7 +251,7 @@ void add_run(CLI::App& app, RunArguments& run) {
   app.add_option("-o,--output", run.output, "folder for the results; made if need be")
       ->type_name("OUT")
       ->required();
-  add_renderer(app, run.backend, run.threads);
+  add_renderer(app, run.renderer);
   add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
              "NAME", [&](const std::string& text) { run.geometry = to_geometry(text); });
   add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
@@ -268,7 +291,7 @@ void add_render(CLI::App& app, RenderArguments& render) {
       ->required();
   app.add_option("--links", render.links, "link image, 16-bit: link number + 1, 0 = none")
       ->type_name("PNG");
-  add_renderer(app, render.backend, render.threads);
+  add_renderer(app, render.renderer);
   add_option(app, "--repeat", "render N times and print the times", "N",
              [&](const std::string& text) {
                render.repeat = to_count("--repeat", text, 1, most_repeats);
@@ -283,12 +306,18 @@ void add_inspect(CLI::App& app, InspectArguments& inspect) {
   app.add_flag("--json", inspect.json, "print JSON instead of tables");
 }
 
+void add_doctor(CLI::App& app, DoctorArguments& doctor) {
+  app.footer(doctor_examples);
+  app.add_flag("--json", doctor.json, "print JSON instead of text");
+}
+
 }  // namespace
 
 std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   RunArguments run;
   RenderArguments render;
   InspectArguments inspect;
+  DoctorArguments doctor;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -296,9 +325,11 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* const run_app = app.add_subcommand("run", "label every frame of a recording");
   CLI::App* const render_app = app.add_subcommand("render", "render one virtual depth image");
   CLI::App* const inspect_app = app.add_subcommand("inspect", "tell what of a URDF is drawn");
+  CLI::App* const doctor_app = app.add_subcommand("doctor", "tell what this machine offers");
   add_run(*run_app, run);
   add_render(*render_app, render);
   add_inspect(*inspect_app, inspect);
+  add_doctor(*doctor_app, doctor);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -307,12 +338,14 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::Error& error) {
     throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
   }
-  check_threads(run.backend, run.threads);
-  check_threads(render.backend, render.threads);
+  check_renderer(run.renderer);
+  check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;
   if (inspect_app->parsed()) return inspect;
-  throw InputError("a command is needed: run, render or inspect (penumbra --help tells more)");
+  if (doctor_app->parsed()) return doctor;
+  throw InputError(
+      "a command is needed: run, render, inspect or doctor (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

@@ -26,11 +26,15 @@ struct FrameRange {
   std::optional<std::int64_t> first, end;
 };
 
+struct RendererArguments {
+  std::optional<Backend> backend = Backend::cpu;  ///< nothing: auto
+  RendererOptions options;
+};
+
 struct RunArguments {
   std::filesystem::path input;
   std::filesystem::path output;
-  Backend backend = Backend::cpu;
-  int threads = 1;
+  RendererArguments renderer;
   std::optional<Geometry> geometry;
   bool geometry_fallback = false;     ///< as in RobotOptions, on top of the recording's
   bool allow_missing_meshes = false;  ///< likewise
@@ -51,8 +55,7 @@ struct RenderArguments {
   std::vector<std::pair<std::string, double>> joints;  ///< name and value, as they were given
   std::filesystem::path output;
   std::optional<std::filesystem::path> links;
-  Backend backend = Backend::cpu;
-  int threads = 1;
+  RendererArguments renderer;
   int repeat = 1;
   bool json = false;
 };
@@ -63,7 +66,11 @@ struct InspectArguments {
   bool json = false;
 };
 
-using Command = std::variant<RunArguments, RenderArguments, InspectArguments>;
+struct DoctorArguments {
+  bool json = false;
+};
+
+using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

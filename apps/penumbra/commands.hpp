@@ -9,5 +9,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const RunArguments& arguments);
 [[nodiscard]] int execute(const RenderArguments& arguments);
 [[nodiscard]] int execute(const InspectArguments& arguments);
+[[nodiscard]] int execute(const DoctorArguments& arguments);
 
 }  // namespace penumbra::app

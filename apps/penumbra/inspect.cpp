@@ -16,19 +16,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-void print_table(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Row& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
-    line.erase(line.find_last_not_of(' ') + 1);
-    std::cout << line << '\n';
-  }
-}
-
 std::string size_of(const LinkReport& link) {
   if (link.bounds.isEmpty()) return "-";
   const Eigen::Vector3d size = link.bounds.sizes();

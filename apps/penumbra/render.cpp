@@ -41,8 +41,8 @@ std::vector<double> positions_of(const Robot& robot, const RenderArguments& argu
 
 Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Camera& camera) {
   PipelineConfig config;
-  config.backend = arguments.backend;
-  config.renderer.threads = arguments.threads;
+  config.backend = arguments.renderer.backend;
+  config.renderer = arguments.renderer.options;
   config.camera_parent = arguments.parent;
   config.T_parent_camera = io::read_pose_csv(arguments.pose);
   return app::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
@@ -82,6 +82,8 @@ int execute(const RenderArguments& arguments) {
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, false);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
+  tell_choice(pipeline.renderer_choice());
+  const std::vector<std::string> notes = notes_of(pipeline);
 
   const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
   const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
@@ -89,10 +91,11 @@ int execute(const RenderArguments& arguments) {
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),
                           .robot_pixels = first.pixels.robot.value_or(0),
-                          .renderer = pipeline.renderer(),
+                          .renderer = used_renderer(pipeline, arguments.renderer.backend),
                           .variables = pipeline.robot().variables(),
                           .positions = positions,
                           .missing_links = pipeline.missing_links(),
+                          .notes = notes,
                           .statistics = {}};
   const Image<float> seen = copy(first.virtual_depth.depth);
   for (int i = 0; i < arguments.repeat; ++i)

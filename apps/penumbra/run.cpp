@@ -58,8 +58,8 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
                      "' is no link of the robot" + io::near_names(camera.parent, known));
   }
   PipelineConfig config = recording.pipeline_config();
-  config.backend = arguments.backend;
-  config.renderer.threads = arguments.threads;
+  config.backend = arguments.renderer.backend;
+  config.renderer = arguments.renderer.options;
   config.rule = rule_of(arguments, config.rule);
   config.image = arguments.image;
   return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);
@@ -174,11 +174,14 @@ int execute(const RunArguments& arguments) {
   const io::FrameReader reader(recording, robot);
   const std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
   Pipeline pipeline = make_pipeline(arguments, recording, std::move(robot));
+  tell_choice(pipeline.renderer_choice());
+  const std::vector<std::string> notes = notes_of(pipeline);
 
   OutputFolder output(arguments.output, arguments.saves, pipeline.rectification());
-  io::ReportWriter writer(output.report_file(),
-                          {arguments.input.string(), pipeline.renderer(), pipeline.robot().links(),
-                           pipeline.missing_links(), pipeline.robot().notes()});
+  io::ReportWriter writer(
+      output.report_file(),
+      {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
+       pipeline.robot().links(), pipeline.missing_links(), notes});
   Statistics statistics;
   ColorFaults color;
   {

@@ -27,6 +27,19 @@ std::string fixed(double value, int digits) {
   return {buffer, result.ptr};
 }
 
+void print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+    line.erase(line.find_last_not_of(' ') + 1);
+    std::cout << line << '\n';
+  }
+}
+
 Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& config,
                        const std::filesystem::path& camera_info) {
   try {
@@ -38,6 +51,26 @@ Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& 
 
 void tell_notes(const Robot& robot) {
   for (const std::string& note : robot.notes()) std::cerr << "penumbra: note: " << note << '\n';
+}
+
+void tell_choice(const RendererChoice& choice) {
+  if (!choice.reason.empty())
+    std::cerr << "penumbra: --renderer auto takes " << to_string(choice.backend) << ": "
+              << choice.reason << '\n';
+  for (const std::string& warning : choice.warnings)
+    std::cerr << "penumbra: note: " << warning << '\n';
+}
+
+io::UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requested) {
+  return {pipeline.renderer(), requested, pipeline.renderer_choice().reason};
+}
+
+std::vector<std::string> notes_of(const Pipeline& pipeline) {
+  const auto of_robot = pipeline.robot().notes();
+  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
+  const auto& warnings = pipeline.renderer_choice().warnings;
+  notes.insert(notes.end(), warnings.begin(), warnings.end());
+  return notes;
 }
 
 }  // namespace penumbra::app

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
+
+#include <io/report_json.hpp>
 
 namespace penumbra::app {
 
@@ -17,6 +20,9 @@ namespace penumbra::app {
 /// A value with `digits` after the point.
 [[nodiscard]] std::string fixed(double value, int digits);
 
+/// Prints rows of equal length on stdout, columns aligned.
+void print_table(const std::vector<std::vector<std::string>>& rows);
+
 /// Makes a pipeline; a fault of the lens is blamed on the camera_info file.
 [[nodiscard]] Pipeline make_pipeline(Robot robot, const Camera& camera,
                                      const PipelineConfig& config,
@@ -24,5 +30,15 @@ namespace penumbra::app {
 
 /// Prints Robot::notes() on stderr, a line each.
 void tell_notes(const Robot& robot);
+
+/// Prints on stderr what auto took and why, and its warnings; nothing for a backend by name.
+void tell_choice(const RendererChoice& choice);
+
+/// What the report says of the pipeline's renderer.
+[[nodiscard]] io::UsedRenderer used_renderer(const Pipeline& pipeline,
+                                             std::optional<Backend> requested);
+
+/// Robot::notes() and RendererChoice::warnings.
+[[nodiscard]] std::vector<std::string> notes_of(const Pipeline& pipeline);
 
 }  // namespace penumbra::app

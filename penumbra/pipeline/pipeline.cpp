@@ -69,6 +69,13 @@ LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
   return rule;
 }
 
+ChosenRenderer renderer_of(const PipelineConfig& config, const Intrinsics& intrinsics,
+                           std::span<const Body> bodies) {
+  if (!config.backend) return make_fastest_renderer(intrinsics, bodies, config.renderer);
+  return {{*config.backend, {}, {}},
+          make_depth_renderer(*config.backend, intrinsics, bodies, config.renderer)};
+}
+
 }  // namespace
 
 struct Pipeline::State {
@@ -93,7 +100,7 @@ struct Pipeline::State {
   FrameCheck check;
   LinkPoses poses;
   CameraInsideCheck camera_inside;
-  std::unique_ptr<DepthRenderer> renderer;
+  ChosenRenderer chosen;
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
   Classifier classifier;
@@ -113,8 +120,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       check(robot, camera.intrinsics.width(), camera.intrinsics.height(), missing_links),
       poses(robot, config),
       camera_inside(bodies_of(robot)),
-      renderer(make_depth_renderer(config.backend, render_intrinsics, bodies_of(robot),
-                                   config.renderer)),
+      chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
       classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
       unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
@@ -134,8 +140,9 @@ Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Robot& Pipeline::robot() const { return state_->robot; }
-const RendererInfo& Pipeline::renderer() const { return state_->renderer->info(); }
-std::size_t Pipeline::triangle_count() const { return state_->renderer->triangle_count(); }
+const RendererInfo& Pipeline::renderer() const { return state_->chosen.renderer->info(); }
+const RendererChoice& Pipeline::renderer_choice() const { return state_->chosen.choice; }
+std::size_t Pipeline::triangle_count() const { return state_->chosen.renderer->triangle_count(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
 const Rectification* Pipeline::rectification() const {
   return state_->rectified_depth ? &*state_->rectification : nullptr;
@@ -183,7 +190,7 @@ VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_ca
     throw InputError("the camera's centre lies inside of link '" + robot.links()[*link] +
                      "': correct the camera's pose, or name the link in ignore_links if it is the "
                      "camera's own housing");
-  const VirtualDepthView rendered = renderer->render(T_camera_link);
+  const VirtualDepthView rendered = chosen.renderer->render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
 }
 

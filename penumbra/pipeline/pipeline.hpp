@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,7 +12,7 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/renderer_choice.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
@@ -23,8 +24,10 @@ enum class ImageSpace {
 };
 
 struct PipelineConfig {
-  Backend backend = Backend::cpu;
-  RendererOptions renderer;  ///< threads and SIMD target of the cpu backend
+  /// Nothing: the faster one of cpu and gl, measured at the start (make_fastest_renderer); results
+  /// of the two are not the same to the last bit.
+  std::optional<Backend> backend = Backend::cpu;
+  RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
   LabelRule rule;            ///< its range and the camera's both apply
   ImageSpace image = ImageSpace::raw;
   std::string camera_parent;  ///< link that the camera sits on; empty: the root
@@ -38,7 +41,7 @@ class Pipeline {
  public:
   /// Throws InputError for a robot of which nothing is drawn, a camera parent that is no link, a
   /// camera pose that is no rigid transform, and what Camera, LabelRule and make_depth_renderer
-  /// refuse.
+  /// or make_fastest_renderer refuse.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;
@@ -52,6 +55,10 @@ class Pipeline {
 
   [[nodiscard]] const Robot& robot() const;
   [[nodiscard]] const RendererInfo& renderer() const;
+
+  /// Why that renderer; without reason or warnings where the configuration names the backend.
+  [[nodiscard]] const RendererChoice& renderer_choice() const;
+
   [[nodiscard]] std::size_t triangle_count() const;
 
   /// Size and projection of the report's images; in the raw image of a lens with distortion the

@@ -168,7 +168,6 @@ std::vector<BadInput> bad_recordings() {
 
 std::vector<BadInput> bad_options() {
   return {
-      {"RendererGl", nothing(), {"OpenGL"}, {"--renderer", "gl"}},
       {"RendererUnknown", nothing(), {"--renderer", "fast"}, {"--renderer", "fast"}},
       {"GeometryUnknown", nothing(), {"--geometry", "nice"}, {"--geometry", "nice"}},
       {"ToleranceOfTwo", nothing(), {"--tolerance", "0.1,0"}, {"--tolerance", "0.1,0"}},
@@ -184,6 +183,13 @@ std::vector<BadInput> bad_options() {
        nothing(),
        {"--threads 3", "one thread"},
        {"--renderer", "reference", "--threads", "3"}},
+      {"ThreadsOfOpenGl",
+       nothing(),
+       {"--threads 2", "one thread"},
+       {"--renderer", "gl", "--threads", "2"}},
+      {"GlDeviceOfTheCpu", nothing(), {"--gl-device 0", "--renderer gl"}, {"--gl-device", "0"}},
+      {"GlDeviceNegative", nothing(), {"--gl-device"}, {"--renderer", "gl", "--gl-device=-1"}},
+      {"GlDeviceText", nothing(), {"--gl-device"}, {"--renderer", "gl", "--gl-device", "first"}},
       {"TargetsOfALaterVersion", nothing(), {"--targets", "built"}, {"--targets", "t.yaml"}},
       {"ReportOfALaterVersion", nothing(), {"--report", "built"}, {"--report"}},
       {"TimeOffsetOfALaterVersion", nothing(), {"--time-offset", "built"}, {"--time-offset=-0.1"}},
@@ -269,12 +275,8 @@ TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
-      {{}, "run, render or inspect"},
-      {{"walk"}, "walk"},
-      {{"run"}, "INPUT"},
-      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
-      {{"render"}, "--robot"},
-      {{"inspect"}, "URDF"},
+      {{}, "run, render, inspect or doctor"},       {{"walk"}, "walk"},      {{"run"}, "INPUT"},
+      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},   {{"render"}, "--robot"}, {{"inspect"}, "URDF"},
       {{"inspect", "nowhere.urdf"}, "nowhere.urdf"}};
   for (const auto& [line, word] : lines) {
     const Outcome outcome = penumbra(line);

@@ -22,9 +22,12 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Outcome penumbra(const std::vector<std::string>& arguments) {
+Outcome penumbra(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment) {
   const TemporaryFolder folder;
-  std::string command = std::string("timeout 60 ") + quoted(PENUMBRA_PROGRAM);
+  std::string command = "env";
+  for (const std::string& variable : environment) command += " " + quoted(variable);
+  command += " timeout 60 " + quoted(PENUMBRA_PROGRAM);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command +=
       " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");

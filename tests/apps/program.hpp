@@ -15,8 +15,14 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs the command line `penumbra` with these arguments, at most 60 s.
-[[nodiscard]] Outcome penumbra(const std::vector<std::string>& arguments);
+/// Runs the command line `penumbra` with these arguments, at most 60 s, with NAME=VALUE added to
+/// its environment.
+[[nodiscard]] Outcome penumbra(const std::vector<std::string>& arguments,
+                               const std::vector<std::string>& environment = {});
+
+/// An environment in which EGL finds no driver.
+inline const std::vector<std::string> no_egl_driver = {
+    "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
 
 /// An empty folder of its own for the running test, gone with this.
 class TemporaryFolder {

@@ -94,7 +94,6 @@ TEST_F(RenderTest, RefusesBadInput) {
       << "render takes none";
   expect_refused(render({"--repeat", "0"}), "--repeat");
   expect_refused(render({"--package", "name"}), "--package");
-  expect_refused(render({"--renderer", "gl"}), "OpenGL");
 }
 
 TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {

@@ -31,7 +31,8 @@ Keys keys(const Json& json) {
 /// The contract of DESIGN section 4: keys and types that do not depend on the recording.
 void expect_report(const Json& report) {
   EXPECT_EQ(keys(report), (Keys{"penumbra", "input", "renderer", "links", "frames", "summary"}));
-  EXPECT_EQ(keys(report["renderer"]), (Keys{"backend", "isa", "threads"}));
+  EXPECT_EQ(keys(report["renderer"]),
+            (Keys{"backend", "isa", "threads", "device", "requested", "reason"}));
   const Keys stages{"kinematics", "render", "classify", "targets"};
   for (const Json& frame : report["frames"]) {
     EXPECT_EQ(keys(frame), (Keys{"index", "stamp_ns", "joint_age_ms", "status", "message", "pixels",
@@ -76,6 +77,9 @@ TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
   expect_report(json);
   EXPECT_EQ(json["links"], (Json{"base", "board"}));
   EXPECT_EQ(json["renderer"]["backend"], "cpu");
+  EXPECT_EQ(json["renderer"]["requested"], "cpu");
+  EXPECT_TRUE(json["renderer"]["device"].is_null());
+  EXPECT_TRUE(json["renderer"]["reason"].is_null()) << "nothing was chosen";
   EXPECT_EQ(json["summary"]["bad_frames"], 0);
   EXPECT_EQ(json["summary"]["missing_links"], Json::array());
   ASSERT_EQ(json["frames"].size(), 3U);
@@ -255,7 +259,8 @@ TEST(Help, TellsExamplesOfEveryCommand) {
   for (const std::vector<std::string>& line : {std::vector<std::string>{"--help"},
                                                {"run", "--help"},
                                                {"render", "--help"},
-                                               {"inspect", "--help"}}) {
+                                               {"inspect", "--help"},
+                                               {"doctor", "--help"}}) {
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.out.find("Examples:"), std::string::npos);

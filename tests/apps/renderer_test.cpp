@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// --renderer and --gl-device: what is taken, what the report says of it, what is refused.
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/render/gl/gl_devices.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// The first OpenGL device that works.
+std::optional<std::size_t> working_device() {
+  try {
+    const auto devices = gl_devices();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+      if (devices[i].fault.empty()) return i;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+class RendererTest : public testing::Test {
+ protected:
+  RendererTest() { write_tiny_recording(folder_.path()); }
+
+  Outcome run(std::vector<std::string> options, const std::vector<std::string>& environment = {}) {
+    options.insert(options.begin(), {"run", folder_.path(), "-o", folder_.path() / "out"});
+    return penumbra(options, environment);
+  }
+  Outcome render(std::vector<std::string> options,
+                 const std::vector<std::string>& environment = {}) {
+    options.insert(options.begin(),
+                   {"render", "--robot", folder_.path() / "tiny.urdf", "--camera",
+                    folder_.path() / "camera_info.yaml", "--pose",
+                    folder_.path() / "camera_pose.csv", "-o", folder_.path() / "vdi.npy"});
+    return penumbra(options, environment);
+  }
+  [[nodiscard]] Json report() const {
+    return Json::parse(read_file(folder_.path() / "out" / "report.json"));
+  }
+  static void expect_refused(const Outcome& outcome, const std::string& word) {
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RendererTest, AutoFallsBackToTheCpuAndTheReportSaysWhy) {
+  const Outcome outcome = run({"--renderer", "auto"}, no_egl_driver);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = report();
+  EXPECT_EQ(json["renderer"]["backend"], "cpu");
+  EXPECT_EQ(json["renderer"]["requested"], "auto");
+  const std::string reason = json["renderer"]["reason"];
+  ASSERT_FALSE(json["summary"]["notes"].empty());
+  const std::string note = json["summary"]["notes"].back();
+  EXPECT_NE(note.find("OpenGL"), std::string::npos) << note;
+  EXPECT_NE(outcome.err.find("--renderer auto takes cpu: " + reason), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("penumbra: note: " + note + "\n"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RendererTest, RenderSaysTheSameAsJson) {
+  const Outcome outcome = render({"--renderer", "auto", "--json"}, no_egl_driver);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json["renderer"]["backend"], "cpu");
+  EXPECT_EQ(json["renderer"]["requested"], "auto");
+  EXPECT_TRUE(json["renderer"]["reason"].is_string());
+  EXPECT_FALSE(json["notes"].empty());
+}
+
+TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
+  expect_refused(run({"--renderer", "gl"}, no_egl_driver), "OpenGL");
+  EXPECT_FALSE(fs::exists(folder_.path() / "out" / "report.json"));
+  expect_refused(render({"--renderer", "gl"}, no_egl_driver), "OpenGL");
+  EXPECT_FALSE(fs::exists(folder_.path() / "vdi.npy"));
+}
+
+TEST_F(RendererTest, ADeviceThatIsNotThereIsRefused) {
+  if (!working_device()) GTEST_SKIP() << "no OpenGL device works here";
+  expect_refused(run({"--renderer", "gl", "--gl-device", "99"}), "99");
+  expect_refused(run({"--renderer", "auto", "--gl-device", "99"}), "99");
+}
+
+TEST_F(RendererTest, OpenGlIsNamedInTheReport) {
+  const auto device = working_device();
+  if (!device) GTEST_SKIP() << "no OpenGL device works here";
+  const Outcome outcome = run({"--renderer", "gl", "--gl-device", std::to_string(*device)});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = report();
+  EXPECT_EQ(json["renderer"]["backend"], "gl");
+  EXPECT_EQ(json["renderer"]["requested"], "gl");
+  EXPECT_TRUE(json["renderer"]["isa"].is_null());
+  EXPECT_TRUE(json["renderer"]["threads"].is_null());
+  const std::string words = json["renderer"]["device"];
+  EXPECT_TRUE(words.starts_with(gl_devices()[*device].name)) << words;
+  EXPECT_EQ(json["frames"][0]["pixels"]["front"], 64) << "the object of 8 x 8 pixels";
+}
+
+TEST_F(RendererTest, ADeviceByNumberIsMeasured) {
+  const auto device = working_device();
+  if (!device) GTEST_SKIP() << "no OpenGL device works here";
+  const Outcome outcome = run({"--renderer", "auto", "--gl-device", std::to_string(*device)});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json renderer = report()["renderer"];
+  const std::string reason = renderer["reason"];
+  for (const std::string& word : {std::string(" ms ("), std::string("gl on "),
+                                  gl_devices()[*device].name, std::string("cpu on ")})
+    EXPECT_NE(reason.find(word), std::string::npos) << reason;
+  EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+  EXPECT_EQ(renderer["device"].is_null(), renderer["backend"] == "cpu");
+}
+
+}  // namespace
+}  // namespace penumbra::test
