@@ -21,7 +21,16 @@ class FrameStatusTest : public testing::Test {
     EXPECT_EQ(process(good()).status, FrameStatus::ok);
   }
 
-  [[nodiscard]] Frame good() const { return {.depth = depth_.view(), .joints = positions_}; }
+  [[nodiscard]] Frame good() const { return with_joints(positions_); }
+  [[nodiscard]] Frame with_joints(const JointInput& joints) const {
+    return {.depth = depth_.view(), .joints = joints};
+  }
+  [[nodiscard]] Frame flawed(FrameStatus status, std::string_view message) const {
+    Frame frame = good();
+    frame.source_status = status;
+    frame.source_message = message;
+    return frame;
+  }
   const FrameReport& process(const Frame& frame) { return pipeline_.process(frame); }
 
   void expect_pose_unknown(const Frame& frame, FrameStatus status, const std::string& says) {
@@ -59,45 +68,37 @@ class FrameStatusTest : public testing::Test {
 };
 
 TEST_F(FrameStatusTest, NoJoints) {
-  Frame frame = good();
-  frame.joints = {};
-  expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions");
+  expect_pose_unknown(with_joints({}), FrameStatus::missing_joints, "no joint positions");
 }
 
 TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   JointAnswer answer;
   answer.status = JointStatus::stale;
   answer.gaps = {{.variable = 0, .why = JointStatus::stale, .last_seen = 42}};
-  Frame frame = good();
-  frame.joints = answer;
-  expect_pose_unknown(frame, FrameStatus::stale_joints, "'slide' has no position near the stamp");
+  expect_pose_unknown(with_joints(answer), FrameStatus::stale_joints,
+                      "'slide' has no position near the stamp");
   answer.status = JointStatus::missing;
   answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}}};
-  frame.joints = answer;
-  expect_pose_unknown(frame, FrameStatus::missing_joints, "'slide' was never seen");
+  expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
 
   answer = {.status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}};
-  frame.joints = answer;
-  EXPECT_EQ(process(frame).status, FrameStatus::ok);
-  EXPECT_EQ(process(frame).joint_age, 1500);
+  EXPECT_EQ(process(with_joints(answer)).status, FrameStatus::ok);
+  EXPECT_EQ(process(with_joints(answer)).joint_age, 1500);
 }
 
 TEST_F(FrameStatusTest, PositionsThatAreNoPositions) {
   for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity(), 1.1e9, 1e300}) {
     const std::vector<double> positions = {value};
-    Frame frame = good();
-    frame.joints = positions;
-    expect_pose_unknown(frame, FrameStatus::missing_joints, "'slide' is not a number within");
+    expect_pose_unknown(with_joints(positions), FrameStatus::missing_joints,
+                        "'slide' is not a number within");
   }
 }
 
 TEST_F(FrameStatusTest, PositionsOutOfThisWorld) {
   for (const double value : {1.1e6, -1e7, 1e9}) {
     const std::vector<double> positions = {value};
-    Frame frame = good();
-    frame.joints = positions;
-    const FrameReport& report = process(frame);
+    const FrameReport& report = process(with_joints(positions));
     EXPECT_EQ(report.status, FrameStatus::missing_joints) << value;
     EXPECT_NE(report.message.find("'slab'"), std::string::npos) << report.message;
     EXPECT_TRUE(report.virtual_depth.depth.empty());
@@ -125,17 +126,14 @@ TEST(FrameStatusOfRobot, AQuaternionThatIsNone) {
 TEST_F(FrameStatusTest, TooManyOrTooFewPositions) {
   for (const std::size_t count : {0U, 2U}) {
     const std::vector<double> positions(count, 0.0);
-    Frame frame = good();
-    frame.joints = positions;
-    expect_pose_unknown(frame, FrameStatus::missing_joints, "for 1 joint variable");
+    expect_pose_unknown(with_joints(positions), FrameStatus::missing_joints,
+                        "for 1 joint variable");
   }
 }
 
 TEST_F(FrameStatusTest, NoCameraPose) {
-  Frame frame = good();
-  frame.source_status = FrameStatus::missing_transform;
-  frame.source_message = "no transform from 'a' to 'b'";
-  expect_pose_unknown(frame, FrameStatus::missing_transform, "from 'a' to 'b'");
+  expect_pose_unknown(flawed(FrameStatus::missing_transform, "no transform from 'a' to 'b'"),
+                      FrameStatus::missing_transform, "from 'a' to 'b'");
 }
 
 TEST_F(FrameStatusTest, NoDepth) {
@@ -152,15 +150,12 @@ TEST_F(FrameStatusTest, DepthOfAnotherSize) {
 }
 
 TEST_F(FrameStatusTest, DepthThatTheSourceCallsBad) {
-  Frame frame = good();
-  frame.source_status = FrameStatus::bad_depth;
-  frame.source_message = "depth_3.png: truncated";
-  expect_robot_unknown(frame, FrameStatus::bad_depth, "depth_3.png: truncated");
+  expect_robot_unknown(flawed(FrameStatus::bad_depth, "depth_3.png: truncated"),
+                       FrameStatus::bad_depth, "depth_3.png: truncated");
 }
 
 TEST_F(FrameStatusTest, TheWorseFaultIsTheStatusAndAllAreTold) {
-  Frame frame = good();
-  frame.joints = {};
+  Frame frame = with_joints({});
   frame.depth = {};
   expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions; no depth image");
 }

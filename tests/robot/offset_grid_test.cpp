@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <tests/robot/offset_oracle.hpp>
 #include <tests/robot/offset_shapes.hpp>
+#include <tests/robot/urdf_text.hpp>
 #include <tests/support/data.hpp>
 #include <tests/support/random.hpp>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/primitives.hpp>
@@ -124,12 +124,7 @@ TEST(OffsetGrid, SurfacesInsideOtherPiecesAreWalls) {
 }
 
 std::string refusal(const TriangleMesh& mesh, double margin) {
-  try {
-    (void)offset_surface(mesh, margin);
-    return {};
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::message_of([&] { (void)offset_surface(mesh, margin); });
 }
 
 TEST(OffsetGrid, RefusalsSayWhatToDo) {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 #include <tests/robot/offset_oracle.hpp>
+#include <tests/robot/urdf_text.hpp>
 #include <tests/support/random.hpp>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/primitives.hpp>
 #include <penumbra/robot/surface_erosion-inl.hpp>
@@ -28,12 +28,7 @@ double volume(const TriangleMesh& mesh) {
 }
 
 std::string refusal(const TriangleMesh& mesh, double margin) {
-  try {
-    (void)offset_surface(mesh, margin);
-    return {};
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::message_of([&] { (void)offset_surface(mesh, margin); });
 }
 
 /// Random points of the shrunk surface lie at the depth from the old one.
