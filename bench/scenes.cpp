@@ -147,8 +147,9 @@ std::vector<LinkPoses> SphereScene::path(std::size_t frames) const {
     const double angle = 0.02 * static_cast<double>(frame);
     for (std::size_t i = 0; i < count_; ++i) {
       const double middle = 0.5 * static_cast<double>(columns - 1);
+      const std::size_t row = i / columns;
       const double x = 2.0 * radius_ * (static_cast<double>(i % columns) - middle);
-      const double y = 2.0 * radius_ * (static_cast<double>(i / columns) - middle);
+      const double y = 2.0 * radius_ * (static_cast<double>(row) - middle);
       const Vector3d centre(x + 0.1 * std::sin(angle), y + 0.1 * std::cos(angle), 2.0);
       poses.push_back(Eigen::Translation3d(centre) *
                       Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()));

@@ -54,8 +54,8 @@ void run(const std::filesystem::path& folder) {
   const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies);
 
   const Eigen::Isometry3d T_camera_base = look_at({1.2, -1.0, 0.8}, {0.2, 0.0, 0.3}).inverse();
-  std::vector<Eigen::Isometry3d> T_camera_link;
-  for (const auto& T : T_base_link) T_camera_link.push_back(T_camera_base * T);
+  std::vector<Eigen::Isometry3d> T_camera_link = T_base_link;
+  for (auto& T : T_camera_link) T = T_camera_base * T;
   const VirtualDepthView virtual_depth = renderer->render(T_camera_link);
 
   // Labels: what do measured depths mean?

@@ -37,7 +37,8 @@ Camera random_camera(const Distortion& lens, std::mt19937_64& random) {
 }
 
 Eigen::Vector2d ray_of(const Intrinsics& pinhole, std::int32_t index) {
-  return pinhole.ray(index % pinhole.width(), index / pinhole.width()).head<2>();
+  const int row = index / pinhole.width();
+  return pinhole.ray(index % pinhole.width(), row).head<2>();
 }
 
 /// Raw image point of an undistorted point, in pixels.

@@ -160,7 +160,7 @@ std::string error_of(const std::string& text, bool is_rectified = false) {
   try {
     static_cast<void>(parse(text, is_rectified));
   } catch (const InputError& error) {
-    const std::string what = error.what();
+    std::string what = error.what();
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     EXPECT_EQ(what.rfind("cam.yaml:", 0), 0U) << what;
     return what;

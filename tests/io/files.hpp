@@ -59,7 +59,7 @@ std::string input_error(const F& call) {
   try {
     call();
   } catch (const InputError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }

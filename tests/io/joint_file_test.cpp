@@ -20,7 +20,7 @@ class JointFile : public testing::Test {
     return read_joint_file(folder_.write("joints.csv", text), robot_);
   }
   std::string fault(const std::string& text) {
-    const std::string message = input_error([&] { static_cast<void>(read(text)); });
+    std::string message = input_error([&] { static_cast<void>(read(text)); });
     EXPECT_TRUE(message.starts_with((folder_.path() / "joints.csv").string() + ":")) << message;
     return message;
   }
@@ -124,7 +124,8 @@ TEST_F(JointFile, SurvivesDamage) {
     });
   };
   for (std::size_t length = 0; length < whole.size(); ++length) check(whole.substr(0, length));
-  const std::string special = ",\n\r\0 .-+e0";
+  using namespace std::string_literals;
+  const std::string special = ",\n\r\0 .-+e0"s;
   for (int i = 0; i < 5000; ++i) {
     std::string damaged = whole;
     for (int n = 0; n < 1 + i % 4; ++n)

@@ -101,7 +101,7 @@ inline std::string unfiltered(const std::string& raw, std::size_t row_bytes, std
   const std::size_t rows = raw.size() / (row_bytes + 1);
   std::string out(rows * row_bytes, '\0');
   for (std::size_t v = 0; v < rows; ++v) {
-    const int filter = raw[v * (row_bytes + 1)];
+    const int filter = static_cast<unsigned char>(raw[v * (row_bytes + 1)]);
     for (std::size_t i = 0; i < row_bytes; ++i) {
       const auto at = [&](std::size_t back_rows, std::size_t back) -> int {
         if (v < back_rows || i < back) return 0;

@@ -131,7 +131,8 @@ TEST(Yaml, SurvivesTruncation) {
 void survive_random_damage(int rounds) {
   std::mt19937_64 random = test::seeded_random(1);
   const std::string whole = sample;
-  const std::string special = "{}[]:,-?&*!|>'\"%@`#\n \t\0\\~<=";
+  using namespace std::string_literals;
+  const std::string special = "{}[]:,-?&*!|>'\"%@`#\n \t\0\\~<="s;
   for (int i = 0; i < rounds; ++i) {
     std::string damaged = whole;
     for (int n = 0; n < 1 + i % 6; ++n) {

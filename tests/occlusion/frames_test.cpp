@@ -64,6 +64,7 @@ TEST_P(Frames, AllocateNothing) {
   auto random = test::seeded_random(44);
   Classifier classifier(300, 70, LabelRule{}, GetParam());
   std::vector<test::Scene> scenes;
+  scenes.reserve(10);
   for (int i = 0; i < 10; ++i) scenes.push_back(test::random_scene(300, 70, random));
   const std::size_t before = test::allocations();
   for (const test::Scene& scene : scenes)

@@ -129,7 +129,8 @@ TEST_P(Bodies, TwoHundredBodies) {
   Scene scene;
   for (int i = 0; i < 200; ++i) {
     const double u = 4.5 + 7.5 * (i % 20);
-    const double v = 5.0 + 11.0 * static_cast<double>(i / 20);
+    const int row = i / 20;
+    const double v = 5.0 + 11.0 * row;
     scene.add(box({0.02F, 0.01F, 0.015F}),
               Eigen::Translation3d(camera.ray(u, v)) *
                   Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d(1, 2, 3).normalized()));
@@ -143,7 +144,8 @@ TEST_P(Bodies, MostBodiesThatThereMayBe) {
   Scene scene;
   for (std::size_t i = 0; i < DepthRenderer::max_bodies; ++i) {
     const double u = static_cast<double>(i % 40) * 4.0;
-    const double v = static_cast<double>(i / 40) * 4.0;
+    const std::size_t row = i / 40;
+    const double v = static_cast<double>(row) * 4.0;
     scene.add(image_rectangle(camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
   }
   const Frame frame = render(camera, scene);

@@ -80,7 +80,7 @@ void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsic
 Agreement expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
                                          const Intrinsics& intrinsics) {
   const BruteForceOracle oracle(scene.bodies(), scene.poses);
-  const Agreement agreement = compare(view, oracle, cast_image(oracle, intrinsics), intrinsics);
+  Agreement agreement = compare(view, oracle, cast_image(oracle, intrinsics), intrinsics);
   EXPECT_EQ(agreement.errors, 0U) << agreement;
   return agreement;
 }

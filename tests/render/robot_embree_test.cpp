@@ -43,6 +43,7 @@ void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agre
   const std::vector<Body> bodies = bodies_of(robot);
   const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
   std::vector<std::unique_ptr<DepthRenderer>> renderers;
+  renderers.reserve(choices.size());
   for (const BackendChoice& choice : choices) {
     renderers.push_back(make(choice, intrinsics, bodies));
   }

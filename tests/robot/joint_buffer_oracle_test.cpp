@@ -147,7 +147,7 @@ class Fuzz {
  private:
   // Its parts in any order.
   template <typename Put>
-  void put_quaternion(std::string joint, const Put& put) {
+  void put_quaternion(const std::string& joint, const Put& put) {
     double q[4];
     double norm = 0.0;
     for (double& part : q) {
