@@ -84,6 +84,7 @@ std::vector<TriangleMesh> small_arm() {
 RendererChoice choose_for_small_arm() {
   const std::vector<TriangleMesh> arm = small_arm();
   std::vector<Body> bodies;
+  bodies.reserve(arm.size());
   for (const TriangleMesh& mesh : arm) bodies.push_back({"link", {&mesh, 1}});
   return choose_backend(Intrinsics(640, 480, 600, 600, 319.5, 239.5), bodies);
 }
