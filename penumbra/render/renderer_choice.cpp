@@ -37,8 +37,8 @@ RendererChoice without_hardware(const std::vector<GlDevice>& devices) {
 std::optional<int> candidate(const std::vector<GlDevice>& devices, int named) {
   const int count = static_cast<int>(devices.size());
   if (named < -1 || named >= count)
-    throw InputError("OpenGL device " + std::to_string(named) + ": EGL lists " +
-                     std::to_string(count) + " devices, counted from 0 (penumbra doctor)");
+    throw InputError("renderer 'gl': there is no device " + std::to_string(named) +
+                     "; EGL offers " + std::to_string(count) + ", counted from 0");
   if (named >= 0) return named;
   for (int i = 0; i < count; ++i) {
     const GlDevice& device = devices[static_cast<std::size_t>(i)];
