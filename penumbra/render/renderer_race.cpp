@@ -139,7 +139,8 @@ std::string text_of(double ms) {
 }
 
 std::string text_of(const FrameCost& cost, const std::string& renderer) {
-  return text_of(cost.wall) + " (" + text_of(cost.thread_cpu) + " of CPU time) with " + renderer;
+  return text_of(cost.wall) + " (CPU time of the calling thread " + text_of(cost.thread_cpu) +
+         ") with " + renderer;
 }
 
 }  // namespace

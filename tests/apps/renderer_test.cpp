@@ -86,9 +86,9 @@ TEST_F(RendererTest, RenderSaysTheSameAsJson) {
 }
 
 TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
-  expect_refused(run({"--renderer", "gl"}, no_egl_driver), "OpenGL");
+  expect_refused(run({"--renderer", "gl"}, no_egl_driver), "renderer 'gl'");
   EXPECT_FALSE(fs::exists(folder_.path() / "out" / "report.json"));
-  expect_refused(render({"--renderer", "gl"}, no_egl_driver), "OpenGL");
+  expect_refused(render({"--renderer", "gl"}, no_egl_driver), "renderer 'gl'");
   EXPECT_FALSE(fs::exists(folder_.path() / "vdi.npy"));
 }
 
