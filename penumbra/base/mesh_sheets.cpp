@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a hole hides what it hides: let caps inside the balls around its rims close a sheet. A ray
-// that meets no ball meets the sheet alone, and the number of times that the capped sheet winds
-// around a point changes by one there. It is 0 outside; where it is 0 before every front and 1
-// behind, a ray from outside meets a front first. Away from the balls the number before the front
-// is the same all along the sheet, so that a few points tell.
+// Why few backs of a sheet with holes can be seen: let caps inside the balls around its rims close
+// it. The number of times that the capped sheet winds around a point changes by one where a ray
+// passes the sheet, from before a front to behind it. It is 0 outside; where it is not negative
+// before any front, a ray from outside that met no ball meets a front first. As long as the sheet
+// does not cross itself, that number is the same all along a part of it that no ball touches, so
+// that one point of each part tells; some more are tried since sheets do cross themselves.
+// Triangles that touch a ball are not asked: who skips backs must draw both sides of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +27,10 @@ using Eigen::Vector3d;
 // Above these a sheet counts as open: drawing both of its sides costs less than finding out.
 constexpr std::size_t most_rim_edges = 256;
 constexpr std::size_t most_holes = 8;
-constexpr std::size_t most_samples = 512;
-constexpr double most_radii = 0.125;  // of the sheet's size
+constexpr double most_radii = 0.125;           // of the sheet's size
+constexpr std::size_t most_work = 40'000'000;  // samples times triangles: a second or two
+constexpr std::size_t usual_work = 500'000;
+constexpr std::size_t most_spread = 256;  // samples beside those of the parts
 
 /// A run of a triangle along an edge that is not regular.
 struct RimEdge {
@@ -37,12 +41,6 @@ struct RimEdge {
 struct Caps {
   std::vector<Ball> balls;
   std::vector<std::array<Vector3d, 3>> triangles;
-};
-
-/// A point of a triangle.
-struct Sample {
-  std::size_t triangle;
-  Vector3d point;
 };
 
 /// The connected parts of a sheet's rim.
@@ -103,74 +101,111 @@ std::optional<Caps> make_caps(const TriangleMesh& mesh, const MeshSheet& sheet,
   return caps;
 }
 
-bool is_in(const std::vector<Ball>& balls, const Vector3d& point) {
+double distance_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const double t = (p - a).dot(b - a) / (b - a).squaredNorm();
+  return (a + std::clamp(t, 0.0, 1.0) * (b - a) - p).norm();
+}
+
+double distance_to_triangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d n = (b - a).cross(c - a);
+  const bool above = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
+                     n.dot((a - c).cross(p - c)) >= 0;
+  if (above) return std::abs(n.dot(p - a)) / n.norm();
+  return std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+bool touches(const std::vector<Ball>& balls, const std::array<Vector3d, 3>& corners) {
   return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
-    return (point - ball.centre).squaredNorm() <= ball.radius * ball.radius;
+    return distance_to_triangle(ball.centre, corners) <= ball.radius;
   });
 }
 
-/// Whether a box around the triangle meets one of the balls.
-bool may_meet(const std::vector<Ball>& balls, const std::array<Vector3d, 3>& corners) {
-  Eigen::AlignedBox3d box(corners[0]);
-  box.extend(corners[1]);
-  box.extend(corners[2]);
-  return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
-    return box.squaredExteriorDistance(ball.centre) <= ball.radius * ball.radius;
-  });
+double area_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto [a, b, c] = corners_of(mesh, triangle);
+  return (b - a).cross(c - a).norm() / 2.0;
 }
 
-/// Points that tell a capped sheet's sides: one of each part of it that no ball meets, in its
-/// largest triangle, and those near the corners, outside of the balls, of the other triangles.
-std::vector<Sample> choose_samples(const TriangleMesh& mesh, const MeshSheet& sheet,
-                                   const Caps& caps, const std::vector<bool>& cut,
-                                   DisjointSets& parts) {
+/// A point of a triangle.
+struct Sample {
+  std::size_t triangle;
+  Vector3d point;
+};
+
+Sample middle_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto [a, b, c] = corners_of(mesh, triangle);
+  return {triangle, (a + b + c) / 3.0};
+}
+
+/// `count` points spread evenly over the area of some triangles, by the additive sequence of
+/// Roberts 2018, "The unreasonable effectiveness of quasirandom sequences".
+std::vector<Sample> spread_over(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles,
+                                std::size_t count) {
+  double whole = 0.0;
+  for (const std::size_t i : triangles) whole += area_of(mesh, i);
+  const double step = whole / static_cast<double>(count);
   std::vector<Sample> samples;
-  std::map<std::uint32_t, std::pair<double, std::size_t>> largest;  // area and triangle, by part
-  for (const std::size_t i : sheet.triangles) {
-    const auto corners = corners_of(mesh, i);
-    const auto& [a, b, c] = corners;
-    const Vector3d middle = (a + b + c) / 3.0;
-    if (!cut[i]) {
-      auto& best = largest[parts.find(static_cast<std::uint32_t>(i))];
-      best = std::max(best, {(b - a).cross(c - a).norm(), i});
-      continue;
+  double passed = 0.0;
+  for (const std::size_t i : triangles) {
+    passed += area_of(mesh, i);
+    const auto [a, b, c] = corners_of(mesh, i);
+    while (samples.size() < count && (static_cast<double>(samples.size()) + 0.5) * step <= passed) {
+      const double n = static_cast<double>(samples.size()) + 0.5;
+      double s = std::fmod(0.7548776662466927 * n, 1.0);
+      double t = std::fmod(0.5698402909980532 * n, 1.0);
+      if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
+      samples.push_back({i, a + s * (b - a) + t * (c - a)});
     }
-    for (const Vector3d& corner : corners) {
-      constexpr double inwards = 0.01;  // from the corner, off the edges
-      const Vector3d point = corner + inwards * (middle - corner);
-      if (!is_in(caps.balls, point)) samples.push_back({i, point});
-    }
-  }
-  for (const auto& [part, best] : largest) {
-    const auto [a, b, c] = corners_of(mesh, best.second);
-    samples.push_back({best.second, (a + b + c) / 3.0});
   }
   return samples;
 }
 
-/// Which way the sample's front faces. The capped sheet is seen under 4 pi from inside, under 0
-/// from outside; at the sample, without the sample's triangle, half way between.
+/// Which way the front of the sheet faces at a sample, by how often the capped sheet winds around
+/// the points before and behind it.
 Facing facing_at(const Sample& sample, const TriangleMesh& mesh, const MeshSheet& sheet,
                  const Caps& caps) {
-  double angle = 0.0;
+  double angle = 0.0;  // 4 pi for each time, half way between before and behind
   for (const std::size_t i : sheet.triangles) {
     if (i != sample.triangle) angle += solid_angle(corners_of(mesh, i), sample.point);
   }
-  for (const auto& triangle : caps.triangles) angle += solid_angle(triangle, sample.point);
-  constexpr double tolerance = 0.1;  // of roundings; other answers are 4 pi away
-  if (std::abs(angle - 2.0 * std::numbers::pi) < tolerance) return Facing::outwards;
-  if (std::abs(angle + 2.0 * std::numbers::pi) < tolerance) return Facing::inwards;
-  return Facing::unknown;
+  for (const auto& cap : caps.triangles) angle += solid_angle(cap, sample.point);
+  const double before = (angle - 2.0 * std::numbers::pi) / (4.0 * std::numbers::pi);
+  constexpr double rounding = 0.01;
+  if (std::abs(before - std::round(before)) > rounding) return Facing::unknown;
+  return before > -0.5 ? Facing::outwards : Facing::inwards;
 }
 
+/// The facing that all samples agree on.
 Facing facing_of(const std::vector<Sample>& samples, const TriangleMesh& mesh,
                  const MeshSheet& sheet, const Caps& caps) {
-  if (samples.empty() || samples.size() > most_samples) return Facing::unknown;
+  if (samples.empty() || samples.size() * sheet.triangles.size() > most_work) {
+    return Facing::unknown;
+  }
   const Facing facing = facing_at(samples.front(), mesh, sheet, caps);
   const bool same = std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& sample) {
     return facing_at(sample, mesh, sheet, caps) == facing;
   });
   return same ? facing : Facing::unknown;
+}
+
+/// Points of the part of a sheet that no ball touches: the middle of the largest triangle of each
+/// connected part, and some more.
+std::vector<Sample> choose_samples(const TriangleMesh& mesh, const MeshSheet& sheet,
+                                   const std::vector<bool>& touching, DisjointSets& parts) {
+  std::vector<std::size_t> apart;
+  std::map<std::uint32_t, std::pair<double, std::size_t>> largest;  // area and triangle, by part
+  for (const std::size_t i : sheet.triangles) {
+    if (touching[i]) continue;
+    apart.push_back(i);
+    auto& best = largest[parts.find(static_cast<std::uint32_t>(i))];
+    best = std::max(best, {area_of(mesh, i), i});
+  }
+  const std::size_t spread = usual_work / sheet.triangles.size();
+  std::vector<Sample> samples =
+      spread_over(mesh, apart, std::clamp(spread, MeshSheet::least_samples, most_spread));
+  for (const auto& [part, best] : largest) samples.push_back(middle_of(mesh, best.second));
+  return samples;
 }
 
 }  // namespace
@@ -195,35 +230,31 @@ std::vector<MeshSheet> mesh_sheets(const TriangleMesh& welded) {
   for (const auto& [triangle, edge] : rim_runs) rims[sets.find(triangle)].push_back(edge);
 
   std::vector<MeshSheet> sheets;
-  std::map<std::size_t, Caps> capped;  // by the sheets' numbers
-  std::vector<bool> cut(count, false);
+  std::vector<std::pair<std::size_t, Caps>> capped;  // with the sheets' numbers
+  std::vector<bool> touching(count, false);
   for (std::vector<std::size_t>& triangles : sets.members()) {
     MeshSheet& sheet = sheets.emplace_back();
     sheet.triangles = std::move(triangles);
     const auto rim = rims.find(sheet.triangles.front());
-    if (rim == rims.end()) {
-      const Vector3d eye = corners_of(welded, sheet.triangles.front())[0];
-      const double volume = signed_volume(welded, sheet.triangles, eye);
-      sheet.facing = volume < 0.0 ? Facing::inwards : Facing::outwards;
-    } else if (auto caps = make_caps(welded, sheet, rim->second)) {
-      for (const std::size_t i : sheet.triangles) {
-        cut[i] = may_meet(caps->balls, corners_of(welded, i));
-      }
-      capped.emplace(sheets.size() - 1, *std::move(caps));
+    sheet.closed = rim == rims.end();
+    std::optional<Caps> caps = sheet.closed ? Caps{} : make_caps(welded, sheet, rim->second);
+    if (!caps) continue;
+    for (const std::size_t i : sheet.triangles) {
+      touching[i] = touches(caps->balls, corners_of(welded, i));
     }
+    capped.emplace_back(sheets.size() - 1, *std::move(caps));
   }
-  if (capped.empty()) return sheets;
 
   DisjointSets parts(count);
   for_each_edge(edges, [&](std::uint32_t /*lower*/, const EdgeUse* begin, const EdgeUse* end) {
     if (!is_regular(begin, end)) return;
     const std::uint32_t a = begin[0].triangle / 2;
     const std::uint32_t b = begin[1].triangle / 2;
-    if (!cut[a] && !cut[b]) parts.join(a, b);
+    if (!touching[a] && !touching[b]) parts.join(a, b);
   });
   for (auto& [number, caps] : capped) {
     MeshSheet& sheet = sheets[number];
-    const std::vector<Sample> samples = choose_samples(welded, sheet, caps, cut, parts);
+    const auto samples = choose_samples(welded, sheet, touching, parts);
     sheet.facing = facing_of(samples, welded, sheet, caps);
     if (sheet.facing != Facing::unknown) sheet.holes = std::move(caps.balls);
   }

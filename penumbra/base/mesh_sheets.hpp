@@ -22,11 +22,16 @@ enum class Facing { unknown, outwards, inwards };
 /// A piece of a mesh whose triangles hang together by edges that exactly two of them share and run
 /// in opposite ways, so that its sides can be told apart everywhere.
 struct MeshSheet {
+  static constexpr std::size_t least_samples = 4;
+
   std::vector<std::size_t> triangles;  ///< indices into TriangleMesh::triangles
+  bool closed = false;
 
   /// Known where the sheet bounds a body but for small holes. A ray from outside then meets, of
-  /// this sheet, an outer side first, unless it went through one of the holes before. (A sheet is
-  /// trusted not to cross itself.)
+  /// this sheet, an outer side first, unless it went through the ball of a hole before or meets a
+  /// triangle that touches one. (Points of the sheet are tried for that, no fewer than
+  /// least_samples: a sheet that crosses itself so that less than some hundredth of it shows its
+  /// back may pass.)
   Facing facing = Facing::unknown;
 
   /// Balls around the rims of the sheet's holes; empty where it is closed or `facing` is unknown.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include <penumbra/base/mesh_edges-inl.hpp>
 #include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/base/solid_angle-inl.hpp>
@@ -16,14 +16,14 @@ using Eigen::Vector3d;
 
 /// A piece of a body's surface that bounds it but for small holes.
 struct Shell {
-  TriangleMesh mesh;
+  std::vector<std::array<Eigen::Vector3f, 3>> triangles;
   Eigen::AlignedBox3d bounds;
 
   [[nodiscard]] bool holds(const Vector3d& point) const {
     if (!bounds.contains(point)) return false;
     double angle = 0.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      angle += solid_angle(corners_of(mesh, i), point);
+    for (const auto& [a, b, c] : triangles) {
+      angle += solid_angle({a.cast<double>(), b.cast<double>(), c.cast<double>()}, point);
     }
     // Inside 4 pi, outside 0, less or more by what the holes take up.
     return std::abs(angle) > 2.0 * std::numbers::pi;
@@ -34,14 +34,13 @@ std::vector<Shell> solid_shells(const TriangleMesh& mesh) {
   const TriangleMesh welded = weld(mesh);
   std::vector<Shell> shells;
   for (const MeshSheet& sheet : mesh_sheets(welded)) {
-    if (sheet.facing == Facing::unknown) continue;
+    if (!sheet.closed && sheet.facing == Facing::unknown) continue;
     Shell& shell = shells.emplace_back();
-    shell.mesh.vertices = welded.vertices;
+    shell.triangles.reserve(sheet.triangles.size());
     for (const std::size_t t : sheet.triangles) {
-      shell.mesh.triangles.push_back(welded.triangles[t]);
-      for (const auto i : welded.triangles[t]) {
-        shell.bounds.extend(welded.vertices[i].cast<double>());
-      }
+      const auto& [a, b, c] = welded.triangles[t];
+      shell.triangles.push_back({welded.vertices[a], welded.vertices[b], welded.vertices[c]});
+      for (const Eigen::Vector3f& p : shell.triangles.back()) shell.bounds.extend(p.cast<double>());
     }
   }
   return shells;

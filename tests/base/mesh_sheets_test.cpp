@@ -154,6 +154,18 @@ TEST(MeshSheets, ASheetThatPassesThroughItsOwnHoleIsNoBody) {
   EXPECT_EQ(mesh_sheets(flask_with_stem(0.9F))[0].facing, Facing::unknown);
 }
 
+TEST(MeshSheets, AClosedSheetThatShowsItsBackIsTrustedNeitherWay) {
+  // A pin whose collar is turned inside out: its profile goes outwards, down and in through the
+  // pin.
+  const TriangleMesh pin = revolved(
+      {{0.0F, -0.2F}, {0.05F, -0.2F}, {0.05F, 0.2F}, {0.15F, 0.2F}, {0.15F, 0.12F}, {0.0F, 0.12F}},
+      48);
+  const auto sheets = mesh_sheets(pin);
+  ASSERT_EQ(sheets.size(), 1U);
+  EXPECT_TRUE(sheets[0].closed);
+  EXPECT_EQ(sheets[0].facing, Facing::unknown);
+}
+
 struct Ray {
   Vector3d origin, direction;
 };
