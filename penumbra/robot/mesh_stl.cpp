@@ -126,6 +126,21 @@ TriangleMesh read_ascii(std::string_view text) {
   return mesh;
 }
 
+/// The size is the only check that binary STL has: bytes behind the last facet may be a line that
+/// an exporter appended, or facets that a damaged count leaves out; nothing in them tells which.
+[[noreturn]] void refuse_size(std::string_view bytes) {
+  const std::uint64_t promised = binary_size(count_in_header(bytes));
+  const bool more = bytes.size() > promised;
+  const std::uint64_t difference = more ? bytes.size() - promised : promised - bytes.size();
+  throw FormatError(
+      "binary STL: its header promises " + std::to_string(count_in_header(bytes)) +
+      " triangles, which are " + std::to_string(promised) + " bytes, but the file " +
+      (more ? "has " + std::to_string(difference) +
+                  " bytes too many; if they are no triangles cut them off, else export it again"
+            : "lacks " + std::to_string(difference) +
+                  " of them: it is truncated or damaged; export or copy it again"));
+}
+
 bool looks_like_ascii(std::string_view bytes) {
   Words words(bytes);
   if (!same_word(words.next(), "solid")) return false;
@@ -143,10 +158,7 @@ TriangleMesh read_stl(std::string_view bytes) {
     throw FormatError("STL of " + std::to_string(bytes.size()) +
                       " bytes: a binary one has at least 84, an ASCII one begins with 'solid'; "
                       "it is truncated; export or copy it again");
-  throw FormatError("binary STL: its header promises " + std::to_string(count_in_header(bytes)) +
-                    " triangles, which are " + std::to_string(binary_size(count_in_header(bytes))) +
-                    " bytes, but the file has " + std::to_string(bytes.size()) +
-                    ": it is truncated or damaged; export or copy it again");
+  refuse_size(bytes);
 }
 
 }  // namespace penumbra::mesh_formats

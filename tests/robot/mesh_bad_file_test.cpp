@@ -128,7 +128,9 @@ TEST_F(MeshBadFile, CountsThatDoNotFit) {
   expect_refused("a.stl", more, "promises 5 triangles");
   more[83] = '\x7f';
   expect_refused("b.stl", more, "promises");
-  expect_refused("c.stl", stl + "x", "promises 4 triangles");
+  expect_refused("c.stl", stl + "x", "has 1 bytes too many");
+  expect_refused("d.stl", stl + "# made by\r\n", "has 11 bytes too many");
+  expect_refused("e.stl", stl.substr(0, stl.size() - 3), "lacks 3 of them: it is truncated");
   expect_refused("a.ply", replaced(test::ascii_ply(), "face 4", "face 5"), "data end before");
   expect_refused("b.ply", replaced(test::ascii_ply(), "face 4", "face 3"), "data follow");
   expect_refused("c.ply", replaced(test::ascii_ply(), "vertex 4", "vertex 999999999999"), "");
