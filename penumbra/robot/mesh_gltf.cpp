@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -51,12 +54,104 @@ void check_nodes(const Json& root) {
       damaged("glTF: node " + std::to_string(node) + " is a scene's root and has a parent");
 }
 
+/// Extensions that say how a surface looks, not where it is; what else a file requires (compressed
+/// or quantised vertices, instances, levels of detail) changes what is to be drawn.
+bool is_about_looks(const std::string& extension) {
+  constexpr std::array<std::string_view, 9> prefixes = {
+      "KHR_materials_", "KHR_texture_", "KHR_lights_",   "KHR_xmp",         "KHR_techniques_webgl",
+      "EXT_texture_",   "EXT_lights_",  "MSFT_texture_", "ADOBE_materials_"};
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view prefix) { return extension.starts_with(prefix); });
+}
+
+void check_extensions(const Json& root) {
+  for (const Json& name : array_of(root, "extensionsRequired"))
+    if (!is_about_looks(name.get<std::string>()))
+      throw FormatError("glTF: it requires the extension " + name.get<std::string>().substr(0, 60) +
+                        ", which is not read; export it without");
+}
+
+/// Joints bend a skin, and its node's transform does not apply; morph weights move vertices.
+void check_rigid(const Json& root) {
+  const auto moved = [](const Json& owner) {
+    for (const Json& weight : array_of(owner, "weights"))
+      if (weight.get<double>() != 0.0) return true;
+    return false;
+  };
+  for (const Json& node : array_of(root, "nodes"))
+    if (node.contains("mesh") && (node.contains("skin") || moved(node)))
+      throw FormatError(
+          "glTF: a node bends its mesh by a skin or by morph weights; "
+          "export the mesh as it stands, without them");
+  for (const Json& mesh : array_of(root, "meshes"))
+    if (moved(mesh))
+      throw FormatError("glTF: a mesh is moved by morph weights; export it without them");
+}
+
+constexpr std::uint64_t largest_size = std::uint64_t{1} << 32;  // products of two do not overflow
+
+/// A count, size or offset in bytes.
+std::uint64_t size_in(const Json& object, const char* name, std::uint64_t otherwise) {
+  if (!object.contains(name)) return otherwise;
+  const Json& value = object.at(name);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= largest_size)
+    damaged("glTF: " + std::string(name) + " " + value.dump() + " is no size");
+  return value.get<std::uint64_t>();
+}
+
+std::size_t size_of_element(const Json& accessor) {
+  static const std::map<std::string, std::size_t> components = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  static const std::map<std::uint64_t, std::size_t> bytes = {{5120, 1}, {5121, 1}, {5122, 2},
+                                                             {5123, 2}, {5125, 4}, {5126, 4}};
+  const auto shape = components.find(accessor.at("type").get<std::string>());
+  const auto type = bytes.find(size_in(accessor, "componentType", 0));
+  if (shape == components.end() || type == bytes.end())
+    damaged("glTF: an accessor is " + accessor.at("type").dump() + " of " +
+            accessor.at("componentType").dump());
+  return shape->second * type->second;
+}
+
+/// Assimp reads behind the view, or buffer, of an accessor with an offset or a stride, and patches
+/// sparse ones without looking where.
+void check_accessor(const Json& root, const Json& accessor) {
+  if (accessor.contains("sparse"))
+    throw FormatError("glTF: it has a sparse accessor, which is not read; export it without");
+  const std::size_t element = size_of_element(accessor);
+  if (!accessor.contains("bufferView")) return;  // zeros
+  const Json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+  const std::uint64_t stride = size_in(view, "byteStride", element);
+  const std::uint64_t count = size_in(accessor, "count", 0);
+  const std::uint64_t needed = size_in(accessor, "byteOffset", 0) + stride * count;
+  const std::uint64_t length = size_in(view, "byteLength", 0);
+  const Json& buffer = root.at("buffers").at(view.at("buffer").get<std::size_t>());
+  if (stride < element) damaged("glTF: an element reaches into the next: " + view.dump());
+  if (count > 0 && needed - stride + element > length)
+    damaged("glTF: an accessor reaches beyond its bufferView of " + std::to_string(length) +
+            " bytes");
+  if (size_in(view, "byteOffset", 0) + length > size_in(buffer, "byteLength", 0))
+    damaged("glTF: a bufferView reaches beyond its buffer");
+}
+
+/// Assimp takes the bits of any component type for those of a float.
+void check_positions(const Json& accessor) {
+  constexpr int float32 = 5126;
+  const Json& type = accessor.at("type");
+  const Json& component = accessor.at("componentType");
+  if (type != "VEC3" || component != float32)
+    throw FormatError("glTF: positions are " + type.dump() + " of component type " +
+                      component.dump() +
+                      "; \"VEC3\" of 5126 (float) can be read: export it without "
+                      "quantisation");
+}
+
 /// Triangles of a primitive as the file counts them.
 std::size_t triangles_of(const Json& root, const Json& primitive) {
-  const Json& accessor = primitive.contains("indices") ? primitive.at("indices")
-                                                       : primitive.at("attributes").at("POSITION");
-  const auto corners = root.at("accessors").at(accessor.get<std::size_t>()).at("count");
-  const auto count = corners.get<std::size_t>();
+  const Json& accessors = root.at("accessors");
+  const Json& positions = primitive.at("attributes").at("POSITION");
+  check_positions(accessors.at(positions.get<std::size_t>()));
+  const Json& corners = primitive.contains("indices") ? primitive.at("indices") : positions;
+  const auto count = accessors.at(corners.get<std::size_t>()).at("count").get<std::size_t>();
   switch (primitive.value("mode", 4)) {
     case 4:
       return count / 3;
@@ -101,7 +196,10 @@ std::size_t check_gltf(std::string_view bytes, bool binary) {
         damaged("glTF: values are nested more than " + std::to_string(deepest) + " deep");
       return true;
     });
+    check_extensions(root);
     check_nodes(root);
+    check_rigid(root);
+    for (const Json& accessor : array_of(root, "accessors")) check_accessor(root, accessor);
     std::size_t triangles = 0;
     for (const Json& mesh : array_of(root, "meshes"))
       for (const Json& primitive : mesh.at("primitives"))

@@ -141,6 +141,35 @@ TEST_F(MeshBadFile, CountsThatDoNotFit) {
                  "");
 }
 
+TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
+  const std::string whole = test::gltf_json(",\"uri\":\"a.bin\"");
+  folder_.write("a.bin", test::gltf_buffer());
+  const auto expect = [&](const std::string& what, const std::string& by, const std::string& why) {
+    expect_refused("a.gltf", replaced(whole, what, by), why);
+  };
+  for (const char* component : {"5120", "5121", "5122", "5123", "5125"})
+    expect("\"componentType\":5126", std::string("\"componentType\":") + component,
+           "export it without quantisation");
+  expect("VEC3", "VEC4", "");
+  expect("VEC3", "VEC2", "can be read");
+  for (const char* extension :
+       {"KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod", "ACME_anything"})
+    expect("{\"asset\"",
+           std::string("{\"extensionsRequired\":[\"KHR_materials_unlit\",\"") + extension +
+               "\"],\"asset\"",
+           std::string("requires the extension ") + extension);
+  expect("{\"mesh\":0", "{\"mesh\":0,\"skin\":0", "by a skin");
+  expect("{\"mesh\":0", "{\"mesh\":0,\"weights\":[0,0.5]", "morph weights");
+  expect("{\"primitives\"", "{\"weights\":[1],\"primitives\"", "morph weights");
+  expect("\"count\":4", "\"count\":4,\"sparse\":{\"count\":1}", "sparse");
+  expect("\"count\":4", "\"count\":4,\"byteOffset\":4", "beyond its bufferView");
+  expect("\"count\":12", "\"count\":18446744073709551615", "is no size");
+  expect("\"byteLength\":48", "\"byteStride\":16,\"byteLength\":48", "beyond its bufferView");
+  expect("\"byteLength\":48", "\"byteStride\":8,\"byteLength\":48", "into the next");
+  expect("\"byteOffset\":48", "\"byteOffset\":49", "beyond its buffer");
+}
+
 TEST_F(MeshBadFile, PartsThatAreElsewhere) {
   expect_refused("a.gltf", test::gltf_json(",\"uri\":\"nowhere.bin\""), "");
   folder_.write("short.bin", test::gltf_buffer().substr(0, 60));
