@@ -31,7 +31,8 @@ class GeometryLoader {
   /// reason for geometry that cannot be had, unless missing meshes are allowed.
   [[nodiscard]] LinkGeometry load(const UrdfLink& link, const LinkChoice& choice);
 
-  [[nodiscard]] const std::vector<std::string>& notes() const { return locator_.notes(); }
+  /// Where packages were found, then what is odd about mesh files.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   void add(const UrdfElement& element, LinkGeometry& out);
@@ -43,6 +44,7 @@ class GeometryLoader {
   FileLocator locator_;
   bool allow_missing_;
   std::map<std::filesystem::path, TriangleMesh> files_;
+  std::vector<std::string> file_notes_;
 };
 
 }  // namespace penumbra::detail

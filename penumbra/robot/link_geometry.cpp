@@ -115,6 +115,12 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
   out.meshes.push_back(std::move(mesh));
 }
 
+std::vector<std::string> GeometryLoader::notes() const {
+  std::vector<std::string> all = locator_.notes();
+  all.insert(all.end(), file_notes_.begin(), file_notes_.end());
+  return all;
+}
+
 TriangleMesh GeometryLoader::make_mesh(const UrdfElement& element, std::string& source) {
   const auto* file = std::get_if<UrdfMesh>(&element.shape);
   TriangleMesh mesh = file != nullptr ? read_mesh(*file, source)
@@ -137,7 +143,7 @@ const TriangleMesh& GeometryLoader::read_file(const std::filesystem::path& file)
   const auto [at, is_new] = files_.try_emplace(file);
   if (!is_new) return at->second;
   try {
-    at->second = load_mesh(file);
+    at->second = load_mesh(file, file_notes_);
   } catch (...) {
     files_.erase(at);
     throw;

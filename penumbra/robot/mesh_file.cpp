@@ -63,7 +63,7 @@ TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& byt
   return std::move(scene.mesh);
 }
 
-TriangleMesh read(const std::filesystem::path& file) {
+TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   const std::string ending = lower_ending(file);
   const std::string bytes = read_bytes(file);
   check_is_mesh(bytes);
@@ -72,7 +72,7 @@ TriangleMesh read(const std::filesystem::path& file) {
   if (ending == "dae")
     mesh_formats::check_collada(bytes);
   else if (ending == "obj")
-    mesh_formats::check_obj(bytes);
+    oddity = mesh_formats::check_obj(bytes);
   else if (ending == "ply")
     mesh_formats::check_ply(bytes);
   else
@@ -97,14 +97,23 @@ void check_vertices(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file) {
+  std::vector<std::string> notes;
+  return load_mesh(file, notes);
+}
+
+TriangleMesh load_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {
   try {
-    const TriangleMesh read_mesh = read(file);
+    std::string oddity;
+    const TriangleMesh read_mesh = read(file, oddity);
     if (read_mesh.triangles.empty())
       throw FormatError("it holds no triangles; export the mesh's surface");
     check_vertices(read_mesh);
     TriangleMesh mesh = weld(read_mesh);
     if (mesh.triangles.empty())
       throw FormatError("all of its triangles have zero area; check the file's unit and precision");
+    if (!oddity.empty())
+      notes.push_back("mesh " + file.string() + ": " + oddity +
+                      ": if it looks incomplete it is truncated; export or copy it again");
     return mesh;
   } catch (const FormatError& error) {
     throw InputError("mesh " + file.string() + ": " + error.what());

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <penumbra/base/triangle_mesh.hpp>
 
@@ -19,5 +21,9 @@ namespace penumbra {
 /// file, truncated as far as the format shows it, no triangles, a coordinate that is not finite or
 /// beyond 1e6 (a robot of a kilometre, in millimetres that a URDF's scale turns into metres).
 [[nodiscard]] TriangleMesh load_mesh(const std::filesystem::path& file);
+
+/// The same; appends to `notes` what looks odd and may be right, a line each that names the file.
+[[nodiscard]] TriangleMesh load_mesh(const std::filesystem::path& file,
+                                     std::vector<std::string>& notes);
 
 }  // namespace penumbra

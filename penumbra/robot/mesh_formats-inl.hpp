@@ -21,8 +21,10 @@ class FormatError : public std::runtime_error {
 
 /// Refuse what Assimp would take, or crash on, although it is cut off or points nowhere.
 void check_collada(std::string_view bytes);
-void check_obj(std::string_view bytes);
 void check_ply(std::string_view bytes);
+
+/// The same for OBJ; returns what may be a truncation and may be none, in words, or nothing.
+[[nodiscard]] std::string check_obj(std::string_view bytes);
 
 /// The same for glTF and GLB; returns the triangles that the file's meshes count.
 [[nodiscard]] std::size_t check_gltf(std::string_view bytes, bool binary);

@@ -202,6 +202,17 @@ TEST_F(MeshFiles, UnreadableMeshNamesLinkAndFile) {
   EXPECT_TRUE(holds(message, "meshes/bad.stl"));
 }
 
+TEST_F(MeshFiles, WhatIsOddIsNotedOnceAFile) {
+  const std::string file =
+      folder_.write("meshes/odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n").string();
+  const std::string mesh = collision_xml("<mesh filename=\"meshes/odd.obj\"/>");
+  const auto urdf = folder_.write("r.urdf", robot_xml(link_xml("a", mesh + mesh)));
+  const Robot robot = Robot::load(urdf);
+  ASSERT_EQ(robot.notes().size(), 1U);
+  EXPECT_TRUE(
+      holds(robot.notes()[0], "mesh " + file + ": 1 of its 4 vertices are part of no face"));
+}
+
 TEST_F(MeshFiles, FolderOrWebAddressIsNoMesh) {
   EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"meshes\""); }), "no file at"));
   EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"https://x.org/t.stl\""); }),
