@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -18,12 +17,6 @@ using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 constexpr std::size_t most_triangles = 100'000'000;  // of all instances: a file that unfolds to
                                                      // more is an attack or a mistake
-
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return text.substr(0, 300);
-}
 
 Eigen::Matrix4d matrix_of(const aiMatrix4x4& m) {
   Eigen::Matrix4d result;
@@ -55,7 +48,7 @@ void append_faces(const aiMesh& part, bool mirrored, TriangleMesh& mesh) {
 void append(const aiMesh& part, const Eigen::Matrix4d& T_file_node, TriangleMesh& mesh) {
   if (part.mNumFaces == 0) return;
   if (part.mNumVertices == 0 || part.mVertices == nullptr)
-    throw FormatError("mesh '" + one_line(part.mName.C_Str()) +
+    throw FormatError("mesh '" + std::string(part.mName.C_Str()).substr(0, 80) +
                       "' has faces and no vertices; export the file again");
   append_faces(part, T_file_node.topLeftCorner<3, 3>().determinant() < 0.0, mesh);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -102,7 +95,6 @@ std::size_t count_triangles(const aiScene& scene, bool& polygons) {
 Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes,
                        const std::string& ending) {
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // No post-processing: our weld joins vertices faster, and nothing else of it is needed.
   const aiScene* scene =
       ending == "gltf" ? importer.ReadFile(file.string(), 0)
@@ -111,7 +103,8 @@ Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes
   const std::size_t stored = scene == nullptr ? 0 : count_triangles(*scene, polygons);
   if (polygons) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr)
-    throw FormatError(one_line(importer.GetErrorString()) + "; export the file again");
+    throw FormatError(std::string(importer.GetErrorString()).substr(0, 300) +
+                      "; export the file again");
   if (scene->mRootNode == nullptr) throw FormatError("it holds no scene; export the file again");
   return {flatten(*scene), stored};
 }

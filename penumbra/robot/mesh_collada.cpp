@@ -1,244 +1,227 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cstdint>
+#include <cmath>
 #include <map>
-#include <optional>
+#include <numbers>
 #include <set>
-#include <vector>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/robot/mesh_collada-inl.hpp>
 #include <penumbra/robot/mesh_formats-inl.hpp>
 #include <penumbra/robot/mesh_text-inl.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {
 
-constexpr int deepest = 200;          // Assimp's reader recurses
+using collada::damaged;
+using collada::fail;
+using collada::required;
+using detail::XmlElement;
+
 constexpr double largest_unit = 1e6;  // metres
+constexpr std::size_t most_triangles = 100'000'000;
+constexpr int most_nodes = 1'000'000;
+constexpr int deepest = 100;
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw FormatError(what + "; it is truncated or damaged; export or copy it again");
+/// The numbers of a transform's text, all of them and no more.
+std::vector<double> parameters_of(const XmlElement& element, std::size_t count) {
+  std::vector<double> numbers = collada::numbers_of(element);
+  if (numbers.size() != count)
+    damaged(element, "it has " + std::to_string(numbers.size()) + " of " + std::to_string(count) +
+                         " numbers");
+  for (const double number : numbers)
+    if (!std::isfinite(number)) damaged(element, "a number is not finite");
+  return numbers;
 }
 
-/// The value of an attribute of a tag's text; empty if it has none.
-std::string attribute(std::string_view tag, std::string_view name) {
-  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
-    std::size_t i = at + name.size();
-    while (i < tag.size() && is_space(tag[i])) ++i;
-    if (at == 0 || !is_space(tag[at - 1]) || i >= tag.size() || tag[i] != '=') continue;
-    ++i;
-    while (i < tag.size() && is_space(tag[i])) ++i;
-    if (i >= tag.size()) return {};
-    const std::size_t end = tag.find(tag[i], i + 1);
-    return std::string(tag.substr(i + 1, end == std::string_view::npos ? end : end - i - 1));
-  }
-  return {};
+Eigen::Affine3d read_rotation(const XmlElement& element) {
+  const auto n = parameters_of(element, 4);
+  const Eigen::Vector3d axis(n[0], n[1], n[2]);
+  if (n[3] == 0.0) return Eigen::Affine3d::Identity();
+  if (axis.norm() < 1e-9) damaged(element, "its axis has no direction");
+  return Eigen::Affine3d(Eigen::AngleAxisd(n[3] * std::numbers::pi / 180.0, axis.normalized()));
 }
 
-/// Calls f(text between < and >, text up to the next <) for every tag of an XML text.
-template <typename F>
-void for_each_tag(std::string_view xml, F&& f) {
-  const auto skip_past = [&xml](std::string_view mark) {
-    const std::size_t at = xml.find(mark);
-    xml.remove_prefix(at == std::string_view::npos ? xml.size() : at + mark.size());
-  };
-  for (;;) {
-    skip_past("<");
-    if (xml.empty()) return;
-    if (xml.starts_with("!--")) {
-      skip_past("-->");
-    } else if (xml.starts_with("![CDATA[")) {
-      skip_past("]]>");
-    } else {
-      const std::string_view tag = xml.substr(0, xml.find('>'));
-      xml.remove_prefix(std::min(tag.size() + 1, xml.size()));
-      f(tag, xml.substr(0, xml.find('<')));
-    }
-  }
+Eigen::Affine3d read_matrix(const XmlElement& element) {
+  const auto n = parameters_of(element, 16);
+  constexpr double rounding = 1e-6;  // of a product that an exporter made
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(n.data());
+  if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > rounding)
+    damaged(element, "its last row is not 0 0 0 1");
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  transform.matrix().topRows<3>() = matrix.topRows<3>();
+  return transform;
 }
 
-std::uint64_t count_attribute(std::string_view tag, const char* name,
-                              std::optional<std::uint64_t> otherwise) {
-  const std::string text = attribute(tag, name);
-  if (text.empty() && otherwise) return *otherwise;
-  const auto value = parse_number<std::uint32_t>(text);
-  if (!value)
-    damaged("Collada: " + std::string(name) + "=\"" + text.substr(0, 40) + "\" is no count in <" +
-            std::string(tag.substr(0, 60)) + ">");
-  return *value;
+bool is_transform(const XmlElement& element) {
+  return element.name == "translate" || element.name == "rotate" || element.name == "scale" ||
+         element.name == "matrix";
 }
 
-template <typename Number>
-std::uint64_t count_numbers(std::string_view element, std::string_view text) {
-  std::uint64_t count = 0;
-  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text), ++count)
-    if (!parse_number<Number>(word))
-      damaged("Collada: '" + std::string(word.substr(0, 40)) + "' is no number in <" +
-              std::string(element) + ">");
-  return count;
+/// Cameras and lights often hang on them; geometry seldom does.
+bool is_unread_transform(const XmlElement& element) {
+  return element.name == "lookat" || element.name == "skew";
 }
 
-/// Assimp takes a unit that it cannot read for a metre.
-void check_unit(std::string_view tag) {
-  const std::string text = attribute(tag, "meter");
-  if (text.empty() && tag.find("meter=") == std::string_view::npos) return;
-  const auto metres = parse_number<double>(text);
-  if (!metres || !(*metres > 0.0 && *metres <= largest_unit))
-    throw FormatError("Collada: unit meter=\"" + text.substr(0, 40) +
-                      "\" is no length; write how many metres the unit has");
+Eigen::Affine3d read_transform(const XmlElement& element) {
+  if (element.name == "matrix") return read_matrix(element);
+  if (element.name == "rotate") return read_rotation(element);
+  const auto n = parameters_of(element, 3);
+  const Eigen::Vector3d v(n[0], n[1], n[2]);
+  return element.name == "scale" ? Eigen::Affine3d(Eigen::Scaling(v))
+                                 : Eigen::Affine3d(Eigen::Translation3d(v));
 }
 
-/// The numbers of a Collada file: Assimp never ends at a letter in a list of indices, and reads
-/// beyond an array that is shorter than its accessor.
-class ColladaNumbers {
+/// Elements by the id that links name. Two of a kind may share one as long as nothing names it.
+class Index {
  public:
-  void element(std::string_view name, std::string_view tag, std::string_view text) {
-    if (name == "p" || name == "vcount" || name == "h" || name == "v")
-      count_numbers<std::int64_t>(name, text);
-    for (const char* const transform : {"translate", "rotate", "scale", "matrix", "lookat", "skew"})
-      if (name == transform) count_numbers<double>(name, text);
-    if (name == "float_array") float_array(tag, text);
-    if (name == "accessor") accessors_.push_back(std::string(tag));
-    if (name == "input") count_attribute(tag, "offset", 0);
-    if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
-        name == "trifans")
-      count_attribute(tag, "count", 0);
+  void add(const XmlElement& element) {
+    if (const std::string* const id = element.attribute("id")) elements_.emplace(*id, &element);
   }
 
-  void finish() const {
-    for (const std::string& tag : accessors_) {
-      const auto array = arrays_.find(attribute(tag, "source"));
-      if (array == arrays_.end()) continue;  // names and the like, of skins
-      const std::uint64_t stride = count_attribute(tag, "stride", 1);
-      const std::uint64_t needed =
-          count_attribute(tag, "offset", 0) + count_attribute(tag, "count", std::nullopt) * stride;
-      if (stride == 0 || needed > array->second)
-        damaged("Collada: an accessor reads " + std::to_string(needed) + " of the " +
-                std::to_string(array->second) + " numbers of '" + array->first.substr(0, 40) + "'");
-    }
+  [[nodiscard]] const XmlElement& find(const XmlElement& link) const {
+    const std::string id = collada::reference(link, "url");
+    const auto [begin, end] = elements_.equal_range(id);
+    if (begin == end)
+      fail(link, "it refers to '#" + id.substr(0, 80) +
+                     "', which is not in the file; export everything into one file");
+    if (std::next(begin) != end)
+      damaged(link, "two elements have the id '" + id.substr(0, 80) + "'");
+    return *begin->second;
   }
 
  private:
-  void float_array(std::string_view tag, std::string_view text) {
-    const std::uint64_t promised = count_attribute(tag, "count", std::nullopt);
-    const std::uint64_t found = count_numbers<double>("float_array", text);
-    if (found != promised)
-      damaged("Collada: an array promises " + std::to_string(promised) + " numbers and has " +
-              std::to_string(found));
-    arrays_["#" + attribute(tag, "id")] = found;
-  }
-
-  std::map<std::string, std::uint64_t> arrays_;
-  std::vector<std::string> accessors_;
+  std::multimap<std::string, const XmlElement*> elements_;
 };
 
-/// What a Collada file's nodes hold and refer to. Assimp leaves out what it does not find, and
-/// follows nodes that instance each other until the stack ends.
-class ColladaCheck {
+class SceneReader {
  public:
-  void tag(std::string_view tag, std::string_view text) {
-    if (tag.starts_with('?') || tag.starts_with('!')) return;
-    std::string_view rest = tag;
-    std::string_view name = take_word(rest);
-    const bool is_empty = tag.ends_with('/');
-    if (name.ends_with('/')) name.remove_suffix(1);
-    if (name.starts_with('/')) {
-      close(name.substr(1));
-      return;
+  explicit SceneReader(const XmlElement& root) {
+    for (const XmlElement& library : root.children) {
+      if (library.name == "asset") read_asset(library);
+      if (library.name == "library_geometries")
+        for (const XmlElement& child : library.children) geometries_.add(child);
+      if (library.name == "library_nodes") add_nodes(library);
+      if (library.name != "library_visual_scenes") continue;
+      for (const XmlElement& child : library.children) scenes_.add(child);
+      for (const XmlElement& child : library.children) add_nodes(child);
     }
-    numbers_.element(name, tag, text);
-    open(name, tag, is_empty);
   }
 
-  void finish() {
-    numbers_.finish();
-    for (const std::string& url : geometries_used_) {
-      if (!url.starts_with('#') || geometries_.count(url.substr(1)) == 0) missing(url);
-    }
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (unfold(i, 0) > most_nodes) damaged("Collada: its nodes unfold to more than a million");
-    const auto is_shown = [](const Node& node) { return node.in_scene && node.shows_geometry; };
-    if (std::none_of(nodes_.begin(), nodes_.end(), is_shown))
+  TriangleMesh read(const XmlElement& root) {
+    const XmlElement& scene = scenes_.find(
+        collada::only_child(collada::only_child(root, "scene"), "instance_visual_scene"));
+    visit(scene, {Eigen::Affine3d(Eigen::Scaling(unit_))}, 0);
+    if (!shows_geometry_)
       throw FormatError("Collada: its scene shows no geometry; export the mesh as part of a scene");
+    return std::move(out_);
   }
 
  private:
-  struct Node {
-    std::vector<std::size_t> children;
-    std::vector<std::string> instances;
-    double unfolded = 0.0;  // how many nodes it stands for; 0: not counted yet
-    bool in_scene = false;
-    bool shows_geometry = false;  // itself or a node in it
+  void read_asset(const XmlElement& asset) {
+    for (const XmlElement& child : asset.children) {
+      const std::string* const text = child.attribute("meter");
+      if (child.name != "unit" || text == nullptr) continue;
+      const auto metres = parse_number<double>(*text);
+      if (!metres || !(*metres > 0.0 && *metres <= largest_unit))
+        fail(child, "meter=\"" + text->substr(0, 40) +
+                        "\" is no length; write how many metres the unit has");
+      unit_ = *metres;
+    }
+  }
+
+  void add_nodes(const XmlElement& parent) {
+    for (const XmlElement& child : parent.children) {
+      if (child.name != "node") continue;
+      nodes_.add(child);
+      add_nodes(child);
+    }
+  }
+
+  struct Pose {
+    Eigen::Affine3d T_file_node;
+    const XmlElement* unread = nullptr;  // a transform that is not in it
   };
 
-  static constexpr double most_nodes = 1e6;
-
-  [[noreturn]] static void missing(const std::string& url) {
-    throw FormatError("Collada: it refers to '" + url.substr(0, 80) +
-                      "', which is not in the file; export everything into one file");
-  }
-
-  void open(std::string_view name, std::string_view tag, bool is_empty) {
-    if (!is_empty && ++depth_ > deepest)
-      damaged("Collada: elements are nested more than " + std::to_string(deepest) + " deep");
-    if (name == "geometry" || name == "controller") geometries_.insert(attribute(tag, "id"));
-    if (name == "unit") check_unit(tag);
-    if (name == "visual_scene") in_scene_ = !is_empty;
-    if (name == "instance_geometry" || name == "instance_controller") {
-      geometries_used_.push_back(attribute(tag, "url"));
-      if (!open_nodes_.empty()) nodes_[open_nodes_.back()].shows_geometry = true;
+  /// Transforms come before the children that they move, by the schema; they hold for all of them.
+  void visit(const XmlElement& node, Pose pose, int depth) {
+    if (depth > deepest) damaged(node, "nodes contain each other");
+    if (++visited_ > most_nodes) damaged(node, "nodes unfold to more than a million");
+    for (const XmlElement& child : node.children) {
+      if (is_transform(child)) pose.T_file_node = pose.T_file_node * read_transform(child);
+      if (is_unread_transform(child)) pose.unread = &child;
     }
-    if (name == "instance_node" && !open_nodes_.empty())
-      nodes_[open_nodes_.back()].instances.push_back(attribute(tag, "url"));
-    if (name == "node") open_node(attribute(tag, "id"), is_empty);
+    for (const XmlElement& child : node.children) show(node, child, pose, depth);
   }
 
-  void open_node(const std::string& id, bool is_empty) {
-    const std::size_t number = nodes_.size();
-    nodes_.emplace_back().in_scene = in_scene_;
-    if (!id.empty()) node_of_id_.emplace(id, number);
-    if (!open_nodes_.empty()) nodes_[open_nodes_.back()].children.push_back(number);
-    if (!is_empty) open_nodes_.push_back(number);
+  void show(const XmlElement& node, const XmlElement& child, const Pose& pose, int depth) {
+    static const std::set<std::string, std::less<>> without_surface = {
+        "instance_camera", "instance_light", "extra", "asset", "evaluate_scene"};
+    if (child.name == "node")
+      visit(child, pose, depth + 1);
+    else if (child.name == "instance_node")
+      visit(nodes_.find(child), pose, depth + 1);
+    else if (child.name == "instance_controller")
+      fail(child, "a mesh that joints bend is not read; export it as it stands, without its skin");
+    else if (child.name == "instance_geometry")
+      append(geometries_.find(child), pose);
+    else if (!is_transform(child) && !is_unread_transform(child) &&
+             without_surface.count(child.name) == 0)
+      damaged(child, "it stands in <" + node.name + ">");
   }
 
-  void close(std::string_view name) {
-    --depth_;
-    if (name == "visual_scene") in_scene_ = false;
-    if (name == "node" && !open_nodes_.empty()) open_nodes_.pop_back();
+  void append(const XmlElement& geometry, const Pose& pose) {
+    if (pose.unread != nullptr)
+      fail(*pose.unread, "it moves geometry, and is not read; export it as a <matrix>");
+    shows_geometry_ = true;
+    const auto [at, is_new] = meshes_.try_emplace(&geometry);
+    if (is_new) at->second = collada::read_geometry(geometry);
+    const TriangleMesh& mesh = at->second;
+    if (out_.triangles.size() + mesh.triangles.size() > most_triangles ||
+        out_.vertices.size() + mesh.vertices.size() > 3 * most_triangles)
+      throw FormatError("Collada: more than " + std::to_string(most_triangles) +
+                        " triangles; export a simplified mesh");
+    const auto first = static_cast<std::uint32_t>(out_.vertices.size());
+    const bool mirrored = pose.T_file_node.linear().determinant() < 0.0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      out_.triangles.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
+      out_.vertices.push_back((pose.T_file_node * vertex.cast<double>()).cast<float>());
   }
 
-  double unfold(std::size_t number, int depth) {
-    if (depth > deepest) damaged("Collada: its nodes contain each other");
-    if (nodes_[number].unfolded > 0.0) return nodes_[number].unfolded;
-    double sum = 1.0;
-    const auto take_in = [&](std::size_t other) {
-      sum += unfold(other, depth + 1);
-      nodes_[number].shows_geometry |= nodes_[other].shows_geometry;
-    };
-    for (const std::size_t child : nodes_[number].children) take_in(child);
-    for (const std::string& url : nodes_[number].instances) {
-      const auto found = url.starts_with('#') ? node_of_id_.find(url.substr(1)) : node_of_id_.end();
-      if (found == node_of_id_.end()) missing(url);
-      take_in(found->second);
-    }
-    return nodes_[number].unfolded = sum;
-  }
-
-  ColladaNumbers numbers_;
-  int depth_ = 0;
-  bool in_scene_ = false;
-  std::set<std::string> geometries_;
-  std::vector<std::string> geometries_used_;
-  std::vector<Node> nodes_;
-  std::vector<std::size_t> open_nodes_;
-  std::map<std::string, std::size_t> node_of_id_;
+  double unit_ = 1.0;  // metres
+  Index geometries_;
+  Index nodes_;
+  Index scenes_;
+  std::map<const XmlElement*, TriangleMesh> meshes_;
+  int visited_ = 0;
+  bool shows_geometry_ = false;
+  TriangleMesh out_;
 };
+
+XmlElement read_document(std::string_view bytes) {
+  constexpr std::string_view remedy = "; it is truncated or damaged; export or copy it again";
+  std::string_view start = bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+  if (!take_word(start).starts_with('<') || bytes.find('\0') != std::string_view::npos)
+    throw FormatError("Collada: it is no XML text in UTF-8" + std::string(remedy));
+  try {
+    return detail::read_xml(bytes, "Collada");
+  } catch (const InputError& error) {
+    throw FormatError(error.what() + std::string(remedy));
+  }
+}
 
 }  // namespace
 
-void check_collada(std::string_view bytes) {
-  ColladaCheck check;
-  for_each_tag(bytes, [&](std::string_view tag, std::string_view text) { check.tag(tag, text); });
-  check.finish();
+TriangleMesh read_collada(std::string_view bytes) {
+  const XmlElement root = read_document(bytes);
+  if (root.name != "COLLADA")
+    throw FormatError("Collada: the root element is <" + root.name.substr(0, 40) +
+                      ">; a Collada file has <COLLADA>");
+  return SceneReader(root).read(root);
 }
 
 }  // namespace penumbra::mesh_formats

@@ -19,8 +19,10 @@ class FormatError : public std::runtime_error {
 
 [[nodiscard]] TriangleMesh read_stl(std::string_view bytes);
 
+/// Reads what a Collada file's scene shows; what it does not know about geometry it refuses.
+[[nodiscard]] TriangleMesh read_collada(std::string_view bytes);
+
 /// Refuse what Assimp would take, or crash on, although it is cut off or points nowhere.
-void check_collada(std::string_view bytes);
 void check_ply(std::string_view bytes);
 
 /// The same for OBJ; returns what may be a truncation and may be none, in words, or nothing.

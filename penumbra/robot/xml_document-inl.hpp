@@ -18,7 +18,7 @@ struct XmlElement {
   int line = 0;
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
-  std::string text;  ///< every piece of text between the children, without surrounding space
+  std::string text;  ///< the pieces of text between the children, with a space between them
 
   [[nodiscard]] const std::string* attribute(std::string_view key) const;
 };

@@ -45,6 +45,7 @@ XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file
     if (const auto* child = node->ToElement()) {
       element.children.push_back(read_element(*child, file));
     } else if (const auto* text = node->ToText()) {
+      if (!element.text.empty()) element.text += ' ';
       element.text += trimmed(text->Value());
     } else {
       check_known(*node, file);
