@@ -4,11 +4,14 @@
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), test, bench, lint.
+# OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
+# serves as well.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
-       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev)
-test=(pkgconf libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev)
+       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev)
+test=(pkgconf libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
+      libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 
@@ -18,7 +21,7 @@ if [[ ${1:-} == --install ]]; then
   shift
 fi
 if (($# == 0)); then
-  sed -n '3,6s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,8s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 

@@ -1,65 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <utility>
 
 #include <meshoptimizer.h>
 
-#include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/render/clusters.hpp>
+#include <penumbra/render/shells.hpp>
 
 namespace penumbra {
-namespace {
-
-/// Vertex indices, three for each triangle: of the closed sheets and of those with small holes, all
-/// turned outwards, and of the others.
-struct Pieces {
-  std::vector<std::uint32_t> closed, pierced, open;
-  std::vector<Ball> holes;  // of the pierced
-};
-
-Pieces split(const TriangleMesh& welded) {
-  Pieces pieces;
-  for (const MeshSheet& sheet : mesh_sheets(welded)) {
-    const bool solid = sheet.facing != Facing::unknown;
-    auto& indices = !solid ? pieces.open : sheet.holes.empty() ? pieces.closed : pieces.pierced;
-    // A solid sheet that is wound inwards is turned: what is first seen of it from outside is then
-    // a front face, also where it is a cavity inside another.
-    const bool turn = solid && sheet.facing == Facing::inwards;
-    for (const std::size_t t : sheet.triangles) {
-      auto [a, b, c] = welded.triangles[t];
-      if (turn) std::swap(b, c);
-      indices.insert(indices.end(), {a, b, c});
-    }
-    if (solid) pieces.holes.insert(pieces.holes.end(), sheet.holes.begin(), sheet.holes.end());
-  }
-  return pieces;
-}
-
-}  // namespace
 
 ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     for (const TriangleMesh& mesh : bodies[body].meshes) {
       const TriangleMesh welded = weld(mesh);
-      Pieces pieces = split(welded);
-      add_shell(welded, pieces.closed, {.body = body, .solid = true});
-      add_shell(welded, pieces.pierced,
-                {.body = body,
-                 .solid = true,
-                 .first_hole = static_cast<std::uint32_t>(holes.size()),
-                 .hole_count = static_cast<std::uint32_t>(pieces.holes.size())});
-      holes.insert(holes.end(), pieces.holes.begin(), pieces.holes.end());
-      add_shell(welded, pieces.open, {.body = body, .solid = false});
+      for (const ShellTriangles& shell : shells_of(welded)) {
+        add_shell(welded, shell.indices,
+                  {.body = body,
+                   .solid = shell.solid,
+                   .first_hole = static_cast<std::uint32_t>(holes.size()),
+                   .hole_count = static_cast<std::uint32_t>(shell.holes.size())});
+        holes.insert(holes.end(), shell.holes.begin(), shell.holes.end());
+      }
     }
   }
   const std::size_t padded = clusters.size() + padding;
   for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius}) values->resize(padded);
 }
 
-void ClusteredScene::add_shell(const TriangleMesh& welded, std::vector<std::uint32_t>& indices,
-                               Shell shell) {
-  if (indices.empty()) return;
+void ClusteredScene::add_shell(const TriangleMesh& welded,
+                               const std::vector<std::uint32_t>& indices, Shell shell) {
   const float* positions = welded.vertices.front().data();
   const std::size_t bound = meshopt_buildMeshletsBound(indices.size(), max_vertices, max_triangles);
   std::vector<meshopt_Meshlet> meshlets(bound);

@@ -60,7 +60,8 @@ struct ClusteredScene {
   std::vector<std::uint32_t> corners;
 
  private:
-  void add_shell(const TriangleMesh& welded, std::vector<std::uint32_t>& indices, Shell shell);
+  void add_shell(const TriangleMesh& welded, const std::vector<std::uint32_t>& indices,
+                 Shell shell);
   void add_triangle(const TriangleMesh& welded, const std::uint32_t* cluster_vertices,
                     const unsigned char* local);
   void pad_vertices();

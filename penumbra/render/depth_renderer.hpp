@@ -34,15 +34,15 @@ enum class Backend {
 struct RendererOptions {
   static constexpr int max_threads = 512;
 
-  int threads = 1;  ///< of the cpu backend; results do not depend on it
-  std::string isa;  ///< cpu backend: a SIMD target by name ("AVX2"); empty: the best there is
+  int threads = 1;    ///< of the cpu backend; results do not depend on it
+  std::string isa{};  ///< cpu backend: a SIMD target by name ("AVX2"); empty: the best there is
   /// gl backend: index into gl_devices(); -1: the first usable one, hardware before software.
   int gl_device = -1;
 };
 
 struct RendererInfo {
   Backend backend = Backend::cpu;
-  std::string isa;  ///< Highway's name of the SIMD target; "scalar" for the reference; gl: empty
+  std::string isa{};  ///< Highway's name of the SIMD target; "scalar" for the reference; gl: empty
   int threads = 1;
   std::string device{};  ///< gl: OpenGL's own words, "RENDERER, OpenGL VERSION"; others: empty
 };

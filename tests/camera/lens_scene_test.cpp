@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene seen through a lens: rays of raw pixels, bent back by the lens model and cast in double,
 // against what is rendered in the pinhole image and mapped to the raw one.
+#include "../support/opengl.hpp"
 #include "../support/random.hpp"
 #include "closed_form_scene.hpp"
 #include "lens_samples.hpp"
@@ -242,7 +243,12 @@ void check_labels(const CastScene& robot, const RawRender& raw, const Image<floa
   }
 }
 
-class LensScene : public testing::TestWithParam<Backend> {};
+class LensScene : public testing::TestWithParam<Backend> {
+ protected:
+  void SetUp() override {
+    if (!test::can_draw(GetParam())) GTEST_SKIP() << test::no_opengl;
+  }
+};
 
 TEST_P(LensScene, DepthLinksAndLabelsAreRightWithinAPixel) {
   auto random = test::seeded_random(41);
@@ -272,7 +278,8 @@ TEST_P(LensScene, DepthLinksAndLabelsAreRightWithinAPixel) {
   EXPECT_LT(total.at_lens_edge, 0.02 * total.reached);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, LensScene, testing::Values(Backend::reference, Backend::cpu),
+INSTANTIATE_TEST_SUITE_P(Backends, LensScene,
+                         testing::Values(Backend::reference, Backend::cpu, Backend::gl),
                          [](const auto& backend) { return std::string(to_string(backend.param)); });
 
 }  // namespace

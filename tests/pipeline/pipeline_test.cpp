@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/opengl.hpp"
 #include "slab_scene.hpp"
 
 #include <cmath>
@@ -38,8 +39,14 @@ EditedScene edited_scene(const Camera& camera, double slide) {
   return scene;
 }
 
-class PipelineOf : public testing::TestWithParam<Backend> {};
-INSTANTIATE_TEST_SUITE_P(Backends, PipelineOf, testing::Values(Backend::cpu, Backend::reference),
+class PipelineOf : public testing::TestWithParam<Backend> {
+ protected:
+  void SetUp() override {
+    if (!can_draw(GetParam())) GTEST_SKIP() << no_opengl;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Backends, PipelineOf,
+                         testing::Values(Backend::cpu, Backend::gl, Backend::reference),
                          [](const auto& test) { return std::string(to_string(test.param)); });
 
 TEST_P(PipelineOf, DrawsWhatTheFormulaTells) {

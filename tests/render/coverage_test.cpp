@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include <penumbra/base/error.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -179,11 +181,24 @@ TEST_P(Coverage, EveryImageSize) {
   }
 }
 
+/// Why OpenGL's device does not take the camera's image; empty where it does, as the others must.
+std::string refusal(const BackendChoice& choice, const Intrinsics& camera) {
+  if (choice.backend != Backend::gl) return "";
+  try {
+    static_cast<void>(make(choice, camera, {}));
+    return "";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("32767 x 2"), std::string::npos) << error.what();
+    return error.what();
+  }
+}
+
 TEST_P(Coverage, LargestImageSize) {
   const Intrinsics camera(Intrinsics::max_size, 2, 20000.0, 20000.0, 16000.0, 0.5);
   Scene scene;
   scene.add(image_rectangle(camera, -5.0, -5.0, 32766.5, 5.0, 1.25));
   scene.add(image_rectangle(camera, 20000.5, -5.0, 20001.5, 5.0, 1.0));
+  if (const std::string why = refusal(GetParam(), camera); !why.empty()) GTEST_SKIP() << why;
   const Frame frame = render(camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
   EXPECT_EQ(frame.links(20001, 1), 2);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include <penumbra/base/simd_target.hpp>
@@ -13,13 +14,20 @@
 namespace penumbra::test {
 
 std::vector<BackendChoice> backend_choices(int max_threads) {
-  std::vector<BackendChoice> choices{{Backend::reference, "", 1}};
+  std::vector<BackendChoice> choices{{Backend::reference, "", 1}, {Backend::gl, "", 1}};
   for (const std::string& isa : simd_target_names()) {
     choices.push_back({Backend::cpu, isa, 1});
   }
   for (int threads = 2; threads <= max_threads; ++threads) {
     choices.push_back({Backend::cpu, simd_target_names().front(), threads});
   }
+  return choices;
+}
+
+std::vector<BackendChoice> usable_backend_choices(int max_threads) {
+  std::vector<BackendChoice> choices = backend_choices(max_threads);
+  const auto lacking = [](const BackendChoice& choice) { return !can_draw(choice.backend); };
+  if (std::erase_if(choices, lacking) > 0) std::cout << no_opengl << '\n';
   return choices;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "agreement.hpp"
+#include "opengl.hpp"
 #include "scene.hpp"
 
 #include <iosfwd>
@@ -24,9 +25,12 @@ struct BackendChoice {
 
 std::ostream& operator<<(std::ostream& out, const BackendChoice& choice);
 
-/// The reference, the cpu renderer with every SIMD target that this machine has, and the best of
-/// them with 2 to max_threads threads.
+/// The reference, OpenGL, the cpu renderer with every SIMD target that this machine has, and the
+/// best of them with 2 to max_threads threads.
 [[nodiscard]] std::vector<BackendChoice> backend_choices(int max_threads);
+
+/// Those of backend_choices() that this machine can draw with.
+[[nodiscard]] std::vector<BackendChoice> usable_backend_choices(int max_threads);
 
 [[nodiscard]] std::unique_ptr<DepthRenderer> make(const BackendChoice& choice,
                                                   const Intrinsics& intrinsics,
@@ -57,6 +61,10 @@ void expect_same_bits(const VirtualDepthView& a, const VirtualDepthView& b);
 /// A test for each backend.
 class RenderTest : public ::testing::TestWithParam<BackendChoice> {
  protected:
+  void SetUp() override {
+    if (!can_draw(GetParam().backend)) GTEST_SKIP() << no_opengl;
+  }
+
   /// Renders once and expects a consistent frame.
   [[nodiscard]] static Frame render(const Intrinsics& intrinsics, const Scene& scene);
 };

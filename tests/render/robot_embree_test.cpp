@@ -39,7 +39,7 @@ ViewKind kind_of(int view) {
 
 /// Compares every backend's images of one random camera.
 void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agreement>& totals) {
-  const std::vector<BackendChoice> choices = backend_choices(1);
+  const std::vector<BackendChoice> choices = usable_backend_choices(1);
   const std::vector<Body> bodies = bodies_of(robot);
   const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
   std::vector<std::unique_ptr<DepthRenderer>> renderers;
@@ -65,7 +65,7 @@ TEST_P(RobotAgainstEmbree, RandomPosesAndCameras) {
   const Robot robot = load_robot(GetParam().name, GetParam().geometry);
   std::mt19937_64 random = seeded_random(101);
   const int cameras = std::getenv("PENUMBRA_FULL") != nullptr ? 20 : 2;
-  const std::vector<BackendChoice> choices = backend_choices(1);
+  const std::vector<BackendChoice> choices = usable_backend_choices(1);
   std::vector<Agreement> totals(choices.size());
   for (int camera = 0; camera < cameras; ++camera) compare_views(random, robot, totals);
   for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(RobotThreads, AnyNumberGivesTheSameBits) {
   const std::vector<Body> bodies = bodies_of(robot);
   std::mt19937_64 random = seeded_random(102);
   const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
-  for (const BackendChoice& choice : backend_choices(1)) {
+  for (const BackendChoice& choice : usable_backend_choices(1)) {
     std::vector<std::unique_ptr<DepthRenderer>> renderers;
     for (int threads = 1; threads <= 4; ++threads) {
       renderers.push_back(make({choice.backend, choice.isa, threads}, intrinsics, bodies));

@@ -11,6 +11,7 @@
 #include <penumbra/render/cpu/frame.hpp>
 #include <penumbra/render/cpu/kernel.hpp>
 #include <penumbra/render/cpu/workers.hpp>
+#include <penumbra/render/shells.hpp>
 
 namespace penumbra {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 using cpu::BodyFrame;
 using cpu::Canvas;
 using cpu::DrawItem;
-using cpu::Sides;
 
 class CpuRenderer final : public DepthRenderer {
  public:
@@ -30,6 +30,7 @@ class CpuRenderer final : public DepthRenderer {
         kernel_(cpu::kernel_for(target)),
         scene_(bodies),
         view_(intrinsics),
+        side_rule_(intrinsics),
         packing_(bodies.size()),
         touched_(intrinsics.width(), intrinsics.height()),
         holes_(scene_.holes.size()),
@@ -81,17 +82,9 @@ class CpuRenderer final : public DepthRenderer {
     }
   }
 
-  /// Backs are seen of an open mesh, of a solid one through its holes, and of one that the near
-  /// plane may cut open or that may hold the camera.
   [[nodiscard]] Sides sides_of(const Shell& shell) const {
-    const Intrinsics& k = intrinsics();
-    const double u = std::max(std::abs(k.cx()), std::abs(k.width() - k.cx())) / k.fx();
-    const double v = std::max(std::abs(k.cy()), std::abs(k.height() - k.cy())) / k.fy();
-    const double reach = near_plane * std::sqrt(1.0 + u * u + v * v) + 1e-6;
     const auto& c = frames_[shell.body].centre;
-    const Eigen::Vector3d centre(c[0], c[1], c[2]);
-    if (!shell.solid || shell.bounds.exteriorDistance(centre) <= reach) return Sides::both;
-    return shell.hole_count == 0 ? Sides::front : Sides::front_and_through_holes;
+    return side_rule_.sides(shell.solid, shell.hole_count > 0, shell.bounds, {c[0], c[1], c[2]});
   }
 
   /// Lets the team take `count` parts of a stage, a few at a time.
@@ -130,6 +123,7 @@ class CpuRenderer final : public DepthRenderer {
   cpu::Kernel kernel_;
   ClusteredScene scene_;
   cpu::View view_;
+  SideRule side_rule_;
   cpu::Packing packing_;
   TileMask touched_;
   std::vector<BodyFrame> frames_;

@@ -17,6 +17,7 @@
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/clusters.hpp>
+#include <penumbra/render/shells.hpp>
 
 namespace penumbra::cpu {
 
@@ -87,9 +88,6 @@ struct Bounds {
 
 /// Around the image of a ball; everywhere if the ball may reach past the near plane.
 Bounds bounds_of(const Ball& ball, const BodyFrame& body, const Intrinsics& k);
-
-/// Which sides of a shell's triangles can be seen; backs through holes only where those are.
-enum class Sides : std::uint8_t { front, front_and_through_holes, both };
 
 /// A cluster to draw.
 struct DrawItem {

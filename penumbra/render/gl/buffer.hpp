@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace penumbra::gl {
+
+/// Makes a buffer of the current context and returns its name. `data` may be null. `flags` as
+/// glNamedBufferStorage takes them; with GL_MAP_PERSISTENT_BIT among them `mapped` must be given
+/// and receives where the buffer is mapped. Throws InputError, in which `what` needs the memory,
+/// where the device does not take as much.
+unsigned make_buffer(std::size_t bytes, const void* data, unsigned flags, const std::string& what,
+                     std::byte** mapped = nullptr);
+
+}  // namespace penumbra::gl

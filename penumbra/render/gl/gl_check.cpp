@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <epoxy/gl.h>
+
+#include <penumbra/render/gl/gl_check.hpp>
+
+namespace penumbra::gl {
+namespace {
+
+std::string name_of(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+      return "GL_CONTEXT_LOST";
+    default:
+      return "error " + std::to_string(error);
+  }
+}
+
+}  // namespace
+
+std::string text(unsigned name) {
+  const GLubyte* const words = glGetString(name);
+  return words == nullptr ? "" : reinterpret_cast<const char*>(words);
+}
+
+std::string take_error() {
+  std::string first;
+  // A lost context may answer with an error for ever.
+  constexpr int most = 8;
+  for (int i = 0; i < most; ++i) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) break;
+    if (first.empty()) first = name_of(error);
+  }
+  return first;
+}
+
+void check_frame() {
+  if (glGetGraphicsResetStatus() != GL_NO_ERROR) {
+    throw std::runtime_error("OpenGL: the graphics device was reset: make a new renderer");
+  }
+  const std::string error = take_error();
+  if (!error.empty()) throw std::runtime_error("OpenGL: the frame failed with " + error);
+}
+
+}  // namespace penumbra::gl

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <penumbra/render/gl/egl_context.hpp>
+
+namespace penumbra::gl {
+
+/// A context on the device that RendererOptions::gl_device names. Throws InputError where it cannot
+/// be had.
+[[nodiscard]] std::unique_ptr<EglContext> open_device(int device);
+
+}  // namespace penumbra::gl

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/intrinsics.hpp>
+
+namespace penumbra::gl {
+
+/// The pixels u0 <= u < u1, v0 <= v < v1 of an image.
+struct PixelRectangle {
+  int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+
+  [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
+  [[nodiscard]] int width() const { return u1 - u0; }
+  [[nodiscard]] int height() const { return v1 - v0; }
+
+  /// The smallest rectangle that holds both.
+  [[nodiscard]] PixelRectangle united(const PixelRectangle& other) const;
+};
+
+/// Pixels in which a box's contents before the near plane may be seen: none left out, the whole
+/// image where the box reaches through the near plane.
+[[nodiscard]] PixelRectangle pixels_of(const Eigen::AlignedBox3d& box,
+                                       const Eigen::Isometry3d& T_camera_box,
+                                       const Intrinsics& intrinsics);
+
+}  // namespace penumbra::gl

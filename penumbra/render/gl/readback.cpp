@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include <penumbra/render/gl/buffer.hpp>
+#include <penumbra/render/gl/gl_check.hpp>
+#include <penumbra/render/gl/readback.hpp>
+
+namespace penumbra::gl {
+namespace {
+
+constexpr std::size_t row_alignment = 64;  // pixels: rows of both images start on cache lines
+
+PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
+  const PixelRectangle both{std::max(a.u0, b.u0), std::max(a.v0, b.v0), std::min(a.u1, b.u1),
+                            std::min(a.v1, b.v1)};
+  return both.empty() ? PixelRectangle{} : both;
+}
+
+}  // namespace
+
+Readback::Readback(const Intrinsics& intrinsics)
+    : width_(intrinsics.width()),
+      height_(intrinsics.height()),
+      stride_((static_cast<std::size_t>(width_) + row_alignment - 1) / row_alignment *
+              row_alignment) {
+  const std::size_t pixels = stride_ * static_cast<std::size_t>(height_);
+  const std::size_t slot_bytes = pixels * (sizeof(float) + sizeof(std::uint16_t));
+  constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT |
+                                GL_MAP_COHERENT_BIT | GL_CLIENT_STORAGE_BIT;
+  const std::string what = std::to_string(slots) + " images of " + std::to_string(width_) + " x " +
+                           std::to_string(height_) + " pixels";
+  const GLuint buffer = make_buffer(slots * slot_bytes, nullptr, access, what, &data_);
+  std::fill_n(data_, slots * slot_bytes, std::byte{0});
+  for (std::size_t i = 0; i < slots; ++i) {
+    slots_[i].touched = TileMask(width_, height_);
+    slots_[i].depth = reinterpret_cast<float*>(data_ + i * slot_bytes);
+    slots_[i].links = reinterpret_cast<std::uint16_t*>(slots_[i].depth + pixels);
+  }
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+  glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride_));
+}
+
+void Readback::start(std::size_t index, const PixelRectangle& r) {
+  Slot& slot = slots_[index];
+  keep_only(slot, r);
+  slot.rectangle = r;
+  std::fill(slot.touched.rows.begin(), slot.touched.rows.end(), std::uint64_t{0});
+  if (r.empty()) return;
+  slot.touched.mark(r.u0, r.v0, r.u1 - 1, r.v1 - 1);
+  const std::size_t first =
+      static_cast<std::size_t>(r.v0) * stride_ + static_cast<std::size_t>(r.u0);
+  // With a bound pack buffer an address is an offset into it.
+  const auto offset = [&](const auto* pixel) {
+    return reinterpret_cast<void*>(reinterpret_cast<const std::byte*>(pixel) - data_);
+  };
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(r.u0, r.v0, r.width(), r.height(), GL_RED, GL_FLOAT, offset(slot.depth + first));
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(r.u0, r.v0, r.width(), r.height(), GL_RED_INTEGER, GL_UNSIGNED_SHORT,
+               offset(slot.links + first));
+  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+}
+
+VirtualDepthView Readback::wait(std::size_t index) {
+  Slot& slot = slots_[index];
+  if (slot.fence != nullptr) {
+    constexpr GLuint64 patience = 60'000'000'000;  // ns; drivers reset what hangs much sooner
+    auto* const fence = static_cast<GLsync>(slot.fence);
+    const GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
+    glDeleteSync(fence);
+    slot.fence = nullptr;
+    check_frame();
+    if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) {
+      throw std::runtime_error("OpenGL: a frame was not done in 60 s: make a new renderer");
+    }
+  }
+  const auto stride = static_cast<std::ptrdiff_t>(stride_);
+  return {
+      {slot.depth, width_, height_, stride}, {slot.links, width_, height_, stride}, &slot.touched};
+}
+
+void Readback::keep_only(Slot& slot, const PixelRectangle& r) const {
+  const PixelRectangle old = slot.rectangle;
+  const PixelRectangle kept = overlap(old, r);
+  if (kept.empty()) {
+    clear(slot, old);
+    return;
+  }
+  clear(slot, {old.u0, old.v0, old.u1, kept.v0});
+  clear(slot, {old.u0, kept.v1, old.u1, old.v1});
+  clear(slot, {old.u0, kept.v0, kept.u0, kept.v1});
+  clear(slot, {kept.u1, kept.v0, old.u1, kept.v1});
+}
+
+void Readback::clear(Slot& slot, const PixelRectangle& r) const {
+  if (r.empty()) return;
+  for (int v = r.v0; v < r.v1; ++v) {
+    const std::size_t first =
+        static_cast<std::size_t>(v) * stride_ + static_cast<std::size_t>(r.u0);
+    std::fill_n(slot.depth + first, r.width(), 0.0F);
+    std::fill_n(slot.links + first, r.width(), std::uint16_t{0});
+  }
+}
+
+}  // namespace penumbra::gl

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws metric depth and links. Clip coordinates are (x, y, near, z): OpenGL's depth is near / z,
+// whose floating-point steps are the same share of the depth at every distance, cuts at the near
+// plane and never beyond.
+#pragma once
+
+namespace penumbra::gl {
+
+/// A body's matrix comes in rows; the third of four is (0, 0, 0, near) for all.
+inline constexpr const char* vertex_shader = R"(#version 450 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 to_clip_x;
+layout(location = 2) in vec4 to_clip_y;
+layout(location = 3) in vec4 to_clip_w;
+layout(location = 4) in uint body;
+layout(location = 0) uniform float near;
+flat out uint link;
+void main() {
+  vec4 p = vec4(position, 1.0);
+  gl_Position = vec4(dot(to_clip_x, p), dot(to_clip_y, p), near, dot(to_clip_w, p));
+  link = body + 1u;
+}
+)";
+
+inline constexpr const char* fragment_shader = R"(#version 450 core
+flat in uint link;
+layout(location = 0) out float metres;
+layout(location = 1) out uint shown_link;
+void main() {
+  metres = 1.0 / gl_FragCoord.w;
+  shown_link = link;
+}
+)";
+
+}  // namespace penumbra::gl

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines on which parts of OpenGL are missing, as a process of their own sees them.
+#include "opengl.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+class GlEnvironment : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  }
+
+  /// What the probe prints in an environment without a display and with these settings.
+  static std::string probe(const std::string& settings) {
+    const std::string command =
+        "env -u DISPLAY -u WAYLAND_DISPLAY " + settings + " '" PENUMBRA_GL_PROBE "' 2>/dev/null";
+    FILE* const pipe = popen(command.c_str(), "r");
+    std::string text;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    EXPECT_EQ(pclose(pipe), 0) << command << '\n' << text;
+    return text;
+  }
+
+  /// Expects both the list of devices and a renderer to be refused in these words.
+  static void expect_refused(const std::string& settings, const std::string& words) {
+    const std::string text = probe(settings);
+    for (const char* who : {"no devices: ", "refused: "}) {
+      const std::size_t start = text.find(who);
+      ASSERT_NE(start, std::string::npos) << settings << '\n' << text;
+      const std::string line = text.substr(start, text.find('\n', start) - start);
+      EXPECT_NE(line.find(words), std::string::npos) << settings << '\n' << text;
+      EXPECT_NE(line.find("libegl-mesa0"), std::string::npos) << settings << '\n' << text;
+    }
+  }
+};
+
+/// A folder whose libraries of these names cannot be loaded.
+class BrokenLibraries {
+ public:
+  explicit BrokenLibraries(const std::vector<std::string>& names)
+      : folder_(std::filesystem::path(::testing::TempDir()) / ("broken_" + names.front())) {
+    std::filesystem::create_directories(folder_);
+    for (const std::string& name : names) std::ofstream(folder_ / name) << "no library";
+  }
+  ~BrokenLibraries() { std::filesystem::remove_all(folder_); }
+  BrokenLibraries(const BrokenLibraries&) = delete;
+  BrokenLibraries& operator=(const BrokenLibraries&) = delete;
+
+  [[nodiscard]] std::string first_of_all() const { return "LD_LIBRARY_PATH=" + folder_.string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(GlEnvironment, DrawsWithoutADisplay) {
+  EXPECT_NE(probe("").find("drawn: 2\n"), std::string::npos);
+}
+
+TEST_F(GlEnvironment, APlatformOfNonsenseDoesNotMatter) {
+  EXPECT_NE(probe("EGL_PLATFORM=nonsense").find("drawn: 2\n"), std::string::npos);
+}
+
+TEST_F(GlEnvironment, WithoutEgl) {
+  const BrokenLibraries broken({"libEGL.so.1"});
+  expect_refused(broken.first_of_all(), "libEGL.so.1 cannot be loaded");
+}
+
+TEST_F(GlEnvironment, WithoutOpenGl) {
+  const BrokenLibraries broken({"libOpenGL.so.0", "libGL.so.1"});
+  expect_refused(broken.first_of_all(), "libOpenGL.so.0");
+}
+
+TEST_F(GlEnvironment, WithoutADriver) {
+  expect_refused("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent", "EGL offers no device");
+}
+
+TEST_F(GlEnvironment, OlderOpenGlIsRefusedWithWhatWasFound) {
+  // Mesa's own switch; the vendors of GPUs have none.
+  const std::string text = probe("MESA_GL_VERSION_OVERRIDE=3.3");
+  if (text.find("Mesa") == std::string::npos) GTEST_SKIP() << "skipped: not Mesa";
+  EXPECT_NE(text.find("refused: renderer 'gl': OpenGL 4.5 is needed, found OpenGL 3.3"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("fault: renderer 'gl': OpenGL 4.5 is needed"), std::string::npos) << text;
+}
+
+TEST_F(GlEnvironment, ADriverThatCannotBeLoadedIsTheDevicesFault) {
+  const std::string text = probe("LIBGL_DRIVERS_PATH=/nonexistent");
+  if (text.find("drawn: ") != std::string::npos) GTEST_SKIP() << "skipped: not Mesa";
+  EXPECT_NE(text.find("refused: renderer 'gl': "), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace penumbra::test
