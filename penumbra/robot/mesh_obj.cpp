@@ -106,7 +106,7 @@ std::string check_obj(std::string_view bytes) {
   const bool has_end = bytes.ends_with('\n') || bytes.ends_with('\r');
   ObjCheck check;
   for_each_line(bytes, [&](std::string_view line) { check.line(line); });
-  const std::string unused = check.finish();
+  std::string unused = check.finish();
   // Either alone is what sound files of careless exporters show, so that a file cut behind a line
   // passes with a note; a cut inside a line nearly always shows both.
   if (!has_end && !unused.empty())
