@@ -172,8 +172,9 @@ void ReportWriter::add(const FrameReport& report) {
   state_->first = false;
 }
 
-void ReportWriter::finish(const Statistics& statistics) {
+void ReportWriter::finish(const Statistics& statistics, std::span<const std::string> notes) {
   State& s = *state_;
+  for (const std::string& note : notes) s.notes.push_back(note);
   s.write("\n],\n\"summary\": " + dump(summary_json(statistics, s.missing_links, s.notes)) + "}\n",
           true);
   s.output.close();

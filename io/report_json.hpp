@@ -28,7 +28,7 @@ struct ReportHead {
   UsedRenderer renderer;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
-  std::span<const std::string> notes;          ///< Robot::notes(), RendererChoice::warnings
+  std::span<const std::string> notes;  ///< before the frames: Robot::notes(), the renderer's
 };
 
 /// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file
@@ -42,7 +42,9 @@ class ReportWriter {
   ReportWriter& operator=(const ReportWriter&) = delete;
 
   void add(const FrameReport& report);
-  void finish(const Statistics& statistics);
+
+  /// `notes`: what the frames as a whole gave rise to; follow the head's.
+  void finish(const Statistics& statistics, std::span<const std::string> notes = {});
 
  private:
   struct State;

@@ -8,6 +8,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
@@ -78,16 +79,20 @@ int execute(const RenderArguments& arguments) {
   if (arguments.links == arguments.output)
     throw InputError("--links: " + arguments.output.string() + " is the file of -o too");
   Robot robot = Robot::load(arguments.robot, arguments.options);
-  tell_notes(robot);
+  tell_notes(robot.notes());
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, false);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
   tell_choice(pipeline.renderer_choice());
-  const std::vector<std::string> notes = notes_of(pipeline);
+  std::vector<std::string> notes = notes_of(pipeline);
 
   const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
   const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
   write_images(arguments, first);
+  SequenceNotes doubts;
+  doubts.add(first);
+  tell_notes(doubts.lines());
+  for (const std::string& line : doubts.lines()) notes.push_back(line);
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),
                           .robot_pixels = first.pixels.robot.value_or(0),

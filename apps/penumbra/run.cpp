@@ -8,6 +8,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
@@ -170,7 +171,7 @@ int execute(const RunArguments& arguments) {
   const io::Recording recording = open_recording(arguments);
   check_output(arguments.output, recording);
   Robot robot = Robot::load(recording.urdf, recording.robot);
-  tell_notes(robot);
+  tell_notes(robot.notes());
   const io::FrameReader reader(recording, robot);
   const std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
   Pipeline pipeline = make_pipeline(arguments, recording, std::move(robot));
@@ -183,6 +184,7 @@ int execute(const RunArguments& arguments) {
       {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
        pipeline.robot().links(), pipeline.missing_links(), notes});
   Statistics statistics;
+  SequenceNotes doubts;
   ColorFaults color;
   {
     Progress progress(selected.size());
@@ -191,14 +193,16 @@ int execute(const RunArguments& arguments) {
       reader.read(i, arguments.saves.overlay, data);
       const FrameReport& report = judge(pipeline, frame_of(data), statistics);
       statistics.add(report);
+      doubts.add(report);
       color.add(data.color_message);
       writer.add(report);
       output.save(report, data);
       progress.step();
     }
   }
-  writer.finish(statistics);
+  writer.finish(statistics, doubts.lines());
   tell_faults(statistics, color);
+  tell_notes(doubts.lines());
   tell_summary(statistics, output.report_file());
   return statistics.usable_frames() > 0 ? 0 : 2;
 }

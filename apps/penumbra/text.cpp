@@ -49,16 +49,15 @@ Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& 
   }
 }
 
-void tell_notes(const Robot& robot) {
-  for (const std::string& note : robot.notes()) std::cerr << "penumbra: note: " << note << '\n';
+void tell_notes(std::span<const std::string> notes) {
+  for (const std::string& note : notes) std::cerr << "penumbra: note: " << note << '\n';
 }
 
 void tell_choice(const RendererChoice& choice) {
   if (!choice.reason.empty())
     std::cerr << "penumbra: --renderer auto takes " << to_string(choice.backend) << ": "
               << choice.reason << '\n';
-  for (const std::string& warning : choice.warnings)
-    std::cerr << "penumbra: note: " << warning << '\n';
+  tell_notes(choice.warnings);
 }
 
 io::UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requested) {

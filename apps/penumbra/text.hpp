@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,8 @@ void print_table(const std::vector<std::vector<std::string>>& rows);
                                      const PipelineConfig& config,
                                      const std::filesystem::path& camera_info);
 
-/// Prints Robot::notes() on stderr, a line each.
-void tell_notes(const Robot& robot);
+/// Prints on stderr, a line each.
+void tell_notes(std::span<const std::string> notes);
 
 /// Prints on stderr what auto took and why, and its warnings; nothing for a backend by name.
 void tell_choice(const RendererChoice& choice);

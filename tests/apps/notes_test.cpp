@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What run and render say of input that is understood, but looks wrong.
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class NotesTest : public testing::Test {
+ protected:
+  NotesTest() { write_tiny_recording(folder_.path()); }
+
+  /// Runs and expects success with this one note, on stderr and in the report; "": without any.
+  void expect_note_of_run(const std::string& words) {
+    const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
+    const Json report = Json::parse(read_file(folder_.path() / "out/report.json"));
+    expect_note(outcome, report["summary"]["notes"], words);
+    EXPECT_EQ(report["summary"]["bad_frames"], 0);
+  }
+
+  /// The same of render.
+  void expect_note_of_render(const std::vector<std::string>& options, const std::string& words) {
+    std::vector<std::string> line = {"render", "--json", "--robot", path("tiny.urdf"), "--camera"};
+    line.insert(line.end(), {path("camera_info.yaml"), "--pose", path("camera_pose.csv"), "-o",
+                             path("vdi.npy")});
+    line.insert(line.end(), options.begin(), options.end());
+    const Outcome outcome = penumbra(line);
+    expect_note(outcome, Json::parse(outcome.out)["notes"], words);
+  }
+
+  [[nodiscard]] std::string path(const char* file) const { return folder_.path() / file; }
+
+  TemporaryFolder folder_;
+
+ private:
+  static void expect_note(const Outcome& outcome, const Json& notes, const std::string& words) {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    if (words.empty()) {
+      EXPECT_EQ(outcome.err, "");
+      EXPECT_EQ(notes, Json::array());
+      return;
+    }
+    ASSERT_EQ(notes.size(), 1U) << notes;
+    EXPECT_NE(notes[0].get<std::string>().find(words), std::string::npos) << notes;
+    EXPECT_EQ(outcome.err, "penumbra: note: " + notes[0].get<std::string>() + "\n");
+  }
+};
+
+TEST_F(NotesTest, ARobotThatIsNeverInView) {
+  const auto camera_at = [&](const std::string& z) {
+    write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
+  };
+  camera_at("-2");
+  expect_note_of_run("");
+  expect_note_of_render({}, "");
+  camera_at("2");  // the inverse: the robot is behind the camera
+  expect_note_of_run("the robot is in no frame");
+  expect_note_of_render({}, "the robot is not in the image");
+  camera_at("-2000");  // millimetres
+  expect_note_of_run("the robot is in no frame");
+}
+
+}  // namespace
+}  // namespace penumbra::test
