@@ -5,6 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/frame_pattern.hpp>
+#include <io/numbers.hpp>
 
 namespace penumbra::io {
 
@@ -37,10 +38,48 @@ FramePattern::FramePattern(std::string_view pattern, const std::filesystem::path
   if (!found) throw InputError(fault);
 }
 
-std::filesystem::path FramePattern::file(std::int64_t index) const {
+std::string FramePattern::written(std::int64_t index) const {
   std::string number = std::to_string(index);
   if (number.size() < digits_) number.insert(0, digits_ - number.size(), '0');
-  return folder_ / (before_ + number + after_);
+  return number;
+}
+
+std::filesystem::path FramePattern::file(std::int64_t index) const {
+  return folder_ / (before_ + written(index) + after_);
+}
+
+std::optional<std::int64_t> FramePattern::index(std::string_view name, std::string_view before,
+                                                std::string_view after) const {
+  if (name.size() < before.size() + after.size()) return std::nullopt;
+  if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
+  const std::string_view number =
+      name.substr(before.size(), name.size() - before.size() - after.size());
+  const auto index = parse_number<std::int64_t>(number);
+  if (!index || *index < 0 || written(*index) != number) return std::nullopt;
+  return index;
+}
+
+std::vector<std::int64_t> FramePattern::existing() const {
+  // The number may stand in a folder's name: only that part of the path varies.
+  const std::size_t start = before_.rfind('/') + 1;  // 0: no slash
+  const std::string_view before = std::string_view(before_).substr(start);
+  const std::string_view after = std::string_view(after_).substr(0, after_.find('/'));
+  std::filesystem::path parent = folder_ / before_.substr(0, start);
+  if (parent.empty()) parent = ".";
+  std::vector<std::int64_t> indices;
+  std::error_code error;
+  if (!std::filesystem::is_directory(parent, error)) return indices;
+  std::filesystem::directory_iterator entry(parent, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const auto found = index(entry->path().filename().string(), before, after);
+    std::error_code unknown;
+    if (found && std::filesystem::exists(file(*found), unknown)) indices.push_back(*found);
+  }
+  if (error)
+    throw InputError(parent.string() + ": cannot be listed (" + error.message() +
+                     "); the frames in it must be known");
+  std::sort(indices.begin(), indices.end());
+  return indices;
 }
 
 bool FramePattern::has_extension(std::string_view extension) const {

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace penumbra::io {
 
@@ -19,10 +21,20 @@ class FramePattern {
   /// The file of frame `index` >= 0.
   [[nodiscard]] std::filesystem::path file(std::int64_t index) const;
 
+  /// Numbers of the frames whose file exists, ascending. Throws InputError where the folder of the
+  /// files is there and cannot be listed.
+  [[nodiscard]] std::vector<std::int64_t> existing() const;
+
   /// Whether the pattern's name ends in `extension` (".npy"), whatever the case.
   [[nodiscard]] bool has_extension(std::string_view extension) const;
 
  private:
+  [[nodiscard]] std::string written(std::int64_t index) const;
+
+  /// The number in the name of a file or folder, written as file() would write it.
+  [[nodiscard]] std::optional<std::int64_t> index(std::string_view name, std::string_view before,
+                                                  std::string_view after) const;
+
   std::filesystem::path folder_;
   std::string before_, after_;
   std::size_t digits_ = 0;  // 0: as many as the number has

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <type_traits>
+#include <unordered_set>
 #include <utility>
 
 #include <io/frame_reader.hpp>
@@ -20,6 +21,31 @@ FileResult read_depth(const FramePattern& pattern, ImageSize size, FrameData& fr
                                        : read_png(file, depth_as<std::uint16_t>(frame), size);
 }
 
+/// The rows, and one at fault for every depth image that has none. It stands before the first row
+/// of a later frame.
+std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrames& files) {
+  std::unordered_set<std::int64_t> known;
+  for (const JointRow& row : rows) known.insert(row.index);
+  std::vector<std::int64_t> lacking = files.depth.existing();
+  std::erase_if(lacking, [&](std::int64_t index) { return known.contains(index); });
+  if (lacking.empty()) return rows;
+
+  std::vector<JointRow> all;
+  auto next = lacking.begin();
+  const auto add_lacking = [&] {
+    JointRow& row = all.emplace_back();
+    row.index = *next;
+    row.fault = files.joints.string() + " has no row for frame " + std::to_string(*next);
+    ++next;
+  };
+  for (JointRow& row : rows) {
+    while (next != lacking.end() && *next < row.index) add_lacking();
+    all.push_back(std::move(row));
+  }
+  while (next != lacking.end()) add_lacking();
+  return all;
+}
+
 }  // namespace
 
 DepthView FrameData::depth_view() const {
@@ -30,7 +56,7 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
     : size_{recording.camera.camera.intrinsics.width(),
             recording.camera.camera.intrinsics.height()},
       files_(recording.frames),
-      rows_(read_joint_file(recording.frames.joints, robot)) {}
+      rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)) {}
 
 void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
   const JointRow& row = rows_[i];

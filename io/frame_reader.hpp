@@ -35,16 +35,17 @@ struct FrameData {
 /// Reads a recording's frames. Faults of a frame's data are told in its status, never thrown.
 class FrameReader {
  public:
-  /// Reads the joint file. Keeps neither argument. Throws InputError
-  /// as read_joint_file does.
+  /// Reads the joint file and looks which depth images there are. Keeps neither argument. Throws
+  /// InputError as read_joint_file and FramePattern::existing do.
   FrameReader(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] std::int64_t index(std::size_t i) const { return rows_[i].index; }
 
-  /// Reads the i-th frame in the order of the joint file. The depth image is read even where the
-  /// joints are missing, so that a picture can be shown; colour only if asked for. May be called
-  /// from several threads, each with its own FrameData.
+  /// Reads the i-th frame in the order of the joint file; depth images without a row there are
+  /// frames too, of status missing_joints, before the first row of a later frame. The depth image
+  /// is read even where the joints are missing, so that a picture can be shown; colour only if
+  /// asked for. May be called from several threads, each with its own FrameData.
   void read(std::size_t i, bool with_color, FrameData& frame) const;
 
  private:

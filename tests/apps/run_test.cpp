@@ -144,6 +144,25 @@ TEST_F(RunTest, GoesOnAfterFaultyFrames) {
             std::set<std::uint8_t>{3});
 }
 
+TEST_F(RunTest, GapsInTheJointFileAreFaultyFrames) {
+  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n2,0.1\n");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("joint_states.csv has no row for frame 1"), std::string::npos)
+      << outcome.err;
+  const Json json = report();
+  expect_report(json);
+  ASSERT_EQ(json["frames"].size(), 3U);
+  EXPECT_EQ(json["frames"][1]["index"], 1);
+  EXPECT_EQ(json["frames"][1]["status"], "missing_joints");
+
+  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,0.05\n");
+  EXPECT_NE(run().err.find("joint_states.csv has no row for frame 2"), std::string::npos);
+  EXPECT_EQ(report()["frames"][2]["status"], "missing_joints");
+  EXPECT_EQ(run({"--frames", ":2"}).err, "") << "the frame is not asked for";
+}
+
 TEST_F(RunTest, TellsEveryReasonOfBadFrames) {
   write_file(folder_.path() / "depth_0.png", "no image");
   fs::copy_file(folder_.path() / "color_1.png", folder_.path() / "depth_1.png",

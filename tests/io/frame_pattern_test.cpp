@@ -30,6 +30,29 @@ TEST(FramePattern, RefusesEverythingElse) {
         << pattern;
 }
 
+TEST(FramePattern, FindsTheFilesThatExist) {
+  using Indices = std::vector<std::int64_t>;
+  const test::TempFolder folder;
+  for (const char* name :
+       {"d_0.png", "d_12.png", "d_7.png", "d_07.png", "d_-1.png", "d_+2.png", "d_.png", "d_8.npy",
+        "dd_3.png", "d_4.png.part", "d_99999999999999999999.png", "n/000002.npy", "n/0000020.npy",
+        "n/1000000.npy", "n/3.npy", "5/depth.png", "6/color.png", "100%_3"})
+    folder.write(name, "x");
+  const auto existing = [&](const char* pattern) {
+    return FramePattern(pattern, folder.path()).existing();
+  };
+  EXPECT_EQ(existing("d_%d.png"), (Indices{0, 7, 12}));
+  EXPECT_EQ(existing("d_%02d.png"), (Indices{7, 12}));
+  EXPECT_EQ(existing("n/%06d.npy"), (Indices{2, 1000000}));
+  EXPECT_EQ(existing("d_1%d.png"), Indices{2});
+  EXPECT_EQ(existing("d_%d2.png"), Indices{1});
+  EXPECT_EQ(existing("%d/depth.png"), Indices{5});
+  EXPECT_EQ(existing("100%%_%d"), Indices{3});
+  EXPECT_EQ(existing("nowhere/%d.png"), Indices{});
+  const std::string absolute = (folder.path() / "d_%d.npy").string();
+  EXPECT_EQ(FramePattern(absolute, "/r").existing(), Indices{8});
+}
+
 TEST(FramePattern, KnowsItsExtension) {
   EXPECT_TRUE(FramePattern("%d.npy", "").has_extension(".npy"));
   EXPECT_TRUE(FramePattern("%d.NPY", "").has_extension(".npy"));

@@ -239,6 +239,32 @@ TEST_F(RecordingFolder, ReadsFrames) {
   EXPECT_EQ(frame.color_message, "");
 }
 
+TEST_F(RecordingFolder, DepthImagesWithoutARowAreFramesToo) {
+  for (const int i : {0, 6, 9})
+    write_png(file("depth_" + std::to_string(i) + ".png"), depth(i).view());
+  folder_.write("joints.csv", "frame,shoulder,elbow\n7,1,2\n5,3,4\n");
+  const FrameReader frames = reader();
+  std::vector<std::int64_t> indices;
+  FrameData frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    indices.push_back(frames.index(i));
+    frames.read(i, false, frame);
+    EXPECT_EQ(frame.index, frames.index(i));
+    if (frame.index == 5 || frame.index == 7) {
+      EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
+      continue;
+    }
+    EXPECT_EQ(frame.status, FrameStatus::missing_joints);
+    EXPECT_EQ(frame.message,
+              file("joints.csv").string() + " has no row for frame " + std::to_string(frame.index));
+    EXPECT_TRUE(frame.positions.empty());
+    EXPECT_EQ(frame.stamp, std::nullopt);
+    const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth_view());
+    EXPECT_EQ(view(3, 2), depth(static_cast<int>(frame.index))(3, 2));
+  }
+  EXPECT_EQ(indices, (std::vector<std::int64_t>{0, 6, 7, 5, 9})) << "the file's order stays";
+}
+
 TEST_F(RecordingFolder, ReadsFramesFromSeveralThreads) {
   const FrameReader frames = reader();
   const auto work = [&](std::size_t first) {
