@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -43,6 +44,39 @@ Json renderer_json(const UsedRenderer& used) {
           {"device", or_null(info.device)},
           {"requested", used.requested ? to_string(*used.requested) : "auto"},
           {"reason", or_null(used.reason)}};
+}
+
+std::string_view name_of(Geometry geometry) {
+  return geometry == Geometry::collision ? "collision" : "visual";
+}
+
+/// One name where all links have the same.
+Json geometry_json(const RobotOptions& robot) {
+  if (robot.geometry_of_links.empty()) return name_of(robot.geometry);
+  Json links = Json::object();
+  for (const auto& [pattern, geometry] : robot.geometry_of_links)
+    links[pattern] = name_of(geometry);
+  return {{"default", name_of(robot.geometry)}, {"links", std::move(links)}};
+}
+
+Json settings_json(const UsedSettings& used) {
+  const LabelRule& rule = used.rule;
+  const auto finite = [](double metres) { return std::isfinite(metres) ? Json(metres) : Json(); };
+  Json margins = Json::object();
+  for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
+  return {{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
+          {"front_min_width", rule.front_min_width},
+          {"edge_margin", rule.edge_margin},
+          {"beyond_factor", rule.beyond_factor},
+          {"labels", used.paper_labels ? "paper" : "full"},
+          {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
+          {"range", {finite(rule.range.near), finite(rule.range.far)}},
+          {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
+          {"geometry", geometry_json(used.robot)},
+          {"geometry_fallback", used.robot.geometry_fallback},
+          {"margins", std::move(margins)},
+          {"ignore_links", list(used.robot.ignore_links)},
+          {"only_links", list(used.robot.only_links)}};
 }
 
 Json pixels_json(const PixelCounts& pixels) {
@@ -159,6 +193,7 @@ ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& 
   state_->notes = list(head.notes);
   state_->write("{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
                 ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
+                ",\n\"settings\": " + dump(settings_json(head.settings)) +
                 ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [");
 }
 

@@ -8,10 +8,14 @@
 #include <span>
 #include <string>
 
+#include <penumbra/occlusion/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/statistics.hpp>
 #include <penumbra/render/renderer_choice.hpp>
 #include <penumbra/robot/robot.hpp>
+
+#include <io/recording.hpp>
 
 namespace penumbra::io {
 
@@ -22,10 +26,20 @@ struct UsedRenderer {
   std::string reason;                ///< RendererChoice::reason
 };
 
+/// By which choices results were made.
+struct UsedSettings {
+  LabelRule rule;
+  bool paper_labels = false;
+  BeyondMeans beyond = BeyondMeans::occluded;
+  ImageSpace image = ImageSpace::raw;
+  RobotOptions robot;
+};
+
 /// What a report says before its frames.
 struct ReportHead {
   std::string input;
   UsedRenderer renderer;
+  UsedSettings settings;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
   std::span<const std::string> notes;  ///< before the frames: Robot::notes(), the renderer's

@@ -261,7 +261,9 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) {
                run.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
              });
-  add_option(app, "--labels", "full (default), or paper: constant 0.01 m, no clean-up, no beyond",
+  add_option(app, "--labels",
+             "full (default), or paper: constant 0.01 m, no clean-up, no beyond; --tolerance and "
+             "--front-min-width override",
              "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
   add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
              [&](const std::string& text) { run.image = to_image(text); });

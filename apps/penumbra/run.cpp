@@ -66,6 +66,15 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
   return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);
 }
 
+io::UsedSettings settings_of(const RunArguments& arguments, const io::Recording& recording,
+                             const Pipeline& pipeline) {
+  return {.rule = pipeline.rule(),
+          .paper_labels = arguments.paper_labels,
+          .beyond = recording.camera.beyond.value_or(io::BeyondMeans::occluded),
+          .image = arguments.image,
+          .robot = recording.robot};
+}
+
 /// Which of the reader's frames are wanted; the range must lie inside the recording.
 std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameReader& reader) {
   std::int64_t least = reader.index(0);
@@ -182,7 +191,8 @@ int execute(const RunArguments& arguments) {
   io::ReportWriter writer(
       output.report_file(),
       {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
-       pipeline.robot().links(), pipeline.missing_links(), notes});
+       settings_of(arguments, recording, pipeline), pipeline.robot().links(),
+       pipeline.missing_links(), notes});
   Statistics statistics;
   SequenceNotes doubts;
   ColorFaults color;

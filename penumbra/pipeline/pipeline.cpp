@@ -143,6 +143,7 @@ const Robot& Pipeline::robot() const { return state_->robot; }
 const RendererInfo& Pipeline::renderer() const { return state_->chosen.renderer->info(); }
 const RendererChoice& Pipeline::renderer_choice() const { return state_->chosen.choice; }
 std::size_t Pipeline::triangle_count() const { return state_->chosen.renderer->triangle_count(); }
+const LabelRule& Pipeline::rule() const { return state_->classifier.rule(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
 const Rectification* Pipeline::rectification() const {
   return state_->rectified_depth ? &*state_->rectification : nullptr;

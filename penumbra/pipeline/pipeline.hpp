@@ -61,6 +61,9 @@ class Pipeline {
 
   [[nodiscard]] std::size_t triangle_count() const;
 
+  /// The rule that labels are made by: the configuration's, its range cut to the camera's.
+  [[nodiscard]] const LabelRule& rule() const;
+
   /// Size and projection of the report's images; in the raw image of a lens with distortion the
   /// projection is that of its pinhole part.
   [[nodiscard]] const Intrinsics& intrinsics() const;

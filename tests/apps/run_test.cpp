@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <penumbra/base/version.hpp>
+#include <penumbra/occlusion/labels.hpp>
 
 #include <io/npy.hpp>
 #include <io/png.hpp>
@@ -30,7 +31,8 @@ Keys keys(const Json& json) {
 
 /// The contract of DESIGN section 4: keys and types that do not depend on the recording.
 void expect_report(const Json& report) {
-  EXPECT_EQ(keys(report), (Keys{"penumbra", "input", "renderer", "links", "frames", "summary"}));
+  EXPECT_EQ(keys(report),
+            (Keys{"penumbra", "input", "renderer", "settings", "links", "frames", "summary"}));
   EXPECT_EQ(keys(report["renderer"]),
             (Keys{"backend", "isa", "threads", "device", "requested", "reason"}));
   const Keys stages{"kinematics", "render", "classify", "targets"};
@@ -260,6 +262,53 @@ TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {
   EXPECT_EQ(front(), 64);
   ASSERT_EQ(run({"--tolerance", "0.02,0,0", "--front-min-width", "9"}).status, 0);
   EXPECT_EQ(front(), 0) << "the object is 8 pixels wide";
+}
+
+TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
+  const LabelRule rule;
+  ASSERT_EQ(run().status, 0);
+  Json settings = report()["settings"];
+  const Json range = {0.0, nullptr};
+  EXPECT_EQ(settings, (Json{{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
+                            {"front_min_width", rule.front_min_width},
+                            {"edge_margin", rule.edge_margin},
+                            {"beyond_factor", rule.beyond_factor},
+                            {"labels", "full"},
+                            {"beyond", "occluded"},
+                            {"range", range},
+                            {"image", "raw"},
+                            {"geometry", "collision"},
+                            {"geometry_fallback", false},
+                            {"margins", Json::object()},
+                            {"ignore_links", Json::array()},
+                            {"only_links", Json::array()}}));
+
+  edit_file(folder_.path() / "recording.yaml", "  parent:",
+            "  tolerance: [0.03, 0.0, 0.001]\n  front_min_width: 3\n  range: [0.25, 4.0]\n"
+            "  beyond: visible\n  parent:");
+  edit_file(folder_.path() / "recording.yaml", "  urdf: tiny.urdf",
+            "  urdf: tiny.urdf\n  geometry: {board: collision}\n  margins: {board: 0.01}\n"
+            "  ignore_links: [base]\n  only_links: ['b*']");
+  ASSERT_EQ(run().status, 0);
+  settings = report()["settings"];
+  EXPECT_EQ(settings["tolerance"], (Json{0.03, 0.0, 0.001}));
+  EXPECT_EQ(settings["front_min_width"], 3);
+  EXPECT_EQ(settings["range"], (Json{0.25, 4.0}));
+  EXPECT_EQ(settings["beyond"], "visible");
+  EXPECT_EQ(settings["geometry"],
+            (Json{{"default", "collision"}, {"links", {{"board", "collision"}}}}));
+  EXPECT_EQ(settings["margins"], (Json{{"board", 0.01}}));
+  EXPECT_EQ(settings["ignore_links"], Json{"base"});
+  EXPECT_EQ(settings["only_links"], Json{"b*"});
+
+  ASSERT_EQ(run({"--labels", "paper", "--tolerance", "0.02,0,0", "--image", "rectified"}).status,
+            0);
+  settings = report()["settings"];
+  EXPECT_EQ(settings["labels"], "paper");
+  EXPECT_EQ(settings["tolerance"], (Json{0.02, 0.0, 0.0})) << "the option comes before the paper's";
+  EXPECT_EQ(settings["front_min_width"], 0);
+  EXPECT_EQ(settings["image"], "rectified");
+  EXPECT_NE(penumbra({"run", "--help"}).out.find("override"), std::string::npos);
 }
 
 TEST_F(RunTest, RectifiedImagesHaveTheirOwnSize) {
