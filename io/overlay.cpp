@@ -84,6 +84,22 @@ struct Line {
   std::optional<Rgb8> swatch;
 };
 
+/// How many pixels the robot has, and how many of each label.
+void add_counts(const LabelView& labels, std::vector<Line>& lines) {
+  std::array<char, 64> text{};
+  std::size_t robot = 0;
+  for (std::size_t i = 1; i < label_count; ++i) robot += labels.pixels[i];
+  lines.push_back({"robot " + std::to_string(robot) + " px", {}});
+  for (std::size_t i = 1; i < label_count; ++i) {
+    const double share =
+        robot == 0 ? 0.0
+                   : 100.0 * static_cast<double>(labels.pixels[i]) / static_cast<double>(robot);
+    std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i], labels.pixels[i],
+                  share);
+    lines.push_back({text.data(), label_color(static_cast<Label>(i))});
+  }
+}
+
 std::vector<Line> legend_lines(const OverlayInput& input) {
   std::vector<Line> lines;
   lines.push_back({"frame " + std::to_string(input.index), {}});
@@ -92,18 +108,13 @@ std::vector<Line> legend_lines(const OverlayInput& input) {
     std::snprintf(text.data(), text.size(), "%.3f s", 1e-9 * static_cast<double>(*input.stamp));
     lines.push_back({text.data(), {}});
   }
+  if (!input.pose_known) lines.push_back({"robot: pose unknown", {}});
   if (input.labels.labels.empty()) return lines;
-  std::size_t robot = 0;
-  for (std::size_t i = 1; i < label_count; ++i) robot += input.labels.pixels[i];
-  lines.push_back({"robot " + std::to_string(robot) + " px", {}});
-  for (std::size_t i = 1; i < label_count; ++i) {
-    const double share = robot == 0 ? 0.0
-                                    : 100.0 * static_cast<double>(input.labels.pixels[i]) /
-                                          static_cast<double>(robot);
-    std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i],
-                  input.labels.pixels[i], share);
-    lines.push_back({text.data(), label_color(static_cast<Label>(i))});
+  if (!input.pose_known) {
+    lines.push_back({"unknown  all pixels", label_color(Label::unknown)});
+    return lines;
   }
+  add_counts(input.labels, lines);
   return lines;
 }
 

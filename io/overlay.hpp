@@ -20,6 +20,7 @@ struct OverlayInput {
   std::int64_t index = 0;
   std::optional<std::int64_t> stamp;  ///< nanoseconds
   std::string_view message;  ///< drawn at the lower edge, such as what is wrong; may be empty
+  bool pose_known = true;    ///< false: labels say nothing of the robot, all are unknown
 };
 
 /// The colour that stands for a label; told apart by people with any common colour blindness.

@@ -98,6 +98,7 @@ void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& 
   input.index = static_cast<std::int64_t>(report.index);
   input.stamp = report.stamp;
   input.message = report.message;
+  input.pose_known = has_pose(report.status);
   if (!frame.color.empty()) {
     input.color = seen(frame.color, color_);
   } else {

@@ -93,6 +93,39 @@ TEST(Overlay, ShowsDepthWithoutColor) {
   EXPECT_EQ(of_metres(51, 400), of_millimetres(51, 400));
 }
 
+/// The legend as read from the picture: `text` in white, wherever it stands.
+bool shows(const Image<Rgb8>& picture, std::string_view text) {
+  const int width = static_cast<int>(text.size()) * BitmapFont::advance;
+  Image<Rgb8> ink(width, BitmapFont::height);
+  BitmapFont::draw(text, 0, 0, 1, white, ink);
+  const auto matches = [&](int u, int v) {
+    for (int y = 0; y < ink.height(); ++y)
+      for (int x = 0; x < width; ++x)
+        if ((ink(x, y) == white) != (picture(u + x, v + y) == white)) return false;
+    return true;
+  };
+  for (int v = 0; v + BitmapFont::height <= picture.height(); ++v)
+    for (int u = 0; u + width <= picture.width(); ++u)
+      if (matches(u, v)) return true;
+  return false;
+}
+
+TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
+  Scene scene(320, 240, Label::unknown);
+  scene.labels = Image<std::uint8_t>(320, 240, static_cast<std::uint8_t>(Label::unknown));
+  scene.view.labels = std::as_const(scene.labels).view();
+  scene.view.pixels = {0, 0, 0, scene.labels.size(), 0};
+  OverlayInput input = scene.input();
+  Image<Rgb8> out;
+  draw_overlay(input, out);
+  EXPECT_TRUE(shows(out, "robot 76800 px")) << "the test can read the legend";
+  input.pose_known = false;
+  draw_overlay(input, out);
+  EXPECT_TRUE(shows(out, "robot: pose unknown"));
+  EXPECT_TRUE(shows(out, "unknown  all pixels"));
+  EXPECT_FALSE(shows(out, "robot 76800 px"));
+}
+
 // The legend lies in the corner where it hides the least of the robot.
 TEST(Overlay, LegendGivesWayToTheRobot) {
   Scene scene(640, 480, Label::occluded);
