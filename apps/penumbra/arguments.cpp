@@ -186,6 +186,14 @@ void add_list(CLI::App& app, const std::string& names, const std::string& help,
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, std::filesystem::path& to) {
+  return add_option(app, names, help, value, [&to, names](const std::string& text) {
+    if (text.empty()) refuse(names, text, "a path");
+    to = text;
+  });
+}
+
 void add_renderer(CLI::App& app, RendererArguments& renderer) {
   add_option(app, "--renderer",
              "cpu (default), gl (OpenGL), reference, or auto: the faster of cpu and gl, measured",
@@ -247,9 +255,8 @@ void check_renderer(const RendererArguments& renderer) {
 
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  app.add_option("INPUT", run.input, "a recording folder or its recording.yaml")->required();
-  app.add_option("-o,--output", run.output, "folder for the results; made if need be")
-      ->type_name("OUT")
+  add_path(app, "INPUT", "a recording folder or its recording.yaml", "", run.input)->required();
+  add_path(app, "-o,--output", "folder for the results; made if need be", "OUT", run.output)
       ->required();
   add_renderer(app, run.renderer);
   add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
@@ -276,23 +283,24 @@ void add_run(CLI::App& app, RunArguments& run) {
 
 void add_render(CLI::App& app, RenderArguments& render) {
   app.footer(render_examples);
-  app.add_option("--robot", render.robot, "the robot")->type_name("URDF")->required();
+  add_path(app, "--robot", "the robot", "URDF", render.robot)->required();
   add_robot(app, render.options);
-  app.add_option("--camera", render.camera_info, "ROS camera_info YAML")
-      ->type_name("FILE")
-      ->required();
-  app.add_option("--pose", render.pose, "4x4 pose of the optical frame in the parent link, metres")
-      ->type_name("FILE")
+  add_path(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
+  add_path(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",
+           render.pose)
       ->required();
   app.add_option("--parent", render.parent, "link that the pose is given in; default: the root")
       ->type_name("LINK");
   add_list(app, "--joint", "a joint's position, rad or m; may be given several times", "NAME=VALUE",
            [&](const std::string& text) { render.joints.push_back(to_joint(text)); });
-  app.add_option("-o,--output", render.output, "virtual depth image, float32 metres, 0 = no robot")
-      ->type_name("NPY")
+  add_path(app, "-o,--output", "virtual depth image, float32 metres, 0 = no robot", "NPY",
+           render.output)
       ->required();
-  app.add_option("--links", render.links, "link image, 16-bit: link number + 1, 0 = none")
-      ->type_name("PNG");
+  add_option(app, "--links", "link image, 16-bit: link number + 1, 0 = none", "PNG",
+             [&](const std::string& text) {
+               if (text.empty()) refuse("--links", text, "a path");
+               render.links = text;
+             });
   add_renderer(app, render.renderer);
   add_option(app, "--repeat", "render N times and print the times", "N",
              [&](const std::string& text) {
@@ -303,7 +311,7 @@ void add_render(CLI::App& app, RenderArguments& render) {
 
 void add_inspect(CLI::App& app, InspectArguments& inspect) {
   app.footer(inspect_examples);
-  app.add_option("URDF", inspect.robot, "the robot")->required();
+  add_path(app, "URDF", "the robot", "", inspect.robot)->required();
   add_robot(app, inspect.options);
   app.add_flag("--json", inspect.json, "print JSON instead of tables");
 }

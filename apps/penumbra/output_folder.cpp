@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -31,23 +29,6 @@ void make_folder(const fs::path& folder) {
   if (error) refuse(folder, error.message());
 }
 
-/// Whether a run could have written a file of this name: digits and an image's ending.
-bool is_frame_file(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const bool digits =
-      stem.size() >= index_digits &&
-      std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return digits && (file.extension() == ".png" || file.extension() == ".npy");
-}
-
-void remove_frames(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file(error) && is_frame_file(entry.path())) fs::remove(entry, error);
-  if (error) refuse(folder, error.message());
-}
-
 LabelView labels_of(const FrameReport& report) {
   const PixelCounts& pixels = report.pixels;
   const std::size_t all = static_cast<std::size_t>(report.labels.width) *
@@ -65,14 +46,11 @@ OutputFolder::OutputFolder(const fs::path& folder, const Saves& saves,
                            const Rectification* rectification)
     : folder_(folder), saves_(saves), rectification_(rectification) {
   make_folder(folder);
-  const std::array<std::pair<const char*, bool>, 4> kinds = {{{"vdi", saves.vdi},
-                                                              {"labels", saves.labels},
-                                                              {"links", saves.links},
-                                                              {"overlay", saves.overlay}}};
-  for (const auto& [kind, wanted] : kinds) {
-    remove_frames(folder / kind);
+  for (const auto& [kind, wanted] : {std::pair("vdi", saves.vdi),
+                                     {"labels", saves.labels},
+                                     {"links", saves.links},
+                                     {"overlay", saves.overlay}})
     if (wanted) make_folder(folder / kind);
-  }
 }
 
 void OutputFolder::save(const FrameReport& report, const io::FrameData& frame) {

@@ -16,9 +16,9 @@ namespace penumbra::app {
 /// Where `run` writes. Files are named by the frame's index: vdi/000000.npy, labels/000000.png.
 class OutputFolder {
  public:
-  /// Makes the folder and those of the images to save, and removes files of such names that an
-  /// earlier run left. `rectification` brings recorded images to the report's; null where they
-  /// fit, else it must outlive this. Throws InputError where the folder is refused.
+  /// Makes the folder and those of the images to save. `rectification` brings recorded images to
+  /// the report's; null where they fit, else it must outlive this. Throws InputError where the
+  /// folder is refused.
   OutputFolder(const std::filesystem::path& folder, const Saves& saves,
                const Rectification* rectification);
 

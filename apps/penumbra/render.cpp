@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/camera_info.hpp>
 #include <io/names.hpp>
@@ -49,6 +52,28 @@ Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Came
   return app::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
 }
 
+/// Throws before anything is removed where `file` is one that is read, or written otherwise.
+void check_own(const std::string& option, const std::filesystem::path& file,
+               const std::vector<std::pair<std::string, std::filesystem::path>>& others) {
+  std::error_code error;
+  for (const auto& [other, path] : others)
+    if (file == path || std::filesystem::equivalent(file, path, error))
+      throw InputError(option + ": " + file.string() + " is the file of " + other + " too");
+}
+
+/// What an earlier call wrote must not be taken for this one's, should it fail.
+void remove_former_files(const RenderArguments& arguments) {
+  std::vector<std::pair<std::string, std::filesystem::path>> others = {
+      {"--robot", arguments.robot},
+      {"--camera", arguments.camera_info},
+      {"--pose", arguments.pose}};
+  check_own("-o", arguments.output, others);
+  others.emplace_back("-o", arguments.output);
+  if (arguments.links) check_own("--links", *arguments.links, others);
+  remove_former_file("-o", arguments.output);
+  if (arguments.links) remove_former_file("--links", *arguments.links);
+}
+
 Image<float> copy(ImageView<const float> from) {
   Image<float> image(from.width, from.height);
   for (int v = 0; v < from.height; ++v)
@@ -76,8 +101,7 @@ void print_text(const RenderArguments& arguments, const io::RenderResult& result
 }  // namespace
 
 int execute(const RenderArguments& arguments) {
-  if (arguments.links == arguments.output)
-    throw InputError("--links: " + arguments.output.string() + " is the file of -o too");
+  remove_former_files(arguments);
   Robot robot = Robot::load(arguments.robot, arguments.options);
   tell_notes(robot.notes());
   const std::vector<double> positions = positions_of(robot, arguments);

@@ -12,6 +12,7 @@
 #include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/output_folder.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
@@ -34,13 +35,20 @@ io::Recording open_recording(const RunArguments& arguments) {
   return recording;
 }
 
-/// Images of an earlier run are removed from the output folder: they must not be the recording's.
-void check_output(const std::filesystem::path& output, const io::Recording& recording) {
+/// What an earlier run wrote is removed from the output folder: it must be no recording.
+void check_output(const RunArguments& arguments) {
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::absolute(recording.file).parent_path();
-  if (std::filesystem::equivalent(output, folder, error))
+  const std::filesystem::path input = std::filesystem::absolute(arguments.input);
+  const std::filesystem::path& output = arguments.output;
+  const bool is_own = std::filesystem::equivalent(output, input, error) ||
+                      (std::filesystem::is_regular_file(input, error) &&
+                       std::filesystem::equivalent(output, input.parent_path(), error));
+  if (is_own)
     throw InputError("--output: " + output.string() +
                      " is the recording's own folder; choose another, or one inside of it");
+  if (std::filesystem::exists(output / "recording.yaml", error))
+    throw InputError("--output: " + output.string() +
+                     " is a recording (it has a recording.yaml); choose another folder");
 }
 
 /// The command line's choice before the recording's before the default.
@@ -177,8 +185,9 @@ void tell_summary(const Statistics& statistics, const std::filesystem::path& rep
 }  // namespace
 
 int execute(const RunArguments& arguments) {
+  check_output(arguments);
+  remove_former_run(arguments.output);
   const io::Recording recording = open_recording(arguments);
-  check_output(arguments.output, recording);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   tell_notes(robot.notes());
   const io::FrameReader reader(recording, robot);

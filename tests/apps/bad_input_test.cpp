@@ -273,11 +273,68 @@ TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
   expect_refused(output, "000001.png");
 }
 
+TEST_F(BadOutputTest, AFormerRunIsGoneHoweverEarlyTheNextFails) {
+  const fs::path output = folder_.path() / "out";
+  const std::vector<std::string> again = {"run",  folder_.path(), "-o",
+                                          output, "--save",       "vdi,labels,links,overlay"};
+  const auto expect_gone = [&](const std::vector<std::string>& line) {
+    const Outcome outcome = penumbra(line);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_FALSE(fs::exists(output / "report.json")) << outcome.err;
+    for (const char* kind : {"vdi", "labels", "links", "overlay"})
+      EXPECT_TRUE(fs::is_empty(output / kind)) << kind << outcome.err;
+  };
+  ASSERT_EQ(penumbra(again).status, 0);
+  write_file(output / "report.json.part", "of a run that was killed");
+  expect_gone({"run", folder_.path() / "nowhere", "-o", output});
+  EXPECT_FALSE(fs::exists(output / "report.json.part"));
+  ASSERT_EQ(penumbra(again).status, 0);
+  expect_gone({"run", "x.mcap", "-o", output});
+  ASSERT_EQ(penumbra(again).status, 0);
+  fs::rename(folder_.path() / "board.stl", folder_.path() / "board.away");
+  expect_gone(again);
+  fs::rename(folder_.path() / "board.away", folder_.path() / "board.stl");
+
+  ASSERT_EQ(penumbra(again).status, 0);
+  write_file(output / "labels/notes.txt", "the user's own");
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--labels", "half"}).status, 2);
+  EXPECT_TRUE(fs::exists(output / "report.json")) << "the arguments are not understood";
+  EXPECT_EQ(penumbra({"run", folder_.path() / "nowhere", "-o", output}).status, 2);
+  EXPECT_TRUE(fs::exists(output / "labels/notes.txt"));
+}
+
+TEST_F(BadOutputTest, ARecordingIsNoOutputFolder) {
+  const fs::path other = folder_.path() / "other";
+  fs::create_directories(other / "labels");
+  write_file(other / "recording.yaml", "robot:\n");
+  write_file(other / "labels/000000.png", "recorded");
+  expect_refused(other, "other");
+  EXPECT_TRUE(fs::exists(other / "labels/000000.png"));
+}
+
+TEST_F(BadOutputTest, TheReportsNameIsTakenByAFolder) {
+  fs::create_directories(folder_.path() / "out/report.json");
+  const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("report.json: is a folder"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(fs::is_directory(folder_.path() / "out/report.json"));
+}
+
 TEST(BadCommandLine, IsOneLineAndStatus2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
-      {{}, "run, render, inspect or doctor"},       {{"walk"}, "walk"},      {{"run"}, "INPUT"},
-      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},   {{"render"}, "--robot"}, {{"inspect"}, "URDF"},
-      {{"inspect", "nowhere.urdf"}, "nowhere.urdf"}};
+      {{}, "run, render, inspect or doctor"},
+      {{"walk"}, "walk"},
+      {{"run"}, "INPUT"},
+      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
+      {{"render"}, "--robot"},
+      {{"inspect"}, "URDF"},
+      {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
+      {{"run", "recording", "-o", ""}, "-o,--output: '' is not a path"},
+      {{"run", "", "-o", "out"}, "INPUT: '' is not a path"},
+      {{"render", "--robot", "x.urdf", "--camera", "c.yaml", "--pose", "p.csv", "-o", ""},
+       "-o,--output: '' is not a path"},
+      {{"inspect", ""}, "URDF: '' is not a path"}};
   for (const auto& [line, word] : lines) {
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(line) << outcome.err;

@@ -97,9 +97,35 @@ TEST_F(RenderTest, RefusesBadInput) {
 }
 
 TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {
-  const Outcome outcome = render({"-o", folder_.path() / "nowhere" / "vdi.npy"});
+  const Outcome outcome = render({"--links", folder_.path() / "nowhere" / "links.png"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("nowhere"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RenderTest, RefusesEmptyNamesAndFolders) {
+  expect_refused(render({"--links", ""}), "--links: '' is not a path");
+  fs::create_directory(folder_.path() / "links.png");
+  expect_refused(render({"--links", folder_.path() / "links.png"}), "is a folder");
+}
+
+TEST_F(RenderTest, FormerImagesAreGoneHoweverEarlyTheNextCallFails) {
+  const fs::path links = folder_.path() / "links.png";
+  const std::vector<std::string> good = {"--links", links};
+  ASSERT_EQ(render(good).status, 0);
+  write_file(folder_.path() / "other.npy", read_file(folder_.path() / "vdi.npy"));
+  fs::remove(folder_.path() / "vdi.npy");
+  fs::create_symlink("other.npy", folder_.path() / "vdi.npy");
+  fs::remove(folder_.path() / "board.stl");
+  expect_refused(render(good), "board.stl");
+  EXPECT_FALSE(fs::exists(links));
+  EXPECT_FALSE(fs::exists(folder_.path() / "other.npy")) << "the file behind the link";
+}
+
+TEST_F(RenderTest, TheInputIsNoOutput) {
+  const std::string pose = read_file(folder_.path() / "camera_pose.csv");
+  expect_refused(render({"--links", folder_.path() / "." / "camera_pose.csv"}), "--pose");
+  EXPECT_EQ(read_file(folder_.path() / "camera_pose.csv"), pose);
 }
 
 class InspectTest : public RenderTest {
