@@ -58,6 +58,16 @@ Columns read_header(const std::vector<std::string_view>& cells, const Robot& rob
   return columns;
 }
 
+/// A stamp before the clock's start shows that the column is something else.
+void check_stamp(const Columns& columns, const std::vector<std::string_view>& cells,
+                 const std::string& place) {
+  if (!columns.has_stamp || cells.size() < 2) return;
+  const auto stamp = parse_number<std::int64_t>(cells[1]);
+  if (stamp && *stamp < 0)
+    throw InputError(place + "stamp " + std::string(cells[1]) +
+                     " is negative; nanoseconds from 0 are wanted");
+}
+
 // Fills stamp and positions from the cells; answers what is wrong with them, or nothing.
 std::string read_values(const Columns& columns, const std::vector<std::string_view>& cells,
                         JointRow& row) {
@@ -106,6 +116,7 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     if (!is_new)
       throw InputError(place(lines.line()) + "frame " + std::to_string(row.index) +
                        " is there already, in line " + std::to_string(first->second));
+    check_stamp(columns, lines.cells(), place(lines.line()));
     row.positions.resize(robot.variables().size());
     const std::string fault = read_values(columns, lines.cells(), row);
     if (!fault.empty()) {

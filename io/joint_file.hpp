@@ -13,17 +13,18 @@ namespace penumbra::io {
 
 /// One frame's row of a joint file.
 struct JointRow {
-  std::int64_t index = 0;             ///< the frame's number; at least 0
-  std::optional<std::int64_t> stamp;  ///< nanoseconds; not set where the file has no such column
-  std::vector<double> positions;      ///< order of Robot::variables(); empty if the row is at fault
-  std::string fault;  ///< why the row is of no use, with file and line; empty if it is
+  std::int64_t index = 0;  ///< the frame's number; at least 0
+  std::optional<std::int64_t>
+      stamp;  ///< nanoseconds, at least 0; not set where the file has no such column
+  std::vector<double> positions;  ///< order of Robot::variables(); empty if the row is at fault
+  std::string fault;              ///< why the row is of no use, with file and line; empty if it is
 };
 
 /// Reads a joint file: a header "frame,[stamp,]NAME,..." with every variable of the robot once, in
 /// any order, then one row per frame, in the file's order. Columns of mimicking joints are passed
 /// over. A bad or empty cell makes its row faulty. Throws InputError that names file and line for
 /// what makes the file as a whole unsure: no rows, unknown, doubled or missing names, a frame
-/// number that is none or is there twice.
+/// number that is none or is there twice, a negative stamp.
 [[nodiscard]] std::vector<JointRow> read_joint_file(const std::filesystem::path& file,
                                                     const Robot& robot);
 

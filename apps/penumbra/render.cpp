@@ -113,8 +113,8 @@ int execute(const RenderArguments& arguments) {
   const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
   const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
   write_images(arguments, first);
-  SequenceNotes doubts;
-  doubts.add(first);
+  SequenceNotes doubts(pipeline.robot());
+  doubts.add(first, positions);
   tell_notes(doubts.lines());
   for (const std::string& line : doubts.lines()) notes.push_back(line);
 

@@ -203,7 +203,7 @@ int execute(const RunArguments& arguments) {
        settings_of(arguments, recording, pipeline), pipeline.robot().links(),
        pipeline.missing_links(), notes});
   Statistics statistics;
-  SequenceNotes doubts;
+  SequenceNotes doubts(pipeline.robot());
   ColorFaults color;
   {
     Progress progress(selected.size());
@@ -212,7 +212,7 @@ int execute(const RunArguments& arguments) {
       reader.read(i, arguments.saves.overlay, data);
       const FrameReport& report = judge(pipeline, frame_of(data), statistics);
       statistics.add(report);
-      doubts.add(report);
+      doubts.add(report, data.positions);
       color.add(data.color_message);
       writer.add(report);
       output.save(report, data);

@@ -1,12 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include <penumbra/pipeline/sequence_notes.hpp>
 
 namespace penumbra {
+namespace {
 
-void SequenceNotes::add(const FrameReport& report) {
-  if (!report.pixels.robot) return;
-  ++posed_frames_;
-  robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
+bool is_beyond(const Joint& joint, std::span<const double> positions) {
+  // A <limit> without lower and upper has 0 for both, as the format says, and means no range.
+  if (!joint.variable || !joint.lower || !joint.upper || *joint.lower == *joint.upper) return false;
+  const double slack = joint.type == JointType::prismatic ? SequenceNotes::prismatic_slack
+                                                          : SequenceNotes::revolute_slack;
+  const double position = joint.multiplier * positions[*joint.variable] + joint.offset;
+  return position < *joint.lower - slack || position > *joint.upper + slack;
+}
+
+std::string counted(std::size_t n, const std::string& thing) {
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+SequenceNotes::SequenceNotes(const Robot& robot)
+    : robot_(robot), frames_beyond_(robot.joints().size()) {}
+
+void SequenceNotes::add(const FrameReport& report, std::span<const double> positions) {
+  if (report.pixels.robot) {
+    ++posed_frames_;
+    robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
+  }
+  add_stamp(report);
+  add_positions(positions);
+}
+
+void SequenceNotes::add_stamp(const FrameReport& report) {
+  if (!report.stamp) return;
+  if (last_stamp_ && *report.stamp <= *last_stamp_) {
+    if (!first_late_) first_late_ = {report.index, *report.stamp, *last_stamp_};
+    ++late_stamps_;
+  }
+  last_stamp_ = report.stamp;
+}
+
+void SequenceNotes::add_positions(std::span<const double> positions) {
+  if (positions.size() != robot_.variables().size()) return;
+  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
+    if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
 }
 
 std::vector<std::string> SequenceNotes::lines() const {
@@ -16,7 +55,26 @@ std::vector<std::string> SequenceNotes::lines() const {
                     (posed_frames_ == 1 ? "not in the image" : "in no frame") +
                     ": is the camera's pose that of the camera in its parent link's frame (not "
                     "the inverse), in metres?");
+  if (late_stamps_ > 0) lines.push_back(stamp_line());
+  if (std::string line = limit_line(); !line.empty()) lines.push_back(std::move(line));
   return lines;
+}
+
+std::string SequenceNotes::stamp_line() const {
+  return counted(late_stamps_, "stamp") + " not after the frame's before, first in frame " +
+         std::to_string(first_late_->index) + " (" + std::to_string(first_late_->stamp) +
+         " ns after " + std::to_string(first_late_->before) +
+         " ns): are frames doubled or out of order?";
+}
+
+std::string SequenceNotes::limit_line() const {
+  std::string line;
+  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
+    if (frames_beyond_[i] > 0)
+      line += (line.empty() ? "joint '" : ", joint '") + robot_.joints()[i].name +
+              "' beyond its limits in " + counted(frames_beyond_[i], "frame");
+  if (!line.empty()) line += ": are the positions in radians and metres?";
+  return line;
 }
 
 }  // namespace penumbra

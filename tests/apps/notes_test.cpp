@@ -70,5 +70,16 @@ TEST_F(NotesTest, ARobotThatIsNeverInView) {
   expect_note_of_run("the robot is in no frame");
 }
 
+TEST_F(NotesTest, StampsThatDoNotRise) {
+  write_file(path("joint_states.csv"), "frame,stamp,slide\n0,7,0.0\n1,7,0.05\n2,6,0.1\n");
+  expect_note_of_run("2 stamps not after the frame's before, first in frame 1");
+}
+
+TEST_F(NotesTest, JointsBeyondTheirLimits) {
+  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,1.5\n2,2.5\n");
+  expect_note_of_run("joint 'slide' beyond its limits in 2 frames");
+  expect_note_of_render({"--joint", "slide=1.5"}, "joint 'slide' beyond its limits in 1 frame");
+}
+
 }  // namespace
 }  // namespace penumbra::test

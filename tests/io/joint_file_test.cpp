@@ -32,10 +32,10 @@ class JointFile : public testing::Test {
 
 TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
   const auto rows =
-      read("frame,stamp,elbow,finger_joint,shoulder\n7,-5,0.25,9,1.5\n000003,6,-0.5,,+2\n");
+      read("frame,stamp,elbow,finger_joint,shoulder\n7,5,0.25,9,1.5\n000003,6,-0.5,,+2\n");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].index, 7);
-  EXPECT_EQ(rows[0].stamp, -5);
+  EXPECT_EQ(rows[0].stamp, 5);
   EXPECT_EQ(rows[0].fault, "");
   EXPECT_EQ(rows[0].positions[variable("elbow")], 0.25);
   EXPECT_EQ(rows[0].positions[variable("shoulder")], 1.5);
@@ -104,6 +104,7 @@ TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
              ":1: column 'shoulder' is there twice");
   EXPECT_HAS(fault("frame,shoulder,elbow\n0,1,2\n1,1,2\n0,1,2\n"),
              ":4: frame 0 is there already, in line 2");
+  EXPECT_HAS(fault("frame,stamp,shoulder,elbow\n0,0,1,2\n1,-5,1,2\n"), ":3: stamp -5 is negative");
   for (const std::string number : {"-1", "1.0", "x", "", "9223372036854775808"})
     EXPECT_HAS(fault("frame,shoulder,elbow\n" + number + ",1,2\n"),
                ":2: '" + number + "' is no frame number");

@@ -10,13 +10,62 @@
 namespace penumbra::test {
 namespace {
 
+using Lines = std::vector<std::string>;
+
+constexpr const char* urdf = R"(<robot name="limits">
+  <link name="base"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+  <link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="e"/>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/>
+    <limit lower="-1.57" upper="1.57" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.04" effort="1" velocity="1"/></joint>
+  <joint name="follower" type="prismatic"><parent link="base"/><child link="c"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.1" effort="1" velocity="1"/>
+    <mimic joint="slide" multiplier="4" offset="-0.01"/></joint>
+  <joint name="wheel" type="continuous"><parent link="base"/><child link="d"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="bare" type="revolute"><parent link="base"/><child link="e"/><axis xyz="0 0 1"/>
+    <limit effort="1" velocity="1"/></joint>
+</robot>)";
+
+Robot robot() { return Robot::parse(urdf, ".", {.geometry = Geometry::visual}); }
+
 /// The notes of frames that show so many pixels of the robot; nothing: pose unknown.
-std::vector<std::string> notes_of(const std::vector<std::optional<std::size_t>>& frames) {
-  SequenceNotes notes;
-  for (const auto& robot : frames) {
+Lines notes_of(const std::vector<std::optional<std::size_t>>& frames) {
+  const Robot any = robot();
+  SequenceNotes notes(any);
+  for (const auto& pixels : frames) {
     FrameReport report;
-    report.pixels.robot = robot;
-    notes.add(report);
+    report.pixels.robot = pixels;
+    notes.add(report, {});
+  }
+  return notes.lines();
+}
+
+/// The notes of frames with such stamps, the first of index 10.
+Lines notes_of_stamps(const std::vector<std::optional<std::int64_t>>& stamps) {
+  const Robot any = robot();
+  SequenceNotes notes(any);
+  FrameReport report;
+  report.index = 10;
+  for (const auto& stamp : stamps) {
+    report.stamp = stamp;
+    notes.add(report, {});
+    ++report.index;
+  }
+  return notes.lines();
+}
+
+/// The notes of frames with such positions of turn, slide, wheel and bare.
+Lines notes_of_positions(const std::vector<std::vector<double>>& frames) {
+  const Robot any = robot();
+  SequenceNotes notes(any);
+  for (const auto& given : frames) {
+    std::vector<double> positions(given.size());
+    const char* const names[] = {"turn", "slide", "wheel", "bare"};
+    for (std::size_t i = 0; i < given.size(); ++i)
+      positions[any.find_variable(names[i]).value()] = given[i];
+    notes.add({}, positions);
   }
   return notes.lines();
 }
@@ -29,10 +78,39 @@ TEST(SequenceNotes, ARobotInNoFrameIsTold) {
 }
 
 TEST(SequenceNotes, ARobotInOneFrameOrOfUnknownPoseIsNot) {
-  EXPECT_EQ(notes_of({0, 1, 0}), std::vector<std::string>{});
-  EXPECT_EQ(notes_of({std::nullopt, std::nullopt}), std::vector<std::string>{})
+  EXPECT_EQ(notes_of({0, 1, 0}), Lines{});
+  EXPECT_EQ(notes_of({std::nullopt, std::nullopt}), Lines{})
       << "what is missing there is said elsewhere";
-  EXPECT_EQ(notes_of({}), std::vector<std::string>{});
+  EXPECT_EQ(notes_of({}), Lines{});
+}
+
+TEST(SequenceNotes, StampsThatDoNotRiseAreTold) {
+  EXPECT_EQ(notes_of_stamps({5, 6, 7}), Lines{});
+  EXPECT_EQ(notes_of_stamps({std::nullopt, std::nullopt}), Lines{});
+  EXPECT_EQ(notes_of_stamps({5, 5, 6}),
+            Lines{"1 stamp not after the frame's before, first in frame 11 (5 ns after 5 ns): are "
+                  "frames doubled or out of order?"});
+  EXPECT_EQ(notes_of_stamps({5, 9, std::nullopt, 8, 7}),
+            Lines{"2 stamps not after the frame's before, first in frame 13 (8 ns after 9 ns): are "
+                  "frames doubled or out of order?"})
+      << "a frame without a stamp is passed over";
+}
+
+TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {
+  EXPECT_EQ(notes_of_positions({{1.57, 0.025, 1000.0, 3.0}, {-1.579, 0.0025, -1000.0, 0.0}, {}}),
+            Lines{})
+      << "rounded limits, joints without any, frames without positions";
+  EXPECT_EQ(notes_of_positions({{90.0, 0.01, 0.0, 0.0}, {1.6, 0.01, 0.0, 0.0}, {0, 0.01, 0, 0}}),
+            Lines{"joint 'turn' beyond its limits in 2 frames: are the positions in radians and "
+                  "metres?"});
+  EXPECT_EQ(notes_of_positions({{0.0, 0.03, 0.0, 0.0}}),
+            Lines{"joint 'follower' beyond its limits in 1 frame: are the positions in radians and "
+                  "metres?"})
+      << "4 x 0.03 - 0.01 = 0.11";
+  EXPECT_EQ(notes_of_positions({{-1.59, 0.042, 0.0, 0.0}}),
+            Lines{"joint 'turn' beyond its limits in 1 frame, joint 'slide' beyond its limits in 1 "
+                  "frame, joint 'follower' beyond its limits in 1 frame: are the positions in "
+                  "radians and metres?"});
 }
 
 }  // namespace
