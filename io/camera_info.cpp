@@ -32,22 +32,6 @@ auto blamed_on(const YamlNode& node, F&& f) {
   }
 }
 
-/// The text up to the second document's mark.
-std::string first_document(const std::string& text) {
-  bool content = false;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line(text.data() + begin, end - begin);
-    const bool mark = (line.starts_with("---") || line.starts_with("...")) &&
-                      (line.size() == 3 || line[3] == ' ' || line[3] == '\r');
-    if (mark && content) return text.substr(0, begin);
-    content = content || (!mark && line.find_first_not_of(" \t\r") != std::string_view::npos &&
-                          !line.starts_with('#') && !line.starts_with('%'));
-    begin = end + 1;
-  }
-  return text;
-}
-
 /// The value of one of two spellings of a key, which must not both stand there.
 const YamlNode* find_either(const YamlNode& map, std::string_view key, std::string_view other) {
   const YamlNode* first = map.find(key);
@@ -243,17 +227,34 @@ std::string frame_id(const YamlNode& root) {
   return own != nullptr ? own->text_or_empty() : std::string();
 }
 
-}  // namespace
-
-Camera parse_camera_info(const std::string& text, const std::filesystem::path& file,
-                         bool rectified) {
-  const YamlNode root = YamlNode::parse(first_document(text), file);
+Camera camera_of(const YamlNode& root, bool rectified) {
   const CameraInfo info(root);
   const Intrinsics full = rectified ? rectified_intrinsics(info) : raw_intrinsics(info);
   return {.intrinsics = binned(root, windowed(info, full, rectified)),
           .distortion = rectified ? Distortion() : raw_distortion(info),
           .range = {},
           .frame_id = frame_id(root)};
+}
+
+bool is_same(const Camera& a, const Camera& b) {
+  return a.intrinsics == b.intrinsics && a.distortion == b.distortion && a.frame_id == b.frame_id;
+}
+
+}  // namespace
+
+Camera parse_camera_info(const std::string& text, const std::filesystem::path& file,
+                         bool rectified) {
+  std::vector<YamlNode> documents = YamlNode::parse_all(text, file);
+  // ros2 topic echo ends every message with the mark of a next document.
+  while (documents.size() > 1 && documents.back().is_null()) documents.pop_back();
+  Camera camera = camera_of(documents.front(), rectified);
+  for (std::size_t i = 1; i < documents.size(); ++i)
+    if (!is_same(camera, camera_of(documents[i], rectified)))
+      documents[i].fail("document " + std::to_string(i + 1) + " of " +
+                        std::to_string(documents.size()) +
+                        " (---) is another camera than the first; keep the one that the images "
+                        "were taken with");
+  return camera;
 }
 
 Camera read_camera_info(const std::filesystem::path& file, bool rectified) {

@@ -9,8 +9,8 @@
 namespace penumbra::io {
 
 /// Reads a ROS camera_info YAML file: a dump of sensor_msgs/CameraInfo (keys k, d, r, p or K, D, R,
-/// P; of several documents the first) or the file that camera_calibration writes (camera_matrix,
-/// distortion_coefficients, ...).
+/// P; several documents must all be of the same camera) or the file that camera_calibration writes
+/// (camera_matrix, distortion_coefficients, ...).
 ///
 /// `rectified`: the images are free of distortion already; then p is used and no distortion, and r
 /// must be the identity. Otherwise k and d are used. binning and roi are applied: the camera is

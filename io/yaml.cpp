@@ -41,7 +41,10 @@ class YamlBuilder : public YAML::EventHandler {
 
   YamlNode& root() { return root_; }
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  /// Letters of the text before the document.
+  [[nodiscard]] int start() const { return start_.pos; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override { start_ = mark; }
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
@@ -123,6 +126,7 @@ class YamlBuilder : public YAML::EventHandler {
   std::vector<YamlNode*> open_;
   std::optional<std::string> key_;
   int key_line_ = 0;
+  YAML::Mark start_;
 };
 
 YamlNode YamlNode::read(const std::filesystem::path& file) {
@@ -130,18 +134,31 @@ YamlNode YamlNode::read(const std::filesystem::path& file) {
 }
 
 YamlNode YamlNode::parse(const std::string& text, const std::filesystem::path& file) {
-  YamlBuilder builder(file);
+  std::vector<YamlNode> documents = parse_all(text, file);
+  if (documents.size() > 1) documents[1].fail("has more than one document (---)");
+  return std::move(documents.front());
+}
+
+std::vector<YamlNode> YamlNode::parse_all(const std::string& text,
+                                          const std::filesystem::path& file) {
+  std::vector<YamlNode> documents;
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) builder.root().fail("is empty");
-    YamlBuilder second(file);
-    if (parser.HandleNextDocument(second)) second.root().fail("has more than one document (---)");
+    for (int last = -1;;) {
+      YamlBuilder builder(file);
+      if (!parser.HandleNextDocument(builder)) break;
+      // A stray closing bracket is no document, and the parser does not step over it.
+      if (builder.start() <= last) builder.root().fail("is not YAML: a mark that closes nothing");
+      last = builder.start();
+      documents.push_back(std::move(builder.root()));
+    }
+    if (documents.empty()) YamlBuilder(file).root().fail("is empty");
   } catch (const YAML::Exception& fault) {
     throw InputError(file.string() + ":" + std::to_string(fault.mark.line + 1) +
                      ": is not YAML: " + fault.msg);
   }
-  return std::move(builder.root());
+  return documents;
 }
 
 const YamlNode* YamlNode::find(std::string_view key) const {

@@ -23,7 +23,12 @@ class YamlNode {
   /// The same from text; `file` is for messages.
   [[nodiscard]] static YamlNode parse(const std::string& text, const std::filesystem::path& file);
 
+  /// Every document of a text, in order, at least one; one of nothing but its mark (---) is null.
+  [[nodiscard]] static std::vector<YamlNode> parse_all(const std::string& text,
+                                                       const std::filesystem::path& file);
+
   [[nodiscard]] const std::string& key() const { return key_; }  ///< in its map; else empty
+  [[nodiscard]] bool is_null() const { return kind_ == Kind::null; }
   [[nodiscard]] bool is_map() const { return kind_ == Kind::map; }
   [[nodiscard]] bool is_list() const { return kind_ == Kind::list; }
   [[nodiscard]] bool is_scalar() const { return kind_ == Kind::scalar; }

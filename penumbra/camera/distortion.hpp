@@ -40,6 +40,8 @@ class Distortion {
   /// not finite.
   Distortion(std::string_view name, std::span<const double> coefficients);
 
+  bool operator==(const Distortion&) const = default;
+
   [[nodiscard]] DistortionModel model() const { return model_; }
   [[nodiscard]] bool is_none() const { return model_ == DistortionModel::none; }
 

@@ -2,8 +2,10 @@
 #include "../support/data.hpp"
 #include "../support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -109,14 +111,6 @@ TEST(CameraInfo, ReadsUpperCaseKeysOfRos1) {
   EXPECT_EQ(parse(text, true).intrinsics, rectified);
 }
 
-TEST(CameraInfo, ReadsTheFirstOfSeveralDocuments) {
-  const std::string other = with(message, "width: 640", "width: 320");
-  EXPECT_EQ(parse(message + other).intrinsics, raw);
-  EXPECT_EQ(parse("---\n" + message + other).intrinsics, raw);
-  EXPECT_EQ(parse("# a comment\n---\n" + message + "- not : [ yaml").intrinsics, raw);
-  EXPECT_EQ(parse("%YAML 1.2\n---\n" + message).intrinsics, raw);
-}
-
 TEST(CameraInfo, FrameIdMayStandOnTopOrBeEmpty) {
   const std::string no_header = message.substr(message.find("height"));
   EXPECT_EQ(parse(no_header).frame_id, "");
@@ -171,6 +165,27 @@ std::string error_of(const std::string& text, bool is_rectified = false) {
 
 testing::AssertionResult has(const std::string& text, const std::string& part) {
   return testing::AssertionResult(text.find(part) != std::string::npos) << text;
+}
+
+TEST(CameraInfo, SeveralDocumentsMustBeOfTheSameCamera) {
+  EXPECT_EQ(parse("%YAML 1.2\n---\n" + message).intrinsics, raw);
+  const std::string later = with(message, "sec: 12", "sec: 13");
+  EXPECT_EQ(parse("---\n" + message + later + message).intrinsics, raw);
+  EXPECT_EQ(parse("# a comment\n---\n" + message + "---\n").intrinsics, raw);
+  const std::size_t lines =
+      static_cast<std::size_t>(std::count(message.begin(), message.end(), '\n'));
+  for (const auto& [from, to] : {std::pair("width: 640", "width: 320"),
+                                 {"- -0.3", "- -0.2"},
+                                 {"k: [500.5", "k: [500.6"},
+                                 {"binning_y: 0", "binning_y: 2"},
+                                 {"frame_id: camera", "frame_id: other"}}) {
+    const std::string error = error_of(message + later + with(message, from, to));
+    EXPECT_TRUE(has(error, "cam.yaml:" + std::to_string(2 * lines + 1) + ": document 3 of 3"));
+  }
+  EXPECT_TRUE(has(error_of(message + "- not : [ yaml"), "is not YAML"));
+  EXPECT_TRUE(has(error_of(message + "width: 640\n"), "cam.yaml:27: key 'k' is missing"));
+  EXPECT_TRUE(has(error_of(message + "---\n" + message), "keys with values"))
+      << "an empty document among others";
 }
 
 TEST(CameraInfo, MissingKeysAreNamed) {

@@ -75,12 +75,26 @@ TEST(Yaml, ErrorsNameFileLineAndKey) {
             "f.yaml:2: a.b: is 'text'; keys with values are wanted");
 }
 
+TEST(Yaml, ReadsEveryDocument) {
+  const auto documents = YamlNode::parse_all("a: 1\n---\nb: 2\n---\n", "f.yaml");
+  ASSERT_EQ(documents.size(), 3U);
+  EXPECT_EQ(documents[0].at("a").integer(), 1);
+  EXPECT_EQ(documents[1].at("b").integer(), 2);
+  EXPECT_TRUE(documents[2].is_null());
+  EXPECT_EQ(input_error([&] { static_cast<void>(documents[1].at("b").boolean()); }),
+            "f.yaml:3: b: is '2'; true or false is wanted");
+  EXPECT_HAS(input_error([] { static_cast<void>(YamlNode::parse_all("", "f.yaml")); }), "is empty");
+}
+
 TEST(Yaml, RefusesWhatItCannotBeSureOf) {
   EXPECT_EQ(fault("a: 1\nb: 2\na: 3\n"), "f.yaml:3: key 'a' is there already, in line 1; keep one");
   EXPECT_HAS(fault("a: &x 1\nb: *x\n"), "f.yaml:2: aliases (*name) are not read");
   EXPECT_HAS(fault("a: 1\n---\nb: 1\n"), "more than one document");
   EXPECT_HAS(fault(""), "is empty");
   EXPECT_HAS(fault("# only a comment\n"), "is empty");
+  for (const char* stray : {"]", "}", "a: 1\n]\n", "a: 1\n---\n}\n", "- 1\n, 2\n"})
+    EXPECT_HAS(input_error([&] { static_cast<void>(YamlNode::parse_all(stray, "f.yaml")); }),
+               "is not YAML");
   EXPECT_HAS(fault("a: [1, 2\nb: 3\n"), "f.yaml:");
   EXPECT_HAS(fault("a: b: c\n"), "is not YAML");
   EXPECT_HAS(fault("? [1, 2]\n: 3\n"), "a key must be a plain text");
