@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,9 @@ namespace penumbra::detail {
 
 /// The text in quotes, on one line and cut to a length that a message can hold.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// Where the text stops to be UTF-8 (RFC 3629); npos if all of it is.
+[[nodiscard]] std::size_t find_not_utf8(std::string_view text);
 
 /// A number printed without trailing zeros.
 [[nodiscard]] std::string printed(double number);

@@ -245,6 +245,7 @@ void refuse_xacro(const XmlElement& xml, const std::string& file) {
 
 Urdf read_urdf(std::string_view xml, const std::string& file) {
   const XmlElement root = read_xml(xml, file);
+  require_utf8(root, file);
   const UrdfNode node(root, file, "");
   if (root.name != "robot")
     node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>");

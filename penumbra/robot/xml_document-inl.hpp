@@ -27,4 +27,8 @@ struct XmlElement {
 /// starts with `file` (and the line).
 [[nodiscard]] XmlElement read_xml(std::string_view xml, const std::string& file);
 
+/// Throws InputError with file and line for a name, value or text in the element that is no UTF-8:
+/// it could not be written to a report as it is. Comments may hold what they like.
+void require_utf8(const XmlElement& element, const std::string& file);
+
 }  // namespace penumbra::detail

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include <tinyxml2.h>
@@ -86,6 +88,16 @@ void check_prolog(std::string_view xml, const std::string& file) {
            "entities");
 }
 
+void require_utf8(std::string_view text, const std::string& what, int line,
+                  const std::string& file) {
+  const std::size_t at = find_not_utf8(text);
+  if (at == std::string_view::npos) return;
+  std::array<char, 8> byte{};
+  std::snprintf(byte.data(), byte.size(), "0x%02X", static_cast<unsigned char>(text[at]));
+  fail(file, line,
+       what + " is not text in UTF-8 (byte " + byte.data() + "); save the file as UTF-8");
+}
+
 std::string reason_of(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
@@ -111,6 +123,17 @@ const std::string* XmlElement::attribute(std::string_view key) const {
   for (const auto& a : attributes)
     if (a.name == key) return &a.value;
   return nullptr;
+}
+
+void require_utf8(const XmlElement& element, const std::string& file) {
+  require_utf8(element.name, "an element's name", element.line, file);
+  const std::string of_element = " of <" + element.name + ">";
+  for (const XmlAttribute& a : element.attributes) {
+    require_utf8(a.name, "an attribute's name" + of_element, element.line, file);
+    require_utf8(a.value, "attribute " + a.name + of_element, element.line, file);
+  }
+  require_utf8(element.text, "the text" + of_element, element.line, file);
+  for (const XmlElement& child : element.children) require_utf8(child, file);
 }
 
 XmlElement read_xml(std::string_view xml, const std::string& file) {

@@ -48,6 +48,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadUrdf{"empty", "", {"is empty"}}, BadUrdf{"blank", " \n\t ", {"is empty"}},
         BadUrdf{"not_xml", "solid cube", {"is not XML"}},
         BadUrdf{"binary", std::string("<robot\0 name='r'/>", 18), {"zero bytes"}},
+        BadUrdf{"link_name_not_utf8",
+                "<robot name=\"r\">\n<link name=\"caf\xE9\"/></robot>",
+                {":2: attribute name of <link> is not text in UTF-8 (byte 0xE9)", "save the file"}},
+        BadUrdf{"element_not_utf8",
+                "<robot name=\"r\">\n<l\xE9nk name=\"a\"/></robot>",
+                {":2: ", "UTF-8"}},
+        BadUrdf{"overlong_utf8",
+                "<robot name=\"r\">\n<link name=\"\xE0\x80\xAF\"/></robot>",
+                {":2: ", "UTF-8"}},
+        BadUrdf{"surrogate_utf8",
+                "<robot name=\"r\">\n<link name=\"\xED\xA0\x80\"/></robot>",
+                {":2: ", "UTF-8"}},
+        BadUrdf{"cut_utf8",
+                "<robot name=\"r\">\n<link name=\"a\xF0\x9F\xA4\"/></robot>",
+                {":2: ", "UTF-8"}},
+        BadUrdf{"beyond_unicode",
+                "<robot name=\"r\">\n<link name=\"\xF4\x90\x80\x80\"/></robot>",
+                {":2: ", "UTF-8"}},
         BadUrdf{"unclosed", "<robot name=\"r\">\n<link name=\"a\">", {"not well-formed"}},
         BadUrdf{
             "two_documents", "<robot name=\"r\"/>\n<robot name=\"s\"/>", {":2:", "second root"}},
@@ -231,6 +249,13 @@ INSTANTIATE_TEST_SUITE_P(
                                                       "<origin xyz=\"1e7 0 0\"/>"))),
                 {"1e6 m"}}),
     name_of_case);
+
+TEST(UrdfFile, NamesMayBeOfAnyLanguageAndCommentsOfAnyBytes) {
+  const std::string names[] = {"caf\u00e9", "\u0800",     "\u8155",
+                               "\ufffd",    "\U0001F916", "\U0010FFFF"};
+  for (const std::string& name : names)
+    EXPECT_EQ(parse("<!-- \xE9 -->" + robot_xml(link_xml(name))).links()[0], name);
+}
 
 TEST(UrdfFile, MissingIsSaid) {
   EXPECT_TRUE(holds(message_of([] { (void)Robot::load("/nowhere/x.urdf"); }),
