@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -43,6 +44,17 @@ std::vector<double> positions_of(const Robot& robot, const RenderArguments& argu
   return positions;
 }
 
+/// Which joints stand at rest while others were given; a pose at rest altogether is meant so.
+std::vector<std::string> rest_notes(const Robot& robot, const RenderArguments& arguments) {
+  const auto& joints = arguments.joints;
+  std::string names;
+  for (const std::string& name : robot.variables())
+    if (std::none_of(joints.begin(), joints.end(), [&](const auto& j) { return j.first == name; }))
+      names += (names.empty() ? "" : ", ") + name;
+  if (joints.empty() || names.empty()) return {};
+  return {"no --joint for " + names + ": drawn at rest (0, or no rotation)"};
+}
+
 Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Camera& camera) {
   PipelineConfig config;
   config.backend = arguments.renderer.backend;
@@ -72,6 +84,10 @@ void remove_former_files(const RenderArguments& arguments) {
   if (arguments.links) check_own("--links", *arguments.links, others);
   remove_former_file("-o", arguments.output);
   if (arguments.links) remove_former_file("--links", *arguments.links);
+}
+
+void append(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+  notes.insert(notes.end(), more.begin(), more.end());
 }
 
 Image<float> copy(ImageView<const float> from) {
@@ -109,14 +125,16 @@ int execute(const RenderArguments& arguments) {
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
   tell_choice(pipeline.renderer_choice());
   std::vector<std::string> notes = notes_of(pipeline);
+  const std::size_t told = notes.size();
+  append(notes, rest_notes(pipeline.robot(), arguments));
 
   const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
   const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
   write_images(arguments, first);
   SequenceNotes doubts(pipeline.robot());
   doubts.add(first, positions);
-  tell_notes(doubts.lines());
-  for (const std::string& line : doubts.lines()) notes.push_back(line);
+  append(notes, doubts.lines());
+  tell_notes(std::span(notes).subspan(told));
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),
                           .robot_pixels = first.pixels.robot.value_or(0),

@@ -81,5 +81,17 @@ TEST_F(NotesTest, JointsBeyondTheirLimits) {
   expect_note_of_render({"--joint", "slide=1.5"}, "joint 'slide' beyond its limits in 1 frame");
 }
 
+TEST_F(NotesTest, JointsThatRenderWasNotGiven) {
+  edit_file(path("tiny.urdf"), "</robot>",
+            "<link name=\"hand\"/><link name=\"tip\"/>"
+            "<joint name=\"wrist\" type=\"continuous\"><parent link=\"board\"/><child "
+            "link=\"hand\"/></joint><joint name=\"finger\" type=\"continuous\"><parent "
+            "link=\"hand\"/><child link=\"tip\"/></joint></robot>");
+  expect_note_of_render({"--joint", "slide=0.1"},
+                        "no --joint for wrist, finger: drawn at rest (0, or no rotation)");
+  expect_note_of_render({}, "");
+  expect_note_of_render({"--joint", "slide=0", "--joint", "wrist=0", "--joint", "finger=1"}, "");
+}
+
 }  // namespace
 }  // namespace penumbra::test
