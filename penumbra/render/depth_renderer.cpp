@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cassert>
 #include <stdexcept>
 #include <string>
@@ -10,6 +11,14 @@
 #include <penumbra/render/reference.hpp>
 
 namespace penumbra {
+namespace {
+
+std::string too_many(std::size_t given, std::string_view what, std::size_t most) {
+  return "the robot has " + std::to_string(given) + " " + std::string(what) +
+         "; the renderer takes " + std::to_string(most) + " at the most";
+}
+
+}  // namespace
 
 std::string_view to_string(Backend backend) {
   switch (backend) {
@@ -23,19 +32,24 @@ std::string_view to_string(Backend backend) {
   return "unknown";
 }
 
+std::size_t Body::triangle_count() const {
+  std::size_t count = 0;
+  for (const TriangleMesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
 DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
                              RendererInfo info, int max_pending)
     : intrinsics_(intrinsics),
       body_count_(bodies.size()),
       info_(std::move(info)),
       max_pending_(max_pending) {
-  if (bodies.size() > max_bodies) {
-    throw InputError("the robot has " + std::to_string(bodies.size()) +
-                     " links; the renderer takes " + std::to_string(max_bodies) + " at the most");
-  }
-  for (const Body& body : bodies) {
-    for (const TriangleMesh& mesh : body.meshes) triangle_count_ += mesh.triangles.size();
-  }
+  for (const Body& body : bodies) triangle_count_ += body.triangle_count();
+  const auto drawn = static_cast<std::size_t>(std::count_if(
+      bodies.begin(), bodies.end(), [](const Body& body) { return body.triangle_count() > 0; }));
+  if (drawn > max_drawn_bodies)
+    throw InputError(too_many(drawn, "links to draw", max_drawn_bodies));
+  if (bodies.size() > max_bodies) throw InputError(too_many(bodies.size(), "links", max_bodies));
 }
 
 VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {

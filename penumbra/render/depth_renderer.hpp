@@ -21,6 +21,8 @@ namespace penumbra {
 struct Body {
   std::string_view name;
   std::span<const TriangleMesh> meshes;  ///< in the body's frame; may be empty
+
+  [[nodiscard]] std::size_t triangle_count() const;
 };
 
 enum class Backend {
@@ -52,9 +54,11 @@ struct RendererInfo {
 class DepthRenderer {
  public:
   static constexpr double near_plane = 0.01;  ///< metres
-  /// The cpu backend keeps the body's index in the low bits of the depth: with n bodies depths are
-  /// rounded to 2^-(24 - bits of n) of themselves, 1 micrometre at 1 m for 12 bodies, 61 for 1023.
-  static constexpr std::size_t max_bodies = 1023;
+  /// Of those that have triangles. The cpu backend keeps a body's number in the low bits of the
+  /// depth: with n bodies depths are rounded to 2^-(24 - bits of n) of themselves, 1 micrometre at
+  /// 1 m for 12 bodies, 61 for 1023. Where there are more, only those that have triangles count.
+  static constexpr std::size_t max_drawn_bodies = 1023;
+  static constexpr std::size_t max_bodies = 65534;  ///< so that 16 bits hold their index + 1
 
   virtual ~DepthRenderer() = default;
 
@@ -97,10 +101,11 @@ class DepthRenderer {
   int pending_ = 0;
 };
 
-/// Makes a renderer. Throws InputError for more than max_bodies; of the cpu backend, for threads
-/// that are not within 1..max_threads or more than the machine gives, or an isa that is none of
-/// simd_target_names(); of gl, where this build, the machine or the chosen device cannot draw (what
-/// was found and what to install), or an image or mesh is larger than the device takes.
+/// Makes a renderer. Throws InputError for more than max_bodies or max_drawn_bodies; of the cpu
+/// backend, for threads that are not within 1..max_threads or more than the machine gives, or an
+/// isa that is none of simd_target_names(); of gl, where this build, the machine or the chosen
+/// device cannot draw (what was found and what to install), or an image or mesh is larger than the
+/// device takes.
 [[nodiscard]] std::unique_ptr<DepthRenderer> make_depth_renderer(
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});

@@ -142,18 +142,39 @@ TEST_P(Bodies, TwoHundredBodies) {
 
 TEST_P(Bodies, MostBodiesThatThereMayBe) {
   Scene scene;
-  for (std::size_t i = 0; i < DepthRenderer::max_bodies; ++i) {
+  for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
     const double u = static_cast<double>(i % 40) * 4.0;
     const std::size_t row = i / 40;
     const double v = static_cast<double>(row) * 4.0;
     scene.add(image_rectangle(camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
   }
   const Frame frame = render(camera, scene);
-  for (std::size_t i = 0; i < DepthRenderer::max_bodies; ++i) {
+  for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
     EXPECT_EQ(frame.links(4 * static_cast<int>(i % 40), 4 * static_cast<int>(i / 40)), i + 1);
   }
   scene.add(box({0.1F, 0.1F, 0.1F}));
   EXPECT_THROW(static_cast<void>(make(GetParam(), camera, scene.bodies())), InputError);
+}
+
+TEST_P(Bodies, BodiesOfNothingTakeNoNumbersFromOthers) {
+  Scene scene;
+  for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
+    scene.add(std::vector<TriangleMesh>{});
+    scene.add(image_rectangle(camera, 20.5, 20.5, 22.5, 22.5, 2.0));
+    scene.add(TriangleMesh{});
+  }
+  const auto renderer = make(GetParam(), camera, scene.bodies());
+  for (const std::size_t seen : {std::size_t{1}, std::size_t{1534}, scene.poses.size() - 2}) {
+    scene.poses.assign(scene.poses.size(), at(0, 0, -3));
+    scene.poses[seen].setIdentity();
+    const VirtualDepthView view = renderer->render(scene.poses);
+    expect_consistent(view, camera, scene.poses.size());
+    const Frame frame(view);
+    EXPECT_EQ(frame.covered(), 4U);
+    EXPECT_EQ(frame.links(21, 22), seen + 1);
+  }
+  scene.poses.assign(scene.poses.size(), at(0, 0, -3));
+  EXPECT_EQ(Frame(renderer->render(scene.poses)).covered(), 0U);
 }
 
 TEST_P(Bodies, NoBodyAndBodiesOfNothing) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,29 @@ using cpu::BodyFrame;
 using cpu::Canvas;
 using cpu::DrawItem;
 
+/// The bodies' numbers in the canvas's words, which are index + 1 unless there are more bodies than
+/// the words have room for: then only bodies with triangles have numbers.
+struct BodyNumbers {
+  explicit BodyNumbers(std::span<const Body> bodies) : largest(bodies.size()) {
+    if (bodies.size() <= DepthRenderer::max_drawn_bodies) {
+      of_body.resize(bodies.size());
+      std::iota(of_body.begin(), of_body.end(), 1);
+      return;
+    }
+    links.push_back(0);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const bool drawn = bodies[i].triangle_count() > 0;
+      of_body.push_back(drawn ? static_cast<std::int32_t>(links.size()) : 0);
+      if (drawn) links.push_back(static_cast<std::uint16_t>(i + 1));
+    }
+    largest = links.size() - 1;
+  }
+
+  std::size_t largest;
+  std::vector<std::int32_t> of_body;
+  std::vector<std::uint16_t> links;  // of a number: body index + 1; empty where that is the number
+};
+
 class CpuRenderer final : public DepthRenderer {
  public:
   CpuRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, int threads,
@@ -31,7 +56,8 @@ class CpuRenderer final : public DepthRenderer {
         scene_(bodies),
         view_(intrinsics),
         side_rule_(intrinsics),
-        packing_(bodies.size()),
+        numbers_(bodies),
+        packing_(numbers_.largest),
         touched_(intrinsics.width(), intrinsics.height()),
         holes_(scene_.holes.size()),
         items_(scene_.clusters.size()),
@@ -50,7 +76,7 @@ class CpuRenderer final : public DepthRenderer {
   void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) override {
     frames_.clear();
     for (const Eigen::Isometry3d& T : T_camera_body) {
-      frames_.emplace_back(T, intrinsics(), static_cast<std::int32_t>(frames_.size() + 1));
+      frames_.emplace_back(T, intrinsics(), numbers_.of_body[frames_.size()]);
     }
     cull();
     run<&CpuRenderer::draw>(item_count_);
@@ -116,6 +142,21 @@ class CpuRenderer final : public DepthRenderer {
     for (auto [begin, end] = take(most); begin < end; std::tie(begin, end) = take(most)) {
       for (std::size_t row = begin; row < end; ++row) {
         touched_.rows[row] = kernel_.resolve(canvases_, packing_, touched_.rows[row], row, output);
+        if (!numbers_.links.empty()) name_links(row);
+      }
+    }
+  }
+
+  /// Replaces the bodies' numbers in a row of tiles.
+  void name_links(std::size_t row) {
+    const auto width = static_cast<std::size_t>(touched_.tile_width);
+    for (std::uint64_t bits = touched_.rows[row]; bits != 0; bits &= bits - 1) {
+      const std::size_t u = static_cast<std::size_t>(std::countr_zero(bits)) * width;
+      for (std::size_t v = row * TileMask::tile_height; v < (row + 1) * TileMask::tile_height;
+           ++v) {
+        std::uint16_t* const links = &links_[v * stride_ + u];
+        std::transform(links, links + width, links,
+                       [this](std::uint16_t number) { return numbers_.links[number]; });
       }
     }
   }
@@ -124,6 +165,7 @@ class CpuRenderer final : public DepthRenderer {
   ClusteredScene scene_;
   cpu::View view_;
   SideRule side_rule_;
+  BodyNumbers numbers_;
   cpu::Packing packing_;
   TileMask touched_;
   std::vector<BodyFrame> frames_;

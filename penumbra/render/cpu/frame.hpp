@@ -73,7 +73,7 @@ struct BodyFrame {
   /// centre).
   std::array<float, 9> inverse_depth;
   float grazing;    // metres: faces whose plane passes the centre this closely need doubles
-  std::int32_t id;  // body index + 1
+  std::int32_t id;  // its number in packed words, 1 and more
 
   BodyFrame(const Eigen::Isometry3d& T, const Intrinsics& k, std::int32_t body_id);
 };
