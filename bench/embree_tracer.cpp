@@ -166,7 +166,8 @@ Outline EmbreeTracer::State::project(const Instance& instance,
 
 /// Adds the blocks that the outline's convex hull meets, and a pixel around it.
 void EmbreeTracer::State::add_columns(const Outline& outline) {
-  const double last_column = padded_width / block - 1;
+  const int blocks_per_row = padded_width / block;
+  const double last_column = blocks_per_row - 1;
   for (int row = 0; row < rows; ++row) {
     const auto columns = extent(outline, row * block - 1.0, row * block + block);
     if (columns.isEmpty()) continue;
@@ -185,16 +186,17 @@ void EmbreeTracer::State::trace(int block_row, int first, int last) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (RTCRayHit16& packet : packets) {
     for (int i = 0; i < lanes; ++i) {
-      packet.ray.dir_y[i] = y[static_cast<std::size_t>(block_row * block + i / block)];
+      const int v = block_row * block + i / block;
+      packet.ray.dir_y[i] = y[static_cast<std::size_t>(v)];
     }
   }
   for (int column = first; column <= last; column += stream) {
     const int count = std::min(stream, last + 1 - column);
     for (int n = 0; n < count; ++n) {
       RTCRayHit16& packet = packets[static_cast<std::size_t>(n)];
+      const int u = (column + n) * block;
       for (int line = 0; line < block; ++line) {
-        std::copy_n(&x[static_cast<std::size_t>((column + n) * block)], block,
-                    packet.ray.dir_x + line * block);
+        std::copy_n(&x[static_cast<std::size_t>(u)], block, packet.ray.dir_x + line * block);
       }
       std::fill_n(packet.ray.tfar, lanes, std::numeric_limits<float>::infinity());
       std::fill_n(packet.hit.geomID, lanes, RTC_INVALID_GEOMETRY_ID);

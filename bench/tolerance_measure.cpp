@@ -10,6 +10,7 @@ namespace {
 std::vector<Classifier> classifiers_of(const test::RealFrame& frame,
                                        const std::vector<NamedRule>& rules) {
   std::vector<Classifier> classifiers;
+  classifiers.reserve(rules.size());
   for (const NamedRule& named : rules)
     classifiers.emplace_back(frame.robot.width(), frame.robot.height(), named.rule);
   return classifiers;
@@ -70,6 +71,7 @@ std::vector<Seen> study_objects(std::vector<test::RealFrame>& frames,
     }
   }
   std::vector<Seen> seen;
+  seen.reserve(sums.size());
   for (const Sums& sum : sums)
     seen.push_back({percent(sum.core_front, core), percent(sum.band_front, band)});
   return seen;

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 namespace penumbra::test {

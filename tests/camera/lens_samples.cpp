@@ -59,7 +59,7 @@ Eigen::Vector2d random_point_inside(const Distortion& lens, double share, std::m
   for (double r = std::min(share * lens.max_radius(), steep);;) {
     r *= std::sqrt(unit(random));
     const double angle = 2 * std::numbers::pi * unit(random);
-    const Eigen::Vector2d p(r * std::cos(angle), r * std::sin(angle));
+    Eigen::Vector2d p(r * std::cos(angle), r * std::sin(angle));
     if (lens.distort(p).norm() <= widest_image) return p;
   }
 }
