@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/data.hpp"
+#include "../support/sanitized.hpp"
 #include "program.hpp"
 
 #include <cstdint>
@@ -21,16 +22,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;  // which takes memory and time of its own
-#else
-constexpr bool sanitized = false;
-#endif
-
 /// Runs the program by itself, with nothing between: the peak of its resident memory, MB.
 double peak_memory_mb(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), PENUMBRA_PROGRAM);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t quiet;

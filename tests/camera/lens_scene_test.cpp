@@ -3,6 +3,7 @@
 // against what is rendered in the pinhole image and mapped to the raw one.
 #include "../support/opengl.hpp"
 #include "../support/random.hpp"
+#include "../support/sanitized.hpp"
 #include "closed_form_scene.hpp"
 #include "lens_samples.hpp"
 
@@ -159,6 +160,7 @@ struct RawRender {
       poses.push_back(solid.T_camera_solid);
     }
     std::vector<Body> bodies;
+    bodies.reserve(meshes.size());
     for (const TriangleMesh& mesh : meshes) bodies.push_back({"solid", {&mesh, 1}});
     const auto renderer = make_depth_renderer(backend, maps.pinhole(), bodies);
     const VirtualDepthView pinhole = renderer->render(poses);
@@ -183,7 +185,7 @@ struct Tally {
 };
 
 void check_depth(const CastScene& robot, const RawRender& raw, Tally& tally) {
-  for (int v = 0; v < raw.depth.height(); ++v) {
+  for (int v = 0; v < raw.depth.height(); v += test::sample_stride) {
     for (int u = 0; u < raw.depth.width(); ++u) {
       const std::size_t link = raw.links(u, v);
       if (raw.maps.raw_to_pinhole()(u, v) == Rectification::no_pixel) {
@@ -229,7 +231,7 @@ void check_labels(const CastScene& robot, const RawRender& raw, const Image<floa
   Classifier classifier(raw.depth.width(), raw.depth.height(), rule);
   const LabelView view =
       classifier.classify({raw.depth.view(), raw.links.view(), &raw.touched}, measured.view());
-  for (int v = 0; v < raw.depth.height(); ++v) {
+  for (int v = 0; v < raw.depth.height(); v += test::sample_stride) {
     for (int u = 0; u < raw.depth.width(); ++u) {
       if (raw.maps.raw_to_pinhole()(u, v) == Rectification::no_pixel) continue;
       const auto label = static_cast<Label>(view.labels(u, v));

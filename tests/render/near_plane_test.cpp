@@ -2,6 +2,7 @@
 // What passes through, behind and around the camera.
 #include "random.hpp"
 #include "render_test.hpp"
+#include "sanitized.hpp"
 #include "shapes.hpp"
 
 #include <cmath>
@@ -48,7 +49,7 @@ TEST_P(NearPlane, NothingNearerThanTheNearPlane) {
 
 TEST_P(NearPlane, TriangleThroughTheCameraPlane) {
   std::mt19937_64 random = seeded_random(51);
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < samples(40); ++round) {
     Scene scene;
     scene.add(triangle_soup(random, 1, 1.0F), at(0, 0, 0.2));
     expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
@@ -69,7 +70,7 @@ TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
   std::mt19937_64 random = seeded_random(52);
   std::uniform_real_distribution<double> gap(0.0005, 0.02);
   std::normal_distribution<double> normal;
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < samples(30); ++round) {
     Scene scene;
     const double radius = 0.15;
     const double x = normal(random);
@@ -102,7 +103,7 @@ TEST_P(NearPlane, BodyWhollyBehindIsNotDrawn) {
 TEST_P(NearPlane, HugeTriangles) {
   std::mt19937_64 random = seeded_random(53);
   std::uniform_real_distribution<float> far(-1e4F, 1e4F);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < samples(30); ++round) {
     Scene scene;
     const auto corner = [&] {
       const float x = far(random);
@@ -124,7 +125,7 @@ TEST_P(NearPlane, HugeTriangles) {
 TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
   std::mt19937_64 random = seeded_random(54);
   Agreement total;
-  for (int round = 0; round < 25; ++round) {
+  for (int round = 0; round < samples(25); ++round) {
     Scene scene;
     scene.add(triangle_soup(random, 12, 1.5F), at(0, 0, 0.8));
     scene.add(triangle_soup(random, 4, 10.0F));

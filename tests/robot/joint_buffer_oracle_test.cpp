@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The joint buffer against a naive twin that keeps every state in a map.
 #include "../support/random.hpp"
+#include "../support/sanitized.hpp"
 #include "random_robot.hpp"
 #include "urdf_text.hpp"
 
@@ -207,7 +208,7 @@ class Fuzz {
 TEST(JointBufferOracle, AgreesOnRandomStates) {
   Random random = seeded_random(7);
   std::size_t answered = 0;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < samples(20); ++trial) {
     Fuzz fuzz(random);
     for (int step = 0; step < 120; ++step) {
       fuzz.insert_some();
@@ -216,7 +217,7 @@ TEST(JointBufferOracle, AgreesOnRandomStates) {
     }
     answered += fuzz.answered();
   }
-  EXPECT_GT(answered, 50u);  // else the test would see gaps only
+  EXPECT_GT(answered, static_cast<std::size_t>(samples(50)));  // else the test would see gaps only
 }
 
 }  // namespace

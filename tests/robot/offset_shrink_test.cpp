@@ -7,6 +7,7 @@
 #include <tests/robot/offset_oracle.hpp>
 #include <tests/robot/urdf_text.hpp>
 #include <tests/support/random.hpp>
+#include <tests/support/sanitized.hpp>
 
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/primitives.hpp>
@@ -37,7 +38,7 @@ void expect_depth(const TriangleMesh& mesh, const TriangleMesh& shrunk, double d
   auto random = test::seeded_random(41);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   double worst = 0.0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::samples(2000); ++i) {
     const auto [a, b, c] = test::corners(shrunk, random() % shrunk.triangles.size());
     const double u = std::sqrt(share(random));
     const double v = share(random);

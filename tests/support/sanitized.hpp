@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace penumbra::test {
+
+/// Whether this build watches memory or threads, which takes memory of its own and 20 times as
+/// long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+/// Sanitizers see what code does after a few samples; how exact its results are is for other builds
+/// to measure, with all samples.
+inline constexpr int sample_stride = sanitized ? 5 : 1;
+constexpr int samples(int all) { return all / sample_stride; }
+
+}  // namespace penumbra::test
