@@ -253,6 +253,17 @@ void check_renderer(const RendererArguments& renderer) {
                      " renderer uses no OpenGL; choose --renderer gl or auto");
 }
 
+/// Virtual depth and links stay on the device that labels.
+void check_gl_labels(const RunArguments& run) {
+  if (!run.gl_labels) return;
+  if (run.renderer.backend != Backend::gl)
+    throw InputError("--gl-labels: labels are made by OpenGL only with --renderer gl");
+  if (run.saves.vdi || run.saves.links)
+    throw InputError(
+        "--gl-labels: vdi and links stay on the OpenGL device; --save labels and "
+        "overlay, or leave --gl-labels out");
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_path(app, "INPUT", "a recording folder or its recording.yaml", "", run.input)->required();
@@ -278,6 +289,9 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.frames = to_range(text); });
   add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
              [&](const std::string& text) { run.saves = to_saves(text); });
+  app.add_flag(
+      "--gl-labels", run.gl_labels,
+      "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay");
   add_unbuilt(app);
 }
 
@@ -349,6 +363,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
   }
   check_renderer(run.renderer);
+  check_gl_labels(run);
   check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;

@@ -44,6 +44,7 @@ struct RunArguments {
   ImageSpace image = ImageSpace::raw;
   FrameRange frames;
   Saves saves;
+  bool gl_labels = false;  ///< PipelineConfig::labels_on_device
 };
 
 struct RenderArguments {

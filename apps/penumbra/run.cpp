@@ -69,6 +69,7 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
   PipelineConfig config = recording.pipeline_config();
   config.backend = arguments.renderer.backend;
   config.renderer = arguments.renderer.options;
+  config.labels_on_device = arguments.gl_labels;
   config.rule = rule_of(arguments, config.rule);
   config.image = arguments.image;
   return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);

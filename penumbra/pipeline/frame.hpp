@@ -93,7 +93,8 @@ struct FrameReport {
   PixelCounts pixels;
   StageTimes timing;
 
-  /// Of this frame; all views empty where the robot's pose is unknown.
+  /// Of this frame; all views empty where the robot's pose is unknown or labels are made on the
+  /// device (PipelineConfig::labels_on_device).
   VirtualDepthView virtual_depth;
 
   /// Label values; all `unknown` where the robot's pose is unknown.

@@ -8,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
+#include <penumbra/pipeline/gl/gl_labeller.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/link_poses-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -71,9 +72,22 @@ LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
 
 ChosenRenderer renderer_of(const PipelineConfig& config, const Intrinsics& intrinsics,
                            std::span<const Body> bodies) {
+  if (config.labels_on_device) return {};
   if (!config.backend) return make_fastest_renderer(intrinsics, bodies, config.renderer);
   return {{*config.backend, {}, {}},
           make_depth_renderer(*config.backend, intrinsics, bodies, config.renderer)};
+}
+
+std::unique_ptr<GlLabeller> labeller_of(const Camera& camera, const PipelineConfig& config,
+                                        std::span<const Body> bodies) {
+  if (!config.labels_on_device) return nullptr;
+  if (config.backend != Backend::gl) throw InputError("labels on the device need the renderer gl");
+  if (!camera.distortion.is_none())
+    throw InputError(
+        "labels on the device are of images without lens distortion: rectify them, or "
+        "label with the CPU");
+  return std::make_unique<GlLabeller>(camera.intrinsics, bodies, rule_of(camera, config),
+                                      config.renderer);
 }
 
 }  // namespace
@@ -83,7 +97,10 @@ struct Pipeline::State {
 
   void begin(const Frame& frame);
   std::optional<std::span<const Eigen::Isometry3d>> pose_links(std::span<const double> positions);
+  void refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
+  LabelView label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
+                            const DepthView& measured);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
   [[nodiscard]] std::size_t uncovered() const { return raw_images ? raw_images->uncovered() : 0; }
@@ -100,7 +117,8 @@ struct Pipeline::State {
   FrameCheck check;
   LinkPoses poses;
   CameraInsideCheck camera_inside;
-  ChosenRenderer chosen;
+  ChosenRenderer chosen;                          // no renderer with
+  std::unique_ptr<GlLabeller> labeller;           // labels_on_device
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
   Classifier classifier;
@@ -121,6 +139,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       poses(robot, config),
       camera_inside(bodies_of(robot)),
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
+      labeller(labeller_of(camera, config, bodies_of(robot))),
       classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
       unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
@@ -140,9 +159,14 @@ Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Robot& Pipeline::robot() const { return state_->robot; }
-const RendererInfo& Pipeline::renderer() const { return state_->chosen.renderer->info(); }
+const RendererInfo& Pipeline::renderer() const {
+  return state_->labeller ? state_->labeller->info() : state_->chosen.renderer->info();
+}
 const RendererChoice& Pipeline::renderer_choice() const { return state_->chosen.choice; }
-std::size_t Pipeline::triangle_count() const { return state_->chosen.renderer->triangle_count(); }
+std::size_t Pipeline::triangle_count() const {
+  return state_->labeller ? state_->labeller->triangle_count()
+                          : state_->chosen.renderer->triangle_count();
+}
 const LabelRule& Pipeline::rule() const { return state_->classifier.rule(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
 const Rectification* Pipeline::rectification() const {
@@ -159,8 +183,10 @@ const FrameReport& Pipeline::process(const Frame& frame) {
   const auto T_camera_link = s.pose_links(frame.joints.positions);
   if (!T_camera_link) return s.without_pose(FrameStatus::missing_joints);
 
+  const DepthView measured = has_depth(status) ? frame.depth : DepthView{};
+  if (s.labeller) return s.finish(status, {}, s.label_on_device(*T_camera_link, measured));
   const VirtualDepthView virtual_depth = s.render(*T_camera_link);
-  const LabelView labels = s.classify(virtual_depth, has_depth(status) ? frame.depth : DepthView{});
+  const LabelView labels = s.classify(virtual_depth, measured);
   return s.finish(status, virtual_depth, labels);
 }
 
@@ -185,14 +211,29 @@ std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(
   return std::nullopt;
 }
 
-VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
-  const StageTimer timer(report.timing.render);
+void Pipeline::State::refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link) {
   if (const auto link = camera_inside.find(T_camera_link))
     throw InputError("the camera's centre lies inside of link '" + robot.links()[*link] +
                      "': correct the camera's pose, or name the link in ignore_links if it is the "
                      "camera's own housing");
+}
+
+VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
+  const StageTimer timer(report.timing.render);
+  refuse_camera_inside(T_camera_link);
   const VirtualDepthView rendered = chosen.renderer->render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
+}
+
+LabelView Pipeline::State::label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
+                                           const DepthView& measured) {
+  {
+    const StageTimer timer(report.timing.render);
+    refuse_camera_inside(T_camera_link);
+    labeller->submit(T_camera_link, seen_depth(measured));
+  }
+  const StageTimer timer(report.timing.classify);
+  return labeller->collect().image;
 }
 
 LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,

@@ -28,7 +28,10 @@ struct PipelineConfig {
   /// of the two are not the same to the last bit.
   std::optional<Backend> backend = Backend::cpu;
   RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
-  LabelRule rule;            ///< its range and the camera's both apply
+  /// With backend gl: label there too (GlLabeller). Reports then hold labels and counts, but no
+  /// virtual depth; images with lens distortion are refused.
+  bool labels_on_device = false;
+  LabelRule rule;  ///< its range and the camera's both apply
   ImageSpace image = ImageSpace::raw;
   std::string camera_parent;  ///< link that the camera sits on; empty: the root
   /// Pose of the optical frame in that link's frame, metres.

@@ -51,5 +51,7 @@ std::unique_ptr<EglContext> open_device(int device) {
   return std::make_unique<EglContext>(static_cast<std::size_t>(device));
 }
 
+std::string words_of(const GlDevice& device) { return device.name + ", OpenGL " + device.version; }
+
 }  // namespace gl
 }  // namespace penumbra

@@ -15,15 +15,13 @@ namespace {
 
 using gl::EglContext;
 
-RendererInfo info_of(const GlDevice& device) {
-  return {.backend = Backend::gl, .device = device.name + ", OpenGL " + device.version};
-}
-
 class GlRenderer final : public DepthRenderer {
  public:
   GlRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
              std::unique_ptr<EglContext> context)
-      : DepthRenderer(intrinsics, bodies, info_of(context->device()), gl::Readback::slots),
+      : DepthRenderer(intrinsics, bodies,
+                      {.backend = Backend::gl, .device = gl::words_of(context->device())},
+                      gl::Readback::slots),
         context_(std::move(context)),
         drawing_(*context_, intrinsics, bodies) {}
 

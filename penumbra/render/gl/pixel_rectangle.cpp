@@ -14,6 +14,12 @@ PixelRectangle PixelRectangle::united(const PixelRectangle& other) const {
           std::max(v1, other.v1)};
 }
 
+PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
+  const PixelRectangle both{std::max(a.u0, b.u0), std::max(a.v0, b.v0), std::min(a.u1, b.u1),
+                            std::min(a.v1, b.v1)};
+  return both.empty() ? PixelRectangle{} : both;
+}
+
 PixelRectangle pixels_of(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& T_camera_box,
                          const Intrinsics& k) {
   // Single-precision depths may lie this share on the other side of the near plane.

@@ -19,6 +19,23 @@ struct PixelRectangle {
   [[nodiscard]] PixelRectangle united(const PixelRectangle& other) const;
 };
 
+/// The pixels of both; empty where there are none.
+[[nodiscard]] PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b);
+
+/// Calls f with rectangles that make up what of `old` is not in `kept`.
+template <typename F>
+void for_each_outside(const PixelRectangle& old, const PixelRectangle& kept, F&& f) {
+  const PixelRectangle both = overlap(old, kept);
+  const auto call = [&](const PixelRectangle& r) {
+    if (!r.empty()) f(r);
+  };
+  if (both.empty()) return call(old);
+  call({old.u0, old.v0, old.u1, both.v0});
+  call({old.u0, both.v1, old.u1, old.v1});
+  call({old.u0, both.v0, both.u0, both.v1});
+  call({both.u1, both.v0, old.u1, both.v1});
+}
+
 /// Pixels in which a box's contents before the near plane may be seen: none left out, the whole
 /// image where the box reaches through the near plane.
 [[nodiscard]] PixelRectangle pixels_of(const Eigen::AlignedBox3d& box,

@@ -6,19 +6,13 @@
 #include <epoxy/gl.h>
 
 #include <penumbra/render/gl/buffer.hpp>
-#include <penumbra/render/gl/gl_check.hpp>
+#include <penumbra/render/gl/fence.hpp>
 #include <penumbra/render/gl/readback.hpp>
 
 namespace penumbra::gl {
 namespace {
 
 constexpr std::size_t row_alignment = 64;  // pixels: rows of both images start on cache lines
-
-PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
-  const PixelRectangle both{std::max(a.u0, b.u0), std::max(a.v0, b.v0), std::min(a.u1, b.u1),
-                            std::min(a.v1, b.v1)};
-  return both.empty() ? PixelRectangle{} : both;
-}
 
 }  // namespace
 
@@ -46,7 +40,7 @@ Readback::Readback(const Intrinsics& intrinsics)
 
 void Readback::start(std::size_t index, const PixelRectangle& r) {
   Slot& slot = slots_[index];
-  keep_only(slot, r);
+  for_each_outside(slot.rectangle, r, [&](const PixelRectangle& old) { clear(slot, old); });
   slot.rectangle = r;
   std::fill(slot.touched.rows.begin(), slot.touched.rows.end(), std::uint64_t{0});
   if (r.empty()) return;
@@ -68,37 +62,13 @@ void Readback::start(std::size_t index, const PixelRectangle& r) {
 
 VirtualDepthView Readback::wait(std::size_t index) {
   Slot& slot = slots_[index];
-  if (slot.fence != nullptr) {
-    constexpr GLuint64 patience = 60'000'000'000;  // ns; drivers reset what hangs much sooner
-    auto* const fence = static_cast<GLsync>(slot.fence);
-    const GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
-    glDeleteSync(fence);
-    slot.fence = nullptr;
-    check_frame();
-    if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) {
-      throw std::runtime_error("OpenGL: a frame was not done in 60 s: make a new renderer");
-    }
-  }
+  wait_for(slot.fence);
   const auto stride = static_cast<std::ptrdiff_t>(stride_);
   return {
       {slot.depth, width_, height_, stride}, {slot.links, width_, height_, stride}, &slot.touched};
 }
 
-void Readback::keep_only(Slot& slot, const PixelRectangle& r) const {
-  const PixelRectangle old = slot.rectangle;
-  const PixelRectangle kept = overlap(old, r);
-  if (kept.empty()) {
-    clear(slot, old);
-    return;
-  }
-  clear(slot, {old.u0, old.v0, old.u1, kept.v0});
-  clear(slot, {old.u0, kept.v1, old.u1, old.v1});
-  clear(slot, {old.u0, kept.v0, kept.u0, kept.v1});
-  clear(slot, {kept.u1, kept.v0, old.u1, kept.v1});
-}
-
 void Readback::clear(Slot& slot, const PixelRectangle& r) const {
-  if (r.empty()) return;
   for (int v = r.v0; v < r.v1; ++v) {
     const std::size_t first =
         static_cast<std::size_t>(v) * stride_ + static_cast<std::size_t>(r.u0);

@@ -38,7 +38,6 @@ class Readback {
     std::uint16_t* links = nullptr;
   };
 
-  void keep_only(Slot& slot, const PixelRectangle& rectangle) const;
   void clear(Slot& slot, const PixelRectangle& rectangle) const;
 
   int width_, height_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 
 #include <epoxy/gl.h>
@@ -9,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/gl/gl_check.hpp>
+#include <penumbra/render/gl/program.hpp>
 #include <penumbra/render/gl/shaders-inl.hpp>
 #include <penumbra/render/gl/target.hpp>
 
@@ -32,24 +32,15 @@ void check_size(int width, int height) {
   refuse(width, height, std::to_string(most_width) + " x " + std::to_string(most_height));
 }
 
-GLuint compiled(GLenum kind, const char* source) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint status = GL_FALSE;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &status);
-  if (status == GL_TRUE) return shader;
-  std::array<char, 1024> words{};
-  glGetShaderInfoLog(shader, static_cast<GLsizei>(words.size()), nullptr, words.data());
-  throw std::runtime_error("OpenGL: a shader does not compile: " + std::string(words.data()));
-}
-
 }  // namespace
 
 Target::Target(const Intrinsics& intrinsics) {
   check_size(intrinsics.width(), intrinsics.height());
   make_images(intrinsics.width(), intrinsics.height());
-  make_program();
+  program_ =
+      make_program({{GL_VERTEX_SHADER, {vertex_shader}}, {GL_FRAGMENT_SHADER, {fragment_shader}}});
+  constexpr GLint near_location = 0;
+  glProgramUniform1f(program_, near_location, static_cast<float>(DepthRenderer::near_plane));
   glViewport(0, 0, intrinsics.width(), intrinsics.height());
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
@@ -59,16 +50,15 @@ Target::Target(const Intrinsics& intrinsics) {
 }
 
 void Target::make_images(int width, int height) {
-  std::array<GLuint, 2> images{};
   GLuint depth = 0;
-  glCreateTextures(GL_TEXTURE_2D, 2, images.data());
-  glTextureStorage2D(images[0], 1, GL_R32F, width, height);
-  glTextureStorage2D(images[1], 1, GL_R16UI, width, height);
+  glCreateTextures(GL_TEXTURE_2D, 2, images_.data());
+  glTextureStorage2D(images_[0], 1, GL_R32F, width, height);
+  glTextureStorage2D(images_[1], 1, GL_R16UI, width, height);
   glCreateRenderbuffers(1, &depth);
   glNamedRenderbufferStorage(depth, GL_DEPTH_COMPONENT32F, width, height);
   glCreateFramebuffers(1, &framebuffer_);
-  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, images[0], 0);
-  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT1, images[1], 0);
+  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, images_[0], 0);
+  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT1, images_[1], 0);
   glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
   constexpr std::array<GLenum, 2> drawn{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glNamedFramebufferDrawBuffers(framebuffer_, 2, drawn.data());
@@ -79,23 +69,11 @@ void Target::make_images(int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
 }
 
-void Target::make_program() const {
-  const GLuint program = glCreateProgram();
-  glAttachShader(program, compiled(GL_VERTEX_SHADER, vertex_shader));
-  glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragment_shader));
-  glLinkProgram(program);
-  GLint status = GL_FALSE;
-  glGetProgramiv(program, GL_LINK_STATUS, &status);
-  if (status != GL_TRUE) throw std::runtime_error("OpenGL: the shaders do not link");
-  constexpr GLint near_location = 0;
-  glProgramUniform1f(program, near_location, static_cast<float>(DepthRenderer::near_plane));
-  glUseProgram(program);
-}
-
 void Target::begin(const PixelRectangle& rectangle) const {
   constexpr std::array<GLfloat, 4> no_depth{};
   constexpr std::array<GLuint, 4> no_link{};
   constexpr GLfloat infinitely_far = 0.0F;
+  glUseProgram(program_);
   glScissor(rectangle.u0, rectangle.v0, rectangle.width(), rectangle.height());
   glClearBufferfv(GL_COLOR, 0, no_depth.data());
   glClearBufferuiv(GL_COLOR, 1, no_link.data());
