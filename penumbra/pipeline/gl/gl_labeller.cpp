@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <penumbra/pipeline/gl/gl_labeller.hpp>
-#include <penumbra/pipeline/gl/label_passes.hpp>
+#include <penumbra/pipeline/gl/label_passes-inl.hpp>
 #include <penumbra/render/gl/egl_context.hpp>
 #include <penumbra/render/gl/open_device.hpp>
 #include <penumbra/render/gl/scene.hpp>

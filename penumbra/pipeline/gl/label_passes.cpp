@@ -10,10 +10,9 @@
 #include <epoxy/gl.h>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/gl/label_passes.hpp>
+#include <penumbra/pipeline/gl/label_passes-inl.hpp>
 #include <penumbra/pipeline/gl/label_shaders-inl.hpp>
 #include <penumbra/render/gl/buffer.hpp>
-#include <penumbra/render/gl/fence.hpp>
 #include <penumbra/render/gl/gl_check.hpp>
 #include <penumbra/render/gl/program.hpp>
 

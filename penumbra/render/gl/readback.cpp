@@ -6,7 +6,7 @@
 #include <epoxy/gl.h>
 
 #include <penumbra/render/gl/buffer.hpp>
-#include <penumbra/render/gl/fence.hpp>
+#include <penumbra/render/gl/gl_check.hpp>
 #include <penumbra/render/gl/readback.hpp>
 
 namespace penumbra::gl {
