@@ -15,14 +15,12 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <random>
 #include <string>
 
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <penumbra/base/simd_target.hpp>
 #include <penumbra/occlusion/labels.hpp>
 
 namespace penumbra::bench {
@@ -91,26 +89,6 @@ Accuracy accuracy_of(const Contender& contender, const BenchScene& scene) {
     }
   }
   return sum;
-}
-
-/// Depth images as a sensor would give them: the robot, a wall behind, noise and holes.
-std::vector<Image<std::uint16_t>> sensor_images(DepthRenderer& renderer, const BenchScene& scene) {
-  std::mt19937 random(1);
-  std::normal_distribution<float> noise(0.0F, 4.0F);
-  std::vector<Image<std::uint16_t>> images;
-  for (const LinkPoses& poses : scene.path) {
-    const VirtualDepthView view = renderer.render(poses);
-    Image<std::uint16_t>& image = images.emplace_back(view.depth.width, view.depth.height);
-    for (int v = 0; v < view.depth.height; ++v) {
-      for (int u = 0; u < view.depth.width; ++u) {
-        const float z = view.depth(u, v) > 0 ? view.depth(u, v) : 2.5F;
-        const bool hole = random() % 100 == 0;
-        image(u, v) = hole ? std::uint16_t{0}
-                           : static_cast<std::uint16_t>(std::max(1.0F, 1e3F * z + noise(random)));
-      }
-    }
-  }
-  return images;
 }
 
 /// Rounds over all frames, the contenders in turn, so that a disturbance meets all of them.
@@ -204,9 +182,7 @@ class SceneBench {
         llvmpipe_(scene.intrinsics, bodies_, llvmpipe_bits),
         embree_rectangle_(scene.intrinsics, bodies_, Region::rectangle),
         embree_hulls_(scene.intrinsics, bodies_, Region::hulls) {
-    for (const std::string& isa : simd_target_names()) {
-      if (isa != simd_target_names().front() && isa != "AVX2") continue;
-      isas_.push_back(isa);
+    for (const std::string& isa : isas_) {
       renderers_.push_back(
           make_depth_renderer(Backend::cpu, scene.intrinsics, bodies_, {.threads = 1, .isa = isa}));
       classifiers_.emplace_back(scene.intrinsics.width(), scene.intrinsics.height(), LabelRule{},
@@ -246,7 +222,7 @@ class SceneBench {
   std::vector<Body> bodies_;
   LlvmpipeRenderer llvmpipe_;
   EmbreeTracer embree_rectangle_, embree_hulls_;
-  std::vector<std::string> isas_;
+  std::vector<std::string> isas_ = compared_isas();
   std::vector<std::unique_ptr<DepthRenderer>> renderers_;
   std::vector<Classifier> classifiers_;
   std::vector<Image<std::uint16_t>> sensor_;

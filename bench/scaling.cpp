@@ -11,8 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <penumbra/base/simd_target.hpp>
-
 namespace penumbra::bench {
 namespace {
 
@@ -48,14 +46,14 @@ class Table {
  public:
   Table(json& report, std::string axis) : rows_(report["axes"][axis]), axis_(std::move(axis)) {
     std::printf("\n%-12s %10s %10s", axis_.c_str(), "triangles", "robot px");
-    for (const std::string& isa : isas()) std::printf(" %9s", isa.c_str());
+    for (const std::string& isa : compared_isas()) std::printf(" %9s", isa.c_str());
     std::printf("   ms\n");
   }
 
   template <typename Measure>
   void row(const std::string& value, Measure&& measure) {
     json row{{"value", value}};
-    for (const std::string& isa : isas()) {
+    for (const std::string& isa : compared_isas()) {
       const Measurement m = measure(isa);
       if (!row.contains("triangles")) {
         std::printf("%-12s %10zu %10zu", value.c_str(), m.triangles, m.robot_pixels);
@@ -71,15 +69,6 @@ class Table {
   }
 
  private:
-  /// The best target, and AVX2 where that is another.
-  static std::vector<std::string> isas() {
-    std::vector<std::string> chosen{simd_target_names().front()};
-    for (const std::string& isa : simd_target_names()) {
-      if (isa == "AVX2" && isa != chosen.front()) chosen.push_back(isa);
-    }
-    return chosen;
-  }
-
   json& rows_;
   std::string axis_;
 };

@@ -128,6 +128,25 @@ BenchScene xarm7_scene(std::size_t frames) {
   return scene;
 }
 
+std::vector<Image<std::uint16_t>> sensor_images(DepthRenderer& renderer, const BenchScene& scene) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0.0F, 4.0F);
+  std::vector<Image<std::uint16_t>> images;
+  for (const LinkPoses& poses : scene.path) {
+    const VirtualDepthView view = renderer.render(poses);
+    Image<std::uint16_t>& image = images.emplace_back(view.depth.width, view.depth.height);
+    for (int v = 0; v < view.depth.height; ++v) {
+      for (int u = 0; u < view.depth.width; ++u) {
+        const float z = view.depth(u, v) > 0 ? view.depth(u, v) : 2.5F;
+        const bool hole = random() % 100 == 0;
+        image(u, v) = hole ? std::uint16_t{0}
+                           : static_cast<std::uint16_t>(std::max(1.0F, 1e3F * z + noise(random)));
+      }
+    }
+  }
+  return images;
+}
+
 SphereScene::SphereScene(std::size_t count, std::size_t triangles)
     : count_(count),
       mesh_{},

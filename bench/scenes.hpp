@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -37,6 +38,11 @@ struct BenchScene {
 
 /// The recorded xArm 7: its camera, and a path through its ten poses.
 [[nodiscard]] BenchScene xarm7_scene(std::size_t frames);
+
+/// Depth images as a sensor would give them, one per frame: the robot, a wall behind, noise and
+/// holes.
+[[nodiscard]] std::vector<Image<std::uint16_t>> sensor_images(DepthRenderer& renderer,
+                                                              const BenchScene& scene);
 
 /// `count` robots of no kind: spheres of `triangles` in all, which circle before a 1280x720 camera.
 class SphereScene {

@@ -1,29 +1,39 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Measures the renderer on this machine and writes it down.
-#   scripts/bench.sh          bench/results/{renderers,scaling}.{json,txt}, then the tables of
-#                             docs/performance.md and docs/performance.svg; some 5 minutes
+#   scripts/bench.sh          bench/results/{renderers,scaling,gl-DEVICE}.{json,txt}, then the tables
+#                             of docs/performance.md and docs/performance-gl.md, and their plots;
+#                             some 15 minutes
+#   scripts/bench.sh --gl     the OpenGL renderer alone, on this machine's device
 #   scripts/bench.sh --quick  a few rounds only, to see that it runs; writes to build/bench/results
 # Run it on a quiet machine. Packages: scripts/packages.sh --install build bench
 set -euo pipefail
 cd "$(dirname "$0")/.."
-rounds=12 results=bench/results page=docs
+rounds=12 results=bench/results page=docs only_gl=false soak=(--soak)
 case ${1:-} in
   "") ;;
-  --quick) rounds=1 results=build/bench/results page=build/bench/results ;;
+  --gl) only_gl=true ;;
+  --quick) rounds=1 results=build/bench/results page=build/bench/results soak=() ;;
   *)
-    sed -n '3,6s/^# //p' "$0" >&2
+    sed -n '3,8s/^# //p' "$0" >&2
     exit 2
     ;;
 esac
 
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
-cmake --build build/bench --target compare_renderers scaling
+targets=(gl_benchmark)
+$only_gl || targets+=(compare_renderers scaling)
+cmake --build build/bench --target "${targets[@]}"
 mkdir -p "$results"
-build/bench/bench/compare_renderers --rounds "$rounds" --json "$results/renderers.json" |
-  tee "$results/renderers.txt"
-build/bench/bench/scaling --rounds "$rounds" --json "$results/scaling.json" |
-  tee "$results/scaling.txt"
-[[ $page == docs ]] || cp docs/performance.md "$page/"
+if ! $only_gl; then
+  build/bench/bench/compare_renderers --rounds "$rounds" --json "$results/renderers.json" |
+    tee "$results/renderers.txt"
+  build/bench/bench/scaling --rounds "$rounds" --json "$results/scaling.json" |
+    tee "$results/scaling.txt"
+fi
+device=$(build/bench/bench/gl_benchmark --name)
+build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |
+  tee "$results/gl-$device.txt"
+[[ $page == docs ]] || cp docs/performance.md docs/performance-gl.md "$page/"
 scripts/performance_page.py "$results" "$page"

@@ -1,16 +1,20 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S python3 -B
 # SPDX-License-Identifier: Apache-2.0
-"""Rewrites the tables of a performance page, and draws its plot, from the benchmarks' JSON files.
+"""Rewrites the tables of the performance pages, and draws their plots, from the benchmarks' JSON.
 
-performance_page.py RESULTS PAGE: reads RESULTS/renderers.json and RESULTS/scaling.json; replaces
-what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md; writes
-PAGE/performance.svg.
+performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json and every
+RESULTS/gl-*.json; replaces what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in
+PAGE/performance.md and PAGE/performance-gl.md; writes PAGE/performance.svg and
+PAGE/performance-gl.svg.
 """
 import json
 import math
 import pathlib
 import re
 import sys
+
+from performance_gl import gl_panels, gl_sections, paper_table
+from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
 RATIOS = ("against_llvmpipe", "against_embree_rectangle", "against_embree_hulls")
@@ -19,11 +23,6 @@ AIMS = {"UR5e collision, 640x480": (12, 20, "0.03"),
         "UR5e collision, 1280x720": (12, 25, "0.06 + 0.03"),
         "xArm 7, 1280x720": (15, 18, "0.07 + 0.03")}
 COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
-
-
-def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows])
 
 
 def renderers_table(report):
@@ -83,7 +82,7 @@ def abscissa(axis, row):
     return row["triangles"] if axis == "triangles" else int(row["value"])
 
 
-def panel(axis, rows, left, top):
+def panel(axis, rows, title, left, top):
     """One plot with both axes logarithmic."""
     points = {isa: [(math.log10(abscissa(axis, r)), math.log10(r["ms"][isa])) for r in rows]
               for isa in rows[0]["ms"]}
@@ -105,25 +104,38 @@ def panel(axis, rows, left, top):
         x, y = place(math.log10(abscissa(axis, row)), y0)
         out.append(f'<text transform="translate({x:.1f},{y + 12:.1f}) rotate(30)">'
                    f'{row["value"]}</text>')
-    for i, (colour, (isa, line)) in enumerate(zip(COLOURS, points.items())):
+    key = left + MARGIN + 8
+    for colour, (isa, line) in zip(COLOURS, points.items()):
         path = " L".join("{:.1f},{:.1f}".format(*place(*p)) for p in line)
         out.append(f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="2"/>')
-        out.append(f'<text x="{left + MARGIN + 8 + 50 * i}" y="{top + MARGIN + 14}" '
-                   f'fill="{colour}">{isa}</text>')
+        out.append(f'<text x="{key}" y="{top + MARGIN + 14}" fill="{colour}">{isa}</text>')
+        key += 7 * len(isa) + 22
     out.append(f'<text x="{left + WIDTH / 2}" y="{top + 28}" text-anchor="middle" '
-               f'font-weight="bold">ms per frame by {axis}</text>')
+               f'font-weight="bold">{title}</text>')
     return out
 
 
-def plot(scaling):
+def plot(panels):
+    """Panels of (axis, rows, title), two in a line."""
     body = []
-    for i, (axis, rows) in enumerate(scaling["axes"].items()):
-        body += panel(axis, rows, (i % 2) * WIDTH, (i // 2) * HEIGHT)
+    for i, (axis, rows, title) in enumerate(panels):
+        body += panel(axis, rows, title, (i % 2) * WIDTH, (i // 2) * HEIGHT)
+    width, height = 2 * WIDTH, (len(panels) + 1) // 2 * HEIGHT
     return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {2 * WIDTH} {2 * HEIGHT}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
         'font-family="sans-serif" font-size="11">',
         "<style>.grid{stroke:#ccc;stroke-width:1}</style>",
-        f'<rect width="{2 * WIDTH}" height="{2 * HEIGHT}" fill="white"/>', *body, "</svg>", ""])
+        f'<rect width="{width}" height="{height}" fill="white"/>', *body, "</svg>", ""])
+
+
+def fill(document, parts):
+    text = document.read_text()
+    for name, content in parts.items():
+        pattern = re.compile(rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
+        text, count = pattern.subn(lambda m, c=content: m[1] + c + "\n" + m[2], text)
+        if count != 1:
+            sys.exit(f"performance_page.py: {document} has no place for '{name}'")
+    document.write_text(text)
 
 
 def main():
@@ -133,15 +145,12 @@ def main():
     parts = {"settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
              "ratios": ratios_table(renderers), "aims": aims_table(renderers)}
     parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
-    document = page / "performance.md"
-    text = document.read_text()
-    for name, content in parts.items():
-        pattern = re.compile(rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
-        text, count = pattern.subn(lambda m, c=content: m[1] + c + "\n" + m[2], text)
-        if count != 1:
-            sys.exit(f"performance_page.py: {document} has no place for '{name}'")
-    document.write_text(text)
-    (page / "performance.svg").write_text(plot(scaling))
+    fill(page / "performance.md", parts)
+    (page / "performance.svg").write_text(plot(
+        [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))
+    devices = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
+    fill(page / "performance-gl.md", {"paper": paper_table(devices), "gl": gl_sections(devices)})
+    (page / "performance-gl.svg").write_text(plot(gl_panels(devices)))
 
 
 if __name__ == "__main__":
