@@ -27,6 +27,7 @@ template <typename F>
 PassCost by_figure(const std::vector<PassCost>& costs, F&& f) {
   const auto of = [&](double PassCost::*figure) {
     std::vector<double> values;
+    values.reserve(costs.size());
     for (const PassCost& cost : costs) values.push_back(cost.*figure);
     return f(values);
   };
