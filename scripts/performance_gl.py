@@ -23,7 +23,7 @@ def short(report):
 
 def factor(gl, cpu):
     ratio = gl / cpu
-    return f"{ratio:.1f}" if ratio >= 1 else f"**{ratio:.2f}**"
+    return f"{ratio:.3g}" if ratio >= 1 else f"**{ratio:.2f}**"
 
 
 def ratios(report):
@@ -54,7 +54,7 @@ def verdict(report):
         where = "nowhere" if not faster else "; ".join(faster)
         if len(faster) == len(rows):
             where = "everywhere"
-        parts.append(f"{label} {min(values):.2g} to {max(values):.2g} times as long (shorter "
+        parts.append(f"{label} {min(values):.3g} to {max(values):.3g} times as long (shorter "
                      f"{where})")
     text = f'gl against one thread of cpu: {", ".join(parts)}.'
     if all(min(row[4:]) >= 1.0 for row in rows):
@@ -83,10 +83,19 @@ def frames_table(report):
 
 
 def cameras_table(report):
-    return table(("cameras", "renderer", "threads", "frames/s in all", "median", "CPU ms per frame"),
+    return table(("cameras", "renderer", "threads", "frames/s in all", "median",
+                  "CPU ms per frame"),
                  [(r["cameras"], r["name"], r["threads"], f'{r["frames_per_s"]:.0f}',
                    f'{r["median_frames_per_s"]:.0f}', f'{r["cpu_ms"]:.3f}')
                   for r in report["cameras"]])
+
+
+def labels_words(report):
+    contenders = named(report["labels"]["contenders"])
+    gl, cpu = contenders["gl"], contenders[best_cpu(report)]
+    return (f'gl takes {factor(gl["typical_ms"], cpu["typical_ms"])} times the frame time and '
+            f'{factor(gl["cpu_ms"], cpu["cpu_ms"])} times the CPU time of {best_cpu(report)}. '
+            f'Labels that differ in one frame: {report["labels"]["labels_differ"]}.')
 
 
 def labels_table(report):
@@ -121,7 +130,7 @@ def section(report):
              "### All figures", frames_table(report),
              "### Several cameras, xArm 7, 1280x720", cameras_table(report),
              f'### Virtual depth and labels, {report["labels"]["scene"]}',
-             f'Labels that differ in one frame: {report["labels"]["labels_differ"]}.',
+             labels_words(report),
              labels_table(report)]
     if "soak" in report:
         parts += ["### What is left behind, UR5e collision, 640x480", soak_table(report)]
@@ -130,6 +139,14 @@ def section(report):
 
 def gl_sections(reports):
     return "\n" + "\n\n".join(section(report) for report in reports) + "\n"
+
+
+def devices(reports):
+    """What was measured, and plainly what was not."""
+    if all(report["software"] for report in reports):
+        return ("**No GPU was at hand: all that is measured here is software OpenGL, which draws "
+                "on the same CPU. What a GPU gains is not known yet.**")
+    return f'Measured: {", ".join(short(report) for report in reports)}.'
 
 
 def paper_table(reports):

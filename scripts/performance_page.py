@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-from performance_gl import gl_panels, gl_sections, paper_table
+from performance_gl import devices, gl_panels, gl_sections, paper_table
 from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
@@ -148,9 +148,10 @@ def main():
     fill(page / "performance.md", parts)
     (page / "performance.svg").write_text(plot(
         [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))
-    devices = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
-    fill(page / "performance-gl.md", {"paper": paper_table(devices), "gl": gl_sections(devices)})
-    (page / "performance-gl.svg").write_text(plot(gl_panels(devices)))
+    reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
+    fill(page / "performance-gl.md", {"devices": devices(reports), "paper": paper_table(reports),
+                                      "gl": gl_sections(reports)})
+    (page / "performance-gl.svg").write_text(plot(gl_panels(reports)))
 
 
 if __name__ == "__main__":
