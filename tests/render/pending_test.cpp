@@ -46,6 +46,7 @@ TEST_P(Pending, FramesComeInOrderAndAsFromRender) {
   const auto frames = random_frames(20);
   const auto plain = make(GetParam(), camera, scene_.bodies());
   std::vector<Frame> expected;
+  expected.reserve(frames.size());
   for (const auto& poses : frames) expected.emplace_back(plain->render(poses));
   const auto ahead = make(GetParam(), camera, scene_.bodies());
   for (int depth = 1; depth <= ahead->max_pending(); ++depth) {

@@ -13,4 +13,9 @@ namespace penumbra::gl {
 unsigned make_buffer(std::size_t bytes, const void* data, unsigned flags, const std::string& what,
                      std::byte** mapped = nullptr);
 
+/// An offset into the bound buffer, as OpenGL takes it in place of an address.
+[[nodiscard]] inline void* as_address(std::size_t bytes) {
+  return reinterpret_cast<void*>(bytes);  // NOLINT(performance-no-int-to-ptr): OpenGL's own way
+}
+
 }  // namespace penumbra::gl

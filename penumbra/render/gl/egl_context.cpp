@@ -45,18 +45,19 @@ std::string egl_error() {
   return std::string(code < names.size() ? names[code] : "an unknown EGL error");
 }
 
-/// Whether a library can be loaded. libepoxy ends the process where it misses one.
-bool loads(const char* library) {
-  void* const handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
-  if (handle != nullptr) dlclose(handle);
-  return handle != nullptr;
+/// Whether a library can be loaded; it then stays so.
+bool loads(const char* library) { return dlopen(library, RTLD_LAZY | RTLD_LOCAL) != nullptr; }
+
+/// libepoxy ends the process where it misses a library, so that they are sought before.
+std::string missing_library() {
+  if (!epoxy_has_egl()) return "the library libEGL.so.1 cannot be loaded";
+  if (loads("libOpenGL.so.0") || loads("libGL.so.1")) return "";
+  return "neither libOpenGL.so.0 nor libGL.so.1 can be loaded";
 }
 
 void require_libraries() {
-  if (!epoxy_has_egl()) refuse("the library libEGL.so.1 cannot be loaded");
-  if (!loads("libOpenGL.so.0") && !loads("libGL.so.1")) {
-    refuse("neither libOpenGL.so.0 nor libGL.so.1 can be loaded");
-  }
+  static const std::string missing = missing_library();
+  if (!missing.empty()) refuse(missing);
 }
 
 /// Functions of extensions, which libepoxy would end the process for.

@@ -47,9 +47,8 @@ void Readback::start(std::size_t index, const PixelRectangle& r) {
   slot.touched.mark(r.u0, r.v0, r.u1 - 1, r.v1 - 1);
   const std::size_t first =
       static_cast<std::size_t>(r.v0) * stride_ + static_cast<std::size_t>(r.u0);
-  // With a bound pack buffer an address is an offset into it.
   const auto offset = [&](const auto* pixel) {
-    return reinterpret_cast<void*>(reinterpret_cast<const std::byte*>(pixel) - data_);
+    return as_address(static_cast<std::size_t>(reinterpret_cast<const std::byte*>(pixel) - data_));
   };
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(r.u0, r.v0, r.width(), r.height(), GL_RED, GL_FLOAT, offset(slot.depth + first));

@@ -141,7 +141,7 @@ void Scene::draw() const {
                             static_cast<GLintptr>(slot_ * frame_size_), sizeof(Matrix));
   const auto draw_commands = [&](std::size_t first, std::size_t count) {
     const std::size_t at = slot_ * frame_size_ + commands_at_ + first * sizeof(Command);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(at),
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, as_address(at),
                                 static_cast<GLsizei>(count), 0);
   };
   if (front_count_ > 0) {
