@@ -68,9 +68,12 @@ Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Came
 void check_own(const std::string& option, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::filesystem::path>>& others) {
   std::error_code error;
-  for (const auto& [other, path] : others)
-    if (file == path || std::filesystem::equivalent(file, path, error))
-      throw InputError(option + ": " + file.string() + " is the file of " + other + " too");
+  for (const auto& [other, path] : others) {
+    if (file != path && !std::filesystem::equivalent(file, path, error)) continue;
+    std::string message = option + ": " + file.string();
+    message += " is the file of " + other + " too";
+    throw InputError(message);
+  }
 }
 
 /// What an earlier call wrote must not be taken for this one's, should it fail.

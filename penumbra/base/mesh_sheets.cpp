@@ -55,6 +55,7 @@ std::vector<std::vector<RimEdge>> split_rim(const std::vector<RimEdge>& edges) {
   std::map<std::uint32_t, std::vector<RimEdge>> parts;
   for (const RimEdge& e : edges) parts[sets.find(numbers[e.from])].push_back(e);
   std::vector<std::vector<RimEdge>> rims;
+  rims.reserve(parts.size());
   for (auto& [set, part] : parts) rims.push_back(std::move(part));
   return rims;
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <ranges>
 
 #include <penumbra/occlusion/label_work-inl.hpp>
 
@@ -27,12 +26,12 @@ std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
 
 /// The range of millimetres whose depths, as floats nearest to them, lie in a range.
 MeasuredRange in_millimetres(const MeasuredRange& range) {
-  constexpr auto depths = std::views::iota(0, std::numeric_limits<std::uint16_t>::max() + 1);
+  constexpr int count = std::numeric_limits<std::uint16_t>::max() + 1;
   const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
-  const auto too_near = [&](int d) { return nearest(d) < range.near; };
-  const auto not_too_far = [&](int d) { return nearest(d) <= range.far; };
-  const auto first = std::ranges::partition_point(depths, too_near) - depths.begin();
-  const auto end = std::ranges::partition_point(depths, not_too_far) - depths.begin();
+  int first = 0;
+  while (first < count && nearest(first) < range.near) ++first;
+  int end = first;
+  while (end < count && nearest(end) <= range.far) ++end;
   return {static_cast<float>(first) * metres_per_millimetre,
           static_cast<float>(end - 1) * metres_per_millimetre};
 }

@@ -201,7 +201,10 @@ void LabelPasses::set_parameters(Slot& slot, bool millimetres) const {
 }
 
 void LabelPasses::upload(const Box& window, const DepthView& measured) const {
-  const auto [u0, v0, u1, v1] = window;
+  const int u0 = window[0];
+  const int v0 = window[1];
+  const int u1 = window[2];
+  const int v1 = window[3];
   const auto copy = [&](unsigned texture, GLenum format, GLenum type, const auto& image) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (image.stride >= image.width) {
@@ -280,10 +283,9 @@ void LabelPasses::fetch(std::size_t index, const Slot& slot) const {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, label_buffer_);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride_));
-  // With a bound pack buffer an address is an offset into it.
   glGetTextureSubImage(labels_, 0, r.u0, r.v0, 0, r.width(), r.height(), 1, GL_RED_INTEGER,
                        GL_UNSIGNED_BYTE, static_cast<GLsizei>(slots * pixels - first),
-                       reinterpret_cast<void*>(first));
+                       as_address(first));
 }
 
 DeviceLabels LabelPasses::wait(std::size_t index) {
