@@ -7,6 +7,7 @@
 #include <penumbra/pipeline/gl/gl_labeller.hpp>
 #include <penumbra/pipeline/gl/label_passes-inl.hpp>
 #include <penumbra/render/gl/egl_context.hpp>
+#include <penumbra/render/gl/gl_check.hpp>
 #include <penumbra/render/gl/open_device.hpp>
 #include <penumbra/render/gl/scene.hpp>
 #include <penumbra/render/gl/target.hpp>
@@ -33,6 +34,7 @@ struct GlLabeller::State {
   gl::Scene scene;
   gl::LabelPasses passes;
   RendererInfo info{.backend = Backend::gl, .device = gl::words_of(context->device())};
+  gl::FirstFailure first_failure;
   std::size_t triangle_count = 0;
   std::size_t submitted = 0;
   std::size_t collected = 0;
@@ -57,23 +59,29 @@ void GlLabeller::submit(std::span<const Eigen::Isometry3d> T_camera_body, const 
     throw std::logic_error("GlLabeller::submit: " + std::to_string(boxes.size()) +
                            " boxes; it takes " + std::to_string(max_boxes));
   }
-  const gl::EglContext::Current current(*s.context);
-  const std::size_t slot = s.submitted % gl::LabelPasses::slots;
-  const gl::PixelRectangle seen = s.scene.place(T_camera_body, slot);
-  if (!seen.empty()) {
-    s.target.begin(seen);
-    s.scene.draw();
-  }
-  s.passes.start(slot, s.target.depth_image(), seen, measured, boxes);
-  ++s.submitted;
+  s.first_failure.guard([&] {
+    const gl::EglContext::Current current(*s.context);
+    const std::size_t slot = s.submitted % gl::LabelPasses::slots;
+    const gl::PixelRectangle seen = s.scene.place(T_camera_body, slot);
+    if (!seen.empty()) {
+      s.target.begin(seen);
+      s.scene.draw();
+    }
+    s.passes.start(slot, s.target.depth_image(), seen, measured, boxes);
+    gl::check_frame();
+    ++s.submitted;
+  });
 }
 
 DeviceLabels GlLabeller::collect() {
   State& s = *state_;
   if (s.submitted == s.collected)
     throw std::logic_error("GlLabeller::collect: no frame is pending");
-  const gl::EglContext::Current current(*s.context);
-  return s.passes.wait(s.collected++ % gl::LabelPasses::slots);
+  const std::size_t oldest = s.collected++ % gl::LabelPasses::slots;
+  return s.first_failure.guard([&] {
+    const gl::EglContext::Current current(*s.context);
+    return s.passes.wait(oldest);
+  });
 }
 
 const RendererInfo& GlLabeller::info() const { return state_->info; }

@@ -176,8 +176,7 @@ void LabelPasses::start(std::size_t index, unsigned depth, const PixelRectangle&
   glBindTextureUnit(virtual_texture, depth);
   run(slot);
   fetch(index, slot);
-  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  glFlush();
+  slot.fence = make_fence();
 }
 
 void LabelPasses::set_parameters(Slot& slot, bool millimetres) const {

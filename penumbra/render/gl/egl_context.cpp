@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -172,7 +173,12 @@ EglContext::EglContext(std::size_t index) {
   try {
     display_ = open_display(all[index]);
     context_ = create_context(display_);
-    const Current current(*this);
+    std::optional<Current> current;
+    try {
+      current.emplace(*this);
+    } catch (const std::runtime_error& error) {
+      refuse(error.what());
+    }
     device_.name = text(GL_RENDERER);
     device_.version = text(GL_VERSION);
     device_.vendor = text(GL_VENDOR);

@@ -49,21 +49,30 @@ std::string take_error() {
 
 void check_frame() {
   if (glGetGraphicsResetStatus() != GL_NO_ERROR) {
-    throw std::runtime_error("OpenGL: the graphics device was reset: make a new renderer");
+    throw std::runtime_error("OpenGL: the graphics device was reset");
   }
   const std::string error = take_error();
   if (!error.empty()) throw std::runtime_error("OpenGL: the frame failed with " + error);
 }
 
+void* make_fence() {
+  void* const fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (fence == nullptr) {
+    throw std::runtime_error("OpenGL: the frame cannot be waited for (" + take_error() + ")");
+  }
+  glFlush();
+  return fence;
+}
+
 void wait_for(void*& fence) {
-  if (fence == nullptr) return;
+  if (fence == nullptr) return check_frame();
   constexpr GLuint64 patience = 60'000'000'000;  // ns; drivers reset what hangs much sooner
   auto* const sync = static_cast<GLsync>(std::exchange(fence, nullptr));
   const GLenum result = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
   glDeleteSync(sync);
   check_frame();
   if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) {
-    throw std::runtime_error("OpenGL: a frame was not done in 60 s: make a new renderer");
+    throw std::runtime_error("OpenGL: a frame was not done in 60 s");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -16,8 +17,34 @@ namespace penumbra::gl {
 /// then not to be trusted.
 void check_frame();
 
+/// Hands all that was called so far to the device. Returns a GLsync of the current context that
+/// comes when it is done. Throws std::runtime_error where the context gives none.
+[[nodiscard]] void* make_fence();
+
 /// Waits for a GLsync of the current context, deletes it and makes it null; null is there already.
 /// Throws std::runtime_error where it never comes or the context fails.
 void wait_for(void*& fence);
+
+/// Remembers the first failure of a context. OpenGL does not tell to which of the pending frames an
+/// error belongs, so that after one none of them is to be trusted.
+class FirstFailure {
+ public:
+  /// Does a step and returns what it does. Throws std::runtime_error where this step or one before
+  /// has failed.
+  template <typename Step>
+  auto guard(Step&& step) {
+    if (what_.empty()) {
+      try {
+        return step();
+      } catch (const std::exception& error) {
+        what_ = error.what();
+      }
+    }
+    throw std::runtime_error(what_ + ": make a new renderer");
+  }
+
+ private:
+  std::string what_;
+};
 
 }  // namespace penumbra::gl

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <penumbra/render/gl/egl_context.hpp>
+#include <penumbra/render/gl/gl_check.hpp>
 #include <penumbra/render/gl/gl_renderer.hpp>
 #include <penumbra/render/gl/open_device.hpp>
 #include <penumbra/render/gl/readback.hpp>
@@ -27,21 +28,25 @@ class GlRenderer final : public DepthRenderer {
 
  private:
   void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) override {
-    const EglContext::Current current(*context_);
-    const gl::PixelRectangle seen = drawing_.scene.place(T_camera_body, next_);
-    if (!seen.empty()) {
-      drawing_.target.begin(seen);
-      drawing_.scene.draw();
-    }
-    drawing_.readback.start(next_, seen);
-    next_ = (next_ + 1) % gl::Readback::slots;
+    first_failure_.guard([&] {
+      const EglContext::Current current(*context_);
+      const gl::PixelRectangle seen = drawing_.scene.place(T_camera_body, next_);
+      if (!seen.empty()) {
+        drawing_.target.begin(seen);
+        drawing_.scene.draw();
+      }
+      drawing_.readback.start(next_, seen);
+      gl::check_frame();
+      next_ = (next_ + 1) % gl::Readback::slots;
+    });
   }
 
   VirtualDepthView do_collect() override {
-    const EglContext::Current current(*context_);
-    const std::size_t oldest = oldest_;
-    oldest_ = (oldest_ + 1) % gl::Readback::slots;
-    return drawing_.readback.wait(oldest);
+    const std::size_t oldest = std::exchange(oldest_, (oldest_ + 1) % gl::Readback::slots);
+    return first_failure_.guard([&] {
+      const EglContext::Current current(*context_);
+      return drawing_.readback.wait(oldest);
+    });
   }
 
   /// Made while the context is current.
@@ -61,6 +66,7 @@ class GlRenderer final : public DepthRenderer {
 
   std::unique_ptr<EglContext> context_;
   Drawing drawing_;
+  gl::FirstFailure first_failure_;
   std::size_t next_ = 0;
   std::size_t oldest_ = 0;
 };

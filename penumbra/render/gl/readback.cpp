@@ -55,8 +55,7 @@ void Readback::start(std::size_t index, const PixelRectangle& r) {
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(r.u0, r.v0, r.width(), r.height(), GL_RED_INTEGER, GL_UNSIGNED_SHORT,
                offset(slot.links + first));
-  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  glFlush();
+  slot.fence = make_fence();
 }
 
 VirtualDepthView Readback::wait(std::size_t index) {

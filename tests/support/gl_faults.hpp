@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace penumbra::test {
+
+/// What may go wrong on a graphics device.
+enum class GlFault {
+  make_current,  ///< the context cannot be made current
+  fetch,         ///< a frame is not read back, which OpenGL notes as an error
+  fence,         ///< there is nothing to wait for
+  wait,          ///< waiting fails
+  patience,      ///< the frame does not come in time
+  error,         ///< OpenGL tells of an error
+  reset,         ///< the device was reset, and the context with it
+};
+
+inline constexpr std::array all_gl_faults{GlFault::make_current, GlFault::fetch,    GlFault::fence,
+                                          GlFault::wait,         GlFault::patience, GlFault::error,
+                                          GlFault::reset};
+
+[[nodiscard]] std::string to_string(GlFault fault);
+
+/// Lets the device fail once while it lives, at the first use of what fails after `spared` others.
+/// One at a time; what is drawn with must have drawn before.
+class InjectedFault {
+ public:
+  explicit InjectedFault(GlFault fault, int spared = 0);
+  ~InjectedFault();
+  InjectedFault(const InjectedFault&) = delete;
+  InjectedFault& operator=(const InjectedFault&) = delete;
+
+  [[nodiscard]] bool happened() const;
+};
+
+/// The device cannot be made current while it lives.
+class NoDeviceCurrent {
+ public:
+  NoDeviceCurrent();
+  ~NoDeviceCurrent();
+  NoDeviceCurrent(const NoDeviceCurrent&) = delete;
+  NoDeviceCurrent& operator=(const NoDeviceCurrent&) = delete;
+};
+
+}  // namespace penumbra::test
