@@ -15,6 +15,17 @@ namespace {
 
 constexpr int views_per_camera = 5;
 
+/// Share of the robot's pixels that OpenGL may show wrongly; seen: 1e-7 with llvmpipe. Its grid of
+/// 1/256 pixel lets faces seen edge-on, thinner than the grid, cover a pixel's centre that they
+/// miss by some thousandths of a pixel, where the judge's rays need not meet them.
+constexpr double edge_on_limit = 1e-6;
+
+/// Most pixels that a backend may show wrongly.
+std::size_t most_errors(const BackendChoice& choice, const Agreement& total) {
+  if (choice.backend != Backend::gl) return 0;
+  return static_cast<std::size_t>(edge_on_limit * static_cast<double>(total.robot_pixels));
+}
+
 struct RobotCase {
   std::string name;
   Geometry geometry;
@@ -71,7 +82,7 @@ TEST_P(RobotAgainstEmbree, RandomPosesAndCameras) {
   for (int camera = 0; camera < cameras; ++camera) compare_views(random, robot, totals);
   for (std::size_t i = 0; i < choices.size(); ++i) {
     std::cout << choices[i] << ": " << totals[i] << '\n';
-    EXPECT_EQ(totals[i].errors, 0U) << choices[i];
+    EXPECT_LE(totals[i].errors, most_errors(choices[i], totals[i])) << choices[i];
     EXPECT_LT(totals[i].differing_share(), differing_limit) << choices[i];
     EXPECT_GT(totals[i].robot_pixels, 10000U);
   }
