@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
 #include <string>
 
@@ -38,6 +37,15 @@ std::size_t Body::triangle_count() const {
   return count;
 }
 
+void check_count_of(std::span<const Body> bodies) {
+  constexpr std::size_t max_drawn = DepthRenderer::max_drawn_bodies;
+  constexpr std::size_t max = DepthRenderer::max_bodies;
+  const auto drawn = static_cast<std::size_t>(std::count_if(
+      bodies.begin(), bodies.end(), [](const Body& body) { return body.triangle_count() > 0; }));
+  if (drawn > max_drawn) throw InputError(too_many(drawn, "links to draw", max_drawn));
+  if (bodies.size() > max) throw InputError(too_many(bodies.size(), "links", max));
+}
+
 DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
                              RendererInfo info, int max_pending)
     : intrinsics_(intrinsics),
@@ -45,11 +53,7 @@ DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body>
       info_(std::move(info)),
       max_pending_(max_pending) {
   for (const Body& body : bodies) triangle_count_ += body.triangle_count();
-  const auto drawn = static_cast<std::size_t>(std::count_if(
-      bodies.begin(), bodies.end(), [](const Body& body) { return body.triangle_count() > 0; }));
-  if (drawn > max_drawn_bodies)
-    throw InputError(too_many(drawn, "links to draw", max_drawn_bodies));
-  if (bodies.size() > max_bodies) throw InputError(too_many(bodies.size(), "links", max_bodies));
+  check_count_of(bodies);
 }
 
 VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {
@@ -62,7 +66,10 @@ VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_came
 }
 
 void DepthRenderer::submit(std::span<const Eigen::Isometry3d> T_camera_body) {
-  assert(T_camera_body.size() == body_count_);
+  if (T_camera_body.size() != body_count_) {
+    throw std::logic_error("submit: " + std::to_string(T_camera_body.size()) + " poses for " +
+                           std::to_string(body_count_) + " bodies");
+  }
   if (pending_ == max_pending_) {
     throw std::logic_error("submit: " + std::to_string(pending_) +
                            " frames are pending, the most there may be: collect one first");

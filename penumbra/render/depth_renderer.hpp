@@ -33,6 +33,9 @@ enum class Backend {
 
 [[nodiscard]] std::string_view to_string(Backend backend);
 
+/// Throws InputError for more than DepthRenderer::max_bodies or max_drawn_bodies.
+void check_count_of(std::span<const Body> bodies);
+
 struct RendererOptions {
   static constexpr int max_threads = 512;
 
@@ -68,8 +71,9 @@ class DepthRenderer {
   [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_body);
 
   /// Begins a frame, for collect() to wait for; the caller may do other things meanwhile. The poses
-  /// need only live during the call. Throws std::logic_error if max_pending() frames are pending,
-  /// and std::runtime_error if the graphics device fails or has failed: make a new renderer.
+  /// need only live during the call. Throws std::logic_error if max_pending() frames are pending or
+  /// the poses are not as many as the bodies, and std::runtime_error if the graphics device fails
+  /// or has failed: make a new renderer.
   void submit(std::span<const Eigen::Isometry3d> T_camera_body);
 
   /// The oldest pending frame; frames come in the order of submission. The view of the n-th frame

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -67,6 +68,8 @@ ChosenRenderer make_fastest_renderer(const Intrinsics& intrinsics, std::span<con
     RendererChoice choice = race(*cpu, *gl, bodies);
     const bool gl_wins = choice.backend == Backend::gl;
     return {std::move(choice), std::move(gl_wins ? gl : cpu)};
+  } catch (const std::bad_alloc&) {
+    return {without_gl("trying it takes more memory than this machine gives"), std::move(cpu)};
   } catch (const std::runtime_error& error) {
     return {without_gl(error.what()), std::move(cpu)};
   }

@@ -248,6 +248,23 @@ TEST_F(GlLabels, RefusesWhatItCannotDo) {
   const std::vector<PixelRectangle> boxes(GlLabeller::max_boxes + 1);
   const std::vector<Isometry3d> poses(2, at(0, 0, 1));
   EXPECT_THROW(labeller.submit(poses, image.view(), boxes), std::logic_error);
+  EXPECT_THROW(labeller.submit({poses.data(), 1}, image.view()), std::logic_error);
+  EXPECT_THROW(labeller.submit(poses, DepthView{}), std::logic_error);
+  const Image<std::uint16_t> small(camera.width(), camera.height() - 1);
+  EXPECT_THROW(labeller.submit(poses, small.view()), std::logic_error);
+  ImageView<const float> nowhere = image.view();
+  nowhere.data = nullptr;
+  EXPECT_THROW(labeller.submit(poses, nowhere), std::logic_error);
+  labeller.submit(poses, image.view());  // none of these has spoilt it
+  EXPECT_GT(labeller.collect().image.pixels[static_cast<std::size_t>(Label::occluded)], 0U);
+}
+
+TEST_F(GlLabels, OfMoreLinksThanTheRendererTakesAreRefused) {
+  const Robot robot;
+  const std::vector<Body> drawn(DepthRenderer::max_drawn_bodies + 1, robot.bodies[0]);
+  EXPECT_THROW(GlLabeller(camera, drawn, {}), InputError);
+  const std::vector<Body> empty(DepthRenderer::max_bodies + 1, Body{"link", {}});
+  EXPECT_THROW(GlLabeller(camera, empty, {}), InputError);
 }
 
 }  // namespace

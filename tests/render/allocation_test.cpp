@@ -4,7 +4,13 @@
 #include "render_test.hpp"
 #include "shapes.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <random>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/render/gl/gl_devices.hpp>
+#include <penumbra/render/renderer_choice.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -38,6 +44,58 @@ TEST_P(Allocation, NoneInTheFrameLoop) {
   const std::size_t before = allocations();
   for (const auto& poses : frames) static_cast<void>(renderer->render(poses));
   EXPECT_EQ(allocations() - before, 0U);
+}
+
+int usable_device() {
+  const std::vector<GlDevice> devices = gl_devices();
+  const auto usable = std::find_if(devices.begin(), devices.end(),
+                                   [](const GlDevice& device) { return device.fault.empty(); });
+  return static_cast<int>(usable - devices.begin());
+}
+
+/// Fine enough that a list of its triangles is larger than anything else that is made.
+class ShortMemory : public ::testing::Test {
+ protected:
+  static constexpr std::size_t large = 2'000'000;  // bytes; 12 for a triangle
+
+  void SetUp() override {
+    if (!has_opengl()) GTEST_SKIP() << no_opengl;
+    scene_.add(sphere(0.1F, 320));
+    const auto renderer = make(opengl_, camera_, scene_.bodies());  // the driver's own memory
+    ASSERT_GT(renderer->triangle_count() * 12, large);
+  }
+
+  const BackendChoice opengl_{Backend::gl, "", 1};
+  const Intrinsics camera_{32, 24, 30.0, 30.0, 16.0, 12.0};
+  Scene scene_;
+};
+
+TEST_F(ShortMemory, IsTheUsersFaultAndSaysWhatIsLarge) {
+  const MemoryShortage shortage(large, 0);
+  try {
+    static_cast<void>(make(opengl_, camera_, scene_.bodies()));
+    FAIL() << shortage.asked();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find(" triangles"), std::string::npos) << message;
+    EXPECT_NE(message.find("32 x 24"), std::string::npos) << message;
+  }
+}
+
+TEST_F(ShortMemory, ForOpenGLAloneLeavesTheCpu) {
+  std::size_t of_the_cpu = 0;
+  {
+    const MemoryShortage none(large, SIZE_MAX);
+    static_cast<void>(make({Backend::cpu, "", 1}, camera_, scene_.bodies()));
+    of_the_cpu = none.asked();
+  }
+  const MemoryShortage shortage(large, of_the_cpu);
+  const ChosenRenderer chosen =
+      make_fastest_renderer(camera_, scene_.bodies(), {.gl_device = usable_device()});
+  EXPECT_GT(shortage.asked(), of_the_cpu);
+  EXPECT_EQ(chosen.choice.backend, Backend::cpu);
+  ASSERT_EQ(chosen.choice.warnings.size(), 1U);
+  EXPECT_NE(chosen.choice.warnings[0].find("memory"), std::string::npos);
 }
 
 }  // namespace

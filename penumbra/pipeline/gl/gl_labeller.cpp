@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cassert>
+#include <new>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include <penumbra/pipeline/gl/gl_labeller.hpp>
 #include <penumbra/pipeline/gl/label_passes-inl.hpp>
@@ -13,21 +15,35 @@
 #include <penumbra/render/gl/target.hpp>
 
 namespace penumbra {
+namespace {
+
+std::string size(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+}  // namespace
 
 struct GlLabeller::State {
   State(const Intrinsics& intrinsics, std::span<const Body> bodies, const LabelRule& rule,
         int device_index)
-      : context(gl::open_device(device_index)),
+      : width(intrinsics.width()),
+        height(intrinsics.height()),
+        body_count(bodies.size()),
+        context(gl::open_device(device_index)),
         current(std::in_place, *context),
         target(intrinsics),
         scene(intrinsics, bodies, gl::LabelPasses::slots),
         passes(intrinsics.width(), intrinsics.height(), rule) {
     current.reset();
-    for (const Body& body : bodies) {
-      for (const TriangleMesh& mesh : body.meshes) triangle_count += mesh.triangles.size();
-    }
+    for (const Body& body : bodies) triangle_count += body.triangle_count();
   }
 
+  /// Throws std::logic_error for what submit() does not take.
+  void check(std::span<const Eigen::Isometry3d> T_camera_body, const DepthView& measured,
+             std::span<const gl::PixelRectangle> boxes) const;
+
+  int width, height;
+  std::size_t body_count;
   std::unique_ptr<gl::EglContext> context;
   std::optional<gl::EglContext::Current> current;  // while the rest is made
   gl::Target target;
@@ -43,7 +59,34 @@ struct GlLabeller::State {
 GlLabeller::GlLabeller(const Intrinsics& intrinsics, std::span<const Body> bodies,
                        const LabelRule& rule, const RendererOptions& options) {
   rule.check();
-  state_ = std::make_unique<State>(intrinsics, bodies, rule, options.gl_device);
+  check_count_of(bodies);
+  try {
+    state_ = std::make_unique<State>(intrinsics, bodies, rule, options.gl_device);
+  } catch (const std::bad_alloc&) {
+    gl::refuse_for_memory(intrinsics, bodies);
+  }
+}
+
+void GlLabeller::State::check(std::span<const Eigen::Isometry3d> T_camera_body,
+                              const DepthView& measured,
+                              std::span<const gl::PixelRectangle> boxes) const {
+  const auto refuse = [](const std::string& what) {
+    throw std::logic_error("GlLabeller::submit: " + what);
+  };
+  if (boxes.size() > max_boxes)
+    refuse(std::to_string(boxes.size()) + " boxes; it takes " + std::to_string(max_boxes));
+  if (T_camera_body.size() != body_count) {
+    refuse(std::to_string(T_camera_body.size()) + " poses for " + std::to_string(body_count) +
+           " bodies");
+  }
+  std::visit(
+      [&](const auto& view) {
+        if (!view.empty() && view.width == width && view.height == height) return;
+        refuse("an image of " +
+               (view.data == nullptr ? "no pixels" : size(view.width, view.height)) +
+               " for a camera of " + size(width, height));
+      },
+      measured);
 }
 
 GlLabeller::~GlLabeller() = default;
@@ -55,10 +98,7 @@ void GlLabeller::submit(std::span<const Eigen::Isometry3d> T_camera_body, const 
     throw std::logic_error("GlLabeller::submit: " + std::to_string(max_pending) +
                            " frames are pending; collect one first");
   }
-  if (boxes.size() > max_boxes) {
-    throw std::logic_error("GlLabeller::submit: " + std::to_string(boxes.size()) +
-                           " boxes; it takes " + std::to_string(max_boxes));
-  }
+  s.check(T_camera_body, measured, boxes);
   s.first_failure.guard([&] {
     const gl::EglContext::Current current(*s.context);
     const std::size_t slot = s.submitted % gl::LabelPasses::slots;

@@ -10,6 +10,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/pipeline/gl/gl_labeller.hpp>
+#include <penumbra/render/gl/buffer.hpp>
 #include <penumbra/render/gl/pixel_rectangle.hpp>
 
 namespace penumbra::gl {
@@ -46,12 +47,12 @@ class LabelPasses {
   };
   static_assert(sizeof(Parameters) == 96);
 
-  /// What a frame shares with the device.
-  struct alignas(256) Shared {
-    Parameters parameters;
-    alignas(256) std::array<Counts, 1 + GlLabeller::max_boxes> counts;  // the image's first
-    alignas(256) std::array<Box, GlLabeller::max_boxes> boxes;
-  };
+  // What a frame shares with the device, in bytes: its parameters, its counts, its boxes.
+  static constexpr std::size_t count_room = 1 + GlLabeller::max_boxes;  // the image's are first
+  static constexpr std::size_t counts_at = aligned(sizeof(Parameters));
+  static constexpr std::size_t boxes_at = counts_at + aligned(count_room * sizeof(Counts));
+  static constexpr std::size_t shared_size =
+      boxes_at + aligned(GlLabeller::max_boxes * sizeof(Box));
 
   /// What the shader of this name takes.
   struct Spread {
@@ -65,7 +66,9 @@ class LabelPasses {
     PixelRectangle rectangle;  // outside of it all labels are clear
     TileMask touched;
     void* fence = nullptr;
-    Shared* shared = nullptr;
+    std::byte* shared = nullptr;  // mapped; written and read by copies alone
+    Parameters parameters{};
+    std::array<Counts, count_room> counts{};
     std::uint8_t* labels = nullptr;
     std::vector<std::array<std::size_t, label_count>> boxes;  // max_boxes of them
     std::vector<PixelRectangle> asked;
@@ -86,7 +89,7 @@ class LabelPasses {
   std::size_t stride_;  // of the labels that come back
   unsigned labels_ = 0, sensor_millimetres_ = 0, sensor_metres_ = 0;
   std::array<unsigned, 2> marks_{}, cells_{};
-  unsigned shared_buffer_ = 0, label_buffer_ = 0;
+  unsigned counts_ = 0, shared_buffer_ = 0, label_buffer_ = 0;
   unsigned label_ = 0, cell_ = 0, nearest_ = 0, certain_ = 0, solid_ = 0, spread_ = 0, finish_ = 0,
            box_ = 0;  // programs
   std::array<Slot, slots> slots_;

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <epoxy/gl.h>
 
@@ -23,11 +25,35 @@ constexpr int group = 16;  // invocations along each side of a work group
 constexpr std::size_t row_alignment = 64;
 
 // Marks of the shaders.
-constexpr unsigned front = 1, certain = 2, solid = 8, seed = 16, in_row = 32, in_square = 64;
+constexpr unsigned front = 1, certain = 2, unmeasured = 4, solid = 8, seed = 16, in_row = 32,
+                   in_square = 64;
 
 // Where the shaders expect things.
 enum Binding : GLuint { labels_image, marks_image, cells_image, other_cells, other_marks };
 enum Texture : GLuint { virtual_texture, millimetre_texture, metre_texture };
+
+/// What the shaders must have as this program has it.
+std::string shader_constants() {
+  std::string text = "#version 450 core\nconst int GROUP = " + std::to_string(group) +
+                     ", cell = " + std::to_string(LabelRule::cell) + ";\n";
+  const auto add = [&](const char* name, unsigned value) {
+    text += "const uint " + std::string(name) + " = " + std::to_string(value) + "u;\n";
+  };
+  add("LABELS", label_count);
+  add("LABEL_CLEAR", static_cast<unsigned>(Label::clear));
+  add("LABEL_FRONT", static_cast<unsigned>(Label::front));
+  add("LABEL_OCCLUDED", static_cast<unsigned>(Label::occluded));
+  add("LABEL_UNKNOWN", static_cast<unsigned>(Label::unknown));
+  add("LABEL_BEYOND", static_cast<unsigned>(Label::beyond));
+  add("FRONT", front);
+  add("CERTAIN", certain);
+  add("UNMEASURED", unmeasured);
+  add("SOLID", solid);
+  add("SEED", seed);
+  add("ROW", in_row);
+  add("SQUARE", in_square);
+  return text;
+}
 
 GLuint make_texture(GLenum format, int width, int height) {
   GLuint texture = 0;
@@ -50,6 +76,10 @@ void dispatch(GLuint program, const std::array<std::int32_t, 4>& box) {
   glUseProgram(program);
   glDispatchCompute(groups_for(box[2] - box[0]), groups_for(box[3] - box[1]), 1);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+std::size_t counts_size(std::size_t boxes) {
+  return (1 + boxes) * label_count * sizeof(std::uint32_t);
 }
 
 void bind_marks(GLuint from, GLuint to) {
@@ -111,14 +141,15 @@ void LabelPasses::make_buffers() {
   const std::size_t pixels = stride_ * static_cast<std::size_t>(height_);
   std::byte* shared = nullptr;
   std::byte* labels = nullptr;
+  counts_ = make_buffer(count_room * sizeof(Counts), nullptr, 0, "the counts of labels");
   shared_buffer_ =
-      make_buffer(slots * sizeof(Shared), nullptr, access, "the counts of labels", &shared);
+      make_buffer(slots * shared_size, nullptr, access, "the counts of labels", &shared);
   label_buffer_ = make_buffer(slots * pixels, nullptr, access | GL_CLIENT_STORAGE_BIT,
                               std::to_string(slots) + " label images", &labels);
   std::fill_n(labels, slots * pixels, std::byte{0});
   for (std::size_t i = 0; i < slots; ++i) {
     Slot& slot = slots_[i];
-    slot.shared = new (shared + i * sizeof(Shared)) Shared{};
+    slot.shared = shared + i * shared_size;
     slot.labels = reinterpret_cast<std::uint8_t*>(labels + i * pixels);
     slot.touched = TileMask(width_, height_);
     slot.boxes.reserve(GlLabeller::max_boxes);
@@ -127,17 +158,20 @@ void LabelPasses::make_buffers() {
 }
 
 void LabelPasses::make_programs() {
-  const auto make = [](std::initializer_list<const char*> sources) {
-    return make_program({{GL_COMPUTE_SHADER, sources}});
+  const std::string constants = shader_constants();
+  const auto make = [&](std::initializer_list<const char*> sources) {
+    std::vector<const char*> pieces{constants.c_str(), label_prelude};
+    pieces.insert(pieces.end(), sources);
+    return make_program({{GL_COMPUTE_SHADER, std::move(pieces)}});
   };
-  label_ = make({label_prelude, robot_prelude, sensor_prelude, label_shader});
-  cell_ = make({label_prelude, robot_prelude, cell_shader});
-  nearest_ = make({label_prelude, nearest_shader});
-  certain_ = make({label_prelude, sensor_prelude, certain_shader});
-  solid_ = make({label_prelude, solid_shader});
-  spread_ = make({label_prelude, spread_shader});
-  finish_ = make({label_prelude, finish_shader});
-  box_ = make({label_prelude, box_shader});
+  label_ = make({robot_prelude, sensor_prelude, label_shader});
+  cell_ = make({robot_prelude, cell_shader});
+  nearest_ = make({nearest_shader});
+  certain_ = make({sensor_prelude, certain_shader});
+  solid_ = make({solid_shader});
+  spread_ = make({spread_shader});
+  finish_ = make({finish_shader});
+  box_ = make({box_shader});
 }
 
 void LabelPasses::start(std::size_t index, unsigned depth, const PixelRectangle& seen,
@@ -152,28 +186,24 @@ void LabelPasses::start(std::size_t index, unsigned depth, const PixelRectangle&
   slot.rectangle = seen;
   std::fill(slot.touched.rows.begin(), slot.touched.rows.end(), std::uint64_t{0});
   slot.asked.assign(boxes.begin(), boxes.end());
-  slot.shared->counts.fill({});
+  std::memset(slot.shared + counts_at, 0, counts_size(boxes.size()));
   if (seen.empty()) return;
   slot.touched.mark(seen.u0, seen.v0, seen.u1 - 1, seen.v1 - 1);
   set_parameters(slot, measured.index() == 0);
-  std::transform(boxes.begin(), boxes.end(), slot.shared->boxes.begin(),
-                 [](const PixelRectangle& b) {
-                   return Box{b.u0, b.v0, b.u1, b.v1};
-                 });
-  upload(slot.shared->parameters.window, measured);
-  const auto at = [&](const void* member) {
-    return static_cast<GLintptr>(index * sizeof(Shared)) +
-           (static_cast<const std::byte*>(member) -
-            reinterpret_cast<const std::byte*>(slot.shared));
-  };
-  const Shared& shared = *slot.shared;
-  glBindBufferRange(GL_UNIFORM_BUFFER, 0, shared_buffer_, at(&shared.parameters),
+  std::memcpy(slot.shared, &slot.parameters, sizeof(Parameters));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box box{boxes[i].u0, boxes[i].v0, boxes[i].u1, boxes[i].v1};
+    std::memcpy(slot.shared + boxes_at + i * sizeof(Box), &box, sizeof(Box));
+  }
+  upload(slot.parameters.window, measured);
+  const std::size_t at = index * shared_size;
+  glBindBufferRange(GL_UNIFORM_BUFFER, 0, shared_buffer_, static_cast<GLintptr>(at),
                     sizeof(Parameters));
-  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, shared_buffer_, at(&shared.counts),
-                    sizeof(shared.counts));
-  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 1, shared_buffer_, at(&shared.boxes),
-                    sizeof(shared.boxes));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, counts_);
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 1, shared_buffer_,
+                    static_cast<GLintptr>(at + boxes_at), GlLabeller::max_boxes * sizeof(Box));
   glBindTextureUnit(virtual_texture, depth);
+  glTextureBarrier();  // it is still attached to the framebuffer
   run(slot);
   fetch(index, slot);
   slot.fence = make_fence();
@@ -183,7 +213,7 @@ void LabelPasses::set_parameters(Slot& slot, bool millimetres) const {
   const PixelRectangle& seen = slot.rectangle;
   // A front pixel's square reaches its width beyond the robot, and a hole in it as far again.
   const int beside = 2 * rule_.width;
-  Parameters& p = slot.shared->parameters;
+  Parameters& p = slot.parameters;
   p.window = {std::max(seen.u0 - beside, 0), std::max(seen.v0 - beside, 0),
               std::min(seen.u1 + beside, width_), std::min(seen.v1 + beside, height_)};
   p.seen = {seen.u0, seen.v0, seen.u1, seen.v1};
@@ -226,7 +256,10 @@ void LabelPasses::upload(const Box& window, const DepthView& measured) const {
 }
 
 void LabelPasses::run(const Slot& slot) const {
-  const Parameters& p = slot.shared->parameters;
+  const Parameters& p = slot.parameters;
+  glClearNamedBufferSubData(counts_, GL_R32UI, 0,
+                            static_cast<GLsizeiptr>(counts_size(slot.asked.size())), GL_RED_INTEGER,
+                            GL_UNSIGNED_INT, nullptr);
   glBindImageTexture(labels_image, labels_, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R8UI);
   bind_marks(marks_[0], marks_[1]);
   dispatch(label_, p.window);
@@ -274,7 +307,10 @@ void LabelPasses::spread(Marks& marks, const Box& window, const Spread& s) const
 
 void LabelPasses::fetch(std::size_t index, const Slot& slot) const {
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
-                  GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
+  glCopyNamedBufferSubData(counts_, shared_buffer_, 0,
+                           static_cast<GLintptr>(index * shared_size + counts_at),
+                           static_cast<GLsizeiptr>(counts_size(slot.asked.size())));
   const PixelRectangle& r = slot.rectangle;
   const std::size_t pixels = stride_ * static_cast<std::size_t>(height_);
   const std::size_t first =
@@ -297,17 +333,17 @@ DeviceLabels LabelPasses::wait(std::size_t index) {
     pixels[static_cast<std::size_t>(Label::clear)] = all;
     return pixels;
   };
-  const auto& counts = slot.shared->counts;
+  std::memcpy(slot.counts.data(), slot.shared + counts_at, counts_size(slot.asked.size()));
   DeviceLabels out;
   out.image.labels = {slot.labels, width_, height_, static_cast<std::ptrdiff_t>(stride_)};
   out.image.touched = &slot.touched;
   out.image.pixels =
-      count(counts[0], static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+      count(slot.counts[0], static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   slot.boxes.clear();
   for (std::size_t i = 0; i < slot.asked.size(); ++i) {
     const PixelRectangle inside = overlap(slot.asked[i], {0, 0, width_, height_});
-    slot.boxes.push_back(count(counts[i + 1], static_cast<std::size_t>(inside.width()) *
-                                                  static_cast<std::size_t>(inside.height())));
+    slot.boxes.push_back(count(slot.counts[i + 1], static_cast<std::size_t>(inside.width()) *
+                                                       static_cast<std::size_t>(inside.height())));
   }
   out.boxes = slot.boxes;
   return out;

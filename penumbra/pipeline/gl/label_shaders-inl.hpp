@@ -5,10 +5,11 @@
 
 namespace penumbra::gl {
 
-/// Before every shader of this file. One invocation works on one pixel of `window`, the part of the
-/// image in which anything may be labelled or decides about a label.
-inline constexpr const char* label_prelude = R"(#version 450 core
-layout(local_size_x = 16, local_size_y = 16) in;
+/// Before every shader of this file, after OpenGL's version and the constants of label_passes.cpp:
+/// GROUP, LABELS, cell, the marks and the labels. One invocation works on one pixel of `window`,
+/// the part of the image in which anything may be labelled or decides about a label.
+inline constexpr const char* label_prelude = R"(
+layout(local_size_x = GROUP, local_size_y = GROUP) in;
 layout(std140, binding = 0) uniform Rule {
   ivec4 window;           // first column and row, last column and row + 1
   ivec4 seen;             // the part of it that holds the robot; virtual_depth is old beside it
@@ -20,9 +21,6 @@ layout(std140, binding = 0) uniform Rule {
   uvec2 measured;         // bits of the least and the greatest depth that is a measurement
   int cells;              // that the edge margin reaches; 0: no margin
 };
-const int cell = 4;
-const uint FRONT = 1u, CERTAIN = 2u, UNMEASURED = 4u, SOLID = 8u, SEED = 16u, ROW = 32u, SQUARE = 64u;
-const uint LABEL_CLEAR = 0u, LABEL_FRONT = 1u, LABEL_OCCLUDED = 2u, LABEL_UNKNOWN = 3u, LABEL_BEYOND = 4u;
 
 bool is_in(ivec2 p, ivec4 box) {
   return all(greaterThanEqual(p, box.xy)) && all(lessThan(p, box.zw));
@@ -190,9 +188,10 @@ inline constexpr const char* finish_shader = R"(
 layout(r8ui, binding = 0) uniform uimage2D labels;
 layout(r8ui, binding = 1) uniform readonly uimage2D marks;
 layout(std430, binding = 0) buffer Counts { uint counts[]; };
-shared uint group_counts[5];
+shared uint group_counts[LABELS];
 void main() {
-  if (gl_LocalInvocationIndex < 5u) group_counts[gl_LocalInvocationIndex] = 0u;
+  uint own = gl_LocalInvocationIndex;
+  if (own < LABELS) group_counts[own] = 0u;
   barrier();
   ivec2 p = own_pixel();
   if (in_window(p)) {
@@ -204,7 +203,8 @@ void main() {
     if (label != LABEL_CLEAR) atomicAdd(group_counts[label], 1u);
   }
   barrier();
-  if (gl_LocalInvocationIndex < 5u) atomicAdd(counts[gl_LocalInvocationIndex], group_counts[gl_LocalInvocationIndex]);
+  uint n = own < LABELS ? group_counts[own] : 0u;
+  if (n != 0u) atomicAdd(counts[own], n);
 }
 )";
 
@@ -213,20 +213,21 @@ inline constexpr const char* box_shader = R"(
 layout(r8ui, binding = 0) uniform readonly uimage2D labels;
 layout(std430, binding = 0) buffer Counts { uint counts[]; };
 layout(std430, binding = 1) readonly buffer Boxes { ivec4 boxes[]; };
-shared uint group_counts[5];
+shared uint group_counts[LABELS];
 void main() {
   uint box = gl_WorkGroupID.x;
-  if (gl_LocalInvocationIndex < 5u) group_counts[gl_LocalInvocationIndex] = 0u;
+  uint own = gl_LocalInvocationIndex;
+  if (own < LABELS) group_counts[own] = 0u;
   barrier();
   ivec4 b = ivec4(max(boxes[box].xy, window.xy), min(boxes[box].zw, window.zw));
-  for (int y = b.y + int(gl_LocalInvocationID.y); y < b.w; y += 16) {
-    for (int x = b.x + int(gl_LocalInvocationID.x); x < b.z; x += 16) {
+  for (int y = b.y + int(gl_LocalInvocationID.y); y < b.w; y += GROUP) {
+    for (int x = b.x + int(gl_LocalInvocationID.x); x < b.z; x += GROUP) {
       uint label = imageLoad(labels, ivec2(x, y)).x;
       if (label != LABEL_CLEAR) atomicAdd(group_counts[label], 1u);
     }
   }
   barrier();
-  if (gl_LocalInvocationIndex < 5u) counts[5u * (box + 1u) + gl_LocalInvocationIndex] = group_counts[gl_LocalInvocationIndex];
+  if (own < LABELS) counts[LABELS * (box + 1u) + own] = group_counts[own];
 }
 )";
 

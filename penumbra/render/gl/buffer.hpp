@@ -13,6 +13,13 @@ namespace penumbra::gl {
 unsigned make_buffer(std::size_t bytes, const void* data, unsigned flags, const std::string& what,
                      std::byte** mapped = nullptr);
 
+/// Bytes: more than any device asks of where in a buffer something may start.
+inline constexpr std::size_t buffer_alignment = 256;
+
+[[nodiscard]] constexpr std::size_t aligned(std::size_t bytes) {
+  return (bytes + buffer_alignment - 1) / buffer_alignment * buffer_alignment;
+}
+
 /// An offset into the bound buffer, as OpenGL takes it in place of an address.
 [[nodiscard]] inline void* as_address(std::size_t bytes) {
   return reinterpret_cast<void*>(bytes);  // NOLINT(performance-no-int-to-ptr): OpenGL's own way

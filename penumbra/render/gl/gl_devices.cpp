@@ -53,5 +53,15 @@ std::unique_ptr<EglContext> open_device(int device) {
 
 std::string words_of(const GlDevice& device) { return device.name + ", OpenGL " + device.version; }
 
+void refuse_for_memory(const Intrinsics& intrinsics, std::span<const Body> bodies) {
+  std::size_t triangles = 0;
+  for (const Body& body : bodies) triangles += body.triangle_count();
+  throw InputError("renderer 'gl': a robot of " + std::to_string(triangles) +
+                   " triangles and an image of " + std::to_string(intrinsics.width()) + " x " +
+                   std::to_string(intrinsics.height()) +
+                   " pixels need more memory than this machine gives; use coarser meshes or a "
+                   "smaller image");
+}
+
 }  // namespace gl
 }  // namespace penumbra

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -75,7 +76,11 @@ class GlRenderer final : public DepthRenderer {
 
 std::unique_ptr<DepthRenderer> make_gl_renderer(const Intrinsics& intrinsics,
                                                 std::span<const Body> bodies, int device) {
-  return std::make_unique<GlRenderer>(intrinsics, bodies, gl::open_device(device));
+  try {
+    return std::make_unique<GlRenderer>(intrinsics, bodies, gl::open_device(device));
+  } catch (const std::bad_alloc&) {
+    gl::refuse_for_memory(intrinsics, bodies);
+  }
 }
 
 }  // namespace penumbra

@@ -20,10 +20,6 @@ constexpr GLuint vertex_binding = 0;
 constexpr GLuint matrix_binding = 1;
 constexpr GLuint body_binding = 2;
 
-constexpr std::size_t alignment = 256;  // bytes: more than any device asks for
-
-std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
-
 template <typename T>
 GLuint make_buffer_of(const std::vector<T>& values, const char* what) {
   return make_buffer(values.size() * sizeof(T), values.data(), 0, what);
@@ -81,7 +77,7 @@ void Scene::upload(std::span<const Body> bodies) {
 
 void Scene::make_stream(std::size_t bodies, std::size_t frames) {
   commands_at_ = aligned(bodies * sizeof(Matrix));
-  frame_size_ = aligned(commands_at_ + parts_.size() * sizeof(Command)) + alignment;
+  frame_size_ = aligned(commands_at_ + parts_.size() * sizeof(Command)) + buffer_alignment;
   constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   stream_ = make_buffer(frames * frame_size_, nullptr, access, "the links' poses", &stream_data_);
   for (GLuint row = 0; row < 3; ++row) {
