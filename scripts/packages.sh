@@ -9,8 +9,8 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
-       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev)
-test=(pkgconf libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
+       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf)
+test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)

@@ -122,6 +122,7 @@ TEST_F(RendererTest, LabelsOfTheDeviceAreThoseOfTheCpu) {
   const Outcome outcome = run({"--renderer", "gl", "--gl-labels", "--save", "labels,overlay"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(read_file(labels), expected_labels);
+  EXPECT_EQ(report()["renderer"], expected["renderer"]);
   for (std::size_t i = 0; i < expected["frames"].size(); ++i) {
     EXPECT_EQ(report()["frames"][i]["pixels"], expected["frames"][i]["pixels"]) << i;
   }

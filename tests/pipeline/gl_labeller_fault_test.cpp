@@ -37,17 +37,7 @@ class GlLabelFaults : public testing::Test {
   [[nodiscard]] bool fails_once(GlFault fault, int spared) const {
     GlLabeller labeller(camera, bodies_, {});
     const InjectedFault injected(fault, spared);
-    bool failed = false;
-    const auto attempt = [&](auto&& step) {
-      try {
-        step();
-        EXPECT_FALSE(failed) << "a labeller that failed went on";
-      } catch (const std::runtime_error& error) {
-        failed = true;
-        const std::string message = error.what();
-        EXPECT_NE(message.find(": make a new renderer"), std::string::npos) << message;
-      }
-    };
+    Attempts attempt;
     std::size_t pending = 0;
     const auto submit = [&](const Poses& poses) {
       labeller.submit(poses, wall_.view());
@@ -58,8 +48,8 @@ class GlLabelFaults : public testing::Test {
       attempt([&] { EXPECT_EQ(labeller.collect().image.pixels, counts_[i]) << i; });
     }
     for (const Poses& poses : poses_) attempt([&] { submit(poses); });
-    EXPECT_EQ(failed, injected.happened());
-    return failed;
+    EXPECT_EQ(attempt.failed(), injected.happened());
+    return attempt.failed();
   }
 
   std::vector<TriangleMesh> meshes_{sphere(0.2F, 12)};

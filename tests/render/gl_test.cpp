@@ -2,6 +2,7 @@
 // What only the OpenGL renderer has: devices, contexts, the rectangle that it reads back.
 #include "random.hpp"
 #include "render_test.hpp"
+#include "sanitized.hpp"
 #include "shapes.hpp"
 
 #include <cstdlib>
@@ -194,13 +195,6 @@ constexpr std::size_t growth_per_frame = 1'000;
 /// Bytes for the long runs of PENUMBRA_FULL: over 1000 cycles a lost mesh would show as 20 MB.
 constexpr std::size_t growth_in_all = 2'000'000;
 
-/// The sanitizers' allocators keep what is freed; LeakSanitizer looks for what is not.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
-
 bool runs_long() { return std::getenv("PENUMBRA_FULL") != nullptr; }
 
 /// How often to do what PENUMBRA_FULL does `full` times.
@@ -218,7 +212,7 @@ void expect_no_growth(int count, std::size_t growth, Step&& step) {
   std::cout << count << " times: files " << before.files << " -> " << after.files << ", resident "
             << before.resident / 1000 << " -> " << after.resident / 1000 << " kB\n";
   EXPECT_EQ(after.files, before.files);
-  if (!sanitized) {
+  if (!sanitized) {  // their allocators keep what is freed; LeakSanitizer looks for what is not
     const std::size_t most = runs_long() ? growth_in_all : growth * static_cast<std::size_t>(count);
     EXPECT_LT(after.resident, before.resident + most);
   }

@@ -4,6 +4,7 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
@@ -77,6 +78,12 @@ GLenum reset_status() {
 
 }  // namespace
 
+void expect_final(const std::runtime_error& error) {
+  const std::string message = error.what();
+  EXPECT_NE(message.find(": make a new renderer"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
 std::string to_string(GlFault fault) {
   constexpr std::array names{"make_current", "fetch", "fence", "wait",
                              "patience",     "error", "reset"};
@@ -87,13 +94,9 @@ InjectedFault::InjectedFault(GlFault fault, int spared) {
   real = Functions();
   wanted = fault;
   left = spared;
-  epoxy_eglMakeCurrent = make_current;
-  epoxy_glReadPixels = read_pixels;
-  epoxy_glGetTextureSubImage = get_texture;
-  epoxy_glFenceSync = fence_sync;
-  epoxy_glClientWaitSync = client_wait;
-  epoxy_glGetError = get_error;
-  epoxy_glGetGraphicsResetStatus = reset_status;
+  Functions{make_current, read_pixels, get_texture, fence_sync,
+            client_wait,  get_error,   reset_status}
+      .use();
 }
 
 InjectedFault::~InjectedFault() { real.use(); }
@@ -102,7 +105,9 @@ bool InjectedFault::happened() const { return left < 0; }
 
 NoDeviceCurrent::NoDeviceCurrent() {
   real = Functions();
-  epoxy_eglMakeCurrent = never_current;
+  Functions current = real;
+  current.make_current = never_current;
+  current.use();
 }
 
 NoDeviceCurrent::~NoDeviceCurrent() { real.use(); }

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace penumbra::test {
 
@@ -33,6 +36,28 @@ class InjectedFault {
   InjectedFault& operator=(const InjectedFault&) = delete;
 
   [[nodiscard]] bool happened() const;
+};
+
+/// Expects the one line of a renderer that failed for good.
+void expect_final(const std::runtime_error& error);
+
+/// Steps of a renderer or labeller, none of which may succeed after one that failed.
+class Attempts {
+ public:
+  template <typename Step>
+  void operator()(Step&& step) {
+    try {
+      step();
+      EXPECT_FALSE(failed_) << "it failed and went on";
+    } catch (const std::runtime_error& error) {
+      failed_ = true;
+      expect_final(error);
+    }
+  }
+  [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+  bool failed_ = false;
 };
 
 /// The device cannot be made current while it lives.
