@@ -20,7 +20,7 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_bytes = 1 << 20;
+constexpr std::uint64_t max_camera_info_bytes = 1 << 20;
 
 /// Runs f and puts file, line and key of `node` before the message of what it throws.
 template <typename F>
@@ -258,7 +258,7 @@ Camera parse_camera_info(const std::string& text, const std::filesystem::path& f
 }
 
 Camera read_camera_info(const std::filesystem::path& file, bool rectified) {
-  return parse_camera_info(read_text(file, max_bytes), file, rectified);
+  return parse_camera_info(read_text(file, max_camera_info_bytes), file, rectified);
 }
 
 }  // namespace penumbra::io

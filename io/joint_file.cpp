@@ -15,7 +15,7 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t max_joint_bytes = std::uint64_t{1} << 30;
 
 // What each column of the file is.
 struct Columns {
@@ -94,7 +94,7 @@ std::string read_values(const Columns& columns, const std::vector<std::string_vi
 }  // namespace
 
 std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const Robot& robot) {
-  const std::string text = read_text(file, max_bytes);
+  const std::string text = read_text(file, max_joint_bytes);
   const auto place = [&](std::size_t line) {
     return file.string() + ":" + std::to_string(line) + ": ";
   };

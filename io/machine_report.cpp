@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include <io/json-inl.hpp>
 #include <io/machine_report.hpp>
 
 namespace penumbra::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json build_json(const BuildReport& build) {
   return {{"type", or_null(build.type)},

@@ -32,12 +32,12 @@ bool guarded(png_structp png, const F& call) {
   return true;
 }
 
-struct Fault {
+struct PngFault {
   std::array<char, 96> text{};
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp text) {
-  auto* fault = static_cast<Fault*>(png_get_error_ptr(png));
+  auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
   std::snprintf(fault->text.data(), fault->text.size(), "%s", text);
   png_longjmp(png, 1);
 }
@@ -140,7 +140,7 @@ class Decoder {
 
   std::string damaged() const { return std::string("is a damaged PNG: ") + fault_.text.data(); }
 
-  Fault fault_;
+  PngFault fault_;
   png_structp png_;
   png_infop info_;
 };
@@ -183,7 +183,7 @@ struct Encoding {
 template <typename T>
 void write_image(const std::filesystem::path& file, ImageView<const T> image,
                  const Encoding& encoding) {
-  Fault fault;
+  PngFault fault;
   std::vector<png_byte> bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;

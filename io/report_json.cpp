@@ -3,17 +3,14 @@
 #include <system_error>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <penumbra/base/version.hpp>
 
 #include <io/disk_file.hpp>
+#include <io/json-inl.hpp>
 #include <io/report_json.hpp>
 
 namespace penumbra::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t write_size = std::size_t{1} << 16;  // bytes gathered before they are written
 constexpr double ns_per_ms = 1e6;
@@ -23,18 +20,11 @@ std::string dump(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json list(std::span<const std::string> names) {
   Json array = Json::array();
   for (const std::string& name : names) array.push_back(name);
   return array;
 }
-
-Json or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json renderer_json(const UsedRenderer& used) {
   const RendererInfo& info = used.info;

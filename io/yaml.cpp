@@ -16,7 +16,7 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_bytes = 1 << 20;
+constexpr std::uint64_t max_yaml_bytes = 1 << 20;
 constexpr std::size_t max_depth = 16;
 constexpr std::size_t max_keys = 1024;  // of one map: every new key is compared with all before it
 constexpr std::size_t max_quoted = 60;  // letters of the file that a message repeats
@@ -130,7 +130,7 @@ class YamlBuilder : public YAML::EventHandler {
 };
 
 YamlNode YamlNode::read(const std::filesystem::path& file) {
-  return parse(read_text(file, max_bytes), file);
+  return parse(read_text(file, max_yaml_bytes), file);
 }
 
 YamlNode YamlNode::parse(const std::string& text, const std::filesystem::path& file) {

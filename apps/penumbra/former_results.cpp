@@ -5,6 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/former_results.hpp>
+#include <apps/penumbra/output_folder.hpp>
 #include <io/disk_file.hpp>
 
 namespace penumbra::app {
@@ -12,13 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t index_digits = 6;
-
 /// Whether a run could have written a file of this name: digits and an image's ending.
 bool is_frame_file(const fs::path& file) {
   const std::string stem = file.stem().string();
   const bool digits =
-      stem.size() >= index_digits &&
+      stem.size() >= frame_digits &&
       std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
   return digits && (file.extension() == ".png" || file.extension() == ".npy");
 }

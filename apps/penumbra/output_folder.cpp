@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int index_digits = 6;
-
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(path.string() + ": cannot be used as output folder (" + why +
                    "); choose another with -o");
@@ -66,7 +64,7 @@ void OutputFolder::save(const FrameReport& report, const io::FrameData& frame) {
 
 fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {
   std::string digits = std::to_string(index);
-  digits.insert(0, index_digits - std::min<std::size_t>(digits.size(), index_digits), '0');
+  digits.insert(0, frame_digits - std::min(digits.size(), frame_digits), '0');
   return folder_ / kind / (digits + ending);
 }
 

@@ -13,6 +13,9 @@
 
 namespace penumbra::app {
 
+/// Digits of a frame's index in file names, at least.
+inline constexpr std::size_t frame_digits = 6;
+
 /// Where `run` writes. Files are named by the frame's index: vdi/000000.npy, labels/000000.png.
 class OutputFolder {
  public:

@@ -13,7 +13,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t nothing = ~std::uint32_t{0};
 
 std::uint32_t hash_position(const Eigen::Vector3f& p) {
   std::uint64_t h = 0x9E3779B97F4A7C15u;
@@ -27,13 +27,13 @@ std::uint32_t hash_position(const Eigen::Vector3f& p) {
 /// Numbers positions in the order in which they are met: open addressing, at most half full.
 class PositionIndex {
  public:
-  explicit PositionIndex(std::size_t most) : slots_(std::bit_ceil(2 * most + 2), none) {}
+  explicit PositionIndex(std::size_t most) : slots_(std::bit_ceil(2 * most + 2), nothing) {}
 
   std::uint32_t find_or_add(Eigen::Vector3f position, std::vector<Eigen::Vector3f>& vertices) {
     position.array() += 0.0F;  // -0.0 becomes 0.0
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t slot = hash_position(position) & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == none) {
+      if (slots_[slot] == nothing) {
         slots_[slot] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(position);
         return slots_[slot];
@@ -86,7 +86,7 @@ class SliverRemover {
     return !slivers_.empty();
   }
 
-  /// Edges between corners of slivers; `none` where several triangles run one.
+  /// Edges between corners of slivers; `nothing` where several triangles run one.
   void index_edges() {
     std::vector<bool> is_corner(mesh_.vertices.size(), false);
     for (const std::uint32_t i : slivers_)
@@ -98,7 +98,7 @@ class SliverRemover {
         const std::uint32_t to = t[(k + 1) % 3];
         if (!is_corner[t[k]] || !is_corner[to]) continue;
         const auto [entry, is_new] = triangle_of_.emplace(key(t[k], to), i);
-        if (!is_new) entry->second = none;
+        if (!is_new) entry->second = nothing;
       }
     }
   }
@@ -118,7 +118,7 @@ class SliverRemover {
     const auto [p, q, r] = longest_first(mesh_.triangles[i]);
     const auto found = triangle_of_.find(key(q, p));
     mesh_.triangles[i] = dead;
-    if (found == triangle_of_.end() || found->second == none) return;  // it closed nothing
+    if (found == triangle_of_.end() || found->second == nothing) return;  // it closed nothing
     const std::uint32_t neighbour = found->second;
     const Triangle across = mesh_.triangles[neighbour];
     const std::size_t k =
@@ -135,7 +135,7 @@ class SliverRemover {
     mesh_.triangles[i] = t;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto edge = triangle_of_.find(key(t[k], t[(k + 1) % 3]));
-      if (edge != triangle_of_.end() && edge->second != none) edge->second = i;
+      if (edge != triangle_of_.end() && edge->second != nothing) edge->second = i;
     }
   }
 
@@ -153,12 +153,13 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   welded.triangles.reserve(mesh.triangles.size());
 
   PositionIndex positions(most);
-  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), none);
+  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), nothing);
   for (const Triangle& given : mesh.triangles) {
     Triangle t;
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& number = renumbered[given[k]];
-      if (number == none) number = positions.find_or_add(mesh.vertices[given[k]], welded.vertices);
+      if (number == nothing)
+        number = positions.find_or_add(mesh.vertices[given[k]], welded.vertices);
       t[k] = number;
     }
     if (!has_equal_corners(t)) welded.triangles.push_back(t);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,55 +11,49 @@
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {
-namespace {
-
 using Eigen::Vector3d;
 
-/// A piece of a body's surface that bounds it but for small holes.
-struct Shell {
-  std::vector<std::array<Eigen::Vector3f, 3>> triangles;
-  Eigen::AlignedBox3d bounds;
-
-  [[nodiscard]] bool holds(const Vector3d& point) const {
-    if (!bounds.contains(point)) return false;
-    double angle = 0.0;
-    for (const auto& [a, b, c] : triangles) {
-      angle += solid_angle({a.cast<double>(), b.cast<double>(), c.cast<double>()}, point);
-    }
-    // Inside 4 pi, outside 0, less or more by what the holes take up.
-    return std::abs(angle) > 2.0 * std::numbers::pi;
-  }
-};
-
-std::vector<Shell> solid_shells(const TriangleMesh& mesh) {
-  const TriangleMesh welded = weld(mesh);
-  std::vector<Shell> shells;
-  for (const MeshSheet& sheet : mesh_sheets(welded)) {
-    if (!sheet.closed && sheet.facing == Facing::unknown) continue;
-    Shell& shell = shells.emplace_back();
-    shell.triangles.reserve(sheet.triangles.size());
-    for (const std::size_t t : sheet.triangles) {
-      const auto& [a, b, c] = welded.triangles[t];
-      shell.triangles.push_back({welded.vertices[a], welded.vertices[b], welded.vertices[c]});
-      for (const Eigen::Vector3f& p : shell.triangles.back()) shell.bounds.extend(p.cast<double>());
-    }
-  }
-  return shells;
-}
-
-}  // namespace
-
 struct CameraInsideCheck::Solid {
-  std::vector<Shell> shells;
+  /// A piece of the body's surface that bounds it but for small holes.
+  struct Boundary {
+    std::vector<std::array<Eigen::Vector3f, 3>> triangles;
+    Eigen::AlignedBox3d bounds;
+
+    [[nodiscard]] bool holds(const Vector3d& point) const {
+      if (!bounds.contains(point)) return false;
+      double angle = 0.0;
+      for (const auto& [a, b, c] : triangles) {
+        angle += solid_angle({a.cast<double>(), b.cast<double>(), c.cast<double>()}, point);
+      }
+      // Inside 4 pi, outside 0, less or more by what the holes take up.
+      return std::abs(angle) > 2.0 * std::numbers::pi;
+    }
+  };
+
+  std::vector<Boundary> boundaries;
   Vector3d last_centre = Vector3d::Constant(std::nan(""));
   bool last_answer = false;
+
+  void add(const TriangleMesh& mesh) {
+    const TriangleMesh welded = weld(mesh);
+    for (const MeshSheet& sheet : mesh_sheets(welded)) {
+      if (!sheet.closed && sheet.facing == Facing::unknown) continue;
+      auto& [triangles, bounds] = boundaries.emplace_back();
+      triangles.reserve(sheet.triangles.size());
+      for (const std::size_t t : sheet.triangles) {
+        const auto& [a, b, c] = welded.triangles[t];
+        triangles.push_back({welded.vertices[a], welded.vertices[b], welded.vertices[c]});
+        for (const Eigen::Vector3f& p : triangles.back()) bounds.extend(p.cast<double>());
+      }
+    }
+  }
 
   [[nodiscard]] bool holds(const Vector3d& centre) {
     constexpr double same = 1e-7;  // metres: a camera fixed to a link moves by rounding alone
     if (!((centre - last_centre).cwiseAbs().maxCoeff() <= same)) {
       last_centre = centre;
-      last_answer = false;
-      for (const Shell& shell : shells) last_answer = last_answer || shell.holds(centre);
+      last_answer = std::any_of(boundaries.begin(), boundaries.end(),
+                                [&](const Boundary& b) { return b.holds(centre); });
     }
     return last_answer;
   }
@@ -67,9 +62,7 @@ struct CameraInsideCheck::Solid {
 CameraInsideCheck::CameraInsideCheck(std::span<const Body> bodies) {
   for (const Body& body : bodies) {
     Solid& solid = solids_.emplace_back();
-    for (const TriangleMesh& mesh : body.meshes) {
-      for (Shell& shell : solid_shells(mesh)) solid.shells.push_back(std::move(shell));
-    }
+    for (const TriangleMesh& mesh : body.meshes) solid.add(mesh);
   }
 }
 

@@ -16,7 +16,6 @@ namespace {
 constexpr std::string_view kSingle[] = {""};
 constexpr std::string_view kPlanar[] = {"/x", "/y", "/yaw"};
 constexpr std::string_view kFloating[] = {"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"};
-constexpr double kLargestMimic = 1e9;
 
 std::span<const std::string_view> endings(JointType type) {
   if (type == JointType::fixed) return {};

@@ -15,9 +15,6 @@ namespace {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-constexpr std::size_t most_triangles = 100'000'000;  // of all instances: a file that unfolds to
-                                                     // more is an attack or a mistake
-
 Eigen::Matrix4d matrix_of(const aiMatrix4x4& m) {
   Eigen::Matrix4d result;
   result << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,

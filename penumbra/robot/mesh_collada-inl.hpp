@@ -18,7 +18,7 @@ using detail::XmlElement;
 [[noreturn]] void fail(const XmlElement& element, const std::string& what);
 
 /// The same for what only damage or a faulty exporter explains.
-[[noreturn]] void damaged(const XmlElement& element, const std::string& what);
+[[noreturn]] void damaged_at(const XmlElement& element, const std::string& what);
 
 /// The only child of a name; an error where there is none, or another.
 [[nodiscard]] const XmlElement& only_child(const XmlElement& parent, std::string_view name);

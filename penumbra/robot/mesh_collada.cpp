@@ -15,24 +15,23 @@
 namespace penumbra::mesh_formats {
 namespace {
 
-using collada::damaged;
+using collada::damaged_at;
 using collada::fail;
 using collada::required;
 using detail::XmlElement;
 
 constexpr double largest_unit = 1e6;  // metres
-constexpr std::size_t most_triangles = 100'000'000;
 constexpr int most_nodes = 1'000'000;
-constexpr int deepest = 100;
+constexpr int deepest_node = 100;
 
 /// The numbers of a transform's text, all of them and no more.
 std::vector<double> parameters_of(const XmlElement& element, std::size_t count) {
   std::vector<double> numbers = collada::numbers_of(element);
   if (numbers.size() != count)
-    damaged(element, "it has " + std::to_string(numbers.size()) + " of " + std::to_string(count) +
-                         " numbers");
+    damaged_at(element, "it has " + std::to_string(numbers.size()) + " of " +
+                            std::to_string(count) + " numbers");
   for (const double number : numbers)
-    if (!std::isfinite(number)) damaged(element, "a number is not finite");
+    if (!std::isfinite(number)) damaged_at(element, "a number is not finite");
   return numbers;
 }
 
@@ -40,7 +39,7 @@ Eigen::Affine3d read_rotation(const XmlElement& element) {
   const auto n = parameters_of(element, 4);
   const Eigen::Vector3d axis(n[0], n[1], n[2]);
   if (n[3] == 0.0) return Eigen::Affine3d::Identity();
-  if (axis.norm() < 1e-9) damaged(element, "its axis has no direction");
+  if (axis.norm() < 1e-9) damaged_at(element, "its axis has no direction");
   return Eigen::Affine3d(Eigen::AngleAxisd(n[3] * std::numbers::pi / 180.0, axis.normalized()));
 }
 
@@ -50,7 +49,7 @@ Eigen::Affine3d read_matrix(const XmlElement& element) {
   const Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(n.data());
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > rounding)
-    damaged(element, "its last row is not 0 0 0 1");
+    damaged_at(element, "its last row is not 0 0 0 1");
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   transform.matrix().topRows<3>() = matrix.topRows<3>();
   return transform;
@@ -89,7 +88,7 @@ class Index {
       fail(link, "it refers to '#" + id.substr(0, 80) +
                      "', which is not in the file; export everything into one file");
     if (std::next(begin) != end)
-      damaged(link, "two elements have the id '" + id.substr(0, 80) + "'");
+      damaged_at(link, "two elements have the id '" + id.substr(0, 80) + "'");
     return *begin->second;
   }
 
@@ -148,8 +147,8 @@ class SceneReader {
 
   /// Transforms come before the children that they move, by the schema; they hold for all of them.
   void visit(const XmlElement& node, Pose pose, int depth) {
-    if (depth > deepest) damaged(node, "nodes contain each other");
-    if (++visited_ > most_nodes) damaged(node, "nodes unfold to more than a million");
+    if (depth > deepest_node) damaged_at(node, "nodes contain each other");
+    if (++visited_ > most_nodes) damaged_at(node, "nodes unfold to more than a million");
     for (const XmlElement& child : node.children) {
       if (is_transform(child)) pose.T_file_node = pose.T_file_node * read_transform(child);
       if (is_unread_transform(child)) pose.unread = &child;
@@ -170,7 +169,7 @@ class SceneReader {
       append(geometries_.find(child), pose);
     else if (!is_transform(child) && !is_unread_transform(child) &&
              without_surface.count(child.name) == 0)
-      damaged(child, "it stands in <" + node.name + ">");
+      damaged_at(child, "it stands in <" + node.name + ">");
   }
 
   void append(const XmlElement& geometry, const Pose& pose) {
@@ -203,14 +202,13 @@ class SceneReader {
 };
 
 XmlElement read_document(std::string_view bytes) {
-  constexpr std::string_view remedy = "; it is truncated or damaged; export or copy it again";
   std::string_view start = bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (!take_word(start).starts_with('<') || bytes.find('\0') != std::string_view::npos)
-    throw FormatError("Collada: it is no XML text in UTF-8" + std::string(remedy));
+    damaged("Collada: it is no XML text in UTF-8");
   try {
     return detail::read_xml(bytes, "Collada");
   } catch (const InputError& error) {
-    throw FormatError(error.what() + std::string(remedy));
+    damaged(error.what());
   }
 }
 

@@ -17,13 +17,13 @@ void fail(const XmlElement& element, const std::string& what) {
                     element.name.substr(0, 40) + ">: " + what);
 }
 
-void damaged(const XmlElement& element, const std::string& what) {
+void damaged_at(const XmlElement& element, const std::string& what) {
   fail(element, what + "; the file is damaged: export or copy it again");
 }
 
 const std::string& required(const XmlElement& element, std::string_view name) {
   const std::string* const value = element.attribute(name);
-  if (value == nullptr) damaged(element, "it has no " + std::string(name));
+  if (value == nullptr) damaged_at(element, "it has no " + std::string(name));
   return *value;
 }
 
@@ -41,7 +41,7 @@ std::uint64_t count_of(const XmlElement& element, std::string_view name,
   if (text == nullptr && otherwise) return *otherwise;
   const auto value = parse_number<std::uint32_t>(required(element, name));
   if (!value)
-    damaged(element, std::string(name) + "=\"" + text->substr(0, 40) + "\" is no whole number");
+    damaged_at(element, std::string(name) + "=\"" + text->substr(0, 40) + "\" is no whole number");
   return *value;
 }
 
@@ -49,10 +49,10 @@ const XmlElement& only_child(const XmlElement& parent, std::string_view name) {
   const XmlElement* found = nullptr;
   for (const XmlElement& child : parent.children) {
     if (child.name != name) continue;
-    if (found != nullptr) damaged(child, "a second one in <" + parent.name + ">");
+    if (found != nullptr) damaged_at(child, "a second one in <" + parent.name + ">");
     found = &child;
   }
-  if (found == nullptr) damaged(parent, "it has no <" + std::string(name) + ">");
+  if (found == nullptr) damaged_at(parent, "it has no <" + std::string(name) + ">");
   return *found;
 }
 
@@ -64,7 +64,7 @@ std::vector<Number> parse_all(const XmlElement& element) {
   std::string_view text = element.text;
   for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
     const auto value = parse_number<Number>(word);
-    if (!value) damaged(element, "'" + std::string(word.substr(0, 40)) + "' is no number");
+    if (!value) damaged_at(element, "'" + std::string(word.substr(0, 40)) + "' is no number");
     numbers.push_back(*value);
   }
   return numbers;
@@ -75,10 +75,10 @@ const XmlElement& only_input(const XmlElement& parent, std::string_view semantic
   const XmlElement* found = nullptr;
   for (const XmlElement& child : parent.children) {
     if (child.name != "input" || required(child, "semantic") != semantic) continue;
-    if (found != nullptr) damaged(child, "a second " + std::string(semantic));
+    if (found != nullptr) damaged_at(child, "a second " + std::string(semantic));
     found = &child;
   }
-  if (found == nullptr) damaged(parent, "it has no <input> of " + std::string(semantic));
+  if (found == nullptr) damaged_at(parent, "it has no <input> of " + std::string(semantic));
   return *found;
 }
 
@@ -89,7 +89,7 @@ std::array<std::size_t, 3> offsets_of_xyz(const XmlElement& accessor) {
   std::array<int, 3> found{};
   std::size_t place = 0;
   for (const XmlElement& child : accessor.children) {
-    if (child.name != "param") damaged(child, "it stands in an <accessor>");
+    if (child.name != "param") damaged_at(child, "it stands in an <accessor>");
     const std::string* const name = child.attribute("name");
     for (std::size_t axis = 0; name != nullptr && axis < 3; ++axis) {
       if (*name != axes[axis]) continue;
@@ -99,7 +99,7 @@ std::array<std::size_t, 3> offsets_of_xyz(const XmlElement& accessor) {
     ++place;
   }
   if (found != std::array{1, 1, 1})
-    damaged(accessor, "positions need one param X, one Y and one Z");
+    damaged_at(accessor, "positions need one param X, one Y and one Z");
   return offsets;
 }
 
@@ -108,20 +108,20 @@ std::vector<Eigen::Vector3f> read_positions(const XmlElement& source) {
   const XmlElement& array = only_child(source, "float_array");
   const std::vector<double> values = numbers_of(array);
   if (values.size() != count_of(array, "count"))
-    damaged(array, "it promises " + required(array, "count") + " numbers and has " +
-                       std::to_string(values.size()));
+    damaged_at(array, "it promises " + required(array, "count") + " numbers and has " +
+                          std::to_string(values.size()));
   const XmlElement& accessor = only_child(only_child(source, "technique_common"), "accessor");
   if (reference(accessor, "source") != required(array, "id"))
-    damaged(accessor, "its source is not the <float_array> beside it");
+    damaged_at(accessor, "its source is not the <float_array> beside it");
   const auto xyz = offsets_of_xyz(accessor);
   const std::uint64_t count = count_of(accessor, "count");
   const std::uint64_t stride = count_of(accessor, "stride", 1);
   const std::uint64_t offset = count_of(accessor, "offset", 0);
   if (*std::max_element(xyz.begin(), xyz.end()) >= stride)
-    damaged(accessor, "its params reach beyond its stride of " + std::to_string(stride));
+    damaged_at(accessor, "its params reach beyond its stride of " + std::to_string(stride));
   if (offset + count * stride > values.size())
-    damaged(accessor, "it reads " + std::to_string(offset + count * stride) + " of " +
-                          std::to_string(values.size()) + " numbers");
+    damaged_at(accessor, "it reads " + std::to_string(offset + count * stride) + " of " +
+                             std::to_string(values.size()) + " numbers");
   std::vector<Eigen::Vector3f> positions(count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -141,11 +141,11 @@ class MeshReader {
     for (const XmlElement& child : mesh.children) {
       const std::string* const name = child.attribute("id");
       if (child.name != "source" || name == nullptr || *name != id) continue;
-      if (source != nullptr) damaged(child, "a second one of id '" + id.substr(0, 80) + "'");
+      if (source != nullptr) damaged_at(child, "a second one of id '" + id.substr(0, 80) + "'");
       source = &child;
     }
     if (source == nullptr)
-      damaged(input, "no <source> of its mesh has the id '" + id.substr(0, 80) + "'");
+      damaged_at(input, "no <source> of its mesh has the id '" + id.substr(0, 80) + "'");
     out_.vertices = read_positions(*source);
   }
 
@@ -163,7 +163,7 @@ class MeshReader {
       if (surface != surfaces.end())
         (this->*surface->second)(child);
       else if (without_surface.count(child.name) == 0)
-        damaged(child, "it stands in a <mesh>");
+        damaged_at(child, "it stands in a <mesh>");
     }
     return std::move(out_);
   }
@@ -185,11 +185,11 @@ class MeshReader {
     std::span<const std::uint32_t> rest = corners;
     for (const std::int64_t size : sizes) {
       if (size < 0 || static_cast<std::uint64_t>(size) > rest.size())
-        damaged(element, "its vcount and its <p> do not agree");
+        damaged_at(element, "its vcount and its <p> do not agree");
       append_polygon(rest.first(static_cast<std::size_t>(size)), out_);
       rest = rest.subspan(static_cast<std::size_t>(size));
     }
-    if (!rest.empty()) damaged(element, "its vcount and its <p> do not agree");
+    if (!rest.empty()) damaged_at(element, "its vcount and its <p> do not agree");
   }
 
   void polygons(const XmlElement& element) {
@@ -211,8 +211,8 @@ class MeshReader {
   static void expect(const XmlElement& element, const char* what, std::uint64_t promised,
                      std::uint64_t found) {
     if (promised != found)
-      damaged(element, "its count promises " + std::to_string(promised) + " " + what + ", it has " +
-                           std::to_string(found));
+      damaged_at(element, "its count promises " + std::to_string(promised) + " " + what +
+                              ", it has " + std::to_string(found));
   }
 
   /// The indices of a corner in <p>: how many, and which is the vertex's.
@@ -226,7 +226,7 @@ class MeshReader {
     constexpr std::uint64_t most_inputs = 64;
     const XmlElement& vertex = only_input(element, "VERTEX");
     if (reference(vertex, "source") != required(vertices_, "id"))
-      damaged(vertex, "its source is not the <vertices> of its mesh");
+      damaged_at(vertex, "its source is not the <vertices> of its mesh");
     const auto is_input = [](const XmlElement& child) { return child.name == "input"; };
     const bool is_alone =
         std::count_if(element.children.begin(), element.children.end(), is_input) == 1;
@@ -234,12 +234,12 @@ class MeshReader {
     for (const XmlElement& child : element.children) {
       if (child.name == "ph")
         fail(child, "a polygon with a hole is not read; export the mesh as triangles");
-      if (known.count(child.name) == 0) damaged(child, "it stands in <" + element.name + ">");
+      if (known.count(child.name) == 0) damaged_at(child, "it stands in <" + element.name + ">");
       if (!is_input(child)) continue;
       const std::uint64_t offset =
           is_alone ? count_of(child, "offset", 0) : count_of(child, "offset");
       if (offset >= most_inputs)
-        damaged(child, "its offset is beyond " + std::to_string(most_inputs));
+        damaged_at(child, "its offset is beyond " + std::to_string(most_inputs));
       layout.stride = std::max<std::size_t>(layout.stride, offset + 1);
       if (&child == &vertex) layout.vertex = offset;
     }
@@ -250,14 +250,14 @@ class MeshReader {
                                                       const Layout& layout) const {
     const std::vector<std::int64_t> indices = integers_of(p);
     if (indices.size() % layout.stride != 0)
-      damaged(p, std::to_string(indices.size()) + " indices are no multiple of " +
-                     std::to_string(layout.stride));
+      damaged_at(p, std::to_string(indices.size()) + " indices are no multiple of " +
+                        std::to_string(layout.stride));
     std::vector<std::uint32_t> corners;
     corners.reserve(indices.size() / layout.stride);
     for (std::size_t i = layout.vertex; i < indices.size(); i += layout.stride) {
       if (indices[i] < 0 || static_cast<std::uint64_t>(indices[i]) >= out_.vertices.size())
-        damaged(p, "a face names vertex " + std::to_string(indices[i]) + " of " +
-                       std::to_string(out_.vertices.size()));
+        damaged_at(p, "a face names vertex " + std::to_string(indices[i]) + " of " +
+                          std::to_string(out_.vertices.size()));
       corners.push_back(static_cast<std::uint32_t>(indices[i]));
     }
     return corners;

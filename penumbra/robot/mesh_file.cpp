@@ -15,7 +15,7 @@ namespace {
 
 using mesh_formats::FormatError;
 
-constexpr float farthest = 1e6F;  // see load_mesh
+constexpr float farthest_vertex = 1e6F;  // see load_mesh
 
 std::string lower_ending(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -91,7 +91,7 @@ void check_vertices(const TriangleMesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
       const Eigen::Vector3f& p = mesh.vertices[corner];
-      if (p.array().abs().maxCoeff<Eigen::PropagateNaN>() <= farthest) continue;
+      if (p.array().abs().maxCoeff<Eigen::PropagateNaN>() <= farthest_vertex) continue;
       const std::string place = "vertex (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) +
                                 ", " + std::to_string(p.z()) + ")";
       throw FormatError(p.allFinite() ? place + " lies beyond 1e6; check the file's unit"

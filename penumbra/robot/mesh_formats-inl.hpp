@@ -17,6 +17,14 @@ class FormatError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws FormatError of a file that was cut off or altered.
+[[noreturn]] inline void damaged(const std::string& what) {
+  throw FormatError(what + "; it is truncated or damaged; export or copy it again");
+}
+
+/// Of all instances: a file that unfolds to more is an attack or a mistake.
+inline constexpr std::size_t most_triangles = 100'000'000;
+
 [[nodiscard]] TriangleMesh read_stl(std::string_view bytes);
 
 /// Reads what a Collada file's scene shows; what it does not know about geometry it refuses.

@@ -16,11 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 200;  // Assimp's reader recurses
-
-[[noreturn]] void damaged(const std::string& what) {
-  throw FormatError(what + "; it is truncated or damaged; export or copy it again");
-}
+constexpr int deepest_value = 200;  // Assimp's reader recurses
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   static_assert(std::endian::native == std::endian::little, "GLB is read as it lies");
@@ -192,8 +188,8 @@ std::size_t check_gltf(std::string_view bytes, bool binary) {
   const std::string_view text = binary ? json_of_glb(bytes) : bytes;
   try {
     const Json root = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
-      if (depth > deepest)
-        damaged("glTF: values are nested more than " + std::to_string(deepest) + " deep");
+      if (depth > deepest_value)
+        damaged("glTF: values are nested more than " + std::to_string(deepest_value) + " deep");
       return true;
     });
     check_extensions(root);

@@ -23,9 +23,8 @@ class ObjCheck {
   /// Throws where what the file names is not there; what it holds and does not name, in words.
   [[nodiscard]] std::string finish() {
     if (highest_ > vertices_)
-      throw FormatError("OBJ, line " + std::to_string(highest_line_) + ": a corner names vertex " +
-                        std::to_string(highest_) + " of " + std::to_string(vertices_) +
-                        "; it is truncated or damaged; export or copy it again");
+      damaged("OBJ, line " + std::to_string(highest_line_) + ": a corner names vertex " +
+              std::to_string(highest_) + " of " + std::to_string(vertices_));
     used_.resize(static_cast<std::size_t>(vertices_));
     for (const std::int64_t index : ahead_) used_[static_cast<std::size_t>(index - 1)] = true;
     const auto unused = std::count(used_.begin(), used_.end(), false);
@@ -68,8 +67,8 @@ class ObjCheck {
   [[noreturn]] void fail(std::string_view word, const char* wanted) const {
     const std::string found =
         word.empty() ? "the line ends" : "'" + std::string(word.substr(0, 40)) + "' stands";
-    throw FormatError("OBJ, line " + std::to_string(line_) + ": " + found + " where " + wanted +
-                      " should stand; it is truncated or damaged; export or copy it again");
+    damaged("OBJ, line " + std::to_string(line_) + ": " + found + " where " + wanted +
+            " should stand");
   }
 
   std::int64_t line_ = 0;

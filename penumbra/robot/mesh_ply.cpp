@@ -29,17 +29,13 @@ struct Header {
   std::vector<Element> elements;
 };
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw FormatError("PLY: " + what + "; it is truncated or damaged; export or copy it again");
-}
-
 std::size_t size_of(const std::string& type) {
   if (type == "char" || type == "uchar" || type == "int8" || type == "uint8") return 1;
   if (type == "short" || type == "ushort" || type == "int16" || type == "uint16") return 2;
   if (type == "double" || type == "float64") return 8;
   if (type == "int" || type == "uint" || type == "int32" || type == "uint32") return 4;
   if (type == "float" || type == "float32") return 4;
-  damaged("unknown type '" + type.substr(0, 40) + "'");
+  damaged("PLY: unknown type '" + type.substr(0, 40) + "'");
 }
 
 bool is_real(const std::string& type) { return type.starts_with("float") || type == "double"; }
@@ -53,7 +49,8 @@ Property parse_property(std::string_view line) {
     property.is_list = true;
     property.count_type = take_word(line);
     property.type = take_word(line);
-    if (is_real(property.count_type)) damaged("a list is counted in '" + property.count_type + "'");
+    if (is_real(property.count_type))
+      damaged("PLY: a list is counted in '" + property.count_type + "'");
     size_of(property.count_type);
   }
   size_of(property.type);
@@ -65,23 +62,23 @@ Element parse_element(std::string_view line) {
   Element element;
   element.name = take_word(line);
   const auto count = parse_number<std::uint64_t>(take_word(line));
-  if (!count) damaged("element '" + element.name.substr(0, 40) + "' has no count");
+  if (!count) damaged("PLY: element '" + element.name.substr(0, 40) + "' has no count");
   element.count = *count;
   return element;
 }
 
 Header take_header(std::string_view& rest) {
   Header header;
-  if (take_line(rest) != "ply") damaged("the first line is not 'ply'");
+  if (take_line(rest) != "ply") damaged("PLY: the first line is not 'ply'");
   for (;;) {
-    if (rest.empty()) damaged("the header has no 'end_header'");
+    if (rest.empty()) damaged("PLY: the header has no 'end_header'");
     std::string_view line = take_line(rest);
     const std::string_view keyword = take_word(line);
     if (keyword == "end_header") return header;
     if (keyword == "format") header.format = take_word(line);
     if (keyword == "element") header.elements.push_back(parse_element(line));
     if (keyword != "property") continue;
-    if (header.elements.empty()) damaged("a property stands before any element");
+    if (header.elements.empty()) damaged("PLY: a property stands before any element");
     header.elements.back().properties.push_back(parse_property(line));
   }
 }
@@ -92,12 +89,12 @@ class Body {
   Body(std::string_view rest, const std::string& format)
       : rest_(rest), text_(format == "ascii"), swap_(format == "binary_big_endian") {
     if (!text_ && !swap_ && format != "binary_little_endian")
-      damaged("unknown format '" + format.substr(0, 40) + "'");
+      damaged("PLY: unknown format '" + format.substr(0, 40) + "'");
   }
 
   std::int64_t integer(const std::string& type) {
     if (text_) return static_cast<std::int64_t>(number());
-    if (is_real(type)) damaged("an index is of type '" + type + "'");
+    if (is_real(type)) damaged("PLY: an index is of type '" + type + "'");
     const std::size_t size = size_of(type);
     const std::string_view raw = take(size);
     std::uint64_t value = 0;
@@ -120,23 +117,24 @@ class Body {
   void finish() const {
     std::string_view rest = rest_;
     // A last line without its end may lack digits: nothing else would show it.
-    if (text_ && rest.empty()) damaged("the last line has no end");
+    if (text_ && rest.empty()) damaged("PLY: the last line has no end");
     if (text_ ? !take_word(rest).empty() : !rest.empty())
-      damaged("data follow behind those that the header counts");
+      damaged("PLY: data follow behind those that the header counts");
   }
 
  private:
   double number() {
     const std::string_view word = take_word(rest_);
     const auto value = parse_number<double>(word);
-    if (word.empty()) damaged("the data end before the counts of the header are reached");
-    if (!value) damaged("'" + std::string(word.substr(0, 40)) + "' is no number");
+    if (word.empty()) damaged("PLY: the data end before the counts of the header are reached");
+    if (!value) damaged("PLY: '" + std::string(word.substr(0, 40)) + "' is no number");
     constexpr double within_int64 = 1e18;
     return std::clamp(*value, -within_int64, within_int64);
   }
 
   std::string_view take(std::size_t size) {
-    if (rest_.size() < size) damaged("the data end before the counts of the header are reached");
+    if (rest_.size() < size)
+      damaged("PLY: the data end before the counts of the header are reached");
     const std::string_view raw = rest_.substr(0, size);
     rest_.remove_prefix(size);
     return raw;
@@ -150,7 +148,7 @@ class Body {
 void check_list(Body& body, const Property& property, std::uint64_t vertices) {
   const std::int64_t count = body.integer(property.count_type);
   const bool names_vertices = property.name == "vertex_indices" || property.name == "vertex_index";
-  if (count < 0) damaged("a list has a negative count");
+  if (count < 0) damaged("PLY: a list has a negative count");
   for (std::int64_t i = 0; i < count; ++i) {
     if (!names_vertices) {
       body.skip(property.type);
@@ -158,7 +156,8 @@ void check_list(Body& body, const Property& property, std::uint64_t vertices) {
     }
     const std::int64_t index = body.integer(property.type);
     if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-      damaged("a face names vertex " + std::to_string(index) + " of " + std::to_string(vertices));
+      damaged("PLY: a face names vertex " + std::to_string(index) + " of " +
+              std::to_string(vertices));
   }
 }
 
@@ -173,7 +172,7 @@ void check_ply(std::string_view bytes) {
   Body body(bytes, header.format);
   for (const Element& element : header.elements) {
     if (element.properties.empty() && element.count > 0)
-      damaged("element '" + element.name.substr(0, 40) + "' has no properties");
+      damaged("PLY: element '" + element.name.substr(0, 40) + "' has no properties");
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
         if (property.is_list)

@@ -11,6 +11,9 @@
 
 namespace penumbra::offset {
 
+/// In place of a half-edge, a side or a vertex.
+inline constexpr std::uint32_t none = ~std::uint32_t{0};
+
 /// The sides of a mesh's triangles that face free space, glued along their edges into closed,
 /// oriented surfaces: the fronts of closed pieces; fronts and backs of open ones, glued around
 /// each edge to the next side across empty space.

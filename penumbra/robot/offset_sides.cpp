@@ -14,7 +14,6 @@
 namespace penumbra::offset {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// A triangle at an edge, seen along the edge from its lower to its higher vertex.

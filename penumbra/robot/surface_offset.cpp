@@ -23,9 +23,8 @@ using offset::along;
 using offset::angle_between;
 using offset::Cap;
 using offset::drop_returns;
+using offset::none;
 using offset::Sides;
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 // Every face of the result spans corners p + margin * u of unit u. It lies inside of the balls'
 // hull, and inside of the exact surface by at most margin * (1 - cos(r)), if all of its u lie

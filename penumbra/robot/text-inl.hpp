@@ -9,6 +9,12 @@
 
 namespace penumbra::detail {
 
+/// What separates words, as XML has it.
+inline constexpr std::string_view white_space = " \t\r\n";
+
+/// The text without white space around it.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 /// The text in quotes, on one line and cut to a length that a message can hold.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

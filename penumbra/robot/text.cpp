@@ -8,7 +8,6 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n";
 constexpr std::size_t kLongestQuote = 120;
 
 /// Bytes of the character that starts here; 0 if it is none. RFC 3629: no longer form than needed,
@@ -27,6 +26,12 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(white_space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+}
 
 std::size_t find_not_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -67,12 +72,12 @@ std::optional<double> to_number(std::string_view text) {
 
 bool to_numbers(std::string_view text, std::span<double> out) {
   std::size_t count = 0;
-  for (std::size_t begin = text.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-    const std::size_t end = text.find_first_of(kSpace, begin);
+  for (std::size_t begin = text.find_first_not_of(white_space); begin != std::string_view::npos;) {
+    const std::size_t end = text.find_first_of(white_space, begin);
     const auto value = to_number(text.substr(begin, end - begin));
     if (!value || count == out.size()) return false;
     out[count++] = *value;
-    begin = text.find_first_not_of(kSpace, end);
+    begin = text.find_first_not_of(white_space, end);
   }
   return count == out.size();
 }

@@ -50,6 +50,9 @@ struct UrdfLink {
   }
 };
 
+/// A multiplier or an offset beyond it was written in another unit.
+inline constexpr double kLargestMimic = 1e9;
+
 struct UrdfMimic {
   std::string joint;
   double multiplier = 1.0;

@@ -56,7 +56,6 @@ constexpr ElementRule kLimitRule{kLimitAttributes, kLimitIgnored, {}, {}};
 constexpr double kLargestSize = 1000.0;
 constexpr double kLargestRadius = 50.0;
 constexpr double kFarthestOrigin = 1e6;
-constexpr double kLargestMimic = 1e9;
 constexpr double kShortestAxis = 1e-9;
 constexpr double kUnitQuaternion = 1e-3;
 

@@ -13,16 +13,8 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n";
-
 [[noreturn]] void fail(const std::string& file, int line, const std::string& what) {
   throw InputError(file + ":" + std::to_string(line) + ": " + what);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
 std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml) {

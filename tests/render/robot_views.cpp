@@ -3,6 +3,7 @@
 
 #include "data.hpp"
 #include "embree_oracle.hpp"
+#include "shapes.hpp"
 
 #include <cmath>
 #include <optional>
@@ -45,7 +46,7 @@ std::optional<SurfacePoint> random_surface_point(std::mt19937_64& random,
   const Vector3d aim =
       T_root_link[random() % T_root_link.size()].translation() + 0.05 * random_direction(random);
   const Vector3d towards = random_direction(random);
-  const Quaterniond rotation = Quaterniond::FromTwoVectors(towards, Vector3d::UnitZ());
+  const Quaterniond rotation = turn(towards, Vector3d::UnitZ());
   const Isometry3d T_eye_root =
       Eigen::Translation3d(0, 0, 3) * rotation * Eigen::Translation3d(-aim);
   std::vector<Isometry3d> poses = T_root_link;
@@ -60,7 +61,7 @@ Isometry3d aimed_camera(std::mt19937_64& random, const Intrinsics& intrinsics,
                         const Vector3d& position, const Vector3d& target) {
   const double u = uniform(random, 0.2, 0.8) * intrinsics.width();
   const double v = uniform(random, 0.2, 0.8) * intrinsics.height();
-  const Quaterniond aim = Quaterniond::FromTwoVectors(target - position, intrinsics.ray(u, v));
+  const Quaterniond aim = turn(target - position, intrinsics.ray(u, v));
   const Eigen::AngleAxisd roll(uniform(random, -M_PI, M_PI), intrinsics.ray(u, v).normalized());
   return roll * aim * Eigen::Translation3d(-position);
 }

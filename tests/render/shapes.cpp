@@ -101,4 +101,12 @@ Eigen::Isometry3d random_pose(std::mt19937_64& random, const Vector3d& low_corne
   return Eigen::Translation3d(position) * rotation;
 }
 
+Eigen::Quaterniond turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d axis = from.cross(to);
+  const double angle = std::atan2(axis.norm(), from.dot(to));
+  const bool parallel = axis.norm() <= 1e-12 * from.norm() * to.norm();
+  return Eigen::Quaterniond(
+      Eigen::AngleAxisd(angle, parallel ? from.unitOrthogonal() : axis.normalized()));
+}
+
 }  // namespace penumbra::test

@@ -22,7 +22,6 @@ namespace penumbra::gl {
 namespace {
 
 constexpr int group = 16;  // invocations along each side of a work group
-constexpr std::size_t row_alignment = 64;
 
 // Marks of the shaders.
 constexpr unsigned front = 1, certain = 2, unmeasured = 4, solid = 8, seed = 16, in_row = 32,
@@ -109,11 +108,7 @@ class LabelPasses::Marks {
 };
 
 LabelPasses::LabelPasses(int width, int height, const LabelRule& rule)
-    : width_(width),
-      height_(height),
-      rule_(rule),
-      stride_((static_cast<std::size_t>(width) + row_alignment - 1) / row_alignment *
-              row_alignment) {
+    : width_(width), height_(height), rule_(rule), stride_(row_stride(width)) {
   make_images();
   make_buffers();
   make_programs();

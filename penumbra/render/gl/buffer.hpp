@@ -20,6 +20,12 @@ inline constexpr std::size_t buffer_alignment = 256;
   return (bytes + buffer_alignment - 1) / buffer_alignment * buffer_alignment;
 }
 
+/// Pixels from a row of an image in memory to the next: rows start on cache lines.
+[[nodiscard]] constexpr std::size_t row_stride(int width) {
+  constexpr std::size_t alignment = 64;
+  return (static_cast<std::size_t>(width) + alignment - 1) / alignment * alignment;
+}
+
 /// An offset into the bound buffer, as OpenGL takes it in place of an address.
 [[nodiscard]] inline void* as_address(std::size_t bytes) {
   return reinterpret_cast<void*>(bytes);  // NOLINT(performance-no-int-to-ptr): OpenGL's own way

@@ -10,17 +10,9 @@
 #include <penumbra/render/gl/readback.hpp>
 
 namespace penumbra::gl {
-namespace {
-
-constexpr std::size_t row_alignment = 64;  // pixels: rows of both images start on cache lines
-
-}  // namespace
 
 Readback::Readback(const Intrinsics& intrinsics)
-    : width_(intrinsics.width()),
-      height_(intrinsics.height()),
-      stride_((static_cast<std::size_t>(width_) + row_alignment - 1) / row_alignment *
-              row_alignment) {
+    : width_(intrinsics.width()), height_(intrinsics.height()), stride_(row_stride(width_)) {
   const std::size_t pixels = stride_ * static_cast<std::size_t>(height_);
   const std::size_t slot_bytes = pixels * (sizeof(float) + sizeof(std::uint16_t));
   constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT |
