@@ -37,7 +37,8 @@ Vector3d colour_of(const Scene& scene, const Ray& ray) {
   const bool lit = facing > 0.0 && !scene.blocked(point, light_distance * to_light);
   const double sky = 0.48 + 0.10 * seen.normal.z();
   const double diffuse = sky + (lit ? 0.55 * facing : 0.0);
-  Vector3d colour = finish_factor(*seen.thing, seen.thing->inverse * point) * diffuse * seen.thing->colour;
+  Vector3d colour =
+      finish_factor(*seen.thing, seen.thing->inverse * point) * diffuse * seen.thing->colour;
   if (seen.thing->finish == Finish::gloss && lit) {
     const Vector3d half = (to_light - ray.direction.normalized()).normalized();
     colour += Vector3d::Constant(0.35 * std::pow(std::max(0.0, seen.normal.dot(half)), 40.0));

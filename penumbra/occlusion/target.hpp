@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include <penumbra/base/image.hpp>
+
+namespace penumbra {
+
+/// The pixels whose centres lie in [u, u + width) x [v, v + height).
+struct PixelBox {
+  double u = 0, v = 0, width = 0, height = 0;
+};
+
+/// The pixels whose centres lie inside a simple polygon (its edges do not cross), corners in either
+/// order.
+struct PixelPolygon {
+  std::span<const Eigen::Vector2d> corners;
+};
+
+/// The pixels that are not 0 in an image of the label image's size.
+struct PixelMask {
+  ImageView<const std::uint8_t> mask;
+};
+
+/// COCO's run-length mask: columns from top to bottom, from left to right; runs of pixels outside
+/// and inside by turns, the first of them outside.
+struct RunLengthMask {
+  int width = 0, height = 0;  ///< of the label image
+  std::span<const std::uint32_t> counts;
+};
+
+/// The pixels whose centres lie inside an ellipse, but at least the one next to its centre.
+struct PixelEllipse {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d semi_axes = Eigen::Vector2d::Ones();  ///< pixels, > 0
+  double angle = 0;  ///< radians from +u to +v: of the first semi-axis
+};
+
+/// An object that was rendered alone: where its depth is > 0, which is also its expected depth,
+/// metres.
+struct RenderedRegion {
+  ImageView<const float> depth;  ///< of the label image's size
+};
+
+using Region =
+    std::variant<PixelBox, PixelPolygon, PixelMask, RunLengthMask, PixelEllipse, RenderedRegion>;
+
+/// What a region covers of its target.
+enum class Extent {
+  amodal,  ///< all of it, hidden parts too
+  modal    ///< what a detector still sees; judged together with the last good extent
+};
+
+/// From which share of its pixels on a target counts as hidden, and when again as seen.
+struct TargetThresholds {
+  double partial_enter =
+      0.05;  ///< hidden share above which `visible` becomes `partial` (the paper)
+  double partial_leave = 0.04;          ///< hidden share up to which it becomes `visible` again
+  double hidden_enter = 0.90;           ///< hidden share above which it becomes `hidden`
+  double hidden_leave = 0.80;           ///< hidden share up to which it becomes `partial` again
+  std::optional<double> unknown_limit;  ///< unknown share above which it becomes `unknown`, unless
+                                        ///< what is hidden decides; nothing: partial_enter
+  double min_inside = 0.0;           ///< at most this share of the extent in the image: out_of_view
+  bool beyond_hides = true;          ///< `beyond` counts as occluded
+  bool others_hide = true;           ///< what is hidden by others than the robot counts in verdicts
+  std::size_t point_min_pixels = 5;  ///< trusted depths that a point needs
+  double point_min_fraction = 0.2;   ///< and their share of the pixels inside the image
+
+  /// Throws InputError, with the values it got, unless all shares are in 0..1 and leave <= enter,
+  /// partial <= hidden.
+  void check() const;
+};
+
+enum class Verdict { visible, partial, hidden, unknown, out_of_view };
+
+/// The verdict's name in report.json.
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
+}  // namespace penumbra

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/camera.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::sim {
+
+/// A stereo camera's depth as it is measured. All zero: the true depth, rounded to millimetres.
+struct DepthNoise {
+  double quadratic = 0.0;       ///< sigma = quadratic * z^2, metres per square metre
+  double disparity_step = 0.0;  ///< pixels: depth is a multiple of it in disparity
+  double baseline = 0.055;      ///< metres; with fx it turns disparity into depth
+  double edge_holes = 0.0;      ///< share of the pixels at depth edges without measurement
+  double edge_mixed = 0.0;      ///< share of them with a depth between the two sides
+  double edge_width = 2.0;      ///< pixels
+  double holes = 0.0;           ///< share of other pixels without measurement, in patches
+
+  [[nodiscard]] static DepthNoise d415();  ///< as an Intel RealSense D415 has it, with its sources
+};
+
+/// What differs between runs of one scene.
+struct SimulationOptions {
+  std::uint64_t seed = 0;
+  DepthNoise depth = DepthNoise::d415();
+  double joint_sigma = 0.0;    ///< radians: of the reported joint positions
+  double joint_latency = 0.0;  ///< seconds by which reported joints are older than they say
+  bool second_camera = false;  ///< a depth camera on the other side too
+  double duration = 0.0;       ///< seconds; 0: the scene's own
+  double frame_rate = 30.0;
+};
+
+/// A thing with a pose that targets are made of: the textured object, the wrist, a person's body.
+struct ObjectTruth {
+  std::string name;
+  std::int32_t id = 0;  ///< in `ids`
+  Eigen::Isometry3d T_base_object = Eigen::Isometry3d::Identity();
+  std::size_t pixels_alone = 0;  ///< that it would cover were nothing before it; inside the image
+  std::size_t pixels_seen = 0;   ///< that it covers
+  std::size_t pixels_behind_robot = 0;  ///< of the rest, those where a robot link is before it
+};
+
+/// One frame as the simulator knows it. Depth is along the optical axis.
+struct SimFrame {
+  std::int64_t stamp = 0;  ///< nanoseconds
+  Image<io::Rgb8> color;
+  Image<std::uint16_t> depth;  ///< millimetres as measured, 0 = nothing
+  Image<float> true_depth;     ///< metres
+  Image<std::int32_t> ids;     ///< what is seen: 0 nothing, 1 + link index of the robot's links
+                               ///< (order of Robot::links()), first_object_id + i of objects
+  Image<std::uint16_t> second_depth;  ///< of the second camera; empty without it
+  std::vector<double> true_joints;    ///< order of Robot::variables()
+  std::vector<double> joints;         ///< as reported: noisy and late as the options say
+  std::vector<ObjectTruth> objects;
+};
+
+inline constexpr std::int32_t first_object_id = 10000;
+
+/// A scene that moves, drawn by MuJoCo: nothing of Penumbra's renderer has a part in it. The same
+/// scene, options and seed give the same frames.
+class Simulation {
+ public:
+  /// Names of the scenes: conveyor, handover, random (targets before, behind and beside the arm).
+  [[nodiscard]] static const std::vector<std::string>& scenes();
+
+  /// Throws InputError for a scene that is not known, options that make no sense, or a machine
+  /// without OpenGL, and says what to install.
+  Simulation(const std::string& scene, const SimulationOptions& options);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// The next frame; false where the scene has ended. `frame`'s images are reused.
+  bool next(SimFrame& frame);
+
+  [[nodiscard]] const std::filesystem::path& urdf() const;  ///< of the robot in the scene
+  [[nodiscard]] const Camera& camera() const;               ///< colour and depth, aligned
+  [[nodiscard]] const Eigen::Isometry3d& T_base_camera() const;
+  [[nodiscard]] const Camera& second_camera() const;
+  [[nodiscard]] const Eigen::Isometry3d& T_base_second_camera() const;
+
+  /// The image on the textured object's front and its size, metres: what a pose estimator knows.
+  [[nodiscard]] const Image<io::Rgb8>& model_image() const;
+  [[nodiscard]] Eigen::Vector3d object_size() const;  ///< a box about the object's origin; the
+                                                      ///< image is on its +z face, u along +x
+  [[nodiscard]] Eigen::Vector3d conveyor_direction() const;       ///< unit, base frame
+  [[nodiscard]] double duration() const;                          ///< seconds
+  [[nodiscard]] std::optional<std::int64_t> grasp_stamp() const;  ///< of the conveyor scene
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra::sim
