@@ -90,8 +90,9 @@ groups=(build test lint)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
-everything=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
-sanitizer_scope=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
+tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
+everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
+sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
 benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 tidy_scope='penumbra|io|apps'
 if $full; then
@@ -102,7 +103,7 @@ if $full; then
 fi
 
 check format check_format
-check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks"
+check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 check "build (release)" build release all "${everything[@]}" "$benchmarks" && run_tests release
 if $full; then
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
