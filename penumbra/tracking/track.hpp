@@ -10,7 +10,7 @@ namespace penumbra {
 enum class Source {
   measured,   ///< an estimate that was accepted, of this very stamp
   predicted,  ///< the last accepted estimates, carried on by their motion
-  held,       ///< the last accepted estimate as it was
+  held,       ///< the last accepted estimates, of a target that is taken to stay
   lost        ///< no accepted estimate, or the last one is older than the time-out
 };
 
@@ -23,7 +23,8 @@ enum class Outcome {
   refused_verdict,  ///< its target was not visible enough
   refused_gate,     ///< too far from where the target can be: an outlier
   refused_late,     ///< older than what is remembered
-  refused_invalid   ///< not finite, no rotation, of a stamp that was accepted already
+  refused_invalid   ///< not finite, no rotation, a covariance that is none, or another estimate of
+                    ///< this stamp stands already (accepted or an outlier)
 };
 
 [[nodiscard]] std::string_view to_string(Outcome outcome);

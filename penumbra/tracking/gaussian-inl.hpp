@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace penumbra::detail {
+
+/// Squared Mahalanobis distance r^T S^-1 r; infinite where S is not positive definite.
+template <int n>
+[[nodiscard]] double squared_distance(const Eigen::Matrix<double, n, n>& covariance,
+                                      const Eigen::Matrix<double, n, 1>& residual) {
+  const Eigen::LLT<Eigen::Matrix<double, n, n>> factor(covariance);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  return factor.matrixL().solve(residual).squaredNorm();
+}
+
+/// A covariance without the asymmetry of rounding.
+template <int n>
+[[nodiscard]] Eigen::Matrix<double, n, n> symmetric(const Eigen::Matrix<double, n, n>& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
+
+/// A Kalman filter's correction by a measurement of the first n of m components: returns what it
+/// adds to the state, and narrows the covariance in Joseph's form, which stays positive
+/// semi-definite for any gain (Bucy and Joseph, "Filtering for Stochastic Processes with
+/// Applications to Guidance", 1968; Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to
+/// Tracking and Navigation", 2001, section 5.2).
+template <int m, int n>
+[[nodiscard]] Eigen::Matrix<double, m, 1> kalman_correction(
+    Eigen::Matrix<double, m, m>& covariance, const Eigen::Matrix<double, n, n>& noise,
+    const Eigen::Matrix<double, n, 1>& residual) {
+  using Square = Eigen::Matrix<double, m, m>;
+  const Eigen::Matrix<double, n, n> total = covariance.template topLeftCorner<n, n>() + noise;
+  const Eigen::Matrix<double, m, n> gain =
+      total.llt().solve(covariance.template topRows<n>()).transpose();
+  Square rest = Square::Identity();
+  rest.template leftCols<n>() -= gain;
+  const Square kept = rest * covariance * rest.transpose();
+  covariance = symmetric<m>(kept + gain * noise * gain.transpose());
+  return gain * residual;
+}
+
+/// Sigmas that squares and their sums with seconds cannot take out of double's range.
+inline constexpr double least_sigma = 1e-9;
+inline constexpr double greatest_sigma = 1e9;
+
+/// Finite, symmetric and positive definite, as a measurement's covariance must be.
+template <int n>
+[[nodiscard]] bool is_covariance(const Eigen::Matrix<double, n, n>& matrix) {
+  constexpr double rounding = 1e-9;  // of the largest entry: what symmetry may be off by
+  constexpr double slack = 1 + 1e-9;
+  if (!matrix.allFinite()) return false;
+  const double size = matrix.cwiseAbs().maxCoeff();
+  return matrix.diagonal().minCoeff() * slack >= least_sigma * least_sigma &&
+         size <= slack * greatest_sigma * greatest_sigma &&
+         (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= rounding * size &&
+         matrix.llt().info() == Eigen::Success;
+}
+
+}  // namespace penumbra::detail

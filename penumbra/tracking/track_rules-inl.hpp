@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <penumbra/occlusion/target.hpp>
+
+namespace penumbra::detail {
+
+/// What trackers of all kinds have in common.
+struct TrackRules {
+  double timeout = 0;             ///< seconds
+  double gate = 0;                ///< squared Mahalanobis distance
+  std::size_t gate_patience = 0;  ///< consistent outliers in a row that make a new track
+  double memory = 0;              ///< seconds
+  std::size_t max_estimates = 0;  ///< that are remembered
+  Verdict worst = Verdict::visible;
+};
+
+/// The rules of a tracker's configuration, whose fields have the same names.
+template <class Config>
+TrackRules rules_of(const Config& config) {
+  return {config.timeout, config.gate,          config.gate_patience,
+          config.memory,  config.max_estimates, config.worst};
+}
+
+/// Throws InputError, as the functions below do: "NAME: FIELD is VALUE; what would be right".
+void check_rules(std::string_view config, const TrackRules& rules);
+void require_positive(std::string_view config, std::string_view field, double value);
+void require_not_negative(std::string_view config, std::string_view field, double value);
+
+/// Whether estimates are taken whose target was judged so. Verdicts that say nothing of the target
+/// (unknown, out_of_view) are worse than all.
+[[nodiscard]] bool good_enough(Verdict verdict, Verdict worst);
+
+}  // namespace penumbra::detail

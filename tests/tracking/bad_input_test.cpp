@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configurations and estimates that cannot be right.
+#include "tracks.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+template <class Config>
+std::string fault(const std::function<void(Config&)>& spoil) {
+  Config config;
+  spoil(config);
+  try {
+    config.check();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TrackerConfig, SaysWhichFieldIsWrong) {
+  using Config = PoseTrackerConfig;
+  const std::vector<std::pair<std::string, std::function<void(Config&)>>> faults{
+      {"position_sigma is 0", [](Config& c) { c.position_sigma = 0; }},
+      {"orientation_sigma is nan", [](Config& c) { c.orientation_sigma = nan; }},
+      {"acceleration is -1", [](Config& c) { c.acceleration = -1; }},
+      {"angular_acceleration is inf", [](Config& c) { c.angular_acceleration = inf; }},
+      {"drift is -1", [](Config& c) { c.drift = -1; }},
+      {"angular_drift is -1", [](Config& c) { c.angular_drift = -1; }},
+      {"speed_sigma is -1", [](Config& c) { c.speed_sigma = -1; }},
+      {"angular_speed_sigma is -1", [](Config& c) { c.angular_speed_sigma = -1; }},
+      {"timeout is 0", [](Config& c) { c.timeout = 0; }},
+      {"gate is -3", [](Config& c) { c.gate = -3; }},
+      {"gate_patience is 0", [](Config& c) { c.gate_patience = 0; }},
+      {"memory is nan", [](Config& c) { c.memory = nan; }},
+      {"max_estimates is 1", [](Config& c) { c.max_estimates = 1; }},
+      {"worst is unknown", [](Config& c) { c.worst = Verdict::unknown; }},
+      {"worst is out_of_view", [](Config& c) { c.worst = Verdict::out_of_view; }},
+      {"direction is (0, 0, 0)", [](Config& c) { c.motion = Motion::along_direction; }},
+      {"direction is given", [](Config& c) { c.direction.x() = 1; }},
+      {"speed is given", [](Config& c) { c.speed = 1; }},
+      {"speed is inf", [](Config& c) {
+         c.motion = Motion::along_direction;
+         c.direction.x() = 1;
+         c.speed = inf;
+       }}};
+  for (const auto& [text, spoil] : faults) {
+    const std::string said = fault<Config>(spoil);
+    EXPECT_NE(said.find("PoseTrackerConfig: " + text), std::string::npos) << text << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(fault<Config>([](Config&) {}), "");
+  EXPECT_THROW(PoseTracker({.timeout = -1}), InputError);
+}
+
+TEST(TrackerConfig, OfPointsToo) {
+  using Config = PointTrackerConfig;
+  const auto said = [](const std::function<void(Config&)>& spoil) { return fault<Config>(spoil); };
+  EXPECT_NE(said([](Config& c) { c.sigma = -1; }).find("PointTrackerConfig: sigma"),
+            std::string::npos);
+  EXPECT_NE(said([](Config& c) { c.held_speed = nan; }).find("held_speed is nan"),
+            std::string::npos);
+  EXPECT_NE(said([](Config& c) { c.speed_sigma = -2; }).find("speed_sigma is -2"),
+            std::string::npos);
+  EXPECT_NE(said([](Config& c) { c.acceleration = inf; }).find("acceleration is inf"),
+            std::string::npos);
+  EXPECT_NE(said([](Config& c) { c.timeout = 0; }).find("timeout is 0"), std::string::npos);
+  EXPECT_EQ(said([](Config&) {}), "");
+  EXPECT_THROW(PointTracker({.sigma = 0}), InputError);
+}
+
+/// What becomes of an estimate that was right before `spoil`.
+Outcome outcome_of(const std::function<void(PoseEstimate&)>& spoil) {
+  PoseTracker tracker;
+  PoseEstimate estimate;
+  estimate.covariance = Matrix6d::Identity();
+  spoil(estimate);
+  const Outcome outcome = tracker.update(estimate, Verdict::visible);
+  EXPECT_EQ(tracker.at(0).source, outcome == Outcome::accepted ? Source::measured : Source::lost);
+  return outcome;
+}
+
+TEST(BadEstimates, AreRefusedAsInvalid) {
+  using Estimate = PoseEstimate;
+  EXPECT_EQ(outcome_of([](Estimate&) {}), Outcome::accepted);
+  const std::vector<std::function<void(Estimate&)>> faults{
+      [](Estimate& e) { e.pose.translation().y() = nan; },
+      [](Estimate& e) { e.pose.translation().x() = inf; },
+      [](Estimate& e) { e.pose.linear()(0, 1) = nan; },
+      [](Estimate& e) { e.pose.linear().setZero(); },
+      [](Estimate& e) { e.pose.linear() *= 1.001; },
+      [](Estimate& e) { e.pose.linear()(2, 2) = -1; },
+      [](Estimate& e) { e.pose.linear()(0, 1) = 1e-3; },
+      [](Estimate& e) { (*e.covariance)(0, 0) = nan; },
+      [](Estimate& e) { (*e.covariance)(3, 3) = -1; },
+      [](Estimate& e) { (*e.covariance)(4, 4) = 0; },
+      [](Estimate& e) { (*e.covariance)(0, 1) = 0.5; },
+      [](Estimate& e) { (*e.covariance)(0, 1) = (*e.covariance)(1, 0) = 1.5; },
+      [](Estimate& e) { e.covariance->setZero(); },
+      [](Estimate& e) { *e.covariance *= 1e30; }};
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    EXPECT_EQ(outcome_of(faults[i]), Outcome::refused_invalid) << "fault " << i;
+  }
+}
+
+TEST(BadEstimates, RotationsOfTextFilesAreTaken) {
+  Eigen::Matrix3d rounded = turn({0.3, -1.2, 0.8});
+  rounded = (rounded * 1e5).array().round() / 1e5;
+  PoseTracker tracker;
+  PoseEstimate estimate;
+  estimate.pose.linear() = rounded;
+  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::accepted);
+  const Eigen::Matrix3d kept = tracker.at(0).pose.linear();
+  EXPECT_LT((kept.transpose() * kept - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  EXPECT_LT((kept - rounded).norm(), 3e-5);  // nine entries, each rounded by half a digit
+}
+
+TEST(BadEstimates, InvalidOnesLeaveNoTrace) {
+  PoseTracker tracker;
+  PoseEstimate estimate;
+  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::accepted);
+  const auto before = tracker.at(1'000'000'000);
+  estimate.stamp = 500'000'000;
+  estimate.pose.translation().x() = nan;
+  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::refused_invalid);
+  EXPECT_EQ(tracker.at(1'000'000'000).pose.matrix(), before.pose.matrix());
+  EXPECT_EQ(tracker.at(1'000'000'000).covariance, before.covariance);
+}
+
+TEST(BadEstimates, PointsToo) {
+  const auto outcome = [](const PointEstimate& e) {
+    return PointTracker().update(e, Verdict::visible);
+  };
+  EXPECT_EQ(outcome({0, {0, 0, nan}, {}}), Outcome::refused_invalid);
+  EXPECT_EQ(outcome({0, {0, 0, 0}, Eigen::Matrix3d::Zero()}), Outcome::refused_invalid);
+  EXPECT_EQ(outcome({0, {0, 0, 0}, Eigen::Matrix3d::Constant(1)}), Outcome::refused_invalid);
+  EXPECT_EQ(outcome({0, {0, 0, 0}, {}}), Outcome::accepted);
+}
+
+TEST(Names, AreThoseOfTheReport) {
+  EXPECT_EQ(to_string(Source::measured), "measured");
+  EXPECT_EQ(to_string(Source::predicted), "predicted");
+  EXPECT_EQ(to_string(Source::held), "held");
+  EXPECT_EQ(to_string(Source::lost), "lost");
+  EXPECT_EQ(to_string(Outcome::accepted), "accepted");
+  EXPECT_EQ(to_string(Outcome::refused_verdict), "refused_verdict");
+  EXPECT_EQ(to_string(Outcome::refused_gate), "refused_gate");
+  EXPECT_EQ(to_string(Outcome::refused_late), "refused_late");
+  EXPECT_EQ(to_string(Outcome::refused_invalid), "refused_invalid");
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which estimates are taken: verdicts, outliers, the return after an occlusion, the time-out.
+#include "tracks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double frame = 0.1;
+
+PoseEstimate seen_at(double seconds, double x) {
+  PoseEstimate estimate;
+  estimate.stamp = stamp_at(seconds);
+  estimate.pose.translation().x() = x;
+  return estimate;
+}
+
+/// A tracker of a target at rest, seen in frames 0 to 9.
+PoseTracker settled(PoseTrackerConfig config = {}) {
+  PoseTracker tracker(config);
+  for (int i = 0; i < 10; ++i) tracker.update(seen_at(i * frame, 0), Verdict::visible);
+  return tracker;
+}
+
+double x_at(const PoseTracker& tracker, double seconds) {
+  return tracker.at(stamp_at(seconds)).pose.translation().x();
+}
+
+TEST(Verdicts, WorseOnesAreRefused) {
+  const Verdict all[] = {Verdict::visible, Verdict::partial, Verdict::hidden, Verdict::unknown,
+                         Verdict::out_of_view};
+  for (int worst = 0; worst < 3; ++worst) {
+    PoseTrackerConfig config;
+    config.worst = all[worst];
+    for (int verdict = 0; verdict < 5; ++verdict) {
+      PoseTracker tracker(config);
+      const auto outcome = tracker.update(seen_at(0, 0), all[verdict]);
+      const bool taken = verdict <= worst;  // unknown and out_of_view never
+      EXPECT_EQ(outcome, taken ? Outcome::accepted : Outcome::refused_verdict);
+      EXPECT_EQ(tracker.at(stamp_at(0)).source, taken ? Source::measured : Source::lost);
+    }
+  }
+}
+
+TEST(Verdicts, RefusedOnesLeaveNoTrace) {
+  auto tracker = settled();
+  const auto with = settled();
+  for (int i = 10; i < 20; ++i) tracker.update(seen_at(i * frame, 5), Verdict::partial);
+  const auto a = tracker.at(stamp_at(2));
+  const auto b = with.at(stamp_at(2));
+  EXPECT_EQ(a.pose.matrix(), b.pose.matrix());
+  EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.age, b.age);
+}
+
+TEST(Sources, FollowVerdictsFrameByFrame) {
+  auto tracker = settled();
+  EXPECT_EQ(tracker.at(stamp_at(9 * frame)).source, Source::measured);
+  double sigma = 0;
+  for (int i = 10; i < 30; ++i) {
+    tracker.update(seen_at(i * frame, 0.3), Verdict::hidden);
+    const auto pose = tracker.at(stamp_at(i * frame));
+    EXPECT_EQ(pose.source, Source::predicted);
+    EXPECT_NEAR(pose.age, (i - 9) * frame, 1e-9);
+    EXPECT_GT(pose.covariance.trace(), sigma);  // what is not seen is less and less certain
+    sigma = pose.covariance.trace();
+  }
+  EXPECT_EQ(tracker.update(seen_at(3.0, 0.01), Verdict::visible), Outcome::accepted);
+  const auto back = tracker.at(stamp_at(3.0));
+  EXPECT_EQ(back.source, Source::measured);
+  EXPECT_EQ(back.age, 0);
+  EXPECT_LT(back.covariance.trace(), sigma);
+  EXPECT_EQ(tracker.at(stamp_at(3.0) + 1).source, Source::predicted);
+}
+
+TEST(Sources, LostAfterTheTimeOutAndNotBefore) {
+  const auto tracker = settled();
+  EXPECT_EQ(tracker.at(stamp_at(0.9 + 3.0)).source, Source::predicted);
+  EXPECT_EQ(tracker.at(stamp_at(0.9 + 3.0) + 1000).source, Source::lost);
+  EXPECT_NEAR(tracker.at(stamp_at(0.9 + 10)).age, 10, 1e-9);
+}
+
+TEST(Sources, NothingIsKnownBeforeTheFirst) {
+  const PoseTracker empty;
+  const auto nothing = empty.at(stamp_at(0));
+  EXPECT_EQ(nothing.source, Source::lost);
+  EXPECT_TRUE(std::isinf(nothing.age));
+  EXPECT_TRUE(std::isinf(nothing.covariance(0, 0)));
+  const auto tracker = settled();
+  EXPECT_EQ(tracker.at(stamp_at(0) - 1).source, Source::lost);
+  EXPECT_EQ(tracker.at(stamp_at(0)).source, Source::measured);
+}
+
+TEST(Gate, OneOutlierChangesNothing) {
+  auto tracker = settled();
+  const auto with = settled();
+  EXPECT_EQ(tracker.update(seen_at(1.0, 0.5), Verdict::visible), Outcome::refused_gate);
+  EXPECT_EQ(tracker.at(stamp_at(1.0)).source, Source::predicted);
+  EXPECT_NEAR(tracker.at(stamp_at(1.0)).age, frame, 1e-9);
+  EXPECT_EQ(x_at(tracker, 1.0), x_at(with, 1.0));
+  EXPECT_EQ(tracker.update(seen_at(1.1, 0), Verdict::visible), Outcome::accepted);
+}
+
+TEST(Gate, TurnedPosesAreOutliersToo) {
+  auto tracker = settled();
+  auto estimate = seen_at(1.0, 0);
+  estimate.pose.linear() = turn({0, 0, 3.1});  // a box found upside down
+  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::refused_gate);
+}
+
+TEST(Gate, ConsistentOutliersMakeANewTrack) {
+  auto tracker = settled();
+  const double speed = 0.2;  // it is also moving
+  for (int i = 10; i < 14; ++i) {
+    EXPECT_EQ(tracker.update(seen_at(i * frame, 1 + speed * i * frame), Verdict::visible),
+              Outcome::refused_gate);
+    EXPECT_NEAR(x_at(tracker, i * frame), 0, 1e-3);
+  }
+  EXPECT_EQ(tracker.update(seen_at(1.4, 1 + speed * 1.4), Verdict::visible), Outcome::accepted);
+  const auto jumped = tracker.at(stamp_at(1.4));
+  EXPECT_EQ(jumped.source, Source::measured);
+  EXPECT_NEAR(jumped.pose.translation().x(), 1 + speed * 1.4, 2e-3);
+  EXPECT_NEAR(jumped.twist[0], speed, 0.05);  // learnt while it was an outlier
+}
+
+TEST(Gate, AGoodEstimateEndsARowOfOutliers) {
+  auto tracker = settled();
+  for (int i = 10; i < 60; ++i) {
+    const bool good = i % 5 == 0;
+    EXPECT_EQ(tracker.update(seen_at(i * frame, good ? 0 : 1), Verdict::visible),
+              good ? Outcome::accepted : Outcome::refused_gate);
+  }
+}
+
+TEST(Gate, AlternatingOutliersNeverMakeATrack) {
+  PoseTrackerConfig config;
+  config.motion = Motion::along_direction;  // its gate stays narrow
+  config.direction = {0, 1, 0};
+  config.speed = 0;
+  auto tracker = settled(config);
+  for (int i = 10; i < 200; ++i) {
+    EXPECT_EQ(tracker.update(seen_at(i * frame, i % 2 == 0 ? 1 : -1), Verdict::visible),
+              Outcome::refused_gate);
+  }
+  EXPECT_EQ(tracker.at(stamp_at(20)).source, Source::lost);
+}
+
+TEST(Gate, OutliersFurtherApartThanTheTimeOutAreNoRow) {
+  PoseTrackerConfig config;
+  config.motion = Motion::still;
+  auto tracker = settled(config);
+  for (int i = 1; i < 20; ++i) {
+    EXPECT_EQ(tracker.update(seen_at(1 + 3.1 * i, 5), Verdict::visible), Outcome::refused_gate);
+  }
+}
+
+// A prediction that went astray: the gate has grown with what is not known, so that the target is
+// found again at once, while what cannot be is still refused.
+TEST(Return, GateGrowsWithTheOcclusion) {
+  PoseTrackerConfig config;
+  config.acceleration = 0.1;
+  constexpr double off = 0.15;
+  for (const double hidden : {0.2, 2.0}) {
+    auto tracker = settled(config);
+    const double back = 0.9 + hidden;
+    EXPECT_EQ(tracker.update(seen_at(back, 3), Verdict::visible), Outcome::refused_gate);
+    EXPECT_EQ(tracker.update(seen_at(back + 0.01, off), Verdict::visible),
+              hidden < 1 ? Outcome::refused_gate : Outcome::accepted);
+    if (hidden > 1) {
+      EXPECT_NEAR(x_at(tracker, back + 0.01), off, 0.01);
+    }
+  }
+}
+
+TEST(Return, WhatWasLostBeginsAnew) {
+  auto tracker = settled();
+  for (int i = 10; i < 20; ++i)
+    tracker.update(seen_at(i * frame, 0.02 * (i - 9)), Verdict::visible);
+  EXPECT_GT(tracker.at(stamp_at(2)).twist[0], 0.1);
+  EXPECT_EQ(tracker.update(seen_at(30, 2.5), Verdict::visible), Outcome::accepted);
+  const auto anew = tracker.at(stamp_at(30));
+  EXPECT_EQ(anew.source, Source::measured);
+  EXPECT_EQ(anew.pose.translation().x(), 2.5);
+  EXPECT_EQ(anew.twist.norm(), 0);
+  EXPECT_NEAR(anew.covariance(0, 0), 25e-6, 1e-12);
+}
+
+TEST(Return, IsNeverRefusedForLong) {
+  PoseTrackerConfig config;
+  config.motion = Motion::still;  // of what was carried away meanwhile
+  auto tracker = settled(config);
+  int refused = 0;
+  while (tracker.update(seen_at(2 + refused * frame, 0.8), Verdict::visible) != Outcome::accepted) {
+    ASSERT_LT(++refused, 5);
+  }
+  EXPECT_NEAR(x_at(tracker, 2 + refused * frame), 0.8, 1e-3);
+}
+
+TEST(PointGate, FollowsTheSameRules) {
+  PointTracker tracker;
+  const auto point = [](double seconds, double x) {
+    return PointEstimate{stamp_at(seconds), {x, 0, 0}, {}};
+  };
+  EXPECT_EQ(tracker.update(point(0, 0), Verdict::visible), Outcome::accepted);
+  EXPECT_EQ(tracker.update(point(0.1, 0), Verdict::unknown), Outcome::refused_verdict);
+  EXPECT_EQ(tracker.update(point(0.1, 1), Verdict::visible), Outcome::refused_gate);
+  EXPECT_EQ(tracker.at(stamp_at(0.1)).source, Source::held);
+  EXPECT_EQ(tracker.update(point(0.2, 0.1), Verdict::visible), Outcome::accepted);
+  EXPECT_EQ(tracker.at(stamp_at(0.2)).source, Source::measured);
+  EXPECT_EQ(tracker.at(stamp_at(0.2)).position.x(), 0.1);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(tracker.update(point(0.3 + i * 0.01, 2), Verdict::visible), Outcome::refused_gate);
+  }
+  EXPECT_EQ(tracker.update(point(0.4, 2), Verdict::visible), Outcome::accepted);
+  EXPECT_EQ(tracker.at(stamp_at(3.5)).source, Source::lost);
+  tracker.reset();
+  EXPECT_TRUE(std::isinf(tracker.at(stamp_at(0.4)).age));
+}
+
+}  // namespace
+}  // namespace penumbra::test
