@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+
+#include <sim/scene.hpp>
+
+namespace penumbra::sim {
+
+Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d z = (target - eye).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  pose.linear() << x, z.cross(x), z;
+  pose.translation() = eye;
+  return pose;
+}
+
+std::string numbers(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) {
+    char digits[32];
+    const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+    text += (text.empty() ? "" : " ") + std::string(digits, end);
+  }
+  return text;
+}
+
+}  // namespace penumbra::sim

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/names.hpp>
+#include <sim/depth_sensor.hpp>
+#include <sim/random.hpp>
+#include <sim/scene.hpp>
+#include <sim/simulation.hpp>
+#include <sim/stage.hpp>
+#include <sim/temporary_folder.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+constexpr std::int64_t first_stamp = 1'700'000'000'000'000'000;  // nanoseconds
+constexpr double longest = 3600.0;                               // seconds
+constexpr std::uint64_t joint_stream = 21, depth_stream = 31, second_stream = 32;
+
+/// A D415's colour camera at 640x480 (69 degrees of 1280x720, cropped and binned), with the
+/// principal point off the centre as calibrations find it.
+Camera d415_color() {
+  Camera camera{Intrinsics(640, 480, 612.3, 612.3, 325.4, 236.8), {}, {}, "camera_optical_frame"};
+  return camera;
+}
+
+void check_options(const SimulationOptions& options) {
+  const auto need = [](bool good, const std::string& what, double value, const char* wanted) {
+    if (!good)
+      throw InputError("simulation: " + what + " is " + std::to_string(value) + "; " + wanted +
+                       " is needed");
+  };
+  need(options.joint_sigma >= 0.0 && options.joint_sigma <= 1.0, "joint_sigma", options.joint_sigma,
+       "0 to 1 rad");
+  need(options.joint_latency >= 0.0 && options.joint_latency <= 10.0, "joint_latency",
+       options.joint_latency, "0 to 10 s");
+  need(options.belt_jitter >= 0.0 && options.belt_jitter <= 0.5, "belt_jitter", options.belt_jitter,
+       "0 to 0.5");
+  need(options.duration >= 0.0 && options.duration <= longest, "duration", options.duration,
+       "0 to 3600 s");
+  need(options.frame_rate > 0.0 && options.frame_rate <= 1000.0, "frame_rate", options.frame_rate,
+       "more than 0, at most 1000 per second");
+}
+
+std::filesystem::path shipped_urdf() {
+  const std::filesystem::path urdf = PENUMBRA_SIM_ARM;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(urdf, error))
+    throw InputError(urdf.string() +
+                     ": the simulated arm's URDF is not there; it belongs to "
+                     "Penumbra's sources (examples/arm_over_table)");
+  return urdf;
+}
+
+RobotOptions visual_geometry() {
+  RobotOptions options;
+  options.geometry = Geometry::visual;
+  options.geometry_fallback = true;
+  return options;
+}
+
+bool is_robot(std::int32_t id) { return id >= 1 && id < first_object_id; }
+
+template <typename T>
+void fit(Image<T>& image, const Intrinsics& intrinsics) {
+  if (image.width() != intrinsics.width() || image.height() != intrinsics.height())
+    image = Image<T>(intrinsics.width(), intrinsics.height());
+}
+
+}  // namespace
+
+struct Simulation::State {
+  State(const std::string& name, const SimulationOptions& wishes);
+  [[nodiscard]] std::unique_ptr<Scene> make_scene(const std::string& name);
+  [[nodiscard]] double time_of(std::size_t index) const {
+    return static_cast<double>(index) / options.frame_rate;
+  }
+  void report_joints(double time, SimFrame& to) const;
+  void draw(SimFrame& to);
+  void count(const ScenePose& pose, SimFrame& to);
+
+  SimulationOptions options;
+  std::filesystem::path urdf = shipped_urdf();
+  Camera camera = d415_color(), second_camera = d415_color();
+  TemporaryFolder folder;
+  Arm arm;
+  std::unique_ptr<Scene> scene;
+  Stage stage;
+  Viewpoint view, second_view;
+  DepthSensor sensor, second_sensor;
+  double duration;  // seconds
+  std::size_t frame = 0;
+  Image<std::int32_t> alone_ids;
+  Image<float> alone_depth, second_truth;
+};
+
+Simulation::State::State(const std::string& name, const SimulationOptions& wishes)
+    : options(wishes),
+      arm(urdf, visual_geometry(), folder.path()),
+      scene(make_scene(name)),
+      stage(arm, scene->description(), folder.path(), camera.intrinsics),
+      view{camera.intrinsics, scene->description().T_base_camera},
+      second_view{second_camera.intrinsics, scene->description().T_base_second_camera},
+      sensor(wishes.depth, camera.intrinsics.fx(), wishes.seed, depth_stream),
+      second_sensor(wishes.depth, second_camera.intrinsics.fx(), wishes.seed, second_stream),
+      duration(wishes.duration > 0.0 ? wishes.duration : scene->description().duration) {}
+
+std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
+  const SceneWishes wishes{options.seed, options.belt_jitter, options.frame_rate, options.duration};
+  if (name == "conveyor") return make_conveyor(arm, wishes);
+  const std::vector<std::string>& names = Simulation::scenes();
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw InputError("there is no scene '" + name + "'" + io::near_names(name, known));
+}
+
+/// Noise is drawn anew for each frame, from its number.
+void Simulation::State::report_joints(double time, SimFrame& to) const {
+  to.true_joints = scene->joints(time);
+  to.joints = scene->joints(time - options.joint_latency);
+  if (options.joint_sigma == 0.0) return;
+  Random random(options.seed, mix(joint_stream ^ (frame << 8)));
+  for (double& position : to.joints) position += options.joint_sigma * random.normal();
+}
+
+void Simulation::State::draw(SimFrame& to) {
+  const auto everything = [](std::int32_t) { return true; };
+  const Window whole{0, 0, view.intrinsics.width(), view.intrinsics.height()};
+  fit(to.ids, view.intrinsics);
+  fit(to.true_depth, view.intrinsics);
+  fit(to.robot_ids, view.intrinsics);
+  fit(to.robot_depth, view.intrinsics);
+  stage.draw_color(view, to.color);
+  stage.draw_ids(view, everything, whole, &to.ids, &to.true_depth);
+  stage.draw_ids(view, is_robot, whole, &to.robot_ids, &to.robot_depth);
+  sensor.measure(to.true_depth, frame, to.depth);
+  if (!options.second_camera) return;
+  fit(second_truth, second_view.intrinsics);
+  stage.draw_ids(second_view, everything, whole, nullptr, &second_truth);
+  second_sensor.measure(second_truth, frame, to.second_depth);
+}
+
+/// What of each object is seen, and what hides the rest.
+void Simulation::State::count(const ScenePose& pose, SimFrame& to) {
+  const std::vector<std::string>& names = scene->description().objects;
+  to.objects.resize(names.size());
+  fit(alone_ids, view.intrinsics);
+  fit(alone_depth, view.intrinsics);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ObjectTruth& object = to.objects[i];
+    object.name = names[i];
+    object.id = first_object_id + static_cast<std::int32_t>(i);
+    object.T_base_object = pose.objects[i];
+    object.pixels_alone = object.pixels_seen = object.pixels_behind_robot = 0;
+    fit(object.alone, view.intrinsics);
+    std::fill_n(object.alone.data(), object.alone.size(), std::uint8_t{0});
+    const Window window = stage.window_of(view, object.id);
+    stage.draw_ids(
+        view, [&](std::int32_t id) { return id == object.id; }, window, &alone_ids, &alone_depth);
+    for (int v = window.v0; v < window.v1; ++v)
+      for (int u = window.u0; u < window.u1; ++u) {
+        if (alone_ids(u, v) != object.id) continue;
+        object.alone(u, v) = 1;
+        ++object.pixels_alone;
+        const bool seen = to.ids(u, v) == object.id;
+        object.pixels_seen += seen ? 1 : 0;
+        const float robot = to.robot_depth(u, v);
+        const bool behind = !seen && robot > 0.0F && robot < alone_depth(u, v);
+        object.pixels_behind_robot += behind ? 1 : 0;
+      }
+  }
+}
+
+const std::vector<std::string>& Simulation::scenes() {
+  static const std::vector<std::string> names{"conveyor", "handover", "random"};
+  return names;
+}
+
+Simulation::Simulation(const std::string& scene, const SimulationOptions& options) {
+  check_options(options);
+  state_ = std::make_unique<State>(scene, options);
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+std::size_t Simulation::frames() const {
+  return static_cast<std::size_t>(std::floor(state_->duration * state_->options.frame_rate + 1e-6));
+}
+
+void Simulation::skip(std::size_t frames) { state_->frame += frames; }
+
+bool Simulation::next(SimFrame& frame) {
+  State& s = *state_;
+  if (s.frame >= frames()) return false;
+  const double time = s.time_of(s.frame);
+  frame.stamp = first_stamp + std::llround(1e9 * time);
+  s.report_joints(time, frame);
+  const ScenePose pose = s.scene->pose(time);
+  s.stage.place(frame.true_joints, pose.parts);
+  s.draw(frame);
+  s.count(pose, frame);
+  ++s.frame;
+  return true;
+}
+
+const std::filesystem::path& Simulation::urdf() const { return state_->urdf; }
+const Robot& Simulation::robot() const { return state_->arm.robot(); }
+const Camera& Simulation::camera() const { return state_->camera; }
+const Eigen::Isometry3d& Simulation::T_base_camera() const { return state_->view.T_base_camera; }
+const Camera& Simulation::second_camera() const { return state_->second_camera; }
+const Eigen::Isometry3d& Simulation::T_base_second_camera() const {
+  return state_->second_view.T_base_camera;
+}
+const Image<io::Rgb8>& Simulation::model_image() const {
+  return state_->scene->description().model_image;
+}
+Eigen::Vector3d Simulation::object_size() const { return state_->scene->description().object_size; }
+Eigen::Vector3d Simulation::conveyor_direction() const {
+  return state_->scene->description().conveyor_direction;
+}
+double Simulation::duration() const { return state_->duration; }
+
+std::optional<std::int64_t> Simulation::grasp_stamp() const {
+  const std::optional<double> grasp = state_->scene->description().grasp;
+  if (!grasp || *grasp >= state_->duration) return std::nullopt;
+  return first_stamp + std::llround(1e9 * *grasp);
+}
+
+}  // namespace penumbra::sim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+
+#include <io/png.hpp>
+#include <sim/arm.hpp>
+#include <sim/scene.hpp>
+
+namespace penumbra::sim {
+
+/// A camera and where it is.
+struct Viewpoint {
+  Intrinsics intrinsics;  ///< fx = fy: MuJoCo's renderer has square pixels
+  Eigen::Isometry3d T_base_camera;
+};
+
+/// The pixels u0 <= u < u1, v0 <= v < v1 of an image.
+struct Window {
+  int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+  [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
+};
+
+/// The arm and a scene's parts as MuJoCo places and draws them.
+class Stage {
+ public:
+  /// `folder` holds what Arm wrote. Images may be as large as `largest`. Throws InputError where
+  /// the machine has no OpenGL.
+  Stage(const Arm& arm, const SceneDescription& scene, const std::filesystem::path& folder,
+        const Intrinsics& largest);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// Places everything. `joints` in the order of Robot::variables().
+  void place(std::span<const double> joints, std::span<const Eigen::Isometry3d> parts);
+
+  /// The colour image.
+  void draw_color(const Viewpoint& view, Image<io::Rgb8>& color);
+
+  /// What is nearest of those whose id `shown` accepts, and its depth along the optical axis in
+  /// metres; 0 where nothing is. Ids are SimFrame::ids', 0 for the background. Null images are not
+  /// made; pixels outside of `window` are left as they are.
+  void draw_ids(const Viewpoint& view, const std::function<bool(std::int32_t)>& shown,
+                const Window& window, Image<std::int32_t>* ids, Image<float>* depth);
+
+  /// A window that holds all pixels of one id.
+  [[nodiscard]] Window window_of(const Viewpoint& view, std::int32_t id) const;
+
+ private:
+  struct Drawing;
+  std::unique_ptr<Drawing> drawing_;
+};
+
+}  // namespace penumbra::sim

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+#include <sim/random.hpp>
+
+namespace penumbra::sim {
+
+/// A print with corners and blobs of many sizes, so that features are found at any distance.
+[[nodiscard]] Image<io::Rgb8> busy_print(int width, int height, Random& random);
+
+/// One colour with a fine grain.
+[[nodiscard]] Image<io::Rgb8> grain(int width, int height, io::Rgb8 color, int amplitude,
+                                    Random& random);
+
+}  // namespace penumbra::sim
