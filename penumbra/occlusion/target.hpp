@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -12,17 +11,26 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/tile_mask.hpp>
 
 namespace penumbra {
+
+// Regions: which pixels a target covers. They may reach past the image, or lie beside it. A box, a
+// polygon or an ellipse too small to hold a pixel's centre covers the pixel next to its middle.
+
+/// Largest coordinate or length of a region, pixels.
+inline constexpr double max_coordinate = 1e9;
 
 /// The pixels whose centres lie in [u, u + width) x [v, v + height).
 struct PixelBox {
   double u = 0, v = 0, width = 0, height = 0;
 };
 
-/// The pixels whose centres lie inside a simple polygon (its edges do not cross), corners in either
-/// order.
+/// The pixels whose centres lie inside a simple polygon, corners in either order. Its edges may
+/// touch, not cross. A centre on the outline counts where the inside lies to its right or, on a
+/// level edge, below.
 struct PixelPolygon {
+  static constexpr std::size_t max_corners = 10000;
   std::span<const Eigen::Vector2d> corners;
 };
 
@@ -38,7 +46,7 @@ struct RunLengthMask {
   std::span<const std::uint32_t> counts;
 };
 
-/// The pixels whose centres lie inside an ellipse, but at least the one next to its centre.
+/// The pixels whose centres lie inside an ellipse or on it.
 struct PixelEllipse {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d semi_axes = Eigen::Vector2d::Ones();  ///< pixels, > 0
@@ -46,9 +54,12 @@ struct PixelEllipse {
 };
 
 /// An object that was rendered alone: where its depth is > 0, which is also its expected depth,
-/// metres.
+/// metres. It covers nothing outside of the image. Always the full extent.
 struct RenderedRegion {
-  ImageView<const float> depth;  ///< of the label image's size
+  static constexpr float max_depth = 1e6f;  ///< metres
+
+  ImageView<const float> depth;       ///< of the label image's size
+  const TileMask* touched = nullptr;  ///< outside of these tiles depth is 0; null: look at all
 };
 
 using Region =
@@ -60,7 +71,8 @@ enum class Extent {
   modal    ///< what a detector still sees; judged together with the last good extent
 };
 
-/// From which share of its pixels on a target counts as hidden, and when again as seen.
+/// From which share of its pixels on a target counts as hidden, and when again as seen. Shares are
+/// of the pixels inside the image.
 struct TargetThresholds {
   double partial_enter =
       0.05;  ///< hidden share above which `visible` becomes `partial` (the paper)
@@ -68,15 +80,16 @@ struct TargetThresholds {
   double hidden_enter = 0.90;           ///< hidden share above which it becomes `hidden`
   double hidden_leave = 0.80;           ///< hidden share up to which it becomes `partial` again
   std::optional<double> unknown_limit;  ///< unknown share above which it becomes `unknown`, unless
-                                        ///< what is hidden decides; nothing: partial_enter
+                                        ///< the verdict is the same were all of it hidden; nothing:
+                                        ///< partial_enter
   double min_inside = 0.0;           ///< at most this share of the extent in the image: out_of_view
-  bool beyond_hides = true;          ///< `beyond` counts as occluded
+  bool beyond_hides = true;          ///< `beyond` counts as occluded; else it counts as clear
   bool others_hide = true;           ///< what is hidden by others than the robot counts in verdicts
   std::size_t point_min_pixels = 5;  ///< trusted depths that a point needs
   double point_min_fraction = 0.2;   ///< and their share of the pixels inside the image
 
-  /// Throws InputError, with the values it got, unless all shares are in 0..1 and leave <= enter,
-  /// partial <= hidden.
+  /// Throws InputError, with the values it got, unless all shares are in 0..1, each leave <= its
+  /// enter and each of partial <= that of hidden.
   void check() const;
 };
 

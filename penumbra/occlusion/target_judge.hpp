@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,13 +12,14 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/virtual_depth.hpp>
-#include <penumbra/camera/rectification.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/occlusion/target.hpp>
 
 namespace penumbra {
 
-/// One frame's images, all of one size, as targets are judged on them.
+/// One frame's images, all of one size, as targets are judged on them. They are looked at until
+/// the next frame's are given.
 struct JudgedImages {
   LabelView labels;
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
@@ -29,12 +31,17 @@ struct TargetView {
   std::string_view name;  ///< what hysteresis and the last good extent are remembered by
   Region region;
   Extent extent = Extent::amodal;
-  /// Metres; of the whole region. Without it, and without a rendered one, no pixel is known to be
-  /// hidden by others than the robot. With it, what the robot hides is known without measurement.
+  /// Metres, ze below; of the whole region. A rendered region has its own. Without it, no pixel is
+  /// known to be hidden by others than the robot. With it, what the robot hides is known without
+  /// measurement, and robot behind the target hides nothing.
   std::optional<double> expected_depth;
+  /// Metres by which the target's surface may lie before or behind its expected depth: half its
+  /// thickness, its pose's uncertainty.
+  double depth_margin = 0;
   /// Where the point lies in the image; nothing: the middle of the covered pixels.
   std::optional<Eigen::Vector2d> point_pixel;
-  /// How far the target has moved in the image since its last good extent, where that is known.
+  /// How far the target has moved in the image, pixels, since it was last judged visible, where
+  /// that is known. Used for modal extents.
   std::optional<Eigen::Vector2d> motion;
   TargetThresholds thresholds;
 };
@@ -45,40 +52,79 @@ struct Blame {
   double fraction = 0;   ///< of the pixels inside the image
 };
 
-/// What is said of a target. Fractions are of the pixels inside the image; those of labels add up
-/// to 1 together with hidden_by_other (which is 0 where no expected depth is known).
+/// What is said of a target. Fractions are of the pixels inside the image and add up to 1, together
+/// with hidden_by_other; where no pixel is inside they are 0.
 struct Judgement {
   Verdict verdict = Verdict::unknown;
   std::size_t covered = 0;  ///< pixels of the extent, those outside the image too
   std::size_t inside = 0;   ///< pixels of it inside the image
-  double occluded = 0;      ///< by the robot, with `beyond` where that hides
+  double occluded = 0;      ///< hidden by the robot, `beyond` too where that hides
   double front = 0;
   double unknown = 0;
   double clear = 0;
-  std::optional<double> hidden_by_other;  ///< nothing where no expected depth is known
-  std::span<const Blame> blame;           ///< largest first; valid until the judge's next call
-  std::optional<Eigen::Vector3d> point;   ///< optical frame, metres: of trusted depths only
-  std::size_t point_pixels = 0;           ///< depths behind the point
-  double point_spread = 0;                ///< metres: 1.4826 * median absolute deviation
-  std::string_view reason;                ///< one line, for verdict unknown; else empty
+  /// By something that is not the robot; nothing where no expected depth or no image is there.
+  std::optional<double> hidden_by_other;
+  std::span<const Blame> blame;          ///< largest first; valid until the judge's next call
+  std::optional<Eigen::Vector3d> point;  ///< optical frame, metres: of trusted depths only
+  std::size_t point_pixels = 0;          ///< depths behind the point
+  double point_spread = 0;               ///< metres: 1.4826 * median absolute deviation
+  std::string_view reason;               ///< one line, a constant, for verdict unknown; else empty
 };
 
 /// Judges targets on labelled images. Holds what verdicts remember, by the targets' names.
 /// Allocates nothing per target once its name, and extents of its size, were seen.
+///
+/// How a pixel of a target is seen. Without an expected depth its label says it: clear, front,
+/// occluded, unknown; beyond is occluded, or clear where beyond_hides is false. With the expected
+/// depth ze, m = depth_margin + e(ze), virtual depth dV and measured depth d:
+///
+/// | label | robot before: dV < ze - m | robot about there | robot behind: dV > ze + m |
+/// |---|---|---|---|
+/// | front | occluded | front | front |
+/// | occluded, beyond | occluded | unknown | clear |
+/// | unknown | occluded | unknown | clear |
+///
+/// beyond is as clear where beyond_hides is false. Then, unless occluded by the robot, a pixel of
+/// whatever label with d < ze - m is hidden by other. Robot about as far as the target is not told
+/// from it, neither by the model nor by the sensor: it may be hiding it, or be what was taken for
+/// it.
+///
+/// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
+/// robot's pose, and where unknown exceeds its limit and the verdict would be another were all
+/// unknown pixels hidden. It is out_of_view whatever else is known. Hysteresis goes on from the
+/// last verdict that was neither.
+///
+/// A modal extent is compared with the last good one: that of the last frame with verdict visible,
+/// except that a smaller one replaces it only where no robot is near. An extent smaller by more
+/// than partial_enter does not show the whole target. Then the last good extent is judged as well,
+/// moved by `motion` (without `motion`, where it was, for extent_frames frames), and the worse
+/// counts; and where the robot is near, what is missing beside what is known to be hidden is
+/// unknown. So is a target that is first seen near the robot.
+///
+/// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
+/// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
+/// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f).
+/// Verdicts other than visible and partial have none.
 class TargetJudge {
  public:
-  /// For images of a camera as they come (`raw`, with its distortion) or of its pinhole part.
-  /// Throws InputError as Camera and LabelRule do. `links`: of the robot, for blame.
+  /// How many frames the last good extent of a target is judged where it was.
+  static constexpr std::uint64_t extent_frames = 30;
+
+  /// For images of a camera as they come (with its distortion) or of its pinhole part.
+  /// Throws InputError as Camera and LabelRule do. `rule`: that of the labels. `links`: how many
+  /// the robot has, for blame.
   TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links);
   ~TargetJudge();
   TargetJudge(TargetJudge&&) noexcept;
   TargetJudge& operator=(TargetJudge&&) noexcept;
 
-  /// Names the frame that is judged next. Targets refer to it.
+  /// Names the frame that is judged next. Throws InputError for images not of the camera's size.
   void begin(const JudgedImages& images);
 
-  /// Judges one target on the frame of begin(). Throws InputError for a region that is none: not
-  /// finite, of zero area, a polygon that crosses itself, a mask of another size.
+  /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
+  /// InputError, which names the target and what is wrong, for a region that is none (not finite,
+  /// of zero area, a polygon that crosses itself, a mask of another size), for numbers out of
+  /// bounds and for a name that was judged in this frame already.
   [[nodiscard]] Judgement judge(const TargetView& target);
 
   /// Forgets what was remembered of a target (a new object under an old name).

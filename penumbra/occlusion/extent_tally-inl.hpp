@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the pixels of an extent are seen in a frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <penumbra/occlusion/label_work-inl.hpp>
+#include <penumbra/occlusion/region_spans-inl.hpp>
+#include <penumbra/occlusion/target_judge.hpp>
+
+namespace penumbra {
+
+/// What TargetJudge says of a pixel.
+enum class Seen : std::uint8_t { clear, front, occluded, unknown, other };
+inline constexpr std::size_t seen_count = 5;
+
+/// Measured depths nearer than `near` are of something that hides the target, robot pixels nearer
+/// than that hide it too, those farther than `far` do not. Metres.
+struct DepthLimits {
+  float near, far;
+};
+
+/// From a depth to its limits.
+struct LimitRule {
+  LimitRule(const labelling::Rule& rule, double depth_margin)
+      : a(rule.a), b(rule.b), c(rule.c), margin(static_cast<float>(depth_margin)) {}
+
+  [[nodiscard]] DepthLimits at(float z) const {
+    const float e = a + (b + c * z) * z + margin;
+    return {z - e, z + e};
+  }
+
+  float a, b, c, margin;
+};
+
+/// An image's measurements in metres; 0 where there is none.
+template <typename T>
+class Measured {
+ public:
+  Measured(ImageView<const T> image, const labelling::Rule& rule)
+      : image_(image), range_(std::is_same_v<T, float> ? rule.metres : rule.millimetres) {}
+
+  struct Row {
+    const T* depth;
+    labelling::MeasuredRange range;
+
+    [[nodiscard]] float operator[](int u) const {
+      float d;
+      if constexpr (std::is_same_v<T, float>)
+        d = depth[u];
+      else
+        d = static_cast<float>(depth[u]) * labelling::metres_per_millimetre;
+      return range.near <= d && d <= range.far ? d : 0.0f;
+    }
+  };
+  [[nodiscard]] Row row(int v) const { return {image_.row(v), range_}; }
+
+ private:
+  ImageView<const T> image_;
+  labelling::MeasuredRange range_;
+};
+
+/// A frame as targets are judged on it.
+struct JudgedFrame {
+  JudgedFrame(const JudgedImages& judged, const labelling::Rule& label_rule);
+
+  [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
+  [[nodiscard]] bool is_measured() const {
+    return std::visit([](const auto& depth) { return !depth.empty(); }, images.measured);
+  }
+  /// Whether some of the robot may lie in the pixels [u0, u1] x [v0, v1], which may reach past the
+  /// image.
+  [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
+
+  JudgedImages images;
+  const labelling::Rule* rule;
+  int width, height;
+};
+
+/// How many pixels of an extent are hidden by each link.
+class LinkCounts {
+ public:
+  explicit LinkCounts(std::size_t links) : counts_(links) { touched_.reserve(links); }
+
+  void clear();
+  /// `value`: of a link image; 0 and what is no link is left out.
+  void add(std::size_t value, std::size_t pixels) {
+    if (value == 0 || value > counts_.size()) return;
+    if (counts_[value - 1] == 0) touched_.push_back(value - 1);
+    counts_[value - 1] += pixels;
+  }
+  /// Writes the links of which there are some, with their share of `pixels`, largest first.
+  std::span<const Blame> write(std::size_t pixels, std::vector<Blame>& blame) const;
+
+ private:
+  std::vector<std::size_t> counts_;
+  std::vector<std::size_t> touched_;
+};
+
+/// Pixels by how they are seen.
+struct SeenCounts {
+  [[nodiscard]] std::size_t& operator[](Seen seen) {
+    return counts[static_cast<std::size_t>(seen)];
+  }
+  [[nodiscard]] std::size_t operator[](Seen seen) const {
+    return counts[static_cast<std::size_t>(seen)];
+  }
+
+  std::array<std::size_t, seen_count> counts{};
+};
+
+struct ExtentTally {
+  explicit ExtentTally(std::size_t link_count) : links(link_count) {}
+
+  void clear() {
+    pixels = {};
+    links.clear();
+  }
+
+  SeenCounts pixels;
+  LinkCounts links;  ///< those that hide
+};
+
+/// A target's expected depth, checked.
+struct ExpectedDepth {
+  std::optional<float> constant;                ///< metres
+  std::optional<ImageView<const float>> image;  ///< of every pixel of the extent
+  double margin = 0;                            ///< metres
+
+  [[nodiscard]] bool known() const { return constant || image; }
+};
+
+/// Fills a tally with the pixels of an extent on a frame whose pose is known.
+void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,
+                  const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally);
+
+}  // namespace penumbra

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include <penumbra/occlusion/extent_tally-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Where the run of equal values ends that begins at p.
+template <typename T>
+const T* end_of_run(const T* p, const T* end) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::ptrdiff_t step = sizeof(std::uint64_t) / sizeof(T);
+  const std::uint64_t same = *p * (~std::uint64_t{0} / std::numeric_limits<T>::max());
+  for (; end - p >= step; p += step) {
+    std::uint64_t word;
+    std::memcpy(&word, p, sizeof word);
+    if (word != same) return p + std::countr_zero(word ^ same) / std::numeric_limits<T>::digits;
+  }
+  const T value = static_cast<T>(same);
+  while (p < end && *p == value) ++p;
+  return p;
+}
+
+Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
+  switch (static_cast<Label>(label)) {
+    case Label::clear:
+      return Seen::clear;
+    case Label::front:
+      return Seen::front;
+    case Label::occluded:
+      return Seen::occluded;
+    case Label::beyond:
+      return beyond_hides ? Seen::occluded : Seen::clear;
+    case Label::unknown:
+      break;
+  }
+  return Seen::unknown;
+}
+
+/// The table of docs/targets-judging.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
+/// it is not on the ray.
+Seen seen_at_depth(std::uint8_t value, float z, float d, DepthLimits target, bool beyond_hides) {
+  const auto label = static_cast<Label>(value);
+  const bool before = d > 0.0f && d < target.near;
+  if (label == Label::clear || (label == Label::beyond && !beyond_hides))
+    return before ? Seen::other : Seen::clear;
+  if (!(z > 0.0f)) return Seen::unknown;  // where the lens model does not reach
+  if (z < target.near) return Seen::occluded;
+  if (before) return Seen::other;
+  if (label == Label::front) return Seen::front;
+  return z > target.far ? Seen::clear : Seen::unknown;
+}
+
+/// Calls f(u0, u1, touched) for the parts of a span inside and outside of some tiles.
+template <typename F>
+void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
+  if (tiles == nullptr) return f(span.u0, span.u1, true);
+  const int shift = std::countr_zero(static_cast<unsigned>(tiles->tile_width));
+  const std::uint64_t row = tiles->rows[static_cast<std::size_t>(span.v / TileMask::tile_height)];
+  for (int u = span.u0; u < span.u1;) {
+    const int tile = u >> shift;
+    const std::uint64_t bits = row >> tile;
+    const bool touched = (bits & 1) != 0;
+    const int count = touched ? std::countr_one(bits) : std::countr_zero(bits);
+    const int end = tile + count >= 64 ? span.u1 : std::min(span.u1, (tile + count) << shift);
+    f(u, end, touched);
+    u = end;
+  }
+}
+
+class LabelTally {
+ public:
+  LabelTally(const JudgedFrame& frame, bool beyond_hides, ExtentTally& tally)
+      : images_(frame.images), beyond_hides_(beyond_hides), tally_(tally) {}
+
+  void add(const RowSpan& span) {
+    for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
+      if (touched)
+        add_runs(span.v, u0, u1);
+      else
+        tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0);
+    });
+  }
+
+ private:
+  void add_runs(int v, int u0, int u1) {
+    const std::uint8_t* const row = images_.labels.labels.row(v);
+    for (const std::uint8_t *p = row + u0, *end = row + u1; p < end;) {
+      const std::uint8_t* const next = end_of_run(p, end);
+      const Seen seen = seen_without_depth(*p, beyond_hides_);
+      tally_.pixels[seen] += static_cast<std::size_t>(next - p);
+      if (seen == Seen::occluded) blame(v, static_cast<int>(p - row), static_cast<int>(next - row));
+      p = next;
+    }
+  }
+
+  void blame(int v, int u0, int u1) {
+    const ImageView<const std::uint16_t>& links = images_.virtual_depth.links;
+    if (links.empty()) return;
+    for (const std::uint16_t *p = links.row(v) + u0, *end = links.row(v) + u1; p < end;) {
+      const std::uint16_t* const next = end_of_run(p, end);
+      tally_.links.add(*p, static_cast<std::size_t>(next - p));
+      p = next;
+    }
+  }
+
+  const JudgedImages& images_;
+  bool beyond_hides_;
+  ExtentTally& tally_;
+};
+
+/// As LabelTally, where the target's depth is known: `limits(v)` gives, by u, a row's limits and
+/// `measured(v)` its depths.
+template <typename Limits, typename Depths>
+class DepthTally {
+ public:
+  DepthTally(const JudgedFrame& frame, bool beyond_hides, ExtentTally& tally, const Limits& limits,
+             const Depths& measured)
+      : images_(frame.images),
+        beyond_hides_(beyond_hides),
+        tally_(tally),
+        limits_(limits),
+        measured_(measured) {}
+
+  void add(const RowSpan& span) {
+    for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
+      if (touched)
+        add_pixels(span.v, u0, u1);
+      else
+        add_clear(span.v, u0, u1);
+    });
+  }
+
+ private:
+  void add_clear(int v, int u0, int u1) {
+    const auto limits = limits_(v);
+    const auto measured = measured_(v);
+    std::size_t before = 0;
+    for (int u = u0; u < u1; ++u) {
+      const float d = measured[u];
+      before += d > 0.0f && d < limits(u).near ? 1 : 0;
+    }
+    tally_.pixels[Seen::other] += before;
+    tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0) - before;
+  }
+
+  void add_pixels(int v, int u0, int u1) {
+    const auto limits = limits_(v);
+    const auto measured = measured_(v);
+    const std::uint8_t* const labels = images_.labels.labels.row(v);
+    const float* const robot = images_.virtual_depth.depth.row(v);
+    const ImageView<const std::uint16_t>& links = images_.virtual_depth.links;
+    for (int u = u0; u < u1; ++u) {
+      const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], limits(u), beyond_hides_);
+      ++tally_.pixels[seen];
+      if (seen == Seen::occluded && !links.empty()) tally_.links.add(links(u, v), 1);
+    }
+  }
+
+  const JudgedImages& images_;
+  bool beyond_hides_;
+  ExtentTally& tally_;
+  const Limits& limits_;
+  const Depths& measured_;
+};
+
+struct NoDepths {
+  float operator[](int /*u*/) const { return 0.0f; }
+};
+
+template <typename Limits>
+void tally_with(const JudgedFrame& frame, std::span<const RowSpan> spans, bool beyond_hides,
+                ExtentTally& tally, const Limits& limits) {
+  const auto add_all = [&](const auto& measured) {
+    DepthTally adder(frame, beyond_hides, tally, limits, measured);
+    for (const RowSpan& span : spans) adder.add(span);
+  };
+  if (!frame.is_measured()) return add_all([](int /*v*/) { return NoDepths{}; });
+  std::visit(
+      [&](const auto& image) {
+        const Measured measured(image, *frame.rule);
+        add_all([&](int v) { return measured.row(v); });
+      },
+      frame.images.measured);
+}
+
+}  // namespace
+
+JudgedFrame::JudgedFrame(const JudgedImages& judged, const labelling::Rule& label_rule)
+    : images(judged),
+      rule(&label_rule),
+      width(judged.labels.labels.width),
+      height(judged.labels.labels.height) {}
+
+bool JudgedFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
+  u0 = std::max(u0, 0), v0 = std::max(v0, 0);
+  u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
+  if (u0 > u1 || v0 > v1) return false;
+  const TileMask* const tiles = images.virtual_depth.touched;
+  if (tiles == nullptr) return true;
+  const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tiles->tile_width);
+  const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));
+  for (int j = v0 / TileMask::tile_height; j <= v1 / TileMask::tile_height; ++j)
+    if ((tiles->rows[static_cast<std::size_t>(j)] & columns) != 0) return true;
+  return false;
+}
+
+void LinkCounts::clear() {
+  for (const std::size_t link : touched_) counts_[link] = 0;
+  touched_.clear();
+}
+
+std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>& blame) const {
+  blame.clear();
+  for (const std::size_t link : touched_)
+    blame.push_back({link, static_cast<double>(counts_[link]) / static_cast<double>(pixels)});
+  std::sort(blame.begin(), blame.end(), [](const Blame& a, const Blame& b) {
+    return a.fraction != b.fraction ? a.fraction > b.fraction : a.link < b.link;
+  });
+  return blame;
+}
+
+void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,
+                  const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally) {
+  tally.clear();
+  const LimitRule rule(*frame.rule, expected.margin);
+  if (expected.image) {
+    tally_with(frame, spans, beyond_hides, tally, [&](int v) {
+      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
+    });
+  } else if (expected.constant) {
+    const DepthLimits limits = rule.at(*expected.constant);
+    tally_with(frame, spans, beyond_hides, tally,
+               [limits](int) { return [limits](int) { return limits; }; });
+  } else {
+    LabelTally adder(frame, beyond_hides, tally);
+    for (const RowSpan& span : spans) adder.add(span);
+  }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/occlusion/target_sight-inl.hpp>
+#include <penumbra/occlusion/trusted_depth-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+Camera checked_camera(const Camera& camera) {
+  camera.check();
+  return camera;
+}
+
+LabelRule checked_rule(const LabelRule& rule) {
+  rule.check();
+  return rule;
+}
+
+void check_target(const TargetView& target) {
+  const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
+  const std::optional<double>& depth = target.expected_depth;
+  const double most = static_cast<double>(RenderedRegion::max_depth);
+  if (target.name.empty()) region_fault("needs a name");
+  if (rendered && target.extent == Extent::modal)
+    region_fault("a rendered region is the full extent: amodal");
+  if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
+  if (depth && !(*depth > 0 && *depth <= most))
+    region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
+  if (!(target.depth_margin >= 0 && target.depth_margin <= most))
+    region_fault("depth margin ", target.depth_margin, " m: must be 0 to ", most);
+  if (target.point_pixel && !target.point_pixel->allFinite())
+    region_fault("point pixel: must be numbers");
+  if (target.motion && !(target.motion->cwiseAbs().maxCoeff() <= max_coordinate))
+    region_fault("motion: must be numbers up to ", max_coordinate, " pixels");
+  target.thresholds.check();
+}
+
+ExpectedDepth expected_of(const TargetView& target) {
+  ExpectedDepth expected;
+  expected.margin = target.depth_margin;
+  if (const auto* rendered = std::get_if<RenderedRegion>(&target.region))
+    expected.image = rendered->depth;
+  else if (target.expected_depth)
+    expected.constant = static_cast<float>(*target.expected_depth);
+  return expected;
+}
+
+std::string_view reason_of(const Sight& sight, bool has_pose, bool has_depth) {
+  if (!has_pose) return "the robot's pose is not known in this frame";
+  if (sight.first_near_robot)
+    return "first seen beside the robot: how much of it the robot hides is not known";
+  if (sight.is_missing) return "its mask is smaller than it was, and the robot is beside it";
+  if (has_depth) return "too much of it is robot without measurement, or at the robot's own depth";
+  return "too much of it is robot without measurement";
+}
+
+struct NameHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view name) const {
+    return std::hash<std::string_view>{}(name);
+  }
+};
+
+}  // namespace
+
+struct TargetJudge::State {
+  State(const Camera& camera_, const LabelRule& rule, std::size_t links);
+
+  Judgement judge(const TargetView& target);
+  TargetMemory& memory_of(std::string_view name);
+  void add_point(const TargetView& target, const ExpectedDepth& expected, Judgement& judgement);
+
+  Camera camera;
+  labelling::Rule rule;
+  JudgedFrame frame;
+  std::uint64_t number = 0;  // of the frame
+  RobotSurroundings robot;
+  Sights sights;
+  TrustedDepths depths;
+  std::vector<Blame> blame;
+  std::unordered_map<std::string, TargetMemory, NameHash, std::equal_to<>> memories;
+};
+
+TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links)
+    : camera(checked_camera(camera_)),
+      rule(checked_rule(label_rule)),
+      frame({}, rule),
+      robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
+      sights(camera.intrinsics.width(), camera.intrinsics.height(), links) {
+  blame.reserve(links);
+}
+
+TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links)
+    : state_(std::make_unique<State>(camera, rule, links)) {}
+TargetJudge::~TargetJudge() = default;
+TargetJudge::TargetJudge(TargetJudge&&) noexcept = default;
+TargetJudge& TargetJudge::operator=(TargetJudge&&) noexcept = default;
+
+void TargetJudge::begin(const JudgedImages& images) {
+  const Intrinsics& size = state_->camera.intrinsics;
+  const auto check = [&](const char* what, const auto& image, bool may_be_empty) {
+    if (image.width == size.width() && image.height == size.height() && image.data != nullptr)
+      return;
+    if (image.empty() && may_be_empty) return;
+    region_fault(what, " of ", image.width, " x ", image.height, " pixels: the camera's has ",
+                 size.width(), " x ", size.height());
+  };
+  check("label image", images.labels.labels, false);
+  check("virtual depth image", images.virtual_depth.depth, true);
+  check("link image", images.virtual_depth.links, true);
+  std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
+  state_->frame = JudgedFrame(images, state_->rule);
+  state_->robot.begin(state_->frame);
+  ++state_->number;
+}
+
+Judgement TargetJudge::judge(const TargetView& target) {
+  if (state_->number == 0) throw std::logic_error("TargetJudge::judge() before begin()");
+  try {
+    return state_->judge(target);
+  } catch (const InputError& error) {
+    region_fault("target '", target.name, "': ", error.what());
+  }
+}
+
+void TargetJudge::forget(std::string_view name) {
+  const auto found = state_->memories.find(name);
+  if (found != state_->memories.end()) state_->memories.erase(found);
+}
+
+TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
+  const auto found = memories.find(name);
+  return found != memories.end() ? found->second : memories[std::string(name)];
+}
+
+Judgement TargetJudge::State::judge(const TargetView& target) {
+  check_target(target);
+  const ExpectedDepth expected = expected_of(target);
+  sights.fill(target.region);
+  TargetMemory& memory = memory_of(target.name);
+  if (memory.frame == number) region_fault("its name is used twice in a frame");
+  memory.frame = number;
+
+  const Sight sight = sights.look({frame, number, target, expected, robot.reach()}, memory);
+  Judgement judgement;
+  judgement.verdict = decide(sight, target.thresholds, memory);
+  judgement.covered = sight.covered;
+  judgement.inside = sight.inside;
+  judgement.occluded = sight.fraction(Seen::occluded);
+  judgement.front = sight.fraction(Seen::front);
+  judgement.unknown = sight.fraction(Seen::unknown);
+  judgement.clear = sight.fraction(Seen::clear);
+  if (expected.known() && frame.is_measured() && frame.has_pose())
+    judgement.hidden_by_other = sight.fraction(Seen::other);
+  judgement.blame = sight.links->write(sight.inside, blame);
+  if (judgement.verdict == Verdict::unknown)
+    judgement.reason = reason_of(sight, frame.has_pose(), expected.known());
+  if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
+    sights.remember(target.motion, number, memory);
+  add_point(target, expected, judgement);
+  return judgement;
+}
+
+void TargetJudge::State::add_point(const TargetView& target, const ExpectedDepth& expected,
+                                   Judgement& judgement) {
+  if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
+  const RegionSpans& seen = sights.seen();
+  if (!frame.is_measured() || seen.inside() == 0) return;
+  const Eigen::Vector2d pixel = target.point_pixel.value_or(seen.middle());
+  const Intrinsics& pinhole = camera.intrinsics;
+  const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();
+  const auto ray = camera.distortion.undistort(distorted);
+  if (!ray) return;
+  depths.take(frame, seen.spans(), expected, robot);
+  const auto least = target.thresholds.point_min_fraction * static_cast<double>(seen.inside());
+  if (depths.count() == 0 || depths.count() < target.thresholds.point_min_pixels ||
+      static_cast<double>(depths.count()) < least)
+    return;
+  const RobustDepth depth = depths.robust();
+  judgement.point = depth.median * Eigen::Vector3d(ray->x(), ray->y(), 1.0);
+  judgement.point_pixels = depth.count;
+  judgement.point_spread = depth.spread;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is seen of a target, what is remembered of it, and the verdict that follows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <penumbra/occlusion/extent_tally-inl.hpp>
+#include <penumbra/occlusion/region_spans-inl.hpp>
+#include <penumbra/occlusion/target.hpp>
+
+namespace penumbra {
+
+/// What verdicts remember of a target.
+struct TargetMemory {
+  std::uint64_t frame = 0;           ///< in which it was last judged
+  Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
+  std::vector<RowSpan> extent;       ///< modal: the last good one; empty: none
+  std::size_t extent_pixels = 0;     ///< inside the image
+  std::uint64_t extent_frame = 0;    ///< in which it stood where it stands
+  Eigen::Vector2d moved{0, 0};       ///< since then, until the last verdict visible
+};
+
+/// An extent as it is seen.
+struct Sight {
+  [[nodiscard]] double fraction(Seen seen) const;
+  [[nodiscard]] double hidden(bool others_hide) const {
+    return fraction(Seen::occluded) + (others_hide ? fraction(Seen::other) : 0.0);
+  }
+  /// Counts pixels that were seen so as unknown instead, as many as there are.
+  void doubt(Seen seen, std::size_t& count);
+
+  std::size_t covered = 0, inside = 0;
+  SeenCounts pixels{};  ///< inside
+  const LinkCounts* links = nullptr;
+  bool has_pose = true;
+  bool first_near_robot = false;  ///< how much more of it there is is not known
+  bool is_missing = false;        ///< some of it is not in its mask, and near the robot
+};
+
+/// A target and the frame it is looked at on.
+struct Look {
+  const JudgedFrame& frame;
+  std::uint64_t number;  ///< of the frame
+  const TargetView& target;
+  const ExpectedDepth& expected;
+  int reach;  ///< pixels: robot as near as this may hide more than it seems to
+};
+
+/// Looks at extents, as they are given and as they are remembered.
+class Sights {
+ public:
+  Sights(int width, int height, std::size_t links)
+      : seen_(width, height), last_(width, height), seen_tally_(links), last_tally_(links) {}
+
+  void fill(const Region& region) { seen_.fill(region); }
+  [[nodiscard]] const RegionSpans& seen() const { return seen_; }
+
+  /// Of the region that fill() took: valid until the next call.
+  [[nodiscard]] Sight look(const Look& at, const TargetMemory& memory);
+
+  /// Remembers the modal extent that was just looked at and is visible.
+  void remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_t number,
+                TargetMemory& memory) const;
+
+ private:
+  [[nodiscard]] static Sight look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally);
+  [[nodiscard]] Sight look_modal(const Look& at, const TargetMemory& memory, const Sight& now);
+  [[nodiscard]] Sight look_last(const Look& at, std::size_t missing);
+
+  RegionSpans seen_, last_;
+  ExtentTally seen_tally_, last_tally_;
+  bool near_robot_ = false;
+};
+
+/// The verdict, which `memory.level` follows.
+[[nodiscard]] Verdict decide(const Sight& sight, const TargetThresholds& thresholds,
+                             TargetMemory& memory);
+
+}  // namespace penumbra
