@@ -50,7 +50,7 @@ Seen seen_at_depth(std::uint8_t value, float z, float d, DepthLimits target, boo
     return before ? Seen::other : Seen::clear;
   if (!(z > 0.0f)) return Seen::unknown;  // where the lens model does not reach
   if (z < target.near) return Seen::occluded;
-  if (before) return Seen::other;
+  if (before) return label == Label::front ? Seen::other : Seen::occluded;
   if (label == Label::front) return Seen::front;
   return z > target.far ? Seen::clear : Seen::unknown;
 }

@@ -80,14 +80,15 @@ struct Judgement {
 ///
 /// | label | robot before: dV < ze - m | robot about there | robot behind: dV > ze + m |
 /// |---|---|---|---|
-/// | front | occluded | front | front |
-/// | occluded, beyond | occluded | unknown | clear |
+/// | clear | | clear; other if d < ze - m | |
+/// | front | occluded | front; other if d < ze - m | front; other if d < ze - m |
+/// | occluded | occluded | unknown; occluded if d < ze - m | clear; occluded if d < ze - m |
+/// | beyond | occluded | unknown | clear |
 /// | unknown | occluded | unknown | clear |
 ///
-/// beyond is as clear where beyond_hides is false. Then, unless occluded by the robot, a pixel of
-/// whatever label with d < ze - m is hidden by other. Robot about as far as the target is not told
-/// from it, neither by the model nor by the sensor: it may be hiding it, or be what was taken for
-/// it.
+/// "other": hidden by something that is not the robot. beyond is as clear where beyond_hides is
+/// false. Robot about as far as the target is not told from it, neither by the model nor by the
+/// sensor: it may hide the target, or be what was taken for it.
 ///
 /// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
 /// robot's pose, and where unknown exceeds its limit and the verdict would be another were all

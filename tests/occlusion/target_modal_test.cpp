@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a detector's shrinking mask must not hide: targets that move behind the robot and that the
+// robot moves before.
+#include "target_frame.hpp"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+namespace {
+
+using test::box_target;
+using test::TargetFrame;
+
+constexpr double share_rounding = 1e-12;
+
+class ModalTargets : public testing::Test {
+ protected:
+  /// The verdict on what a detector sees of a box: the part left of the robot, which covers the
+  /// columns from `robot` on.
+  Judgement see(int u, int robot, std::optional<double> motion = {}) {
+    TargetFrame frame;
+    frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    const int seen = std::min(u + width, robot) - u;
+    TargetView target = box_target(
+        "cup", {static_cast<double>(u), 40, static_cast<double>(seen), 20}, Extent::modal);
+    if (motion) target.motion = Eigen::Vector2d(*motion, 0);
+    target.thresholds = thresholds;
+    judge.begin(frame.images());
+    return judge.judge(target);
+  }
+
+  static constexpr int width = 40;
+  TargetThresholds thresholds;
+  TargetJudge judge{TargetFrame::camera(), TargetFrame::without_cleanup(), 3};
+};
+
+TEST_F(ModalTargets, AreJudgedByTheirLastGoodExtentToo) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  const Judgement half = see(20, 40);
+  EXPECT_EQ(half.verdict, Verdict::partial);
+  EXPECT_NEAR(half.occluded, 0.5, share_rounding);
+  EXPECT_EQ(half.inside, 800u);
+  ASSERT_EQ(half.blame.size(), 1u);
+  EXPECT_EQ(half.blame[0].link, 1u);
+  const Judgement most = see(20, 22);
+  EXPECT_EQ(most.verdict, Verdict::hidden);
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+}
+
+TEST_F(ModalTargets, DoNotCreepOutOfSight) {
+  // The robot advances slower than the threshold from frame to frame.
+  for (int robot = 100; robot > 21; --robot) {
+    const bool hides_much = robot < 58;
+    EXPECT_EQ(see(20, robot).verdict != Verdict::visible, hides_much) << robot;
+  }
+}
+
+TEST_F(ModalTargets, DoNotSlipBehindTheRobot) {
+  // The target moves, and it is not said how far: its last good extent is free of robot.
+  constexpr int robot = 100;
+  for (int u = 20; u < 99; ++u) {
+    const Judgement judgement = see(u, robot);
+    const int hidden = std::max(0, u + width - robot);
+    if (hidden > 2)
+      EXPECT_TRUE(judgement.verdict == Verdict::unknown || judgement.verdict == Verdict::partial ||
+                  judgement.verdict == Verdict::hidden)
+          << u;
+    else
+      EXPECT_EQ(judgement.verdict, Verdict::visible) << u;
+  }
+}
+
+TEST_F(ModalTargets, ThatMoveAreBlamedRightlyWhereMotionIsKnown) {
+  constexpr int robot = 100;
+  EXPECT_EQ(see(20, robot).verdict, Verdict::visible);
+  EXPECT_EQ(see(30, robot, 10.0).verdict, Verdict::visible);
+  const Judgement half = see(80, robot, 50.0);
+  EXPECT_EQ(half.verdict, Verdict::partial);
+  EXPECT_NEAR(half.occluded, 0.5, share_rounding);
+  EXPECT_EQ(half.unknown, 0);
+}
+
+TEST_F(ModalTargets, KeepTheirPlaceThroughFramesBesideTheRobot) {
+  constexpr int robot = 100;
+  EXPECT_EQ(see(20, robot).verdict, Verdict::visible);
+  // Visible, yet two columns smaller beside the robot: the extent stays, and moves with the target.
+  EXPECT_EQ(see(62, robot, 42.0).verdict, Verdict::visible);
+  const Judgement half = see(80, robot, 18.0);
+  EXPECT_NEAR(half.occluded, 0.5, share_rounding);
+}
+
+TEST_F(ModalTargets, FirstSeenBesideTheRobotAreUnknown) {
+  const Judgement first = see(70, 100);
+  EXPECT_EQ(first.verdict, Verdict::unknown);
+  EXPECT_NE(first.reason.find("first seen beside the robot"), std::string_view::npos);
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(60, 100).verdict, Verdict::visible);  // all of it is seen
+}
+
+TEST_F(ModalTargets, AreUnknownWhenTheLastExtentIsTooOld) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  for (std::uint64_t i = 0; i < TargetJudge::extent_frames; ++i)
+    ASSERT_EQ(see(20, 40).verdict, Verdict::partial);
+  const Judgement late = see(20, 40);
+  EXPECT_EQ(late.verdict, Verdict::unknown);
+  EXPECT_NEAR(late.unknown, 0.5, share_rounding);
+  EXPECT_EQ(late.inside, 800u);
+  EXPECT_NE(late.reason.find("smaller"), std::string_view::npos);
+}
+
+TEST_F(ModalTargets, MayShrinkAwayFromTheRobot) {
+  EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
+  TargetFrame frame;
+  frame.add_robot(120, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(box_target("cup", {20, 40, 20, 20}, Extent::modal)).verdict,
+            Verdict::visible);
+  judge.begin(frame.images());
+  const Judgement again = judge.judge(box_target("cup", {95, 40, 20, 20}, Extent::modal));
+  EXPECT_EQ(again.verdict, Verdict::visible) << "the smaller extent is the last good one";
+}
+
+TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  TargetFrame frame;
+  frame.add_robot(50, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+  judge.begin(frame.images());
+  const Judgement half = judge.judge(box_target("cup", {20, 40, 20, 20}, Extent::modal));
+  EXPECT_NEAR(half.occluded, 0.25, share_rounding);
+  EXPECT_NEAR(half.unknown, 0.25, share_rounding);
+  EXPECT_NEAR(half.clear, 0.5, share_rounding);
+}
+
+TEST_F(ModalTargets, AreForgottenOnRequest) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  judge.forget("cup");
+  EXPECT_EQ(see(20, 40).verdict, Verdict::unknown);
+}
+
+}  // namespace
+}  // namespace penumbra

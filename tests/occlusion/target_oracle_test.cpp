@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random targets on random frames against a judge that asks every pixel.
+#include "target_oracle.hpp"
+
+#include "../support/random.hpp"
+#include "target_regions.hpp"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+namespace {
+
+constexpr double rounding = 1e-12;       // of fractions
+constexpr double depth_rounding = 1e-6;  // metres: means of floats near 1 m
+constexpr std::size_t link_count = 5;
+
+class TargetOracle : public testing::Test {
+ protected:
+  double number(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+  std::size_t below(std::size_t end) { return random() % end; }
+
+  struct Shape {
+    Region region;
+    Image<std::uint8_t> mask;
+    test::Corners corners;
+    std::vector<std::uint32_t> counts;
+    Image<float> depth;
+  };
+
+  /// A region, and its pixels by geometry.
+  void choose_shape(Shape& shape, int width, int height) {
+    const Eigen::Vector2d centre(number(0, width), number(0, height));
+    const auto paint = [&](const auto& place) {
+      shape.mask = Image<std::uint8_t>(width, height);
+      for (int v = 0; v < height; ++v)
+        for (int u = 0; u < width; ++u)
+          shape.mask(u, v) = place(Eigen::Vector2d(u, v)) == test::Place::inside ? 1 : 0;
+    };
+    const std::size_t kind = below(5);
+    if (kind == 0) {
+      const PixelBox box{centre.x() - 8, centre.y() - 9, number(2, 40), number(2, 40)};
+      shape.region = box;
+      paint([&](const auto& p) { return test::place_in_box(box, p); });
+      return;
+    }
+    const PixelEllipse ellipse{centre, {number(2, 25), number(2, 25)}, number(0, 3)};
+    shape.region = ellipse;
+    paint([&](const auto& p) { return test::place_in_ellipse(ellipse, p); });
+    if (kind == 1) return;
+    shape.mask(static_cast<int>(below(static_cast<std::size_t>(width))), 0) = 1;
+    if (kind == 2) shape.region = PixelMask{shape.mask.view()};
+    if (kind == 3) {
+      shape.counts = test::run_lengths(shape.mask.view());
+      shape.region = RunLengthMask{width, height, shape.counts};
+    }
+    if (kind == 4) {
+      shape.depth = Image<float>(width, height);
+      for (std::size_t i = 0; i < shape.mask.size(); ++i)
+        if (shape.mask.data()[i] != 0) shape.depth.data()[i] = static_cast<float>(number(0.7, 1.3));
+      shape.region = RenderedRegion{.depth = shape.depth.view(), .touched = nullptr};
+    }
+  }
+
+  std::mt19937_64 random = test::seeded_random(42);
+};
+
+void expect_same(const Judgement& judged, const test::NaiveJudgement& naive) {
+  ASSERT_EQ(judged.inside, naive.inside);
+  if (naive.inside == 0) return;
+  const auto share = [&](std::size_t pixels) {
+    return static_cast<double>(pixels) / static_cast<double>(naive.inside);
+  };
+  EXPECT_NEAR(judged.clear, share(naive.clear), rounding);
+  EXPECT_NEAR(judged.front, share(naive.front), rounding);
+  EXPECT_NEAR(judged.occluded, share(naive.occluded), rounding);
+  EXPECT_NEAR(judged.unknown, share(naive.unknown), rounding);
+  EXPECT_NEAR(judged.hidden_by_other.value_or(0), share(naive.other), rounding);
+  ASSERT_EQ(judged.blame.size(), naive.blame.size());
+  for (std::size_t i = 0; i < judged.blame.size(); ++i) {
+    const Blame& blame = judged.blame[i];
+    ASSERT_TRUE(naive.blame.contains(blame.link)) << blame.link;
+    EXPECT_NEAR(blame.fraction, share(naive.blame.at(blame.link)), rounding);
+    EXPECT_LE(blame.fraction, judged.blame[i == 0 ? 0 : i - 1].fraction);
+  }
+}
+
+void expect_same_point(const Judgement& judged, const test::NaiveJudgement& naive) {
+  const bool seen = judged.verdict == Verdict::visible || judged.verdict == Verdict::partial;
+  ASSERT_EQ(judged.point.has_value(), seen && !naive.trusted.empty());
+  if (!judged.point) return;
+  EXPECT_EQ(judged.point_pixels, naive.trusted.size());
+  EXPECT_NEAR(judged.point->z(), naive.median(), depth_rounding);
+  EXPECT_NEAR(judged.point_spread, naive.spread(), depth_rounding);
+}
+
+TEST_F(TargetOracle, AgreesOnRandomFrames) {
+  const int width = 101, height = 67;
+  std::size_t points = 0, others = 0, blamed = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    test::Scene scene = test::random_scene(width, height, random);
+    if (frame % 5 == 0) scene.robot = Image<float>(width, height), scene.mark_tiles();
+    LabelRule rule = frame % 3 == 0 ? LabelRule::paper() : LabelRule{};
+    if (frame % 4 == 0) rule.range = {0.4, 1.45};
+    const Image<std::uint16_t> millimetres = scene.millimetres();
+    const bool in_metres = frame % 2 == 0;
+    const DepthView depth =
+        in_metres ? DepthView(scene.metres.view()) : DepthView(millimetres.view());
+    Image<float> measured(width, height);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const float d =
+          in_metres ? scene.metres.data()[i] : 0.001f * static_cast<float>(millimetres.data()[i]);
+      const double exact = in_metres ? static_cast<double>(d) : millimetres.data()[i] / 1000.0;
+      const bool valid = exact > 0 && std::isfinite(d) && exact >= rule.range.near &&
+                         static_cast<float>(exact) <= static_cast<float>(rule.range.far) &&
+                         static_cast<float>(exact) >= static_cast<float>(rule.range.near);
+      measured.data()[i] = valid ? d : 0.0f;
+    }
+    Image<std::uint16_t> links(width, height);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        if (scene.robot(u, v) > 0)
+          links(u, v) = static_cast<std::uint16_t>((u / 13 + v / 17) % (link_count + 1));
+
+    Classifier classifier(width, height, rule);
+    JudgedImages images{classifier.classify(scene.view(), depth), scene.view(), depth};
+    images.virtual_depth.links = links.view();
+    if (frame % 7 == 0) images.labels.touched = nullptr;
+    TargetJudge judge({Intrinsics(width, height, 90, 91, 49, 33), {}, {}, {}}, rule, link_count);
+    judge.begin(images);
+
+    for (int i = 0; i < 8; ++i) {
+      Shape shape;
+      choose_shape(shape, width, height);
+      TargetView target;
+      const std::string name = "target " + std::to_string(i);
+      target.name = name;
+      target.region = shape.region;
+      target.depth_margin = i % 3 == 0 ? 0.05 : 0;
+      target.thresholds.beyond_hides = i % 2 == 0;
+      target.thresholds.point_min_pixels = 1;
+      target.thresholds.point_min_fraction = 0;
+      target.thresholds.hidden_enter = 1;
+      target.thresholds.unknown_limit = 1;
+      Image<float> expected(width, height);
+      if (!shape.depth.empty()) {
+        expected = shape.depth;
+      } else if (below(2) == 0) {
+        target.expected_depth = number(0.6, 1.4);
+        expected = Image<float>(width, height, static_cast<float>(*target.expected_depth));
+      }
+      const test::NaiveTarget naive{.rule = rule,
+                                    .labels = images.labels.labels,
+                                    .robot = scene.robot.view(),
+                                    .links = links.view(),
+                                    .measured = measured.view(),
+                                    .mask = shape.mask.view(),
+                                    .expected = expected.view(),
+                                    .depth_margin = static_cast<float>(target.depth_margin),
+                                    .beyond_hides = target.thresholds.beyond_hides};
+      SCOPED_TRACE("frame " + std::to_string(frame) + ", " + name);
+      const test::NaiveJudgement truth = naive.judge();
+      const Judgement judged = judge.judge(target);
+      expect_same(judged, truth);
+      expect_same_point(judged, truth);
+      if (HasFatalFailure()) return;
+      points += judged.point ? 1 : 0;
+      others += truth.other > 0 ? 1 : 0;
+      blamed += truth.blame.size() > 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(points, 100u);
+  EXPECT_GT(others, 50u);
+  EXPECT_GT(blamed, 50u);
+}
+
+}  // namespace
+}  // namespace penumbra

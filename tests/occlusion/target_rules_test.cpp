@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+// How single pixels count, and what verdicts follow, on scenes in closed form.
+#include "target_frame.hpp"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+
+namespace penumbra {
+namespace {
+
+using test::box_target;
+using test::TargetFrame;
+
+constexpr double share_rounding = 1e-12;
+const PixelBox box{40, 40, 20, 20};
+
+Judgement judge_once(TargetFrame& frame, const TargetView& target) {
+  static std::vector<Blame> blame;
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(frame.images());
+  Judgement judgement = judge.judge(target);
+  blame.assign(judgement.blame.begin(), judgement.blame.end());
+  judgement.blame = blame;
+  return judgement;
+}
+
+enum class Count { clear, front, occluded, unknown, other };
+
+Count count_of(const Judgement& judgement) {
+  const std::array<double, 5> shares = {judgement.clear, judgement.front, judgement.occluded,
+                                        judgement.unknown, judgement.hidden_by_other.value_or(0)};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (shares[i] == 1.0) return static_cast<Count>(i);
+  ADD_FAILURE() << "not one kind of pixel";
+  return Count::unknown;
+}
+
+/// How all pixels of a target count before, at or behind a robot at 1 m, or with no robot at all;
+/// e(1 m) = 0.021 m.
+Count count(bool with_robot, float measured, std::optional<double> expected, bool beyond = true) {
+  TargetFrame frame;
+  if (with_robot) frame.add_robot(40, 40, 60, 60, 1.0f, 1);
+  frame.see(40, 40, 60, 60, measured);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = expected;
+  target.thresholds.beyond_hides = beyond;
+  return count_of(judge_once(frame, target));
+}
+
+constexpr float hole = 0.0f;
+constexpr double behind_robot = 1.3, at_robot = 1.01, before_robot = 0.8;
+
+TEST(TargetPixels, WithoutExpectedDepthGoByTheirLabels) {
+  EXPECT_EQ(count(false, 2.0f, {}), Count::clear);
+  EXPECT_EQ(count(false, hole, {}), Count::clear);
+  EXPECT_EQ(count(true, 0.8f, {}), Count::front);
+  EXPECT_EQ(count(true, 1.0f, {}), Count::occluded);
+  EXPECT_EQ(count(true, hole, {}), Count::unknown);
+  EXPECT_EQ(count(true, 1.1f, {}), Count::occluded);
+  EXPECT_EQ(count(true, 1.1f, {}, false), Count::clear);
+}
+
+TEST(TargetPixels, RobotBeforeTheTargetHidesItWithoutMeasurement) {
+  EXPECT_EQ(count(true, 0.8f, behind_robot), Count::occluded);
+  EXPECT_EQ(count(true, 1.0f, behind_robot), Count::occluded);
+  EXPECT_EQ(count(true, hole, behind_robot), Count::occluded);
+  EXPECT_EQ(count(true, 1.3f, behind_robot), Count::occluded);
+  EXPECT_EQ(count(true, 1.3f, behind_robot, false), Count::clear);
+  EXPECT_EQ(count(true, 1.1f, behind_robot, false), Count::other);
+}
+
+TEST(TargetPixels, RobotAtTheTargetIsNotToldFromIt) {
+  EXPECT_EQ(count(true, 0.98f, at_robot), Count::occluded);
+  EXPECT_EQ(count(true, 0.9785f, 0.99), Count::front);
+  EXPECT_EQ(count(true, 1.0f, at_robot), Count::unknown);
+  EXPECT_EQ(count(true, hole, at_robot), Count::unknown);
+  EXPECT_EQ(count(true, 1.1f, at_robot), Count::unknown);
+  EXPECT_EQ(count(true, 1.1f, at_robot, false), Count::clear);
+  EXPECT_EQ(count(true, 0.8f, at_robot), Count::other);
+}
+
+TEST(TargetPixels, RobotBehindTheTargetHidesNothing) {
+  EXPECT_EQ(count(true, 0.8f, before_robot), Count::front);
+  EXPECT_EQ(count(true, 1.0f, before_robot), Count::clear);
+  EXPECT_EQ(count(true, hole, before_robot), Count::clear);
+  EXPECT_EQ(count(true, 1.1f, before_robot), Count::clear);
+  EXPECT_EQ(count(true, 0.6f, before_robot), Count::other);
+}
+
+TEST(TargetPixels, BesideTheRobotOthersMayHide) {
+  EXPECT_EQ(count(false, 0.8f, 0.8), Count::clear);
+  EXPECT_EQ(count(false, 0.79f, 0.8), Count::clear);
+  EXPECT_EQ(count(false, 0.7f, 0.8), Count::other);
+  EXPECT_EQ(count(false, 2.0f, 0.8), Count::clear);
+  EXPECT_EQ(count(false, hole, 0.8), Count::clear);
+}
+
+TEST(TargetPixels, AMarginWidensWhereTheTargetMayLie) {
+  TargetFrame frame;
+  frame.add_robot(40, 40, 60, 60, 1.0f, 1);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = behind_robot;
+  target.depth_margin = 0.3;
+  EXPECT_EQ(count_of(judge_once(frame, target)), Count::unknown);
+  frame.see(40, 40, 60, 60, 0.7f);
+  target.expected_depth = before_robot;
+  target.depth_margin = 0.09;
+  EXPECT_EQ(count_of(judge_once(frame, target)), Count::front);
+}
+
+TEST(TargetPixels, UnreachedByTheLensAreUnknown) {
+  TargetFrame frame;
+  JudgedImages images = frame.images();
+  Image<std::uint8_t> labels(TargetFrame::width, TargetFrame::height,
+                             static_cast<std::uint8_t>(Label::unknown));
+  images.labels = {labels.view()};
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(images);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = before_robot;
+  EXPECT_EQ(count_of(judge.judge(target)), Count::unknown);
+}
+
+TEST(Judging, AddsUpPixelsAndBlamesLinks) {
+  TargetFrame frame;
+  frame.add_robot(0, 0, 50, 45, 1.0f, 2);    // 10 x 5 of the target
+  frame.add_robot(50, 0, 160, 50, 1.2f, 0);  // 10 x 10
+  frame.add_robot(40, 58, 60, 60, 1.1f, 1, false);
+  frame.see(40, 58, 60, 60, hole);  // 40
+  const Judgement judgement = judge_once(frame, box_target("cup", box));
+  EXPECT_EQ(judgement.covered, 400u);
+  EXPECT_EQ(judgement.inside, 400u);
+  EXPECT_NEAR(judgement.occluded, 0.375, share_rounding);
+  EXPECT_NEAR(judgement.unknown, 0.1, share_rounding);
+  EXPECT_NEAR(judgement.clear, 0.525, share_rounding);
+  EXPECT_EQ(judgement.verdict, Verdict::partial);
+  EXPECT_FALSE(judgement.hidden_by_other);
+  ASSERT_EQ(judgement.blame.size(), 2u);
+  EXPECT_EQ(judgement.blame[0].link, 0u);
+  EXPECT_NEAR(judgement.blame[0].fraction, 0.25, share_rounding);
+  EXPECT_EQ(judgement.blame[1].link, 2u);
+  EXPECT_NEAR(judgement.blame[1].fraction, 0.125, share_rounding);
+}
+
+TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
+  TargetFrame frame;
+  frame.add_robot(40, 40, 60, 42, 1.0f, 1);
+  frame.see(40, 42, 60, 52, 0.5f);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = 1.5;
+  Judgement judgement = judge_once(frame, target);
+  EXPECT_NEAR(*judgement.hidden_by_other, 0.5, share_rounding);
+  EXPECT_NEAR(judgement.occluded, 0.1, share_rounding);
+  EXPECT_NEAR(judgement.clear, 0.4, share_rounding);
+  EXPECT_EQ(judgement.verdict, Verdict::partial);
+  target.thresholds.partial_enter = 0.2;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial);
+  target.thresholds.others_hide = false;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
+}
+
+TEST(Judging, WithoutTheRobotsPoseAllIsUnknown) {
+  TargetFrame frame;
+  JudgedImages images = frame.images();
+  images.virtual_depth = {};
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(images);
+  TargetView target = box_target("cup", box);
+  target.thresholds.unknown_limit = 1;
+  target.expected_depth = 1.0;
+  const Judgement judgement = judge.judge(target);
+  EXPECT_EQ(judgement.verdict, Verdict::unknown);
+  EXPECT_EQ(judgement.unknown, 1.0);
+  EXPECT_FALSE(judgement.hidden_by_other);
+  EXPECT_FALSE(judgement.point);
+  EXPECT_EQ(judgement.reason, "the robot's pose is not known in this frame");
+  EXPECT_EQ(judge.judge(box_target("away", {-50, 0, 20, 20})).verdict, Verdict::out_of_view);
+}
+
+TEST(Judging, WithoutDepthOnlyWhatIsRobotIsUnknown) {
+  TargetFrame frame;
+  frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
+  std::fill_n(frame.measured.data(), frame.measured.size(), hole);
+  JudgedImages images = frame.images();
+  images.measured = {};
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(images);
+  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::unknown);
+  const Judgement beside = judge.judge(box_target("plate", {80, 80, 9, 9}));
+  EXPECT_EQ(beside.verdict, Verdict::visible);
+  EXPECT_FALSE(beside.point);
+  TargetView behind = box_target("pan", box);
+  behind.expected_depth = behind_robot;
+  const Judgement hidden = judge.judge(behind);
+  EXPECT_EQ(hidden.verdict, Verdict::hidden);
+  EXPECT_FALSE(hidden.hidden_by_other);
+}
+
+TEST(Verdicts, TooMuchUnknownIsUnknownUnlessTheRestDecides) {
+  const auto verdict = [](int hidden_columns, int unknown_columns) {
+    TargetFrame frame;
+    frame.add_robot(40, 40, 40 + hidden_columns, 60, 1.0f, 1);
+    frame.add_robot(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, 1.0f, 1);
+    frame.see(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, hole);
+    return judge_once(frame, box_target("cup", box)).verdict;
+  };
+  EXPECT_EQ(verdict(0, 1), Verdict::visible);  // 5 %, the limit
+  EXPECT_EQ(verdict(0, 2), Verdict::unknown);
+  EXPECT_EQ(verdict(4, 6), Verdict::partial);   // 20 % to 50 %: partial either way
+  EXPECT_EQ(verdict(4, 15), Verdict::unknown);  // to 95 %: perhaps hidden
+  EXPECT_EQ(verdict(19, 1), Verdict::hidden);
+  EXPECT_EQ(verdict(0, 20), Verdict::unknown);
+}
+
+/// A target of 100 columns of which the robot hides some.
+Verdict verdict_of(TargetJudge& judge, int hidden, const TargetThresholds& thresholds = {}) {
+  TargetFrame frame;
+  frame.add_robot(20, 0, 20 + hidden, TargetFrame::height, 1.0f, 1);
+  TargetView target = box_target("cup", {20, 40, 100, 20});
+  target.thresholds = thresholds;
+  judge.begin(frame.images());
+  return judge.judge(target).verdict;
+}
+
+TEST(Verdicts, HaveHysteresis) {
+  TargetJudge judge(TargetFrame::camera(), TargetFrame::without_cleanup(), 3);
+  const std::pair<int, Verdict> sequence[] = {
+      {0, Verdict::visible}, {5, Verdict::visible},  {6, Verdict::partial},  {5, Verdict::partial},
+      {4, Verdict::visible}, {5, Verdict::visible},  {90, Verdict::partial}, {91, Verdict::hidden},
+      {81, Verdict::hidden}, {80, Verdict::partial}, {90, Verdict::partial}, {91, Verdict::hidden},
+      {5, Verdict::partial}, {91, Verdict::hidden},  {4, Verdict::visible},  {91, Verdict::hidden}};
+  for (const auto& [hidden, verdict] : sequence)
+    EXPECT_EQ(verdict_of(judge, hidden), verdict) << hidden;
+  judge.forget("cup");
+  EXPECT_EQ(verdict_of(judge, 85), Verdict::partial);
+  judge.forget("no such target");
+}
+
+TEST(Verdicts, RememberPastUnknownAndPerName) {
+  TargetJudge judge(TargetFrame::camera(), TargetFrame::without_cleanup(), 3);
+  EXPECT_EQ(verdict_of(judge, 95), Verdict::hidden);
+  TargetFrame frame;
+  judge.begin({frame.images().labels, {}, {}});
+  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::unknown);
+  EXPECT_EQ(verdict_of(judge, 85), Verdict::hidden);
+  TargetFrame half;
+  half.add_robot(20, 0, 105, TargetFrame::height, 1.0f, 1);
+  judge.begin(half.images());
+  EXPECT_EQ(judge.judge(box_target("plate", {20, 40, 100, 20})).verdict, Verdict::partial);
+}
+
+TEST(Verdicts, OutOfView) {
+  TargetFrame frame;
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(frame.images());
+  const Judgement away = judge.judge(box_target("away", {1000, 0, 20, 20}));
+  EXPECT_EQ(away.verdict, Verdict::out_of_view);
+  EXPECT_EQ(away.covered, 400u);
+  EXPECT_EQ(away.inside, 0u);
+  EXPECT_EQ(away.clear + away.front + away.occluded + away.unknown, 0);
+  TargetView edge = box_target("edge", {-15, 0, 20, 20});
+  edge.thresholds.min_inside = 0.25;
+  EXPECT_EQ(judge.judge(edge).verdict, Verdict::out_of_view);
+  edge.thresholds.min_inside = 0.24;
+  edge.name = "edge again";
+  EXPECT_EQ(judge.judge(edge).verdict, Verdict::visible);
+  const Image<float> nothing(TargetFrame::width, TargetFrame::height);
+  TargetView rendered = box_target("rendered", box);
+  rendered.region = RenderedRegion{nothing.view(), nullptr};
+  EXPECT_EQ(judge.judge(rendered).verdict, Verdict::out_of_view);
+}
+
+std::string fault_of(const TargetView& target) {
+  TargetFrame frame;
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(frame.images());
+  try {
+    (void)judge.judge(target);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(BadTargets, AreRefusedByName) {
+  EXPECT_EQ(fault_of(box_target("cup", {1, 2, 0, 3})),
+            "target 'cup': box 1, 2, 0 x 3: has no area: width and height must be above 0");
+  EXPECT_EQ(fault_of(box_target("", box)), "target '': needs a name");
+}
+
+TEST(BadTargets, NumbersOutOfBounds) {
+  const auto fault = [](const auto& change) {
+    TargetView target = box_target("cup", box);
+    change(target);
+    return fault_of(target);
+  };
+  EXPECT_EQ(fault([](TargetView&) {}), "no fault");
+  EXPECT_EQ(fault([](TargetView& t) { t.expected_depth = -1; }),
+            "target 'cup': expected depth -1 m: must be above 0 and up to 1e+06");
+  EXPECT_NE(fault([](TargetView& t) { t.expected_depth = nan; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.depth_margin = nan; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.depth_margin = -0.1; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.point_pixel = {nan, 3}; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.motion = {nan, 3}; }), "no fault");
+  EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_enter = 1.1; }),
+            "target 'cup': partial_enter 1.1: must be 0 to 1");
+  EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_leave = 0.06; }),
+            "target 'cup': partial_leave 0.06: must not exceed partial_enter 0.05");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.partial_enter = 0.95; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.95; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.01; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.unknown_limit = nan; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.min_inside = -1; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.point_min_fraction = 2; }), "no fault");
+}
+
+TEST(BadTargets, RenderedOnesHaveTheirOwnDepthAndExtent) {
+  const Image<float> depth(TargetFrame::width, TargetFrame::height, 1.0f);
+  TargetView target = box_target("cup", box);
+  target.region = RenderedRegion{depth.view(), nullptr};
+  target.expected_depth = 1.0;
+  EXPECT_NE(fault_of(target), "no fault");
+  target.expected_depth = {};
+  EXPECT_EQ(fault_of(target), "no fault");
+  target.extent = Extent::modal;
+  EXPECT_NE(fault_of(target), "no fault");
+}
+
+TEST(BadTargets, ANameTwiceInAFrame) {
+  TargetFrame frame;
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  EXPECT_THROW((void)judge.judge(box_target("cup", box)), std::logic_error);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::visible);
+  EXPECT_THROW((void)judge.judge(box_target("cup", box)), InputError);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::visible);
+}
+
+TEST(BadTargets, ImagesOfAnotherSize) {
+  TargetFrame frame;
+  const Image<float> small(10, 10);
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  JudgedImages images = frame.images();
+  images.measured = small.view();
+  EXPECT_THROW(judge.begin(images), InputError);
+  images = frame.images();
+  images.virtual_depth.depth = small.view();
+  EXPECT_THROW(judge.begin(images), InputError);
+  EXPECT_THROW(judge.begin({}), InputError);
+}
+
+TEST(Verdicts, HaveNames) {
+  EXPECT_EQ(to_string(Verdict::visible), "visible");
+  EXPECT_EQ(to_string(Verdict::partial), "partial");
+  EXPECT_EQ(to_string(Verdict::hidden), "hidden");
+  EXPECT_EQ(to_string(Verdict::unknown), "unknown");
+  EXPECT_EQ(to_string(Verdict::out_of_view), "out_of_view");
+}
+
+}  // namespace
+}  // namespace penumbra
