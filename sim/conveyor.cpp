@@ -14,7 +14,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr const char* tool = "tool0";
 constexpr double belt_x = 0.52;     // metres, the belt's middle from the robot's axis
 constexpr double grasp_time = 4.5;  // seconds
 constexpr double scene_time = 5.0;
@@ -78,10 +77,9 @@ Conveyor::Conveyor(Arm& arm, const SceneWishes& wishes) : jitter_(wishes.belt_ji
   yaw_ = random.uniform(-3.1415926, 3.1415926);
   at_grasp_ = Vector3d(belt_x, side * random.uniform(0.04, 0.14), 0.5 * size_.z());
   for (double& phase : phases_) phase = random.uniform(0.0, 6.2831853);
-  description_.T_base_camera =
-      look_at(Vector3d(1.06, random.uniform(-0.06, 0.06), 0.78), Vector3d(0.49, 0.0, 0.06));
-  description_.T_base_second_camera =
-      look_at(Vector3d(0.60, -side * 1.05, 0.80), Vector3d(0.50, 0.0, 0.04));
+  const double eye_y = random.uniform(-0.06, 0.06);
+  description_.T_base_camera = look_at({1.06, eye_y, 0.78}, {0.49, 0.0, 0.06});
+  description_.T_base_second_camera = look_at({0.60, -side * 1.05, 0.80}, {0.50, 0.0, 0.04});
   description_.duration = scene_time;
   description_.grasp = grasp_time;
   description_.object_size = size_;
@@ -98,24 +96,19 @@ void Conveyor::dress(Random& random) {
   std::copy_n(description_.model_image.data(), card.size(), both.data());
   std::copy_n(card.data(), card.size(), both.data() + card.size());
   description_.textures.push_back({"print", std::move(both)});
-  description_.textures.push_back({"belt", grain(256, 256, {62, 64, 68}, 16, random)});
-  description_.textures.push_back({"floor", grain(256, 256, {150, 148, 142}, 22, random)});
-  const auto flat = [](const char* name, int width, int height) {
-    return std::string("<texture name=\"") + name + "\" type=\"2d\" builtin=\"flat\" width=\"" +
-           std::to_string(width) + "\" height=\"" + std::to_string(height) +
-           "\"/><material name=\"" + name + "\" texture=\"" + name +
-           "\" texrepeat=\"3 3\" specular=\"0\"/>";
-  };
-  description_.assets = flat("print", print_width, 2 * rows) + flat("belt", 256, 256) +
-                        flat("floor", 256, 256) + printed_box(size_);
+  // Plain surroundings: they are most of the image, and textures cost a third of its time.
+  description_.assets = "<texture name=\"print\" type=\"2d\" builtin=\"flat\" width=\"" +
+                        std::to_string(print_width) + "\" height=\"" + std::to_string(2 * rows) +
+                        "\"/><material name=\"print\" texture=\"print\" specular=\"0\"/>" +
+                        printed_box(size_);
   description_.objects = {"parcel"};
   description_.parts = {
       {0, "<geom type=\"mesh\" mesh=\"parcel\" material=\"print\" group=\"2\"/>"},
       {-1,
-       "<geom type=\"box\" size=\"0.19 1.2 0.02\" pos=\"0 0 -0.02\" material=\"belt\" "
+       "<geom type=\"box\" size=\"0.19 1.2 0.02\" pos=\"0 0 -0.02\" rgba=\"0.24 0.25 0.27 1\" "
        "group=\"2\"/>"},
       {-1,
-       "<geom type=\"box\" size=\"3 3 0.05\" pos=\"0 0 -0.10\" material=\"floor\" "
+       "<geom type=\"box\" size=\"3 3 0.05\" pos=\"0 0 -0.10\" rgba=\"0.62 0.62 0.6 1\" "
        "group=\"2\"/>"}};
 }
 
@@ -133,16 +126,6 @@ Isometry3d Conveyor::object(double time) const {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = at_grasp_ + (way(time) - way(grasp_time)) * direction_;
   pose.linear() = Eigen::AngleAxisd(yaw_, Vector3d::UnitZ()).toRotationMatrix();
-  return pose;
-}
-
-/// A tool pose whose fingers point along `ahead`, as upright as that leaves free.
-Isometry3d tool_pose(const Vector3d& position, const Vector3d& ahead, const Vector3d& sideways) {
-  Isometry3d pose = Isometry3d::Identity();
-  const Vector3d z = ahead.normalized();
-  const Vector3d y = (sideways - sideways.dot(z) * z).normalized();
-  pose.linear() << y.cross(z), y, z;
-  pose.translation() = position;
   return pose;
 }
 
@@ -180,11 +163,9 @@ void Conveyor::plan(Arm& arm, Random& random) {
   std::vector<double> positions = {side * 0.9, 0.1, 1.4, 0.1, -1.57, 0.0, 0.03};
   std::vector<Knot> knots;
   for (const auto& [time, goal] : goals) {
-    positions = arm.reach(goal, tool, positions);
+    positions = arm.reach(goal, tool_link, positions);
     positions.back() = time < grasp_time ? 0.04 : 0.02;
-    const Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(
-        positions.data(), static_cast<Eigen::Index>(positions.size()));
-    knots.push_back({time, value});
+    knots.push_back({time, as_vector(positions)});
   }
   path_.emplace_back(std::move(knots));
 }

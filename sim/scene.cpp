@@ -14,6 +14,16 @@ Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& tar
   return pose;
 }
 
+Eigen::Isometry3d tool_pose(const Eigen::Vector3d& position, const Eigen::Vector3d& ahead,
+                            const Eigen::Vector3d& sideways) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d z = ahead.normalized();
+  const Eigen::Vector3d y = (sideways - sideways.dot(z) * z).normalized();
+  pose.linear() << y.cross(z), y, z;
+  pose.translation() = position;
+  return pose;
+}
+
 std::string numbers(std::initializer_list<double> values) {
   std::string text;
   for (const double value : values) {

@@ -39,6 +39,7 @@ struct SceneDescription {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_base_second_camera = Eigen::Isometry3d::Identity();
   double duration = 0.0;        ///< seconds; what the scene takes of its own accord
+  bool moves = true;            ///< false: frames have nothing to do with each other
   std::optional<double> grasp;  ///< seconds; conveyor
   Image<io::Rgb8> model_image;  ///< conveyor
   Eigen::Vector3d object_size = Eigen::Vector3d::Zero();          ///< conveyor, metres
@@ -83,6 +84,18 @@ struct SceneWishes {
 
 /// The pose of a camera at `eye` that looks at `target`, its image upright.
 [[nodiscard]] Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
+
+/// The link that scenes steer; its z axis points ahead, between the fingers.
+inline constexpr const char* tool_link = "tool0";
+
+/// A tool pose that points `ahead`; its y axis comes as near to `sideways` as that leaves free.
+[[nodiscard]] Eigen::Isometry3d tool_pose(const Eigen::Vector3d& position,
+                                          const Eigen::Vector3d& ahead,
+                                          const Eigen::Vector3d& sideways);
+
+[[nodiscard]] inline Eigen::VectorXd as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
 
 /// MJCF text of numbers, with all their digits.
 [[nodiscard]] std::string numbers(std::initializer_list<double> values);

@@ -65,6 +65,22 @@ RobotOptions visual_geometry() {
 
 bool is_robot(std::int32_t id) { return id >= 1 && id < first_object_id; }
 
+/// Puts what is nearer of `ids` into the frame.
+void lay_over(const Image<std::int32_t>& ids, const Image<float>& depth, const Window& window,
+              SimFrame& to) {
+  for (int v = window.v0; v < window.v1; ++v) {
+    const float* const z = depth.view().row(v);
+    const std::int32_t* const id = ids.view().row(v);
+    float* const to_z = to.true_depth.view().row(v);
+    std::int32_t* const to_id = to.ids.view().row(v);
+    for (int u = window.u0; u < window.u1; ++u) {
+      const bool nearer = z[u] > 0.0F && (to_z[u] == 0.0F || z[u] < to_z[u]);
+      to_z[u] = nearer ? z[u] : to_z[u];
+      to_id[u] = nearer ? id[u] : to_id[u];
+    }
+  }
+}
+
 template <typename T>
 void fit(Image<T>& image, const Intrinsics& intrinsics) {
   if (image.width() != intrinsics.width() || image.height() != intrinsics.height())
@@ -80,8 +96,9 @@ struct Simulation::State {
     return static_cast<double>(index) / options.frame_rate;
   }
   void report_joints(double time, SimFrame& to) const;
-  void draw(SimFrame& to);
-  void count(const ScenePose& pose, SimFrame& to);
+  void draw(const ScenePose& pose, SimFrame& to);
+  void draw_objects(const ScenePose& pose, SimFrame& to);
+  void count_alone(const Window& window, const SimFrame& frame_of, ObjectTruth& object) const;
 
   SimulationOptions options;
   std::filesystem::path urdf = shipped_urdf();
@@ -112,6 +129,8 @@ Simulation::State::State(const std::string& name, const SimulationOptions& wishe
 std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
   const SceneWishes wishes{options.seed, options.belt_jitter, options.frame_rate, options.duration};
   if (name == "conveyor") return make_conveyor(arm, wishes);
+  if (name == "handover") return make_handover(arm, wishes);
+  if (name == "random") return make_random_targets(arm, wishes, camera.intrinsics);
   const std::vector<std::string>& names = Simulation::scenes();
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw InputError("there is no scene '" + name + "'" + io::near_names(name, known));
@@ -126,25 +145,30 @@ void Simulation::State::report_joints(double time, SimFrame& to) const {
   for (double& position : to.joints) position += options.joint_sigma * random.normal();
 }
 
-void Simulation::State::draw(SimFrame& to) {
-  const auto everything = [](std::int32_t) { return true; };
+/// The robot, the background and each object are drawn apart and put together by their depths: the
+/// same image as all at once, and what each would look like alone comes with it.
+void Simulation::State::draw(const ScenePose& pose, SimFrame& to) {
+  const auto background = [](std::int32_t id) { return id == 0; };
   const Window whole{0, 0, view.intrinsics.width(), view.intrinsics.height()};
   fit(to.ids, view.intrinsics);
   fit(to.true_depth, view.intrinsics);
   fit(to.robot_ids, view.intrinsics);
   fit(to.robot_depth, view.intrinsics);
-  stage.draw_color(view, to.color);
-  stage.draw_ids(view, everything, whole, &to.ids, &to.true_depth);
+  if (options.color) stage.draw_color(view, to.color);
   stage.draw_ids(view, is_robot, whole, &to.robot_ids, &to.robot_depth);
+  stage.draw_ids(view, background, whole, nullptr, &to.true_depth);
+  std::fill_n(to.ids.data(), to.ids.size(), 0);
+  lay_over(to.robot_ids, to.robot_depth, whole, to);
+  draw_objects(pose, to);
   sensor.measure(to.true_depth, frame, to.depth);
   if (!options.second_camera) return;
   fit(second_truth, second_view.intrinsics);
+  const auto everything = [](std::int32_t) { return true; };
   stage.draw_ids(second_view, everything, whole, nullptr, &second_truth);
   second_sensor.measure(second_truth, frame, to.second_depth);
 }
 
-/// What of each object is seen, and what hides the rest.
-void Simulation::State::count(const ScenePose& pose, SimFrame& to) {
+void Simulation::State::draw_objects(const ScenePose& pose, SimFrame& to) {
   const std::vector<std::string>& names = scene->description().objects;
   to.objects.resize(names.size());
   fit(alone_ids, view.intrinsics);
@@ -154,24 +178,30 @@ void Simulation::State::count(const ScenePose& pose, SimFrame& to) {
     object.name = names[i];
     object.id = first_object_id + static_cast<std::int32_t>(i);
     object.T_base_object = pose.objects[i];
-    object.pixels_alone = object.pixels_seen = object.pixels_behind_robot = 0;
-    fit(object.alone, view.intrinsics);
-    std::fill_n(object.alone.data(), object.alone.size(), std::uint8_t{0});
     const Window window = stage.window_of(view, object.id);
-    stage.draw_ids(
-        view, [&](std::int32_t id) { return id == object.id; }, window, &alone_ids, &alone_depth);
-    for (int v = window.v0; v < window.v1; ++v)
-      for (int u = window.u0; u < window.u1; ++u) {
-        if (alone_ids(u, v) != object.id) continue;
-        object.alone(u, v) = 1;
-        ++object.pixels_alone;
-        const bool seen = to.ids(u, v) == object.id;
-        object.pixels_seen += seen ? 1 : 0;
-        const float robot = to.robot_depth(u, v);
-        const bool behind = !seen && robot > 0.0F && robot < alone_depth(u, v);
-        object.pixels_behind_robot += behind ? 1 : 0;
-      }
+    const auto itself = [&](std::int32_t id) { return id == object.id; };
+    stage.draw_ids(view, itself, window, &alone_ids, &alone_depth);
+    count_alone(window, to, object);
+    lay_over(alone_ids, alone_depth, window, to);
   }
+  for (ObjectTruth& object : to.objects)
+    object.pixels_seen = static_cast<std::size_t>(
+        std::count(to.ids.data(), to.ids.data() + to.ids.size(), object.id));
+}
+
+void Simulation::State::count_alone(const Window& window, const SimFrame& frame_of,
+                                    ObjectTruth& object) const {
+  object.pixels_alone = object.pixels_behind_robot = 0;
+  fit(object.alone, view.intrinsics);
+  std::fill_n(object.alone.data(), object.alone.size(), std::uint8_t{0});
+  for (int v = window.v0; v < window.v1; ++v)
+    for (int u = window.u0; u < window.u1; ++u) {
+      if (alone_ids(u, v) != object.id) continue;
+      object.alone(u, v) = 1;
+      ++object.pixels_alone;
+      const float robot = frame_of.robot_depth(u, v);
+      object.pixels_behind_robot += robot > 0.0F && robot < alone_depth(u, v) ? 1 : 0;
+    }
 }
 
 const std::vector<std::string>& Simulation::scenes() {
@@ -182,6 +212,9 @@ const std::vector<std::string>& Simulation::scenes() {
 Simulation::Simulation(const std::string& scene, const SimulationOptions& options) {
   check_options(options);
   state_ = std::make_unique<State>(scene, options);
+  if (options.joint_latency > 0.0 && !state_->scene->description().moves)
+    throw InputError("simulation: joint_latency means nothing in the scene '" + scene +
+                     "', whose frames have nothing to do with each other; leave it out");
 }
 
 Simulation::~Simulation() = default;
@@ -202,8 +235,7 @@ bool Simulation::next(SimFrame& frame) {
   s.report_joints(time, frame);
   const ScenePose pose = s.scene->pose(time);
   s.stage.place(frame.true_joints, pose.parts);
-  s.draw(frame);
-  s.count(pose, frame);
+  s.draw(pose, frame);
   ++s.frame;
   return true;
 }

@@ -45,6 +45,7 @@ struct SimulationOptions {
   double joint_sigma = 0.0;    ///< radians: of the reported joint positions
   double joint_latency = 0.0;  ///< seconds by which reported joints are older than they say
   double belt_jitter = 0.0;    ///< standard deviation of the belt's speed, relative; conveyor
+  bool color = true;           ///< false: SimFrame::color stays as it is, which saves a third
   bool second_camera = false;  ///< a depth camera on the other side too
   double duration = 0.0;       ///< seconds; 0: the scene's own
   double frame_rate = 30.0;

@@ -26,7 +26,7 @@ constexpr int most_geoms = 2000;
 // Round things are drawn with so many sides that they miss less than 0.1 % of their radius; no
 // shadows, reflections or smoothed edges.
 constexpr const char* visual =
-    "<visual><quality numslices=\"72\" numstacks=\"36\" numquads=\"1\" offsamples=\"0\" "
+    "<visual><quality numslices=\"40\" numstacks=\"14\" numquads=\"1\" offsamples=\"0\" "
     "shadowsize=\"0\"/><headlight ambient=\"0.45 0.45 0.45\" diffuse=\"0.45 0.45 0.45\" "
     "specular=\"0 0 0\"/></visual>";
 
@@ -175,6 +175,7 @@ Stage::Drawing::~Drawing() {
 
 void Stage::Drawing::draw(const Viewpoint& view, bool segmentation) {
   std::fill(std::begin(scene.flags), std::end(scene.flags), mjtByte{0});
+  scene.flags[mjRND_CULL_FACE] = 1;
   scene.flags[mjRND_SEGMENT] = segmentation ? 1 : 0;
   scene.flags[mjRND_IDCOLOR] = segmentation ? 1 : 0;
   scene.camera[0] = scene.camera[1] = gl_camera(view);

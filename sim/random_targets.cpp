@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <sim/random.hpp>
+#include <sim/scene.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int frames = 1000;
+constexpr double nearest = 0.35;  // metres from the camera that a target keeps
+constexpr double gap = 0.05;      // metres of depth between a target and the part of the arm there
+
+enum class Place { before, behind, beside };
+constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behind, Place::behind,
+                                      Place::behind, Place::behind, Place::beside, Place::beside};
+
+/// Every frame is a new arm pose with new places of the same eight targets.
+class RandomTargets : public Scene {
+ public:
+  RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsics& intrinsics);
+  [[nodiscard]] std::vector<double> joints(double time) const override;
+  [[nodiscard]] ScenePose pose(double time) override;
+
+ private:
+  [[nodiscard]] std::uint64_t index(double time) const;
+  [[nodiscard]] Vector3d position(Place place, double radius, Random& random,
+                                  const std::vector<Vector3d>& parts) const;
+
+  Arm& arm_;
+  std::uint64_t seed_;
+  double frame_rate_;
+  Intrinsics intrinsics_;
+  std::vector<double> radii_;  // of balls about the targets
+};
+
+RandomTargets::RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsics& intrinsics)
+    : arm_(arm), seed_(wishes.seed), frame_rate_(wishes.frame_rate), intrinsics_(intrinsics) {
+  Random random(seed_, 12);
+  description_.moves = false;
+  const double around = random.uniform(-2.2, -0.6), far = random.uniform(1.3, 1.7);
+  const double height = random.uniform(0.4, 1.0);
+  const auto camera = [&](double angle) {
+    return look_at({far * std::cos(angle), far * std::sin(angle), height}, {0.0, 0.0, 0.40});
+  };
+  description_.T_base_camera = camera(around);
+  description_.T_base_second_camera = camera(around + 2.0);
+  description_.duration = frames / frame_rate_;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Vector3d half, color;
+    for (double& side : half) side = random.uniform(0.015, 0.06);
+    for (double& part : color) part = random.uniform(0.2, 0.9);
+    const bool ball = random.uniform() < 0.4;
+    const std::string size = ball ? numbers({half.x()}) : numbers({half.x(), half.y(), half.z()});
+    description_.parts.push_back(
+        {static_cast<int>(i),
+         std::string("<geom type=\"") + (ball ? "sphere" : "box") + "\" size=\"" + size +
+             "\" rgba=\"" + numbers({color.x(), color.y(), color.z(), 1.0}) + "\" group=\"2\"/>"});
+    description_.objects.push_back("target_" + std::to_string(i));
+    radii_.push_back(ball ? half.x() : half.norm());
+  }
+  std::string room =
+      "<geom type=\"box\" size=\"5 5 0.05\" pos=\"0 0 -0.85\" rgba=\"0.62 0.62 0.6 1\" "
+      "group=\"2\"/><geom type=\"cylinder\" size=\"0.12 0.4\" pos=\"0 0 -0.4\" "
+      "rgba=\"0.3 0.3 0.32 1\" group=\"2\"/>";
+  for (const auto& [x, y] : {std::pair(4.0, 0.0), {-4.0, 0.0}, {0.0, 4.0}, {0.0, -4.0}})
+    room += "<geom type=\"box\" size=\"" +
+            numbers({x == 0.0 ? 5.0 : 0.05, y == 0.0 ? 5.0 : 0.05, 3.0}) + "\" pos=\"" +
+            numbers({x, y, 2.0}) + "\" rgba=\"0.8 0.81 0.78 1\" group=\"2\"/>";
+  description_.parts.push_back({-1, room});
+}
+
+std::uint64_t RandomTargets::index(double time) const {
+  return static_cast<std::uint64_t>(std::llround(std::max(0.0, time) * frame_rate_));
+}
+
+std::vector<double> RandomTargets::joints(double time) const {
+  Random random(seed_, mix(index(time)) ^ 13);
+  std::vector<double> positions = arm_.robot().rest_positions();
+  for (const Joint& joint : arm_.robot().joints()) {
+    if (!joint.variable || joint.mimics) continue;
+    // The whole turn of wrists, but an arm that keeps off its own base.
+    const double most = joint.name == "shoulder_lift" ? 1.4 : joint.name == "elbow" ? 2.2 : 3.0;
+    positions[*joint.variable] = random.uniform(std::max(joint.lower.value_or(-most), -most),
+                                                std::min(joint.upper.value_or(most), most));
+  }
+  return positions;
+}
+
+/// Near the ray through one of the arm's parts, at a depth that the place asks for.
+Vector3d RandomTargets::position(Place place, double radius, Random& random,
+                                 const std::vector<Vector3d>& parts) const {
+  const Isometry3d T_camera_base = description_.T_base_camera.inverse();
+  Vector3d best = Vector3d::Zero();
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    const auto chosen =
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(parts.size()));
+    const Vector3d part = T_camera_base * parts[chosen];
+    if (part.z() < nearest) continue;
+    double depth = part.z();
+    if (place == Place::before) depth -= gap + radius + random.uniform(0.05, 0.35);
+    if (place == Place::behind) depth += gap + radius + random.uniform(0.05, 0.60);
+    if (depth - radius < nearest) continue;
+    const double least = place == Place::beside ? 0.12 + radius : 0.0;
+    const double aside = random.uniform(least, least + 0.12);
+    const double angle = random.uniform(0.0, 6.2831853);
+    best = part * (depth / part.z()) + aside * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    const Eigen::Vector2d pixel = intrinsics_.project(best);
+    if (pixel.x() > 0 && pixel.y() > 0 && pixel.x() < intrinsics_.width() &&
+        pixel.y() < intrinsics_.height())
+      break;
+  }
+  return description_.T_base_camera * best;
+}
+
+ScenePose RandomTargets::pose(double time) {
+  Random random(seed_, mix(index(time)) ^ 14);
+  const std::vector<Vector3d> parts = arm_.part_centres(joints(time));
+  ScenePose all;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Isometry3d target = Isometry3d::Identity();
+    target.translation() = position(places[i], radii_[i], random, parts);
+    Eigen::Vector4d turn;
+    for (double& x : turn) x = random.normal();
+    target.linear() = Eigen::Quaterniond(turn).normalized().toRotationMatrix();
+    all.parts.push_back(target);
+    all.objects.push_back(target);
+  }
+  all.parts.push_back(Isometry3d::Identity());
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> make_random_targets(Arm& arm, const SceneWishes& wishes,
+                                           const Intrinsics& intrinsics) {
+  return std::make_unique<RandomTargets>(arm, wishes, intrinsics);
+}
+
+}  // namespace penumbra::sim
