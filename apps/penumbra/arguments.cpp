@@ -22,6 +22,7 @@ Examples:
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
   penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
+  penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
@@ -63,6 +64,14 @@ Prints versions, SIMD targets, OpenGL devices and their faults, and which render
 Examples:
   penumbra doctor
   penumbra doctor --json)";
+
+constexpr const char* experiment_examples = R"(
+OUT gets metrics.json and report.html, one file with tables, plots and pictures; with --frames also
+frames/000000.png of the first seed. The same seeds give the same results on any number of threads.
+
+Examples:
+  penumbra experiment conveyor -o out
+  penumbra experiment handover --seeds 0:2 -o out)";
 
 [[noreturn]] void refuse(const std::string& option, const std::string& value,
                          const std::string& wanted) {
@@ -335,6 +344,40 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
   app.add_flag("--json", doctor.json, "print JSON instead of text");
 }
 
+void to_seeds(const std::string& text, ExperimentArguments& experiment) {
+  const auto parts = split(text, ':');
+  const char* const wanted = "A:B, the seeds from A up to but without B";
+  if (parts.size() != 2) refuse("--seeds", text, wanted);
+  const auto first = io::parse_number<std::uint64_t>(parts[0]);
+  const auto end = io::parse_number<std::uint64_t>(parts[1]);
+  if (!first || !end || *first >= *end) refuse("--seeds", text, wanted);
+  experiment.first_seed = *first;
+  experiment.end_seed = *end;
+}
+
+constexpr double longest_run = 600;  // seconds
+
+void add_experiment(CLI::App& app, ExperimentArguments& experiment) {
+  app.footer(experiment_examples);
+  app.add_option("NAME", experiment.experiment, "conveyor or handover")->required();
+  add_path(app, "-o,--output", "folder for the results; made if need be", "OUT", experiment.output)
+      ->required();
+  add_option(app, "--seeds", "seeds from A up to but without B; default 0:30", "A:B",
+             [&](const std::string& text) { to_seeds(text, experiment); });
+  add_option(app, "--threads", "seeds side by side; default: one per core", "N",
+             [&](const std::string& text) {
+               experiment.threads = to_count("--threads", text, 1, RendererOptions::max_threads);
+             });
+  add_option(app, "--duration", "seconds of each run; default: the scene's own", "S",
+             [&](const std::string& text) {
+               const auto seconds = io::parse_number<double>(text);
+               if (!seconds || !(*seconds > 0) || *seconds > longest_run)
+                 refuse("--duration", text, "a number of seconds above 0, 600 at most");
+               experiment.duration = *seconds;
+             });
+  app.add_flag("--frames", experiment.frames, "write the first seed's frames with boxes");
+}
+
 }  // namespace
 
 std::optional<Command> parse_arguments(int argc, const char* const* argv) {
@@ -342,6 +385,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   RenderArguments render;
   InspectArguments inspect;
   DoctorArguments doctor;
+  ExperimentArguments experiment;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -350,10 +394,13 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* const render_app = app.add_subcommand("render", "render one virtual depth image");
   CLI::App* const inspect_app = app.add_subcommand("inspect", "tell what of a URDF is drawn");
   CLI::App* const doctor_app = app.add_subcommand("doctor", "tell what this machine offers");
+  CLI::App* const experiment_app =
+      app.add_subcommand("experiment", "compare methods in simulation, as the paper does");
   add_run(*run_app, run);
   add_render(*render_app, render);
   add_inspect(*inspect_app, inspect);
   add_doctor(*doctor_app, doctor);
+  add_experiment(*experiment_app, experiment);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -369,8 +416,10 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   if (render_app->parsed()) return render;
   if (inspect_app->parsed()) return inspect;
   if (doctor_app->parsed()) return doctor;
+  if (experiment_app->parsed()) return experiment;
   throw InputError(
-      "a command is needed: run, render, inspect or doctor (penumbra --help tells more)");
+      "a command is needed: run, render, inspect, doctor or experiment (penumbra --help tells "
+      "more)");
 }
 
 }  // namespace penumbra::app

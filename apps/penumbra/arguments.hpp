@@ -14,6 +14,8 @@
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
+#include <sim/experiments/experiment.hpp>
+
 namespace penumbra::app {
 
 /// Which images `run` writes beside the report.
@@ -71,7 +73,10 @@ struct DoctorArguments {
   bool json = false;
 };
 
-using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments>;
+using ExperimentArguments = sim::ExperimentOptions;
+
+using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                             ExperimentArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

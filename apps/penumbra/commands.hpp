@@ -10,5 +10,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const RenderArguments& arguments);
 [[nodiscard]] int execute(const InspectArguments& arguments);
 [[nodiscard]] int execute(const DoctorArguments& arguments);
+[[nodiscard]] int execute(const ExperimentArguments& arguments);
 
 }  // namespace penumbra::app

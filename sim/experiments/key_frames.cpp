@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include <io/bitmap_font.hpp>
+#include <sim/experiments/detector.hpp>
+#include <sim/experiments/key_frames.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+// Okabe and Ito's vermilion and bluish green: told apart with any common colour blindness.
+constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, white{255, 255, 255}, black{0, 0, 0};
+constexpr double wrist_box = 0.12;  // metres: edge of the box about a wrist
+
+Image<io::Rgb8> halved(const Image<io::Rgb8>& image) {
+  Image<io::Rgb8> half(image.width() / 2, image.height() / 2);
+  const auto mean = [](int a, int b, int c, int d) {
+    return static_cast<std::uint8_t>((a + b + c + d + 2) / 4);
+  };
+  for (int v = 0; v < half.height(); ++v)
+    for (int u = 0; u < half.width(); ++u) {
+      const io::Rgb8 &a = image(2 * u, 2 * v), &b = image(2 * u + 1, 2 * v);
+      const io::Rgb8 &c = image(2 * u, 2 * v + 1), &d = image(2 * u + 1, 2 * v + 1);
+      half(u, v) = {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)};
+    }
+  return half;
+}
+
+void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, io::Rgb8 color, bool dashed,
+               Image<io::Rgb8>& image) {
+  constexpr int width = 3, dash = 8;  // pixels
+  const double length = (to - from).norm();
+  if (!(length < 4.0 * image.width())) return;  // a pose that is far off need not be drawn
+  for (int i = 0; i <= static_cast<int>(length); ++i) {
+    if (dashed && (i / dash) % 2 == 1) continue;
+    const Eigen::Vector2d at = from + (to - from) * (length > 0 ? i / length : 0.0);
+    io::BitmapFont::fill(static_cast<int>(std::lround(at.x())) - 1,
+                         static_cast<int>(std::lround(at.y())) - 1, width, color, image);
+  }
+}
+
+void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb8>& image) {
+  constexpr int scale = 2;
+  for (const auto& [du, dv] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {2, 0}, {0, 2}})
+    io::BitmapFont::draw(text, u + du, v + dv, scale, black, image);
+  io::BitmapFont::draw(text, u, v, scale, color, image);
+}
+
+std::string captioned(const char* what, const FrameTruth& truth) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%s: t = %.2f s, %.0f %% hidden by the robot", what,
+                truth.time, 100 * truth.hidden);
+  return text.data();
+}
+
+/// The frame of the largest hidden share, the middle one of several.
+std::size_t most_hidden(const SeedRun& run) {
+  double most = 0;
+  for (const FrameTruth& truth : run.frames) most = std::max(most, truth.hidden);
+  std::vector<std::size_t> those;
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    if (run.frames[i].hidden >= most) those.push_back(i);
+  return those[those.size() / 2];
+}
+
+}  // namespace
+
+KeyFrames::KeyFrames(std::string experiment, const Cell& cell)
+    : experiment_(std::move(experiment)), cell_(cell) {}
+
+void KeyFrames::see(const SimFrame& frame) { images_.push_back(halved(frame.color)); }
+
+std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
+  const std::size_t hidden = most_hidden(run);
+  std::vector<std::pair<const char*, std::size_t>> story;
+  std::size_t before = hidden;
+  while (before > 0 && run.frames[before].hidden > 0) --before;
+  story.emplace_back("Seen", before);
+  for (std::size_t i = before; i < hidden; ++i)
+    if (run.frames[i].hidden > 0.5 * run.frames[hidden].hidden) {
+      story.emplace_back("Partly hidden", i);
+      break;
+    }
+  story.emplace_back("Most hidden", hidden);
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    if (run.frames[i].before_robot) front.push_back(i);
+  if (!front.empty()) story.emplace_back("Hand before the arm", front[front.size() / 2]);
+  story.emplace_back(experiment_ == "conveyor" ? "Grasp" : "End", run.goal);
+  std::vector<Picture> pictures;
+  for (const auto& [what, i] : story)
+    pictures.push_back({draw(run, i), captioned(what, run.frames[i])});
+  return pictures;
+}
+
+Image<io::Rgb8> KeyFrames::draw(const SeedRun& run, std::size_t i) const {
+  Image<io::Rgb8> image = images_.at(i);
+  const std::vector<MethodRun>& methods = run.lanes.front().methods;
+  draw_target(methods.back().samples[i], green, false, image);
+  draw_target(methods.front().samples[i], red, true, image);
+  write_on("- - raw", 8, 8, red, image);
+  write_on("--- handled", 8, 30, green, image);
+  return image;
+}
+
+void KeyFrames::draw_target(const Sample& sample, io::Rgb8 color, bool dashed,
+                            Image<io::Rgb8>& image) const {
+  const Eigen::Isometry3d pose = cell_.T_base_camera.inverse() * sample.pose;
+  if (!sample.known || pose.translation().z() <= 0) return;
+  if (experiment_ != "conveyor") {
+    const Eigen::Vector2d at = 0.5 * cell_.camera.intrinsics.project(pose.translation());
+    const double r = 0.25 * cell_.camera.intrinsics.fx() * wrist_box / pose.translation().z();
+    const std::array<Eigen::Vector2d, 4> corners{
+        at + Eigen::Vector2d(-r, -r), at + Eigen::Vector2d(r, -r), at + Eigen::Vector2d(r, r),
+        at + Eigen::Vector2d(-r, r)};
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      draw_line(corners[k], corners[(k + 1) % corners.size()], color, dashed, image);
+    return;
+  }
+  const auto corners = project_box(cell_.camera, pose, cell_.object_size);
+  for (std::size_t a = 0; a < corners.size(); ++a)
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{2}, std::size_t{4}})
+      if ((a & axis) == 0)
+        draw_line(0.5 * corners[a], 0.5 * corners[a | axis], color, dashed, image);
+}
+
+}  // namespace penumbra::sim

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+#include <sim/experiments/results.hpp>
+#include <sim/experiments/sensed.hpp>
+#include <sim/simulation.hpp>
+
+namespace penumbra::sim {
+
+/// Keeps a run's colour images at half their size, and draws into them what was believed: the raw
+/// estimate in red, dashed, and ours in green.
+class KeyFrames {
+ public:
+  KeyFrames(std::string experiment, const Cell& cell);
+
+  void see(const SimFrame& frame);
+
+  /// The frames that tell the run's story: seen, hidden, at the goal, and so on.
+  [[nodiscard]] std::vector<Picture> choose(const SeedRun& run) const;
+
+  /// Frame i as it is drawn.
+  [[nodiscard]] Image<io::Rgb8> draw(const SeedRun& run, std::size_t i) const;
+
+ private:
+  void draw_target(const Sample& sample, io::Rgb8 color, bool dashed, Image<io::Rgb8>& image) const;
+
+  std::string experiment_;
+  Cell cell_;
+  std::vector<Image<io::Rgb8>> images_;
+};
+
+}  // namespace penumbra::sim

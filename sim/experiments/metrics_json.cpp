@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include <penumbra/base/version.hpp>
+
+#include <sim/experiments/report.hpp>
+#include <sim/experiments/statistics.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson number_or_null(const std::optional<double>& value) {
+  return value ? OrderedJson(*value) : OrderedJson(nullptr);
+}
+
+OrderedJson settings_json(const RunSettings& settings) {
+  return {{"latency_s", {settings.latency.least, settings.latency.most}},
+          {"perception_every_frames", settings.perception_every},
+          {"keypoint_sigma_px", settings.keypoint_sigma},
+          {"joint_sigma_rad", settings.joint_sigma},
+          {"joint_latency_s", settings.joint_latency},
+          {"belt_jitter", settings.belt_jitter},
+          {"counted_after_s", settings.counted_after}};
+}
+
+OrderedJson method_json(const std::vector<Measure>& measures, std::span<const Watched> runs) {
+  OrderedJson summary, seeds;
+  for (const Measure& measure : measures) {
+    const Interval interval = bootstrap(measure, runs);
+    summary[measure.key] = {
+        {"value", number_or_null(interval.value)},
+        {"ci95", interval.value ? OrderedJson{interval.low, interval.high} : OrderedJson(nullptr)}};
+  }
+  for (const Watched& run : runs) {
+    OrderedJson one{{"seed", run.seed->seed}};
+    for (const Measure& measure : measures)
+      one[measure.key] = number_or_null(measure.value(std::span(&run, 1)));
+    seeds.push_back(std::move(one));
+  }
+  return {{"summary", std::move(summary)}, {"seeds", std::move(seeds)}};
+}
+
+}  // namespace
+
+std::string metrics_json(const ExperimentResult& result) {
+  const std::vector<Measure> measures = measures_of(result.experiment);
+  const SeedRun& first = result.seeds.front();
+  OrderedJson root{{"penumbra", PENUMBRA_VERSION},
+                   {"experiment", result.experiment},
+                   {"settings", settings_json(result.settings)},
+                   {"seeds", {first.seed, result.seeds.back().seed + 1}}};
+  for (std::size_t lane = 0; lane < first.lanes.size(); ++lane) {
+    OrderedJson methods;
+    for (std::size_t method = 0; method < first.methods.size(); ++method) {
+      OrderedJson one = method_json(measures, watched(result, lane, method));
+      one["name"] = first.methods[method].name;
+      methods[first.methods[method].key] = std::move(one);
+    }
+    root["detections"][first.lanes[lane].key] = {{"name", first.lanes[lane].name},
+                                                 {"methods", std::move(methods)}};
+  }
+  return root.dump(1) + '\n';
+}
+
+}  // namespace penumbra::sim

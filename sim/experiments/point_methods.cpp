@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <sim/experiments/point_method.hpp>
+#include <sim/experiments/ray_cloud.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+constexpr double plane_margin = 0.05;    // metres above the wrist
+constexpr double hand_step = 0.10;       // metres that a hand comes nearer between two estimates
+constexpr double hand_speed = 0.25;      // m/s by which that grows while nothing is measured
+constexpr std::size_t least_depths = 5;  // that a point needs
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The median depth about a key point of those pixels that `kept(u, v, depth)` keeps, metres.
+template <typename Kept>
+std::optional<double> depth_about(const Sensed& sensed, const Keypoint& keypoint, Kept kept) {
+  constexpr int r = static_cast<int>(PointMethod::radius);
+  const int cu = static_cast<int>(std::lround(keypoint.pixel.x()));
+  const int cv = static_cast<int>(std::lround(keypoint.pixel.y()));
+  std::vector<double> depths;
+  for (int v = std::max(cv - r, 0); v <= std::min(cv + r, sensed.depth.height - 1); ++v)
+    for (int u = std::max(cu - r, 0); u <= std::min(cu + r, sensed.depth.width - 1); ++u) {
+      const double depth = sensed.depth(u, v) * 1e-3;
+      const bool inside = (u - cu) * (u - cu) + (v - cv) * (v - cv) <= r * r;
+      if (inside && depth > 0 && kept(u, v, depth)) depths.push_back(depth);
+    }
+  if (depths.size() < least_depths) return std::nullopt;
+  return median_of(depths);
+}
+
+/// The last point as it came.
+class RawPoint : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {"raw", "No handling",
+            "The median depth about the key point, the last that arrived, as it is."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const auto depth = depth_about(sensed, keypoint, [](int, int, double) { return true; });
+    if (!depth) return {};
+    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+  }
+  Outcome take(const PointAnswer& answer) override {
+    if (last_ && answer.estimate->stamp <= last_->stamp) return Outcome::refused_late;
+    last_ = answer.estimate;
+    return Outcome::accepted;
+  }
+  TrackedPoint at(std::int64_t stamp) const override {
+    TrackedPoint point;
+    if (!last_) return point;
+    point.source = Source::held;
+    point.age = static_cast<double>(stamp - last_->stamp) * 1e-9;
+    point.position = last_->position;
+    return point;
+  }
+
+ private:
+  std::optional<PointEstimate> last_;
+};
+
+/// Every point goes to the tracker, whose gate is all that refuses.
+class PointTrackerAlone : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {"tracker", "Tracker alone",
+            "Every point goes to the same tracker as in all methods below, which holds the last "
+            "accepted one; only its outlier gate refuses."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const auto depth = depth_about(sensed, keypoint, [](int, int, double) { return true; });
+    if (!depth) return {};
+    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+  }
+};
+
+/// Points above a plane are robot (Yoshioka 2021).
+class PointHeightThreshold : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {
+        "height", "Height threshold",
+        "Points above a plane are robot and are taken from the depth image (Yoshioka 2021). The "
+        "plane is better than any real one: 5 cm above the wrist's true height at every instant."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const double limit = cell().reach + plane_margin;
+    const auto depth = depth_about(sensed, keypoint, [&](int u, int v, double z) {
+      return surface_at(cell().camera.intrinsics, cell().T_base_camera, u, v, z).z() <= limit;
+    });
+    if (!depth) return {};
+    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+  }
+};
+
+/// Every robot pixel is subtracted (realtime_urdf_filter; Magrini 2014).
+class PointUrdfFilter : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {"urdf_filter", "URDF filter",
+            "Every pixel on which the robot's model is drawn is taken from the depth image "
+            "(realtime_urdf_filter, Magrini 2014), with the same renderer and joints as ours."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const auto& drawn = sensed.robot.virtual_depth.depth;
+    const auto depth = depth_about(
+        sensed, keypoint, [&](int u, int v, double) { return drawn.empty() || drawn(u, v) <= 0; });
+    if (!depth) return {};
+    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+  }
+};
+
+/// What is measured well before where the hand can be is not the hand (after Wuethrich 2013).
+class PointOwnModel : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {
+        "own_model", "Hand's own model",
+        "Depths more than 10 cm (and 25 cm/s of age) nearer than the hand's surface at its held "
+        "place are not the hand's (after Wuethrich 2013) and are taken from the depth image."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const TrackedPoint held = at(sensed.stamp);
+    double nearest = 0;
+    if (held.source != Source::lost)
+      nearest = (cell().T_base_camera.inverse() * held.position).z() - cell().wrist_radius -
+                hand_step - hand_speed * held.age;
+    const auto depth =
+        depth_about(sensed, keypoint, [&](int, int, double z) { return z >= nearest; });
+    if (!depth) return {};
+    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+  }
+};
+
+/// Of all surfaces that either camera sees on the key point's ray, the one nearest to the held
+/// place (after Fetzner 2014).
+class PointTwoCameras : public PointMethod {
+ public:
+  using PointMethod::PointMethod;
+  MethodInfo info() const override {
+    return {
+        "two_cameras", "Second depth camera",
+        "Of the surfaces that either depth camera sees along the key point's ray, the one nearest "
+        "to the held place (after Fetzner 2014). Needs a second camera."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    const TrackedPoint held = at(sensed.stamp);
+    if (held.source == Source::lost) {
+      const auto depth = depth_about(sensed, keypoint, [](int, int, double) { return true; });
+      if (!depth) return {};
+      return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    }
+    const double expected =
+        (cell().T_base_camera.inverse() * held.position).z() - cell().wrist_radius;
+    std::vector<double> depths = depths_on_ray(cell(), sensed, keypoint.pixel);
+    const double most_apart = hand_step + hand_speed * held.age;
+    std::erase_if(depths, [&](double z) { return std::abs(z - expected) > most_apart; });
+    if (depths.size() < least_depths) return {};
+    return {wrist_at(sensed, keypoint, median_of(depths)), Verdict::visible};
+  }
+};
+
+/// Ours: the verdict on the key point's pixels by the labels of its own stamp.
+class PenumbraPoint : public PointMethod {
+ public:
+  explicit PenumbraPoint(const Cell& cell)
+      : PointMethod(cell), judge_(cell.camera, cell.rule, cell.links) {}
+  MethodInfo info() const override {
+    return {"penumbra", "Penumbra",
+            "Labels of the image's own stamp, verdict over the key point's pixels (5 %), position "
+            "from trusted depths only; the last trusted position is held meanwhile."};
+  }
+  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
+    TargetView target;
+    target.name = "wrist";
+    target.region = PixelEllipse{keypoint.pixel, Eigen::Vector2d::Constant(radius), 0};
+    target.point_pixel = keypoint.pixel;
+    judge_.begin(sensed.robot);
+    const Judgement judged = judge_.judge(target);
+    if (!judged.point) return {std::nullopt, judged.verdict};
+    return {wrist_at(sensed, keypoint, judged.point->z()), judged.verdict};
+  }
+
+ private:
+  TargetJudge judge_;
+};
+
+}  // namespace
+
+PointTrackerConfig handover_tracker() {
+  PointTrackerConfig config;
+  config.motion = PointMotion::hold;
+  return config;
+}
+
+PointMethod::PointMethod(const Cell& cell) : cell_(&cell), tracker_(handover_tracker()) {}
+
+Outcome PointMethod::take(const PointAnswer& answer) {
+  return tracker_.update(*answer.estimate, answer.verdict);
+}
+
+TrackedPoint PointMethod::at(std::int64_t stamp) const { return tracker_.at(stamp); }
+
+PointEstimate PointMethod::wrist_at(const Sensed& sensed, const Keypoint& keypoint,
+                                    double depth) const {
+  PointEstimate estimate;
+  estimate.stamp = sensed.stamp;
+  estimate.position = surface_at(cell_->camera.intrinsics, cell_->T_base_camera, keypoint.pixel.x(),
+                                 keypoint.pixel.y(), depth + cell_->wrist_radius);
+  return estimate;
+}
+
+std::vector<std::unique_ptr<PointMethod>> make_point_methods(const Cell& cell) {
+  std::vector<std::unique_ptr<PointMethod>> methods;
+  methods.push_back(std::make_unique<RawPoint>(cell));
+  methods.push_back(std::make_unique<PointTrackerAlone>(cell));
+  methods.push_back(std::make_unique<PointHeightThreshold>(cell));
+  methods.push_back(std::make_unique<PointUrdfFilter>(cell));
+  methods.push_back(std::make_unique<PointOwnModel>(cell));
+  methods.push_back(std::make_unique<PointTwoCameras>(cell));
+  methods.push_back(std::make_unique<PenumbraPoint>(cell));
+  return methods;
+}
+
+}  // namespace penumbra::sim

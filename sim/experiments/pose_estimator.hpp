@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/occlusion/target.hpp>
+#include <penumbra/tracking/pose_tracker.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::sim {
+
+/// A point of the object's front that was found in the image.
+struct FeatureMatch {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< in the object's frame, metres
+};
+
+struct PoseGuess {
+  Eigen::Isometry3d T_camera_object = Eigen::Isometry3d::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< of position and rotation vector, optical frame
+  std::size_t inliers = 0;
+};
+
+/// Finds a flat textured object: SIFT features matched to its image by the ratio test, PnP with
+/// RANSAC, refined. The same input gives the same answer.
+class PoseEstimator {
+ public:
+  static constexpr std::size_t min_inliers = 10;  ///< fewer: no pose is claimed
+
+  /// `front`: the image on the +z face of a box of `size` metres about the object's origin, its u
+  /// along +x and its v along -y. Throws InputError for a camera with lens distortion.
+  PoseEstimator(const Camera& camera, ImageView<const io::Rgb8> front, const Eigen::Vector3d& size);
+  ~PoseEstimator();
+
+  /// The object's features in a part of the image.
+  [[nodiscard]] std::vector<FeatureMatch> match(ImageView<const io::Rgb8> color,
+                                                const PixelBox& part) const;
+
+  /// The pose by those matches whose pixel is not 0 in the mask; nothing where they agree on none.
+  [[nodiscard]] std::optional<PoseGuess> estimate(std::span<const FeatureMatch> matches,
+                                                  ImageView<const std::uint8_t> mask) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra::sim

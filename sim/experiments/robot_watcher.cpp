@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <sim/experiments/robot_watcher.hpp>
+
+namespace penumbra::sim {
+namespace {
+
+Pipeline pipeline_of(const Simulation& simulation) {
+  PipelineConfig config;
+  config.T_parent_camera = simulation.T_base_camera();
+  return {Robot::load(simulation.urdf()), simulation.camera(), config};
+}
+
+/// Squared distance of the origin from a segment.
+double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d d = b - a;
+  const double length = d.squaredNorm();
+  const double t = length > 0 ? std::clamp(-a.dot(d) / length, 0.0, 1.0) : 0.0;
+  return (a + t * d).squaredNorm();
+}
+
+/// Squared distance of the origin from a triangle.
+double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c) {
+  const double edges =
+      std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  const double area = normal.squaredNorm();
+  if (area == 0) return edges;
+  const bool inside =
+      normal.dot(a.cross(b)) >= 0 && normal.dot(b.cross(c)) >= 0 && normal.dot(c.cross(a)) >= 0;
+  return inside ? std::min(edges, normal.dot(a) * normal.dot(a) / area) : edges;
+}
+
+bool near_mesh(const TriangleMesh& mesh, const Eigen::Vector3d& point, double distance) {
+  const auto corner = [&](std::uint32_t i) {
+    return Eigen::Vector3d(mesh.vertices[i].template cast<double>() - point);
+  };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return squared_distance(corner(t[0]), corner(t[1]), corner(t[2])) < distance * distance;
+  });
+}
+
+}  // namespace
+
+RobotWatcher::RobotWatcher(const Simulation& simulation) : pipeline_(pipeline_of(simulation)) {}
+
+Sensed RobotWatcher::see(const SimFrame& frame) {
+  const FrameReport& report = pipeline_.process(
+      {.stamp = frame.stamp, .depth = frame.depth.view(), .joints = frame.joints});
+  Sensed sensed;
+  sensed.stamp = frame.stamp;
+  sensed.depth = frame.depth.view();
+  if (!frame.second_depth.empty()) sensed.second_depth = frame.second_depth.view();
+  sensed.robot.labels.labels = report.labels;
+  sensed.robot.labels.touched = report.virtual_depth.touched;
+  sensed.robot.virtual_depth = report.virtual_depth;
+  sensed.robot.measured = frame.depth.view();
+  return sensed;
+}
+
+bool RobotWatcher::near_robot(std::span<const double> joints, const Eigen::Vector3d& point,
+                              double distance) const {
+  std::vector<Eigen::Isometry3d> poses(robot().links().size());
+  robot().forward_kinematics(joints, poses);
+  for (std::size_t link = 0; link < poses.size(); ++link) {
+    const Eigen::Vector3d in_link = poses[link].inverse() * point;
+    if (!robot().report()[link].drawn ||
+        robot().report()[link].bounds.squaredExteriorDistance(in_link) > distance * distance)
+      continue;
+    for (const TriangleMesh& mesh : robot().meshes(link))
+      if (near_mesh(mesh, in_link, distance)) return true;
+  }
+  return false;
+}
+
+}  // namespace penumbra::sim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sim/experiments/results.hpp>
+
+namespace penumbra::sim {
+
+/// A method's run and what was true meanwhile.
+struct Watched {
+  const SeedRun* seed = nullptr;
+  const MethodRun* method = nullptr;
+};
+
+/// What is measured of a method: over one seed or several.
+struct Measure {
+  std::string key;   ///< in metrics.json
+  std::string name;  ///< in the report
+  std::string unit;  ///< mm, deg, s, %, or empty for a count
+  int digits = 1;
+  bool more_is_better = false;
+  std::function<std::optional<double>(std::span<const Watched>)> value;
+};
+
+[[nodiscard]] std::vector<Measure> measures_of(const std::string& experiment);
+
+struct Interval {
+  std::optional<double> value;  ///< over all seeds; nothing where nothing was there to measure
+  double low = 0, high = 0;     ///< 95 % confidence over seeds
+};
+
+/// The value that share `q` of `values` lies below, between the two nearest; nothing of nothing.
+[[nodiscard]] std::optional<double> quantile(std::vector<double> values, double q);
+
+/// The measure over all seeds, its confidence by a bootstrap over seeds (percentiles of 1000
+/// resamples, always the same ones).
+[[nodiscard]] Interval bootstrap(const Measure& measure, std::span<const Watched> seeds);
+
+/// One method of one lane in every seed.
+[[nodiscard]] std::vector<Watched> watched(const ExperimentResult& result, std::size_t lane,
+                                           std::size_t method);
+
+}  // namespace penumbra::sim

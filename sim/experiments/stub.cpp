@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <penumbra/base/error.hpp>
+
+#include <sim/experiments/experiment.hpp>
+
+namespace penumbra::sim {
+
+const std::vector<std::string>& experiments() {
+  static const std::vector<std::string> none;
+  return none;
+}
+
+void run_experiment(const ExperimentOptions&, const std::function<void(std::size_t)>&,
+                    const std::function<void()>&) {
+  throw InputError(
+      "this build has no experiments; install libmujoco-dev, libopencv-calib3d-dev, "
+      "libopencv-features2d-dev and libwebp-dev and build again (scripts/packages.sh build sim)");
+}
+
+}  // namespace penumbra::sim
