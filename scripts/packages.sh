@@ -3,14 +3,15 @@
 # The one home of Debian package names.
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
-# Groups: build (library and command line), sim (simulation), test, bench, lint.
+# Groups: build (library and command line), sim (simulation, experiments), test, bench, lint.
 # OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
 # serves as well.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf)
-sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
+sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
+     libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libwebp-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)

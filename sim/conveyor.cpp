@@ -38,7 +38,7 @@ std::string printed_box(const Vector3d& size) {
         p[b] = cb * half[b];
         vertices += numbers({p.x(), p.y(), p.z()}) + ' ';
         // The print's rows run towards -y, its columns towards +x.
-        const double s = 0.5 + 0.498 * ca, t = 0.25 - 0.248 * cb;
+        const double s = 0.5 + 0.5 * ca, t = 0.25 - 0.25 * cb;
         coordinates += numbers({s, front ? t : t + 0.5}) + ' ';
       }
       const std::array<int, 6> order =

@@ -51,6 +51,9 @@ const std::vector<Library>& libraries() {
                                         {"png.h", "io", 1},
                                         {"nlohmann/", "io", 2},
                                         {"mujoco/", "sim", 1},
+                                        {"nlohmann/", "sim", 1},
+                                        {"opencv2/", "sim", 1},
+                                        {"webp/", "sim", 1},
                                         {"epoxy/egl.h", "sim", 1},
                                         {"CLI/", "apps", 8}};
   return all;

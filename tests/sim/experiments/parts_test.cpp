@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <sim/experiments/follower.hpp>
+#include <sim/experiments/object_cloud.hpp>
+#include <sim/experiments/picture_data.hpp>
+#include <sim/experiments/statistics.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using namespace penumbra::sim;
+
+TEST(Quantile, LiesBetweenTheTwoNearestValues) {
+  EXPECT_FALSE(quantile({}, 0.5));
+  EXPECT_EQ(quantile({7.0}, 0.95), 7.0);
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.5);
+  EXPECT_EQ(quantile({2.0, 1.0}, 1.0), 2.0);
+}
+
+/// Runs of one frame whose position error is the given one, the target hidden.
+std::pair<std::vector<SeedRun>, std::vector<MethodRun>> runs_of(const std::vector<double>& errors) {
+  std::vector<SeedRun> seeds;
+  std::vector<MethodRun> methods;
+  for (const double error : errors) {
+    SeedRun seed;
+    seed.frame_seconds = 0.5;
+    seed.frames = {{0, 1.0, false, true}, {0.5, 0.0, false, true}};
+    seeds.push_back(seed);
+    MethodRun method;
+    method.samples.resize(2);
+    method.samples[0].known = true;
+    method.samples[0].translation_error = error;
+    methods.push_back(method);
+  }
+  return {seeds, methods};
+}
+
+std::vector<Watched> watched_of(
+    const std::pair<std::vector<SeedRun>, std::vector<MethodRun>>& runs) {
+  std::vector<Watched> all;
+  for (std::size_t i = 0; i < runs.first.size(); ++i)
+    all.push_back({&runs.first[i], &runs.second[i]});
+  return all;
+}
+
+const Measure& measure_named(const std::vector<Measure>& measures, const std::string& key) {
+  for (const Measure& measure : measures)
+    if (measure.key == key) return measure;
+  throw std::out_of_range(key);
+}
+
+TEST(Measures, CountHiddenFramesAndThoseWithoutPose) {
+  const auto runs = runs_of({0.010, 0.020, 0.030});
+  const auto measures = measures_of("conveyor");
+  const auto all = watched_of(runs);
+  EXPECT_DOUBLE_EQ(*measure_named(measures, "translation_median_mm").value(all), 20.0);
+  EXPECT_DOUBLE_EQ(*measure_named(measures, "without_pose_s").value(all), 0.5);
+  EXPECT_DOUBLE_EQ(*measure_named(measures, "success_percent").value(all), 0.0);
+}
+
+TEST(Measures, CountWrongPosesThatWereAccepted) {
+  auto runs = runs_of({0.010, 0.010});
+  Event wrong;
+  wrong.estimated = wrong.accepted = true;
+  wrong.translation_error = 0.021;
+  Event refused = wrong;
+  refused.accepted = false;
+  Event right = wrong;
+  right.translation_error = 0.019;
+  runs.second[0].events = {wrong, refused, right};
+  EXPECT_DOUBLE_EQ(
+      *measure_named(measures_of("conveyor"), "wrong_accepted").value(watched_of(runs)), 0.5);
+}
+
+TEST(Bootstrap, OfAMeanHasTheWidthThatTheNormalDistributionSays) {
+  std::vector<double> errors;
+  for (int i = 0; i < 100; ++i) errors.push_back(0.001 * i);
+  const auto runs = runs_of(errors);
+  Measure mean;
+  mean.value = [](std::span<const Watched> some) -> std::optional<double> {
+    double sum = 0;
+    for (const Watched& run : some) sum += run.method->samples[0].translation_error;
+    return sum / static_cast<double>(some.size());
+  };
+  const Interval interval = bootstrap(mean, watched_of(runs));
+  const double sigma = 0.1 / std::sqrt(12.0) / std::sqrt(100.0);
+  constexpr double slack = 0.15;  // 1000 resamples leave a few percent
+  EXPECT_NEAR(interval.high - interval.low, 2 * 1.96 * sigma, slack * 2 * 1.96 * sigma);
+  EXPECT_NEAR(*interval.value, 0.0495, 1e-12);
+}
+
+TEST(BoxDepth, IsWhereARayEntersTheBox) {
+  Eigen::Isometry3d T_object_camera = Eigen::Isometry3d::Identity();
+  T_object_camera.translation().z() = -2;
+  const Eigen::Vector3d size(0.4, 0.2, 0.6);
+  EXPECT_DOUBLE_EQ(box_depth(T_object_camera, size, {0, 0, 1}), 1.7);
+  EXPECT_DOUBLE_EQ(box_depth(T_object_camera, size, {0.1, 0, 1}), 1.7);
+  EXPECT_EQ(box_depth(T_object_camera, size, {0.2, 0, 1}), 0.0);
+}
+
+struct FakeAnswer {
+  std::optional<int> estimate;
+};
+
+struct FakeMethod {
+  std::vector<int> taken;
+  Outcome take(const FakeAnswer& answer) {
+    taken.push_back(*answer.estimate);
+    return *answer.estimate > 1 ? Outcome::accepted : Outcome::refused_gate;
+  }
+};
+
+TEST(Follower, DeliversWhatHasArrivedInTheOrderOfArrival) {
+  Follower<FakeMethod, FakeAnswer> follower(std::make_unique<FakeMethod>());
+  follower.post(300, {1}, {});
+  follower.post(100, {2}, {});
+  follower.post(200, {std::nullopt}, {});
+  follower.post(100, {3}, {});
+  follower.deliver(99);
+  EXPECT_TRUE(follower.method().taken.empty());
+  follower.deliver(250);
+  EXPECT_EQ(follower.method().taken, (std::vector<int>{2, 3}));
+  EXPECT_EQ(follower.run().events.size(), 3U);
+  follower.deliver(300);
+  EXPECT_EQ(follower.method().taken, (std::vector<int>{2, 3, 1}));
+  EXPECT_FALSE(follower.run().events.back().accepted);
+  EXPECT_TRUE(follower.run().events.front().accepted);
+}
+
+TEST(DataUri, HoldsAWebPFile) {
+  const Image<io::Rgb8> image(16, 9, {1, 2, 3});
+  const std::string uri = data_uri(image);
+  EXPECT_TRUE(uri.starts_with("data:image/webp;base64,UklGR"));  // "RIFF"
+  EXPECT_EQ((uri.size() - std::string("data:image/webp;base64,").size()) % 4, 0U);
+}
+
+}  // namespace
+}  // namespace penumbra::test
