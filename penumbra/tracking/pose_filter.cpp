@@ -14,12 +14,25 @@ namespace {
 
 double squared(double x) { return x * x; }
 
-/// What has to be added to a state to reach a measured pose.
-Vector6d residual_of(const PoseFilter::State& state, const PoseFilter::Measurement& measurement) {
-  Vector6d residual;
-  residual.head<3>() = measurement.position - state.position;
-  residual.tail<3>() = vector_of(measurement.orientation * state.orientation.conjugate());
-  return residual;
+/// A measured pose as the filter sees it.
+struct Innovation {
+  Vector6d residual;  // what has to be added to the state to reach it
+  Matrix6d noise;     // of that
+};
+
+/// With the measured rotation Exp(r) R, and the true one Exp(n) Exp(r) R = Exp(d) R for noise n and
+/// error d, n = J(-r)^-1 d - r to first order in d, so d = r + J(-r) n: r is its own image.
+Innovation innovation_of(const PoseFilter::State& state, const PoseFilter::Measurement& measured) {
+  Innovation innovation;
+  auto& residual = innovation.residual;
+  residual.head<3>() = measured.position - state.position;
+  residual.tail<3>() = vector_of(measured.orientation * state.orientation.conjugate());
+  const Eigen::Matrix3d jacobian = left_jacobian(-residual.tail<3>());
+  auto& noise = innovation.noise;
+  noise = measured.covariance;
+  noise.bottomRows<3>() = (jacobian * noise.bottomRows<3>()).eval();
+  noise.rightCols<3>() = (noise.rightCols<3>() * jacobian.transpose()).eval();
+  return innovation;
 }
 
 }  // namespace
@@ -96,13 +109,15 @@ void PoseFilter::add_noise(Matrix12d& covariance, const Eigen::Vector3d& turning
 }
 
 double PoseFilter::distance(const State& state, const Measurement& measurement) const {
-  const Matrix6d total = state.covariance.topLeftCorner<6, 6>() + measurement.covariance;
-  return squared_distance<6>(total, residual_of(state, measurement));
+  const Innovation innovation = innovation_of(state, measurement);
+  const Matrix6d total = state.covariance.topLeftCorner<6, 6>() + innovation.noise;
+  return squared_distance<6>(total, innovation.residual);
 }
 
 void PoseFilter::correct(State& state, const Measurement& measurement) const {
-  const Eigen::Matrix<double, 12, 1> change = kalman_correction<12, 6>(
-      state.covariance, measurement.covariance, residual_of(state, measurement));
+  const Innovation innovation = innovation_of(state, measurement);
+  const Eigen::Matrix<double, 12, 1> change =
+      kalman_correction<12, 6>(state.covariance, innovation.noise, innovation.residual);
   const Eigen::Vector3d turn = change.segment<3>(3);
   state.position += change.head<3>();
   state.orientation = (rotation_of(turn) * state.orientation).normalized();
