@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -84,6 +87,22 @@ struct JudgedFrame {
   int width, height;
 };
 
+/// Where the run of equal values ends that begins at p.
+template <typename T>
+const T* end_of_run(const T* p, const T* end) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::ptrdiff_t step = sizeof(std::uint64_t) / sizeof(T);
+  const std::uint64_t same = *p * (~std::uint64_t{0} / std::numeric_limits<T>::max());
+  for (; end - p >= step; p += step) {
+    std::uint64_t word;
+    std::memcpy(&word, p, sizeof word);
+    if (word != same) return p + std::countr_zero(word ^ same) / std::numeric_limits<T>::digits;
+  }
+  const T value = static_cast<T>(same);
+  while (p < end && *p == value) ++p;
+  return p;
+}
+
 /// How many pixels of an extent are hidden by each link.
 class LinkCounts {
  public:
@@ -136,6 +155,22 @@ struct ExpectedDepth {
 
   [[nodiscard]] bool known() const { return constant || image; }
 };
+
+/// Calls f(limits): limits(v)(u) are those of a pixel, without bounds where no depth is expected.
+template <typename F>
+void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expected, F&& f) {
+  const LimitRule rule(label_rule, expected.margin);
+  if (expected.image) {
+    f([&expected, rule](int v) {
+      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
+    });
+  } else {
+    const DepthLimits limits = expected.constant
+                                   ? rule.at(*expected.constant)
+                                   : DepthLimits{0.0f, std::numeric_limits<float>::infinity()};
+    f([limits](int) { return [limits](int) { return limits; }; });
+  }
+}
 
 /// Fills a tally with the pixels of an extent on a frame whose pose is known.
 void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,

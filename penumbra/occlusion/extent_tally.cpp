@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <limits>
 
 #include <penumbra/occlusion/extent_tally-inl.hpp>
 
 namespace penumbra {
 namespace {
-
-/// Where the run of equal values ends that begins at p.
-template <typename T>
-const T* end_of_run(const T* p, const T* end) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr std::ptrdiff_t step = sizeof(std::uint64_t) / sizeof(T);
-  const std::uint64_t same = *p * (~std::uint64_t{0} / std::numeric_limits<T>::max());
-  for (; end - p >= step; p += step) {
-    std::uint64_t word;
-    std::memcpy(&word, p, sizeof word);
-    if (word != same) return p + std::countr_zero(word ^ same) / std::numeric_limits<T>::digits;
-  }
-  const T value = static_cast<T>(same);
-  while (p < end && *p == value) ++p;
-  return p;
-}
 
 Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
   switch (static_cast<Label>(label)) {
@@ -227,15 +209,9 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
 void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally) {
   tally.clear();
-  const LimitRule rule(*frame.rule, expected.margin);
-  if (expected.image) {
-    tally_with(frame, spans, beyond_hides, tally, [&](int v) {
-      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
-    });
-  } else if (expected.constant) {
-    const DepthLimits limits = rule.at(*expected.constant);
-    tally_with(frame, spans, beyond_hides, tally,
-               [limits](int) { return [limits](int) { return limits; }; });
+  if (expected.known()) {
+    with_limits(*frame.rule, expected,
+                [&](const auto& limits) { tally_with(frame, spans, beyond_hides, tally, limits); });
   } else {
     LabelTally adder(frame, beyond_hides, tally);
     for (const RowSpan& span : spans) adder.add(span);

@@ -172,7 +172,7 @@ void TargetJudge::State::add_point(const TargetView& target, const ExpectedDepth
                                    Judgement& judgement) {
   if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
   const RegionSpans& seen = sights.seen();
-  if (!frame.is_measured() || seen.inside() == 0) return;
+  if (!target.wants_point || !frame.is_measured() || seen.inside() == 0) return;
   const Eigen::Vector2d pixel = target.point_pixel.value_or(seen.middle());
   const Intrinsics& pinhole = camera.intrinsics;
   const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();

@@ -38,6 +38,7 @@ struct TargetView {
   /// Metres by which the target's surface may lie before or behind its expected depth: half its
   /// thickness, its pose's uncertainty.
   double depth_margin = 0;
+  bool wants_point = true;  ///< a point costs more than all the rest
   /// Where the point lies in the image; nothing: the middle of the covered pixels.
   std::optional<Eigen::Vector2d> point_pixel;
   /// How far the target has moved in the image, pixels, since it was last judged visible, where

@@ -62,17 +62,19 @@ struct RobustDepth {
 class TrustedDepths {
  public:
   /// Takes the depths of an extent that are labelled clear or front, that may not be of the robot
-  /// and that lie within the limits of the expected depth.
+  /// and that lie within the limits of the expected depth. The extent has one pixel at least.
   void take(const JudgedFrame& frame, std::span<const RowSpan> spans, const ExpectedDepth& expected,
             RobotSurroundings& robot);
 
-  [[nodiscard]] std::size_t count() const { return depths_.size(); }
+  [[nodiscard]] std::size_t count() const { return count_; }
 
   /// Of the depths taken, of which there are some; may be called once.
   [[nodiscard]] RobustDepth robust();
 
  private:
-  std::vector<float> depths_;
+  std::vector<std::int32_t> bits_;  // of floats
+  std::vector<std::int32_t> scratch_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace penumbra

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <penumbra/occlusion/trusted_depth-inl.hpp>
@@ -11,22 +12,63 @@ constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
 
-/// The mean of the middle one or two of some values, which are put out of order.
-float median_of(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5f * (*middle + *std::max_element(values.begin(), middle));
+/// Floats, 0 or more, by their bits: their order is that of the floats.
+using FloatBits = std::span<const std::int32_t>;
+
+std::size_t count_up_to(FloatBits values, std::int32_t limit) {
+  std::int32_t count = 0;  // as wide as a value: so the compiler takes vectors
+  for (const std::int32_t value : values) count += value <= limit ? 1 : 0;
+  return static_cast<std::size_t>(count);
+}
+
+std::int32_t least_above(FloatBits values, std::int32_t limit) {
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t value : values) least = std::min(least, value > limit ? value : least);
+  return least;
+}
+
+/// The value that `rank` values of `values` precede in order. Counts, which are cheap, leave few of
+/// them, which are put in order. `scratch` has their size.
+std::int32_t value_at(FloatBits values, std::size_t rank, std::span<std::int32_t> scratch) {
+  constexpr std::size_t few = 32, share = 16;
+  std::int32_t low = values[0], high = values[0];
+  for (const std::int32_t value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  std::size_t below = 0, upto = values.size();  // how many are < low, and <= high
+  while (low < high && upto - below > few + values.size() / share) {
+    const std::int32_t middle = low + (high - low) / 2;
+    const std::size_t count = count_up_to(values, middle);
+    if (count > rank)
+      high = middle, upto = count;
+    else
+      low = middle + 1, below = count;
+  }
+  if (low == high) return low;
+  std::size_t count = 0;
+  for (const std::int32_t value : values) {
+    scratch[count] = value;
+    count += static_cast<std::size_t>((low <= value) & (value <= high));
+  }
+  const auto wanted = scratch.begin() + static_cast<std::ptrdiff_t>(rank - below);
+  std::nth_element(scratch.begin(), wanted, scratch.begin() + static_cast<std::ptrdiff_t>(count));
+  return *wanted;
+}
+
+/// The mean of the middle one or two.
+float median_of(FloatBits values, std::span<std::int32_t> scratch) {
+  const std::size_t rank = (values.size() - 1) / 2;
+  const std::int32_t lower = value_at(values, rank, scratch);
+  const bool is_double = values.size() % 2 == 1 || count_up_to(values, lower) > rank + 1;
+  const std::int32_t upper = is_double ? lower : least_above(values, lower);
+  return 0.5f * (std::bit_cast<float>(lower) + std::bit_cast<float>(upper));
 }
 
 bool trusted_label(std::uint8_t label) {
   return label == static_cast<std::uint8_t>(Label::clear) ||
          label == static_cast<std::uint8_t>(Label::front);
 }
-
-struct NoLimits {
-  DepthLimits operator()(int /*u*/) const { return {0.0f, std::numeric_limits<float>::infinity()}; }
-};
 
 }  // namespace
 
@@ -83,74 +125,90 @@ const RobotSurroundings::Depths& RobotSurroundings::around(int cell_u, int cell_
 
 namespace {
 
-/// Takes trusted depths, `limits(v)` and `measured(v)` as for tallies.
-template <typename Limits, typename Depths>
-void take_trusted(const JudgedFrame& frame, std::span<const RowSpan> spans, const Limits& limits,
-                  const Depths& measured, RobotSurroundings& robot, std::vector<float>& depths) {
-  const SpanBox box = box_of_spans(spans);
-  const int reach = robot.reach();
-  const bool near_robot =
-      frame.robot_may_lie_in(box.u0 - reach, box.u1 + reach, box.v0 - reach, box.v1 + reach);
-  std::size_t count = 0;
-  for (const RowSpan& span : spans) {
-    const auto row_limits = limits(span.v);
-    const auto row = measured.row(span.v);
-    const std::uint8_t* const labels = frame.images.labels.labels.row(span.v);
+/// Takes depths of one frame that are trusted.
+template <typename Depths>
+class Gatherer {
+ public:
+  Gatherer(const JudgedFrame& frame, const Depths& measured, RobotSurroundings* robot,
+           std::int32_t* out)
+      : frame_(frame), measured_(measured), robot_(robot), out_(out) {}
+
+  template <typename Limits>
+  void take(const RowSpan& span, const Limits& limits) {
+    const std::uint8_t* const labels = frame_.images.labels.labels.row(span.v);
+    const auto row = measured_.row(span.v);
     for (int u = span.u0; u < span.u1;) {
-      const int end =
-          near_robot ? std::min(span.u1, (u / LabelRule::cell + 1) * LabelRule::cell) : span.u1;
-      const RobotSurroundings::Depths of_robot =
-          near_robot ? robot.around(u / LabelRule::cell, span.v / LabelRule::cell)
-                     : RobotSurroundings::Depths{};
-      for (; u < end; ++u) {
-        const float d = row[u];
-        const DepthLimits within = row_limits(u);
-        depths[count] = d;
-        const bool trusted = (d > 0.0f) & trusted_label(labels[u]) & !of_robot.hold(d) &
-                             (within.near <= d) & (d <= within.far);
-        count += trusted ? 1 : 0;
-      }
+      const std::uint8_t label = labels[u];
+      const int end = static_cast<int>(end_of_run(labels + u, labels + span.u1) - labels);
+      if (!trusted_label(label))
+        u = end;
+      else if (robot_ == nullptr)
+        u = take_run(u, end, row, limits, {});
+      else
+        while (u < end) {
+          const int cell = u / LabelRule::cell;
+          const auto& of_robot = robot_->around(cell, span.v / LabelRule::cell);
+          u = take_run(u, std::min(end, (cell + 1) * LabelRule::cell), row, limits, of_robot);
+        }
     }
   }
-  depths.resize(count);
-}
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  template <typename Row, typename Limits>
+  int take_run(int u, int end, const Row& row, const Limits& limits,
+               RobotSurroundings::Depths of_robot) {
+    for (; u < end; ++u) {
+      const float d = row[u];
+      const DepthLimits within = limits(u);
+      out_[count_] = std::bit_cast<std::int32_t>(d);
+      count_ += static_cast<std::size_t>((d > 0.0f) & !of_robot.hold(d) & (within.near <= d) &
+                                         (d <= within.far));
+    }
+    return end;
+  }
+
+  const JudgedFrame& frame_;
+  const Depths& measured_;
+  RobotSurroundings* robot_;  // null: none is near
+  std::int32_t* out_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
 void TrustedDepths::take(const JudgedFrame& frame, std::span<const RowSpan> spans,
                          const ExpectedDepth& expected, RobotSurroundings& robot) {
+  const SpanBox box = box_of_spans(spans);
+  const int reach = robot.reach();
+  const bool near_robot =
+      frame.robot_may_lie_in(box.u0 - reach, box.u1 + reach, box.v0 - reach, box.v1 + reach);
   std::size_t pixels = 0;
   for (const RowSpan& span : spans) pixels += static_cast<std::size_t>(span.u1 - span.u0);
-  depths_.resize(pixels);
-  if (pixels == 0) return;
-  const LimitRule rule(*frame.rule, expected.margin);
+  if (bits_.size() < pixels) {
+    bits_.resize(pixels);
+    scratch_.resize(pixels);
+  }
   std::visit(
       [&](const auto& image) {
         const Measured measured(image, *frame.rule);
-        const auto take_with = [&](const auto& limits) {
-          take_trusted(frame, spans, limits, measured, robot, depths_);
-        };
-        if (expected.image)
-          take_with([&](int v) {
-            return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
-          });
-        else if (expected.constant)
-          take_with([limits = rule.at(*expected.constant)](int) {
-            return [limits](int) { return limits; };
-          });
-        else
-          take_with([](int) { return NoLimits{}; });
+        Gatherer gatherer(frame, measured, near_robot ? &robot : nullptr, bits_.data());
+        with_limits(*frame.rule, expected, [&](const auto& limits) {
+          for (const RowSpan& span : spans) gatherer.take(span, limits(span.v));
+        });
+        count_ = gatherer.count();
       },
       frame.images.measured);
 }
 
 RobustDepth TrustedDepths::robust() {
-  RobustDepth depth{.count = depths_.size()};
-  const float median = median_of(depths_);
-  for (float& d : depths_) d = std::abs(d - median);
-  depth.median = static_cast<double>(median);
-  depth.spread = mad_to_sigma * static_cast<double>(median_of(depths_));
-  return depth;
+  const std::span<std::int32_t> bits(bits_.data(), count_);
+  const float median = median_of(bits, scratch_);
+  for (std::int32_t& value : bits)
+    value = std::bit_cast<std::int32_t>(std::abs(std::bit_cast<float>(value) - median));
+  return {count_, static_cast<double>(median),
+          mad_to_sigma * static_cast<double>(median_of(bits, scratch_))};
 }
 
 }  // namespace penumbra
