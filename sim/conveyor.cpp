@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double belt_x = 0.52;     // metres, the belt's middle from the robot's axis
 constexpr double grasp_time = 4.5;  // seconds
-constexpr double scene_time = 5.0;
+constexpr double conveyor_time = 5.0;
 constexpr double hand_length = 0.13;  // metres from the tool's point back into the gripper
 constexpr int print_width = 320;      // pixels of the object's print
 
@@ -80,7 +80,7 @@ Conveyor::Conveyor(Arm& arm, const SceneWishes& wishes) : jitter_(wishes.belt_ji
   const double eye_y = random.uniform(-0.06, 0.06);
   description_.T_base_camera = look_at({1.06, eye_y, 0.78}, {0.49, 0.0, 0.06});
   description_.T_base_second_camera = look_at({0.60, -side * 1.05, 0.80}, {0.50, 0.0, 0.04});
-  description_.duration = scene_time;
+  description_.duration = conveyor_time;
   description_.grasp = grasp_time;
   description_.object_size = size_;
   description_.conveyor_direction = direction_;
@@ -159,7 +159,7 @@ void Conveyor::plan(Arm& arm, Random& random) {
   if (emerges) goals.emplace_back(3.6, before(3.6, 0.15, -side * 0.26));
   goals.emplace_back(4.1, above(4.1, 0.12));
   goals.emplace_back(grasp_time, above(grasp_time, -0.015));
-  goals.emplace_back(scene_time, above(grasp_time, 0.14));
+  goals.emplace_back(conveyor_time, above(grasp_time, 0.14));
   std::vector<double> positions = {side * 0.9, 0.1, 1.4, 0.1, -1.57, 0.0, 0.03};
   std::vector<Knot> knots;
   for (const auto& [time, goal] : goals) {

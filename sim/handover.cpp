@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double scene_time = 7.0;  // seconds
+constexpr double handover_time = 7.0;  // seconds
 
 // A person's measures, metres; z = 0 is the table's top, 0.75 m over the floor.
 constexpr double upper_arm = 0.30, forearm = 0.27, palm = 0.09;
@@ -73,7 +73,7 @@ Handover::Handover(Arm& arm, const SceneWishes& wishes) {
   const double eye_x = random.uniform(0.38, 0.52), eye_z = random.uniform(0.48, 0.66);
   description_.T_base_camera = look_at({eye_x, -1.45, eye_z}, {0.56, 0.0, 0.28});
   description_.T_base_second_camera = look_at({0.10, 1.35, 0.75}, {0.60, 0.05, 0.28});
-  description_.duration = scene_time;
+  description_.duration = handover_time;
   description_.objects = {"wrist", "hand", "person"};
   dress();
   plan_hand(random);
@@ -124,7 +124,7 @@ void Handover::plan_hand(Random& random) {
                                             {4.8, near(front, 0.015)},
                                             {5.5, near({0.72, -0.05, 0.38}, 0.02)},
                                             {6.1, last},
-                                            {scene_time, last + 0.3 * drift}});
+                                            {handover_time, last + 0.3 * drift}});
 }
 
 void Handover::plan_arm(Arm& arm, Random& random) {
@@ -149,7 +149,7 @@ void Handover::plan_arm(Arm& arm, Random& random) {
       {4.9, at(arm_in_the_back, {1.0, 0.0, -0.2})},
       {5.5, park},
       {6.3, between(6.3, 0.0)},
-      {scene_time, between(scene_time, 0.0)}};
+      {handover_time, between(handover_time, 0.0)}};
   std::vector<double> positions = {-0.3, 0.0, 1.2, 0.0, -1.57, 0.0, 0.02};
   std::vector<Knot> knots;
   for (const auto& [time, goal] : goals) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-
 #include <sim/scene.hpp>
 
 namespace penumbra::sim {
@@ -22,16 +20,6 @@ Eigen::Isometry3d tool_pose(const Eigen::Vector3d& position, const Eigen::Vector
   pose.linear() << y.cross(z), y, z;
   pose.translation() = position;
   return pose;
-}
-
-std::string numbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) {
-    char digits[32];
-    const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
-    text += (text.empty() ? "" : " ") + std::string(digits, end);
-  }
-  return text;
 }
 
 }  // namespace penumbra::sim

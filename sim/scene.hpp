@@ -15,6 +15,7 @@
 
 #include <io/png.hpp>
 #include <sim/arm.hpp>
+#include <sim/numbers.hpp>
 
 namespace penumbra::sim {
 
@@ -96,8 +97,5 @@ inline constexpr const char* tool_link = "tool0";
 [[nodiscard]] inline Eigen::VectorXd as_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
-
-/// MJCF text of numbers, with all their digits.
-[[nodiscard]] std::string numbers(std::initializer_list<double> values);
 
 }  // namespace penumbra::sim

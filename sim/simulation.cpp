@@ -44,6 +44,8 @@ void check_options(const SimulationOptions& options) {
        "0 to 3600 s");
   need(options.frame_rate > 0.0 && options.frame_rate <= 1000.0, "frame_rate", options.frame_rate,
        "more than 0, at most 1000 per second");
+  need(options.duration == 0.0 || options.duration * options.frame_rate >= 1.0, "duration",
+       options.duration, "at least the time of one frame");
 }
 
 std::filesystem::path shipped_urdf() {

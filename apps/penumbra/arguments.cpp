@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +24,7 @@ Examples:
   penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
   penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
+  penumbra simulate conveyor -o belt         record a simulated scene with its truth
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
@@ -72,6 +74,18 @@ frames/000000.png of the first seed. The same seeds give the same results on any
 Examples:
   penumbra experiment conveyor -o out
   penumbra experiment handover --seeds 0:2 -o out)";
+constexpr const char* simulate_examples = R"(
+Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and grasps it), handover (a
+person's hand behind and before the arm), random (targets before, behind and beside an arm in a new
+pose in every frame). MuJoCo places and draws everything. OUT is a recording for penumbra run, with
+the truth beside it: ids/000000.png (0 nothing, 1 + link number, from 10000 objects), truth.csv
+(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. The same seed gives the same
+bytes.
+
+Examples:
+  penumbra simulate conveyor -o belt
+  penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
+  penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
 
 [[noreturn]] void refuse(const std::string& option, const std::string& value,
                          const std::string& wanted) {
@@ -378,6 +392,41 @@ void add_experiment(CLI::App& app, ExperimentArguments& experiment) {
   app.add_flag("--frames", experiment.frames, "write the first seed's frames with boxes");
 }
 
+template <typename T>
+void add_number(CLI::App& app, const std::string& names, const std::string& help,
+                const std::string& unit, T& to) {
+  const std::string wanted = std::is_floating_point_v<T> ? "a number" : "a whole number from 0";
+  add_option(app, names, help, unit, [&to, names, wanted](const std::string& text) {
+    const auto value = io::parse_number<T>(text);
+    if (!value) refuse(names, text, wanted);
+    to = *value;
+  });
+}
+
+void add_simulate(CLI::App& app, SimulateArguments& simulate) {
+  app.footer(simulate_examples);
+  sim::SimulationOptions& options = simulate.options;
+  app.add_option("SCENE", simulate.scene, "conveyor, handover or random")->required();
+  add_path(app, "-o,--output", "folder for the recording; new or empty", "OUT", simulate.output)
+      ->required();
+  add_number(app, "--seed", "what differs between runs; default 0", "N", options.seed);
+  add_option(app, "--frames", "write only the frames from A up to but without B", "A:B",
+             [&](const std::string& text) { simulate.frames = to_range(text); });
+  add_number(app, "--duration", "of the scene; default: its own", "S", options.duration);
+  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
+  app.add_flag_callback(
+      "--no-noise", [&] { options.depth = {}; },
+      "true depth, rounded to millimetres; default: noise as a RealSense D415's");
+  add_number(app, "--joint-sigma", "noise of the reported joint positions; default 0", "RAD",
+             options.joint_sigma);
+  add_number(app, "--joint-latency", "how much older they are than they say; default 0", "S",
+             options.joint_latency);
+  add_number(app, "--belt-jitter", "unrest of the belt's speed, relative; default 0", "SHARE",
+             options.belt_jitter);
+  app.add_flag("--second-camera", options.second_camera,
+               "a depth camera on the other side, too: second_depth/");
+}
+
 }  // namespace
 
 std::optional<Command> parse_arguments(int argc, const char* const* argv) {
@@ -386,6 +435,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   InspectArguments inspect;
   DoctorArguments doctor;
   ExperimentArguments experiment;
+  SimulateArguments simulate;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -401,6 +451,9 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add_inspect(*inspect_app, inspect);
   add_doctor(*doctor_app, doctor);
   add_experiment(*experiment_app, experiment);
+  CLI::App* const simulate_app =
+      app.add_subcommand("simulate", "record a simulated scene with its truth");
+  add_simulate(*simulate_app, simulate);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -417,9 +470,10 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   if (inspect_app->parsed()) return inspect;
   if (doctor_app->parsed()) return doctor;
   if (experiment_app->parsed()) return experiment;
+  if (simulate_app->parsed()) return simulate;
   throw InputError(
-      "a command is needed: run, render, inspect, doctor or experiment (penumbra --help tells "
-      "more)");
+      "a command is needed: run, render, inspect, doctor, simulate or experiment (penumbra --help "
+      "tells more)");
 }
 
 }  // namespace penumbra::app

@@ -15,6 +15,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <sim/experiments/experiment.hpp>
+#include <sim/simulation.hpp>
 
 namespace penumbra::app {
 
@@ -75,8 +76,15 @@ struct DoctorArguments {
 
 using ExperimentArguments = sim::ExperimentOptions;
 
+struct SimulateArguments {
+  std::string scene;
+  std::filesystem::path output;
+  FrameRange frames;
+  sim::SimulationOptions options;
+};
+
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                             ExperimentArguments>;
+                             SimulateArguments, ExperimentArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

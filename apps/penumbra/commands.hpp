@@ -11,5 +11,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const InspectArguments& arguments);
 [[nodiscard]] int execute(const DoctorArguments& arguments);
 [[nodiscard]] int execute(const ExperimentArguments& arguments);
+[[nodiscard]] int execute(const SimulateArguments& arguments);
 
 }  // namespace penumbra::app

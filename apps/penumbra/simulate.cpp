@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <sim/recording_folder.hpp>
+
+namespace penumbra::app {
+
+int execute(const SimulateArguments& arguments) {
+  sim::Simulation simulation(arguments.scene, arguments.options);
+  const std::size_t all = simulation.frames();
+  const auto first = static_cast<std::size_t>(arguments.frames.first.value_or(0));
+  const auto end =
+      static_cast<std::size_t>(arguments.frames.end.value_or(static_cast<std::int64_t>(all)));
+  if (first >= end || end > all)
+    throw InputError("--frames " + std::to_string(first) + ":" + std::to_string(end) +
+                     ": the scene has the frames 0:" + std::to_string(all));
+  sim::RecordingFolder recording(arguments.output, simulation, arguments.scene, arguments.options);
+  {
+    Progress progress(end - first);
+    sim::SimFrame frame;
+    simulation.skip(first);
+    for (std::size_t index = first; index < end && simulation.next(frame); ++index) {
+      recording.add(frame, index);
+      progress.step();
+    }
+  }
+  recording.finish();
+  std::cout << end - first << " frames: " << arguments.output.string() << '\n';
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <sim/simulation.hpp>
+
+namespace penumbra::sim {
+
+/// Writes a simulation as a recording that `penumbra run` takes, with the truth beside it:
+///   recording.yaml, camera_info.yaml, camera_pose.csv, the arm's URDF folder
+///   joint_states.csv   positions as reported; true_joint_states.csv: as they were
+///   color/, depth/     000000.png; 8-bit RGB and 16-bit millimetres; second_depth/ likewise
+///   ids/000000.png     16-bit SimFrame::ids
+///   truth.csv          poses and pixel counts of every object in every frame
+///   scene.yaml         seed, options, and what is known of the object and the grasp
+class RecordingFolder {
+ public:
+  /// Throws InputError where the folder is not empty or cannot be made. `simulation` must outlive
+  /// this.
+  RecordingFolder(const std::filesystem::path& folder, const Simulation& simulation,
+                  const std::string& scene, const SimulationOptions& options);
+
+  /// Writes the frame's files. Throws InputError where that fails.
+  void add(const SimFrame& frame, std::size_t index);
+
+  /// Ends the tables. Throws InputError where that fails.
+  void finish();
+
+ private:
+  void write_robot() const;
+  void write_camera(const std::string& prefix, const Camera& camera,
+                    const Eigen::Isometry3d& T_base_camera) const;
+  void write_scene(const std::string& scene, const SimulationOptions& options) const;
+  [[nodiscard]] std::filesystem::path image(const char* kind, std::size_t index) const;
+
+  std::filesystem::path folder_;
+  const Simulation& simulation_;
+  bool second_camera_;
+  std::ofstream joints_, true_joints_, truth_;
+  Image<std::uint16_t> ids_;
+};
+
+}  // namespace penumbra::sim

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether what MuJoCo draws is the truth: against closed forms, and against Penumbra's own
+// rendering of the arm, which shares nothing with it but the URDF.
+#include "simulated.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using sim::ObjectTruth;
+using sim::SimFrame;
+using sim::Simulation;
+
+// Float depth with 24 bits between 0.08 m and 12 m: 4e-6 m at 2 m, and as much again for single
+// precision in MuJoCo's matrices and the rasteriser.
+constexpr double depth_tolerance = 5e-5;  // metres
+// Balls are drawn as polyhedra of 40 x 14 sides: 1 - cos(pi / 28) of the radius is missing.
+constexpr double ball_sagitta = 0.0065;
+constexpr double least_union = 0.999;         // of robot pixels drawn by both
+constexpr double surface_tolerance = 0.5e-3;  // metres: round parts have other facets there
+constexpr int silhouette = 2;                 // pixels that tell nothing beside a depth step
+
+/// Depth of the first point of a box about its own origin on the ray of a pixel; 0: missed.
+double box_depth(const Isometry3d& T_camera_box, const Vector3d& half, const Vector3d& ray) {
+  const Isometry3d T = T_camera_box.inverse();
+  const Vector3d from = T.translation(), along = T.linear() * ray;
+  double enter = 0.0, leave = 1e9;
+  for (int k = 0; k < 3; ++k) {
+    const double a = (-half[k] - from[k]) / along[k], b = (half[k] - from[k]) / along[k];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave ? enter : 0.0;
+}
+
+bool interior(const Image<std::uint8_t>& mask, int u, int v) {
+  for (int dv = -1; dv <= 1; ++dv)
+    for (int du = -1; du <= 1; ++du) {
+      const int x = u + du, y = v + dv;
+      if (x < 0 || y < 0 || x >= mask.width() || y >= mask.height()) return false;
+      if (mask(x, y) != mask(u, v)) return false;
+    }
+  return true;
+}
+
+TEST(DrawingTruth, ParcelLiesWhereItsPoseSays) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Simulation simulation("conveyor", without_noise(seed));
+    SimFrame frame;
+    ASSERT_TRUE(simulation.next(frame));
+    const ObjectTruth& parcel = frame.objects.at(0);
+    ASSERT_GT(parcel.pixels_alone, 5000U);
+    const Isometry3d T_camera_box = simulation.T_base_camera().inverse() * parcel.T_base_object;
+    const Vector3d half = 0.5 * simulation.object_size();
+    const Intrinsics& k = simulation.camera().intrinsics;
+    std::size_t covered = 0, compared = 0;
+    for (int v = 0; v < frame.ids.height(); ++v)
+      for (int u = 0; u < frame.ids.width(); ++u) {
+        const double expected = box_depth(T_camera_box, half, k.ray(u, v));
+        covered += expected > 0.0 ? 1 : 0;
+        if (!interior(parcel.alone, u, v)) continue;
+        EXPECT_EQ(expected > 0.0, parcel.alone(u, v) == 1) << u << ' ' << v;
+        if (frame.ids(u, v) != parcel.id) continue;
+        EXPECT_NEAR(static_cast<double>(frame.true_depth(u, v)), expected, depth_tolerance)
+            << u << ' ' << v;
+        EXPECT_NEAR(frame.depth(u, v), 1000.0 * expected, 0.5 + 1000.0 * depth_tolerance);
+        ++compared;
+      }
+    EXPECT_GT(compared, 4000U);
+    // Half a pixel off would be a twentieth of the outline: the areas agree far better.
+    EXPECT_NEAR(static_cast<double>(covered), static_cast<double>(parcel.pixels_alone),
+                0.003 * static_cast<double>(covered));
+  }
+}
+
+TEST(DrawingTruth, PrintLiesOnTheParcelAsTheModelImageSays) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  Simulation simulation("conveyor", without_noise(5));
+  SimFrame frame;
+  ASSERT_TRUE(simulation.next(frame));
+  const Image<io::Rgb8>& model = simulation.model_image();
+  const Vector3d size = simulation.object_size();
+  const Isometry3d T_camera_box =
+      simulation.T_base_camera().inverse() * frame.objects.at(0).T_base_object;
+  // Correlation of brightness over a grid; a turned or mirrored print gives about 0.
+  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  for (int j = 4; j < model.height() - 4; j += 3)
+    for (int i = 4; i < model.width() - 4; i += 3) {
+      const Vector3d p(((i + 0.5) / model.width() - 0.5) * size.x(),
+                       (0.5 - (j + 0.5) / model.height()) * size.y(), 0.5 * size.z());
+      const Eigen::Vector2d pixel = simulation.camera().intrinsics.project(T_camera_box * p);
+      const int u = static_cast<int>(std::lround(pixel.x())),
+                v = static_cast<int>(std::lround(pixel.y()));
+      if (u < 0 || v < 0 || u >= frame.color.width() || v >= frame.color.height()) continue;
+      const io::Rgb8 a = model(i, j), b = frame.color(u, v);
+      const double x = a.r + a.g + a.b, y = b.r + b.g + b.b;
+      n += 1, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
+    }
+  const double correlation =
+      (n * sab - sa * sb) / std::sqrt((n * saa - sa * sa) * (n * sbb - sb * sb));
+  std::cout << "correlation " << correlation << '\n';
+  EXPECT_GT(correlation, 0.75);  // smoothed by the distance
+}
+
+TEST(DrawingTruth, BallsLieWhereTheirPosesSay) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  Simulation simulation("handover", without_noise(2));
+  SimFrame frame;
+  ASSERT_TRUE(simulation.next(frame));
+  const ObjectTruth& wrist = frame.objects.at(0);
+  ASSERT_EQ(wrist.name, "wrist");
+  const Intrinsics& k = simulation.camera().intrinsics;
+  const Vector3d centre = simulation.T_base_camera().inverse() * wrist.T_base_object.translation();
+  constexpr double radius = 0.036;
+  std::size_t compared = 0;
+  for (int v = 0; v < frame.ids.height(); ++v)
+    for (int u = 0; u < frame.ids.width(); ++u) {
+      if (frame.ids(u, v) != wrist.id) continue;
+      const Vector3d ray = k.ray(u, v);
+      const double b = ray.dot(centre), c = centre.squaredNorm() - radius * radius;
+      const double under = b * b - ray.squaredNorm() * c;
+      ASSERT_GT(under, 0.0) << "a polyhedron inside the ball reaches no farther";
+      // Where the ray is steep on the surface what is missing counts little.
+      const double z = (b - std::sqrt(under)) / ray.squaredNorm();
+      const double facing = std::sqrt(under) / (ray.norm() * radius);
+      if (facing < 0.3) continue;
+      EXPECT_NEAR(static_cast<double>(frame.true_depth(u, v)), z,
+                  2.0 * ball_sagitta * radius / facing + depth_tolerance);
+      ++compared;
+    }
+  EXPECT_GT(compared, 100U);
+}
+
+/// Whether all depths around are of one surface that is not so steep that the facets of round
+/// parts, a tenth of a pixel off at their rims, make more than the tolerance.
+bool smooth(ImageView<const float> depth, int u, int v) {
+  constexpr float step = 0.003F;  // relative
+  const float z = depth(u, v);
+  if (!(z > 0.0F)) return false;
+  for (int y = v - silhouette; y <= v + silhouette; ++y)
+    for (int x = u - silhouette; x <= u + silhouette; ++x) {
+      if (x < 0 || y < 0 || x >= depth.width || y >= depth.height) return false;
+      if (!(std::abs(depth(x, y) - z) < step * z)) return false;
+    }
+  return true;
+}
+
+std::vector<Body> bodies_of(const Robot& robot) {
+  std::vector<Body> bodies;
+  for (std::size_t link = 0; link < robot.links().size(); ++link)
+    bodies.push_back({robot.links()[link], robot.meshes(link)});
+  return bodies;
+}
+
+struct Agreement {
+  std::size_t both = 0, either = 0, same_link = 0, compared = 0, far_off = 0;
+};
+
+void compare(const SimFrame& frame, const VirtualDepthView& drawn, Agreement& all) {
+  for (int v = 0; v < frame.ids.height(); ++v)
+    for (int u = 0; u < frame.ids.width(); ++u) {
+      const bool ours = drawn.depth(u, v) > 0.0F, theirs = frame.robot_ids(u, v) > 0;
+      all.either += ours || theirs ? 1 : 0;
+      if (!ours || !theirs) continue;
+      ++all.both;
+      all.same_link += drawn.links(u, v) == frame.robot_ids(u, v) ? 1 : 0;
+      if (!smooth(drawn.depth, u, v) || !smooth(frame.robot_depth.view(), u, v)) continue;
+      ++all.compared;
+      const double off = std::abs(static_cast<double>(drawn.depth(u, v)) -
+                                  static_cast<double>(frame.robot_depth(u, v)));
+      all.far_off += off > surface_tolerance ? 1 : 0;
+    }
+}
+
+TEST(DrawingTruth, TheArmIsTheUrdfs) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  const int frames = std::getenv("PENUMBRA_FULL") != nullptr ? 200 : 12;
+  auto options = without_noise(4);
+  options.color = false;
+  Simulation simulation("random", options);
+  const Robot& robot = simulation.robot();
+  const auto bodies = bodies_of(robot);
+  const auto renderer = make_depth_renderer(Backend::cpu, simulation.camera().intrinsics, bodies);
+  std::vector<Isometry3d> poses(robot.links().size());
+  Agreement all;
+  SimFrame frame;
+  for (int i = 0; i < frames && simulation.next(frame); ++i) {
+    robot.forward_kinematics(frame.true_joints, poses);
+    for (Isometry3d& pose : poses) pose = simulation.T_base_camera().inverse() * pose;
+    compare(frame, renderer->render(poses), all);
+  }
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return static_cast<double>(part) / static_cast<double>(whole);
+  };
+  std::cout << "intersection over union " << share(all.both, all.either) << ", same link "
+            << share(all.same_link, all.both) << ", off by more than 0.5 mm " << all.far_off
+            << " of " << all.compared << '\n';
+  EXPECT_GT(share(all.both, all.either), least_union);
+  EXPECT_GT(share(all.same_link, all.both), least_union);
+  EXPECT_GT(all.compared, 10'000U);
+  EXPECT_LT(share(all.far_off, all.compared), 1e-4);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penumbra simulate`: what it writes is a recording that `penumbra run` judges as the truth says.
+#include "../apps/program.hpp"
+#include "simulated.hpp"
+
+#include <filesystem>
+
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Labels against MuJoCo's ids: silhouettes of round parts differ by their facets.
+constexpr double least_union = 0.995;
+constexpr double most_objects_taken = 0.01;  // of an object's pixels
+
+class SimulateCommand : public testing::Test {
+ protected:
+  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
+
+  Outcome simulate(std::vector<std::string> line, const std::string& to) {
+    line.insert(line.begin(), "simulate");
+    line.insert(line.end(), {"-o", path(to)});
+    return penumbra(line);
+  }
+
+  TemporaryFolder folder_;
+};
+
+struct Counts {
+  std::size_t both = 0, either = 0, objects = 0, taken = 0;
+};
+
+void count(const fs::path& labels_file, const fs::path& ids_file, Counts& counts) {
+  Image<std::uint8_t> labels;
+  Image<std::uint16_t> ids;
+  ASSERT_TRUE(io::read_png(labels_file, labels).ok()) << labels_file;
+  ASSERT_TRUE(io::read_png(ids_file, ids).ok()) << ids_file;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::uint8_t label = labels.data()[i];
+    const std::uint16_t id = ids.data()[i];
+    const bool hidden = label == 2 || label == 4, robot = id > 0 && id < sim::first_object_id;
+    counts.both += hidden && robot ? 1 : 0;
+    counts.either += hidden || robot ? 1 : 0;
+    counts.objects += id >= sim::first_object_id ? 1 : 0;
+    counts.taken += id >= sim::first_object_id && hidden ? 1 : 0;
+  }
+}
+
+TEST_F(SimulateCommand, LabelsOfARecordingAreTheTruth) {
+  for (const auto& [scene, frames] : {std::pair("conveyor", "75:79"), {"handover", "133:137"}}) {
+    const Outcome made = simulate({scene, "--seed", "5", "--no-noise", "--frames", frames}, scene);
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+    const std::string results = std::string(scene) + "_results";
+    const Outcome run = penumbra({"run", path(scene), "-o", path(results), "--save", "labels"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    Counts counts;
+    std::size_t images = 0;
+    for (const auto& entry : fs::directory_iterator(path(scene) / "ids")) {
+      count(path(results) / "labels" / entry.path().filename(), entry.path(), counts);
+      ++images;
+    }
+    EXPECT_EQ(images, 4U);
+    ASSERT_GT(counts.either, 10'000U);
+    ASSERT_GT(counts.objects, 1000U);
+    EXPECT_GT(static_cast<double>(counts.both) / static_cast<double>(counts.either), least_union);
+    EXPECT_LT(static_cast<double>(counts.taken) / static_cast<double>(counts.objects),
+              most_objects_taken);
+  }
+}
+
+TEST_F(SimulateCommand, SameSeedGivesTheSameFiles) {
+  const std::vector<std::string> line = {
+      "conveyor", "--seed", "9", "--frames", "80:82", "--second-camera", "--joint-sigma", "0.001"};
+  ASSERT_EQ(simulate(line, "one").status, 0);
+  ASSERT_EQ(simulate(line, "two").status, 0);
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(path("one"))) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path name = fs::relative(entry.path(), path("one"));
+    EXPECT_EQ(read_file(entry.path()), read_file(path("two") / name)) << name;
+    ++files;
+  }
+  EXPECT_GT(files, 18U);
+}
+
+TEST_F(SimulateCommand, RefusesBadInput) {
+  const auto refused = [&](const std::vector<std::string>& line, const std::string& word) {
+    const Outcome outcome = simulate(line, "out");
+    EXPECT_EQ(outcome.status, 2) << word;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("out"))) << word;
+  };
+  refused({"conveyer"}, "conveyor");
+  refused({}, "SCENE");
+  refused({"conveyor", "--seed", "-1"}, "--seed");
+  refused({"conveyor", "--seed", "1.5"}, "--seed");
+  refused({"conveyor", "--joint-sigma", "nan"}, "--joint-sigma");
+  refused({"conveyor", "--joint-sigma", "-1"}, "joint_sigma");
+  refused({"conveyor", "--belt-jitter", "2"}, "belt_jitter");
+  refused({"conveyor", "--frames", "5:5"}, "0:150");
+  refused({"conveyor", "--frames", "0:151"}, "0:150");
+  refused({"conveyor", "--frames", "x"}, "--frames");
+  refused({"conveyor", "--duration", "1e99"}, "duration");
+  refused({"conveyor", "--rate", "0"}, "frame_rate");
+  refused({"random", "--joint-latency", "0.1"}, "joint_latency");
+}
+
+TEST_F(SimulateCommand, LeavesWhatIsThereAlone) {
+  fs::create_directory(path("full"));
+  write_file(path("full") / "mine.txt", "mine");
+  const Outcome outcome = simulate({"conveyor", "--frames", "0:1"}, "full");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("not an empty folder"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("full")), fs::directory_iterator()), 1);
+  write_file(path("file"), "mine");
+  EXPECT_EQ(simulate({"conveyor", "--frames", "0:1"}, "file").status, 2);
+  EXPECT_EQ(simulate({"conveyor", "--frames", "0:1"}, "file/deeper").status, 2);
+}
+
+}  // namespace
+}  // namespace penumbra::test
