@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <tests/support/random.hpp>
+#include <tests/support/sanitized.hpp>
 
 #include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>
@@ -206,7 +207,7 @@ TEST(MeshSheets, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
   std::uniform_real_distribution<double> near(-0.4, 0.4);
   int known = 0;
   int backs = 0;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < test::samples(40); ++round) {
     TriangleMesh mesh = torus(48, 32);
     for (int i = 0; i < 1 + round % 6; ++i) {
       const auto victim = static_cast<std::ptrdiff_t>(random() % mesh.triangles.size());
@@ -235,8 +236,8 @@ TEST(MeshSheets, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
       }
     }
   }
-  EXPECT_GT(known, 20);
-  EXPECT_GT(backs, 100);
+  EXPECT_GT(known, test::samples(20));
+  EXPECT_GT(backs, test::samples(100));
 }
 
 }  // namespace

@@ -255,7 +255,9 @@ class LensScene : public testing::TestWithParam<Backend> {
 TEST_P(LensScene, DepthLinksAndLabelsAreRightWithinAPixel) {
   auto random = test::seeded_random(41);
   Tally total;
+  std::size_t lenses = 0;
   for (const test::Lens& sample : test::typical_lenses()) {
+    if (test::sanitized && ++lenses > 3) break;
     SCOPED_TRACE(sample.name);
     const Camera camera{Intrinsics(160, 120, 82, 81, 83.2, 57.4), sample.distortion(), {}, {}};
     const std::vector<Solid> robot = test::random_solids(8, 0.9, random);
@@ -276,7 +278,7 @@ TEST_P(LensScene, DepthLinksAndLabelsAreRightWithinAPixel) {
   for (const int count : total.labels) std::cout << ' ' << count;
   std::cout << '\n';
   EXPECT_GT(total.uniform, 0.7 * total.robot);  // else the check would say little
-  for (const int count : total.labels) EXPECT_GT(count, 100);
+  for (const int count : total.labels) EXPECT_GT(count, test::sanitized ? 10 : 100);
   EXPECT_LT(total.at_lens_edge, 0.02 * total.reached);
 }
 
