@@ -85,16 +85,16 @@ check_tidy() {
     >build/tidy/tidy.log 2>/dev/null || { grep -E 'error:|warning:' build/tidy/tidy.log | sort -u; false; }
 }
 
-groups=(build test lint)
+groups=(build sim test lint)
 ! $full || groups+=(bench)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
 tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
-everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON)
+everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON)
 sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
 benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
-tidy_scope='penumbra|io|apps'
+tidy_scope='penumbra|io|apps|sim'
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")
@@ -123,6 +123,6 @@ if $full; then
 else
   # Where one thread runs there is no race to find. FrameReader needs the apps' libraries.
   one_thread='/(reference|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
-  check "build (tsan)" build tsan threaded_tests "${everything[@]}" &&
+  check "build (tsan)" build tsan threaded_tests "${everything[@]}" -DPENUMBRA_WITH_SIMULATION=OFF &&
     run_tests tsan -L threaded -E "$one_thread"
 fi
