@@ -73,7 +73,7 @@ Conveyor::Conveyor(Arm& arm, const SceneWishes& wishes) : jitter_(wishes.belt_ji
   const double heading = random.uniform(-0.12, 0.12), side = random.sign();
   direction_ = Vector3d(std::sin(heading), side * std::cos(heading), 0.0);
   speed_ = random.uniform(0.07, 0.105);
-  size_ = {random.uniform(0.18, 0.22), random.uniform(0.13, 0.16), random.uniform(0.06, 0.09)};
+  size_ = {random.uniform(0.11, 0.13), random.uniform(0.08, 0.10), random.uniform(0.05, 0.07)};
   yaw_ = random.uniform(-3.1415926, 3.1415926);
   at_grasp_ = Vector3d(belt_x, side * random.uniform(0.04, 0.14), 0.5 * size_.z());
   for (double& phase : phases_) phase = random.uniform(0.0, 6.2831853);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <string>
 
 #include <sim/experiments/follower.hpp>
 #include <sim/experiments/pose_method.hpp>
@@ -18,7 +19,7 @@ constexpr double grasp_angle = 5.0 * M_PI / 180.0;  // radians
 
 using PoseFollower = Follower<PoseMethod, PoseAnswer>;
 
-/// All methods with one kind of detection.
+/// All methods with one kind of perception.
 struct PoseLane {
   std::string key, name;
   std::unique_ptr<Detector> detector;
@@ -29,8 +30,8 @@ double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-void add_followers(PoseLane& lane, const Cell& cell, const PoseEstimator& estimator) {
-  for (auto& method : make_pose_methods(cell, estimator))
+void add_followers(PoseLane& lane, const Cell& cell, const Perception& perception) {
+  for (auto& method : make_pose_methods(cell, perception))
     lane.followers.emplace_back(std::move(method));
 }
 
@@ -51,7 +52,7 @@ class ConveyorRun {
  public:
   ConveyorRun(std::uint64_t seed, const RunSettings& settings)
       : settings_(settings),
-        simulation_("conveyor", options(seed)),
+        simulation_(make_simulation("conveyor", options(seed))),
         cell_(cell_of(simulation_)),
         watcher_(simulation_),
         estimator_(cell_.camera, simulation_.model_image().view(), cell_.object_size),
@@ -98,13 +99,21 @@ class ConveyorRun {
     const Eigen::Isometry3d& pose = object_named(frame, "parcel").T_base_object;
     cell_.floor = pose.translation().z() - 0.5 * cell_.object_size.z();
     const std::uint64_t seed = random_();
-    lanes_.push_back({"amodal",
-                      "Detector of full extents (amodal)",
-                      std::make_unique<AmodalDetector>(cell_, seed),
-                      {}});
-    lanes_.push_back(
-        {"modal", "Detector of visible pixels (modal)", std::make_unique<ModalDetector>(seed), {}});
-    for (PoseLane& lane : lanes_) add_followers(lane, cell_, estimator_);
+    for (const Acceptance acceptance : {Acceptance::careful, Acceptance::eager}) {
+      const bool careful = acceptance == Acceptance::careful;
+      const std::string key = careful ? "" : "_eager";
+      const std::string estimator = careful ? "careful estimator" : "eager estimator";
+      lanes_.push_back({"amodal" + key,
+                        "Detector of full extents (amodal), " + estimator,
+                        std::make_unique<AmodalDetector>(cell_, seed),
+                        {}});
+      lanes_.push_back({"modal" + key,
+                        "Detector of visible pixels (modal), " + estimator,
+                        std::make_unique<ModalDetector>(seed),
+                        {}});
+      for (PoseLane* lane : {&lanes_[lanes_.size() - 2], &lanes_.back()})
+        add_followers(*lane, cell_, {&estimator_, acceptance});
+    }
   }
 
   void perceive(const SimFrame& frame, const Sensed& sensed, const ObjectTruth& object) {

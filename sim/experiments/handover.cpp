@@ -15,7 +15,7 @@ namespace {
 constexpr double reached_distance = 0.05;  // metres
 constexpr double body_distance = 0.03;     // metres from the robot's surface that are on it
 
-constexpr double wrist_radius = 0.03;  // metres from the wrist's surface to its centre
+constexpr double wrist_radius = 0.036;  // metres from the wrist's surface to its centre
 
 using PointFollower = Follower<PointMethod, PointAnswer>;
 
@@ -35,7 +35,7 @@ class HandoverRun {
  public:
   HandoverRun(std::uint64_t seed, const RunSettings& settings)
       : settings_(settings),
-        simulation_("handover", simulation_options(settings, seed)),
+        simulation_(make_simulation("handover", simulation_options(settings, seed))),
         cell_(cell_of(simulation_)),
         watcher_(simulation_),
         random_(seed) {
@@ -78,7 +78,7 @@ class HandoverRun {
     WristTruth truth;
     truth.position = wrist.T_base_object.translation();
     truth.hidden = share(wrist.pixels_behind_robot, wrist.pixels_alone);
-    truth.seen = wrist.pixels_alone > 0 && wrist.pixels_seen == wrist.pixels_alone;
+    truth.seen = wrist.pixels_alone > 0 && wrist.pixels_behind_robot == 0;
     const Eigen::Vector2d pixel =
         cell_.camera.intrinsics.project(cell_.T_base_camera.inverse() * truth.position);
     const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <string>
 
 #include <sim/experiments/plots.hpp>
@@ -71,7 +72,7 @@ std::string grid(const Axes& axes) {
 }
 
 std::string error_line(const SeedRun& run, const MethodRun& method, const Axes& axes,
-                       std::size_t index, bool ours) {
+                       const std::string& key) {
   std::string path;
   bool drawing = false;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -81,23 +82,26 @@ std::string error_line(const SeedRun& run, const MethodRun& method, const Axes& 
                      Axes::y(sample.translation_error));
     drawing = sample.known;
   }
-  const LineStyle style = line_style(index);
+  const LineStyle style = line_style(key);
   return format("<path fill='none' stroke='%s' stroke-dasharray='%s' stroke-width='%s' d='",
-                style.color, style.dash, ours ? "3.2" : "1.6") +
+                style.color, style.dash, key == "penumbra" ? "3.2" : "1.6") +
          path + "'/>";
 }
 
 }  // namespace
 
-LineStyle line_style(std::size_t method) {
-  constexpr std::array<LineStyle, 7> styles{{{"#d55e00", "7 4"},
-                                             {"#e69f00", ""},
-                                             {"#cc79a7", "2 3"},
-                                             {"#56b4e9", ""},
-                                             {"#0072b2", "9 3 2 3"},
-                                             {"#8c8c8c", ""},
-                                             {"#009e73", ""}}};
-  return styles[method % styles.size()];
+LineStyle line_style(const std::string& key) {
+  static const std::map<std::string, LineStyle> styles{{"raw", {"#d55e00", "7 4"}},
+                                                       {"tracker", {"#e69f00", ""}},
+                                                       {"height_raw", {"#cc79a7", "2 4"}},
+                                                       {"height", {"#cc79a7", ""}},
+                                                       {"urdf_filter_raw", {"#56b4e9", "2 4"}},
+                                                       {"urdf_filter", {"#56b4e9", ""}},
+                                                       {"own_model", {"#0072b2", "9 3 2 3"}},
+                                                       {"two_cameras", {"#8c8c8c", ""}},
+                                                       {"penumbra_partial", {"#009e73", "4 3"}},
+                                                       {"penumbra", {"#009e73", ""}}};
+  return styles.at(key);
 }
 
 std::string error_plot(const SeedRun& run, std::size_t lane, std::string_view goal_name) {
@@ -113,13 +117,13 @@ std::string error_plot(const SeedRun& run, std::size_t lane, std::string_view go
                 x > 0.8 * plot_width ? "end" : "middle", goal.c_str());
   const std::vector<MethodRun>& methods = run.lanes[lane].methods;
   for (std::size_t i = 0; i < methods.size(); ++i)
-    svg += error_line(run, methods[i], axes, i, i + 1 == methods.size());
+    svg += error_line(run, methods[i], axes, run.methods[i].key);
   return svg + "</svg>";
 }
 
 std::string interval_chart(const std::vector<MethodInfo>& methods,
                            const std::vector<Interval>& intervals, std::string_view title) {
-  constexpr double row = 30, top = 12, left = 170, right = 22;
+  constexpr double row = 30, top = 12, left = 200, right = 22;
   double least = 1e9, most = 0;
   for (const Interval& interval : intervals) {
     if (!interval.value) continue;
@@ -147,7 +151,7 @@ std::string interval_chart(const std::vector<MethodInfo>& methods,
     svg += format("<text x='%.1f' y='%.1f' text-anchor='end'>%s</text>", left - 10, y + 4,
                   methods[i].name.c_str());
     if (!intervals[i].value) continue;
-    const char* const color = line_style(i).color;
+    const char* const color = line_style(methods[i].key).color;
     svg += format("<line x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f' stroke='%s' stroke-width='3'/>",
                   x(intervals[i].low), x(intervals[i].high), y, y, color);
     svg +=

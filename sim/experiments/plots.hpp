@@ -16,7 +16,7 @@ struct LineStyle {
   const char* color;
   const char* dash;
 };
-[[nodiscard]] LineStyle line_style(std::size_t method);
+[[nodiscard]] LineStyle line_style(const std::string& key);
 
 /// Position error of every method against time, on a logarithmic scale, as SVG; spans in which the
 /// target is hidden are shaded, the goal is marked.

@@ -153,7 +153,10 @@ std::vector<FeatureMatch> PoseEstimator::match(ImageView<const io::Rgb8> color,
 }
 
 std::optional<PoseGuess> PoseEstimator::estimate(std::span<const FeatureMatch> matches,
-                                                 ImageView<const std::uint8_t> mask) const {
+                                                 ImageView<const std::uint8_t> mask,
+                                                 Acceptance acceptance) const {
+  constexpr std::size_t least_of_eager = 4;
+  const std::size_t least = acceptance == Acceptance::careful ? min_inliers : least_of_eager;
   Correspondences all;
   for (const FeatureMatch& match : matches) {
     const int u = static_cast<int>(std::lround(match.pixel.x()));
@@ -163,16 +166,15 @@ std::optional<PoseGuess> PoseEstimator::estimate(std::span<const FeatureMatch> m
                             match.point.cast<float>().z());
     all.pixels.emplace_back(match.pixel.cast<float>().x(), match.pixel.cast<float>().y());
   }
-  if (all.points.size() < min_inliers) return std::nullopt;
+  if (all.points.size() < least) return std::nullopt;
   cv::Mat rotation, translation;
   std::vector<int> agreed;
   if (!cv::solvePnPRansac(all.points, all.pixels, state_->matrix, cv::noArray(), rotation,
                           translation, false, ransac_rounds, static_cast<float>(ransac_pixels),
                           ransac_confidence, agreed, cv::SOLVEPNP_P3P) ||
-      agreed.size() < min_inliers)
+      agreed.size() < least)
     return std::nullopt;
   const Correspondences inliers = all.of(agreed);
-  // Of the two poses that a plane may have, IPPE answers the one that fits better.
   if (!cv::solvePnP(inliers.points, inliers.pixels, state_->matrix, cv::noArray(), rotation,
                     translation, false, cv::SOLVEPNP_SQPNP))
     return std::nullopt;
@@ -186,8 +188,10 @@ std::optional<PoseGuess> PoseEstimator::estimate(std::span<const FeatureMatch> m
   if (!guess.T_camera_object.matrix().allFinite() || guess.T_camera_object.translation().z() <= 0 ||
       !faces_camera)
     return std::nullopt;
-  guess.covariance = covariance_of(state_->camera, guess.T_camera_object, inliers);
-  if (!guess.covariance.allFinite()) return std::nullopt;
+  if (acceptance == Acceptance::careful) {
+    guess.covariance = covariance_of(state_->camera, guess.T_camera_object, inliers);
+    if (!guess.covariance->allFinite()) return std::nullopt;
+  }
   return guess;
 }
 

@@ -27,8 +27,15 @@ struct FeatureMatch {
 
 struct PoseGuess {
   Eigen::Isometry3d T_camera_object = Eigen::Isometry3d::Identity();
-  Matrix6d covariance = Matrix6d::Zero();  ///< of position and rotation vector, optical frame
+  /// Of position and rotation vector, optical frame; nothing from an eager estimator.
+  std::optional<Matrix6d> covariance;
   std::size_t inliers = 0;
+};
+
+/// When an estimator claims a pose.
+enum class Acceptance {
+  careful,  ///< of at least PoseEstimator::min_inliers, with a covariance
+  eager     ///< whenever RANSAC finds four that agree, as OpenCV does of itself; no covariance
 };
 
 /// Finds a flat textured object: SIFT features matched to its image by the ratio test, PnP with
@@ -47,8 +54,9 @@ class PoseEstimator {
                                                 const PixelBox& part) const;
 
   /// The pose by those matches whose pixel is not 0 in the mask; nothing where they agree on none.
-  [[nodiscard]] std::optional<PoseGuess> estimate(std::span<const FeatureMatch> matches,
-                                                  ImageView<const std::uint8_t> mask) const;
+  [[nodiscard]] std::optional<PoseGuess> estimate(
+      std::span<const FeatureMatch> matches, ImageView<const std::uint8_t> mask,
+      Acceptance acceptance = Acceptance::careful) const;
 
  private:
   struct State;

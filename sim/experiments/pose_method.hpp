@@ -15,6 +15,12 @@
 
 namespace penumbra::sim {
 
+/// The estimator that all methods share.
+struct Perception {
+  const PoseEstimator* estimator = nullptr;
+  Acceptance acceptance = Acceptance::careful;
+};
+
 /// What came of one image. It arrives late; until then nobody acts on it.
 struct PoseAnswer {
   std::optional<PoseEstimate> estimate;  ///< in the base frame
@@ -31,7 +37,7 @@ struct PoseView {
 /// One way of following an object that the robot hides at times.
 class PoseMethod {
  public:
-  PoseMethod(const Cell& cell, const PoseEstimator& estimator);
+  PoseMethod(const Cell& cell, const Perception& perception, const PoseTrackerConfig& tracker);
   virtual ~PoseMethod() = default;
 
   [[nodiscard]] virtual MethodInfo info() const = 0;
@@ -55,14 +61,14 @@ class PoseMethod {
 
  private:
   const Cell* cell_;
-  const PoseEstimator* estimator_;
+  Perception perception_;
   PoseTracker tracker_;
 };
 
-/// Every method of experiment 1, the last of them ours. All but the raw one have a tracker of the
-/// same configuration.
+/// Every method of experiment 1, the last of them ours. All trackers have the same configuration,
+/// but for the worst verdict that they take.
 [[nodiscard]] std::vector<std::unique_ptr<PoseMethod>> make_pose_methods(
-    const Cell& cell, const PoseEstimator& estimator);
+    const Cell& cell, const Perception& perception);
 
 /// What all trackers of experiment 1 know: a conveyor's direction, not its speed.
 [[nodiscard]] PoseTrackerConfig conveyor_tracker(const Cell& cell);

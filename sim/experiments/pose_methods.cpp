@@ -16,11 +16,13 @@ constexpr double own_tolerance = 0.02;    // metres before the model's surface t
 
 /// The object's pose in the base frame as the estimator found it.
 PoseEstimate to_base(const Cell& cell, std::int64_t stamp, const PoseGuess& guess) {
+  PoseEstimate estimate{stamp, cell.T_base_camera * guess.T_camera_object, std::nullopt};
+  if (!guess.covariance) return estimate;
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = cell.T_base_camera.linear();
   turn.bottomRightCorner<3, 3>() = cell.T_base_camera.linear();
-  return {stamp, cell.T_base_camera * guess.T_camera_object,
-          Matrix6d(turn * guess.covariance * turn.transpose())};
+  estimate.covariance = Matrix6d(turn * *guess.covariance * turn.transpose());
+  return estimate;
 }
 
 /// Height above the belt of what is measured at a pixel; nothing without measurement.
@@ -43,8 +45,7 @@ class RawPose : public PoseMethod {
     return {estimate(view, view.detection.mask.view()), Verdict::visible};
   }
   Outcome take(const PoseAnswer& answer) override {
-    if (last_ && answer.estimate->stamp <= last_->stamp) return Outcome::refused_late;
-    last_ = answer.estimate;
+    if (!last_ || answer.estimate->stamp > last_->stamp) last_ = answer.estimate;
     return Outcome::accepted;
   }
   TrackedPose at(std::int64_t stamp) const override {
@@ -75,39 +76,67 @@ class TrackerAlone : public PoseMethod {
   }
 };
 
-/// Points above a plane are robot (Yoshioka 2021).
+/// The detected pixels that are not above a plane (Yoshioka 2021).
+Image<std::uint8_t> below_plane(const Cell& cell, const PoseView& view) {
+  const double limit = cell.object_size.z() + height_margin;
+  return without(view.detection.mask, view.detection.box, [&](int u, int v) {
+    return height_at(cell, view.sensed, u, v).value_or(0) > limit;
+  });
+}
+
+/// The detected pixels on which no robot is drawn (realtime_urdf_filter; Magrini 2014).
+Image<std::uint8_t> beside_robot(const PoseView& view) {
+  const auto& drawn = view.sensed.robot.virtual_depth.depth;
+  return without(view.detection.mask, view.detection.box,
+                 [&](int u, int v) { return !drawn.empty() && drawn(u, v) > 0; });
+}
+
+class RawHeightThreshold : public RawPose {
+ public:
+  using RawPose::RawPose;
+  MethodInfo info() const override {
+    return {"height_raw", "Height threshold",
+            "Points more than 3 cm above the object's known top are robot and are taken from the "
+            "region (Yoshioka 2021); the last estimate from the rest, as it is."};
+  }
+  PoseAnswer look(const PoseView& view) override {
+    return {estimate(view, below_plane(cell(), view).view()), Verdict::visible};
+  }
+};
+
 class HeightThreshold : public PoseMethod {
  public:
   using PoseMethod::PoseMethod;
   MethodInfo info() const override {
-    return {"height", "Height threshold",
-            "Points more than 3 cm above the object's known top are robot and are taken from the "
-            "region (Yoshioka 2021); the estimator works with the rest, the tracker follows."};
+    return {"height", "Height threshold + tracker", "The same, and our tracker follows."};
   }
   PoseAnswer look(const PoseView& view) override {
-    const double limit = cell().object_size.z() + height_margin;
-    const auto rest = without(view.detection.mask, view.detection.box, [&](int u, int v) {
-      return height_at(cell(), view.sensed, u, v).value_or(0) > limit;
-    });
-    return {estimate(view, rest.view()), Verdict::visible};
+    return {estimate(view, below_plane(cell(), view).view()), Verdict::visible};
   }
 };
 
-/// Every robot pixel is subtracted (realtime_urdf_filter; Magrini 2014).
+class RawUrdfFilter : public RawPose {
+ public:
+  using RawPose::RawPose;
+  MethodInfo info() const override {
+    return {"urdf_filter_raw", "URDF filter",
+            "Every pixel on which the robot's model is drawn is taken from the region "
+            "(realtime_urdf_filter, Magrini 2014), with the same renderer and joints as ours; the "
+            "last estimate from the rest, as it is."};
+  }
+  PoseAnswer look(const PoseView& view) override {
+    return {estimate(view, beside_robot(view).view()), Verdict::visible};
+  }
+};
+
 class UrdfFilter : public PoseMethod {
  public:
   using PoseMethod::PoseMethod;
   MethodInfo info() const override {
-    return {"urdf_filter", "URDF filter",
-            "Every pixel on which the robot's model is drawn is taken from the region "
-            "(realtime_urdf_filter, Magrini 2014), with the same renderer and joints as ours; the "
-            "estimator works with the rest, the tracker follows."};
+    return {"urdf_filter", "URDF filter + tracker", "The same, and our tracker follows."};
   }
   PoseAnswer look(const PoseView& view) override {
-    const auto& drawn = view.sensed.robot.virtual_depth.depth;
-    const auto rest = without(view.detection.mask, view.detection.box,
-                              [&](int u, int v) { return !drawn.empty() && drawn(u, v) > 0; });
-    return {estimate(view, rest.view()), Verdict::visible};
+    return {estimate(view, beside_robot(view).view()), Verdict::visible};
   }
 };
 
@@ -118,7 +147,7 @@ class OwnModel : public PoseMethod {
   using PoseMethod::PoseMethod;
   MethodInfo info() const override {
     return {
-        "own_model", "Object's own model",
+        "own_model", "Object's own model + tracker",
         "Pixels measured more than 2 cm before the surface of the object's own model at its "
         "predicted pose are hidden (Wuethrich 2013) and are taken from the region; the estimator "
         "works with the rest, the tracker follows. Needs the object's model."};
@@ -145,7 +174,7 @@ class TwoCameras : public PoseMethod {
   using PoseMethod::PoseMethod;
   MethodInfo info() const override {
     return {
-        "two_cameras", "Second depth camera",
+        "two_cameras", "Second camera + tracker",
         "The points of both depth cameras at the height of the object's top, near its predicted "
         "place, are fitted by its known outline (after Fetzner 2014). Colour estimates that this "
         "contradicts by more than 2 cm are refused; where there is none, the fit is taken. Needs "
@@ -169,8 +198,8 @@ class TwoCameras : public PoseMethod {
 /// taken.
 class PenumbraPose : public PoseMethod {
  public:
-  PenumbraPose(const Cell& cell, const PoseEstimator& estimator)
-      : PoseMethod(cell, estimator), judge_(cell.camera, cell.rule, cell.links) {}
+  PenumbraPose(const Cell& cell, const Perception& perception, const PoseTrackerConfig& tracker)
+      : PoseMethod(cell, perception, tracker), judge_(cell.camera, cell.rule, cell.links) {}
   MethodInfo info() const override {
     return {
         "penumbra", "Penumbra",
@@ -178,6 +207,12 @@ class PenumbraPose : public PoseMethod {
         "taken only while the object is visible, and its pose is predicted meanwhile."};
   }
   PoseAnswer look(const PoseView& view) override {
+    const Verdict verdict = judge(view);
+    return {estimate(view, view.detection.mask.view()), verdict};
+  }
+
+ protected:
+  Verdict judge(const PoseView& view) {
     TargetView target;
     target.name = "object";
     target.region = PixelMask{view.detection.mask.view()};
@@ -186,7 +221,7 @@ class PenumbraPose : public PoseMethod {
     judge_.begin(view.sensed.robot);
     const Verdict verdict = judge_.judge(target).verdict;
     if (verdict == Verdict::visible) last_good_ = view.sensed.stamp;
-    return {estimate(view, view.detection.mask.view()), verdict};
+    return verdict;
   }
 
  private:
@@ -206,6 +241,28 @@ class PenumbraPose : public PoseMethod {
   std::optional<std::int64_t> last_good_;
 };
 
+/// Ours, for an estimator that works with part of the object: its tracker takes partly visible
+/// ones.
+class PenumbraPartial : public PenumbraPose {
+ public:
+  using PenumbraPose::PenumbraPose;
+  MethodInfo info() const override {
+    return {
+        "penumbra_partial", "Penumbra, partial",
+        "As Penumbra, but estimates are taken until 90 % is hidden (the tracker's worst verdict: "
+        "partial); pixels that are not labelled clear or front are taken from the region."};
+  }
+  PoseAnswer look(const PoseView& view) override {
+    const Verdict verdict = judge(view);
+    const auto& labels = view.sensed.robot.labels.labels;
+    const auto rest = without(view.detection.mask, view.detection.box, [&](int u, int v) {
+      const Label label{labels(u, v)};
+      return label != Label::clear && label != Label::front;
+    });
+    return {estimate(view, rest.view()), verdict};
+  }
+};
+
 }  // namespace
 
 PoseTrackerConfig conveyor_tracker(const Cell& cell) {
@@ -215,8 +272,9 @@ PoseTrackerConfig conveyor_tracker(const Cell& cell) {
   return config;
 }
 
-PoseMethod::PoseMethod(const Cell& cell, const PoseEstimator& estimator)
-    : cell_(&cell), estimator_(&estimator), tracker_(conveyor_tracker(cell)) {}
+PoseMethod::PoseMethod(const Cell& cell, const Perception& perception,
+                       const PoseTrackerConfig& tracker)
+    : cell_(&cell), perception_(perception), tracker_(tracker) {}
 
 Outcome PoseMethod::take(const PoseAnswer& answer) {
   return tracker_.update(*answer.estimate, answer.verdict);
@@ -226,21 +284,27 @@ TrackedPose PoseMethod::at(std::int64_t stamp) const { return tracker_.at(stamp)
 
 std::optional<PoseEstimate> PoseMethod::estimate(const PoseView& view,
                                                  ImageView<const std::uint8_t> mask) const {
-  const auto guess = estimator_->estimate(view.matches, mask);
+  const auto guess = perception_.estimator->estimate(view.matches, mask, perception_.acceptance);
   if (!guess) return std::nullopt;
   return to_base(cell(), view.sensed.stamp, *guess);
 }
 
 std::vector<std::unique_ptr<PoseMethod>> make_pose_methods(const Cell& cell,
-                                                           const PoseEstimator& estimator) {
+                                                           const Perception& perception) {
+  const PoseTrackerConfig tracker = conveyor_tracker(cell);
+  PoseTrackerConfig takes_partial = tracker;
+  takes_partial.worst = Verdict::partial;
   std::vector<std::unique_ptr<PoseMethod>> methods;
-  methods.push_back(std::make_unique<RawPose>(cell, estimator));
-  methods.push_back(std::make_unique<TrackerAlone>(cell, estimator));
-  methods.push_back(std::make_unique<HeightThreshold>(cell, estimator));
-  methods.push_back(std::make_unique<UrdfFilter>(cell, estimator));
-  methods.push_back(std::make_unique<OwnModel>(cell, estimator));
-  methods.push_back(std::make_unique<TwoCameras>(cell, estimator));
-  methods.push_back(std::make_unique<PenumbraPose>(cell, estimator));
+  methods.push_back(std::make_unique<RawPose>(cell, perception, tracker));
+  methods.push_back(std::make_unique<TrackerAlone>(cell, perception, tracker));
+  methods.push_back(std::make_unique<RawHeightThreshold>(cell, perception, tracker));
+  methods.push_back(std::make_unique<HeightThreshold>(cell, perception, tracker));
+  methods.push_back(std::make_unique<RawUrdfFilter>(cell, perception, tracker));
+  methods.push_back(std::make_unique<UrdfFilter>(cell, perception, tracker));
+  methods.push_back(std::make_unique<OwnModel>(cell, perception, tracker));
+  methods.push_back(std::make_unique<TwoCameras>(cell, perception, tracker));
+  methods.push_back(std::make_unique<PenumbraPartial>(cell, perception, takes_partial));
+  methods.push_back(std::make_unique<PenumbraPose>(cell, perception, tracker));
   return methods;
 }
 

@@ -25,13 +25,12 @@ void add_near_ray(const Camera& camera, const Eigen::Isometry3d& T_first_camera,
 
 }  // namespace
 
-std::vector<double> depths_on_ray(const Cell& cell, const Sensed& sensed,
-                                  const Eigen::Vector2d& pixel) {
+std::vector<double> second_depths_on_ray(const Cell& cell, const Sensed& sensed,
+                                         const Eigen::Vector2d& pixel) {
+  const Eigen::Isometry3d T_first_second = cell.T_base_camera.inverse() * cell.T_base_second_camera;
   const Eigen::Vector3d ray = cell.camera.intrinsics.ray(pixel.x(), pixel.y());
   std::vector<double> depths;
-  add_near_ray(cell.camera, Eigen::Isometry3d::Identity(), sensed.depth, ray, depths);
-  add_near_ray(cell.second_camera, cell.T_base_camera.inverse() * cell.T_base_second_camera,
-               sensed.second_depth, ray, depths);
+  add_near_ray(cell.second_camera, T_first_second, sensed.second_depth, ray, depths);
   return depths;
 }
 

@@ -41,8 +41,8 @@ std::string ratio_cell(const std::optional<double>& theirs, const std::optional<
 
 constexpr std::size_t p95_measure = 1;  // in both experiments' measures
 
-std::string swatch(std::size_t method) {
-  const LineStyle style = line_style(method);
+std::string swatch(const MethodInfo& method) {
+  const LineStyle style = line_style(method.key);
   return std::string(
              "<svg class='swatch' viewBox='0 0 28 8'><line x1='0' x2='28' y1='4' y2='4' "
              "stroke-width='3' stroke='") +
@@ -66,7 +66,7 @@ std::string lane_section(const ExperimentResult& result, std::size_t lane) {
   html += "<th>p95 as a multiple of ours</th></tr></thead><tbody>";
   for (std::size_t method = 0; method < rows.size(); ++method) {
     html += method + 1 == rows.size() ? "<tr class='ours'>" : "<tr>";
-    html += "<th>" + swatch(method) + first.methods[method].name + "</th>";
+    html += "<th>" + swatch(first.methods[method]) + first.methods[method].name + "</th>";
     for (std::size_t i = 0; i < measures.size(); ++i) html += cell_of(measures[i], rows[method][i]);
     html += ratio_cell(p95[method].value, p95.back().value) + "</tr>";
   }
@@ -92,7 +92,8 @@ std::string pictures_section(const ExperimentResult& result) {
 std::string methods_section(const SeedRun& run) {
   std::string html = "<h2>What was compared</h2><dl>";
   for (std::size_t i = 0; i < run.methods.size(); ++i)
-    html += "<dt>" + swatch(i) + run.methods[i].name + "</dt><dd>" + run.methods[i].idea + "</dd>";
+    html += "<dt>" + swatch(run.methods[i]) + run.methods[i].name + "</dt><dd>" +
+            run.methods[i].idea + "</dd>";
   return html + "</dl>";
 }
 

@@ -49,7 +49,7 @@ TEST(Experiment, ConveyorFollowsWhatTheArmHides) {
   const Results results = run({.experiment = "conveyor", .end_seed = 2, .output = {}});
   EXPECT_EQ(results.steps, results.total);
   const json metrics = json::parse(results.metrics);
-  for (const char* const lane : {"amodal", "modal"}) {
+  for (const char* const lane : {"amodal", "modal", "amodal_eager", "modal_eager"}) {
     const json& methods = metrics.at("detections").at(lane);
     EXPECT_EQ(value(methods, "penumbra", "wrong_accepted"), 0.0);
     EXPECT_LT(value(methods, "penumbra", "translation_p95_mm"),
@@ -57,6 +57,17 @@ TEST(Experiment, ConveyorFollowsWhatTheArmHides) {
   }
   EXPECT_NE(results.report.find("data:image/webp;base64,"), std::string::npos);
   EXPECT_EQ(results.report.find("http"), std::string::npos) << "the report is one file";
+}
+
+TEST(Experiment, HandoverKeepsTheHandBeforeTheArm) {
+  const Results results = run({.experiment = "handover", .end_seed = 2, .output = {}});
+  EXPECT_EQ(results.steps, results.total);
+  const json lane = json::parse(results.metrics).at("detections").at("keypoint");
+  EXPECT_EQ(value(lane, "penumbra", "on_robot_accepted"), 0.0);
+  EXPECT_GT(value(lane, "raw", "on_robot_accepted"), 0.0);
+  constexpr double few = 10.0, many = 30.0;  // percent
+  EXPECT_LT(value(lane, "penumbra", "refused_before_robot_percent"), few);
+  EXPECT_GT(value(lane, "urdf_filter", "refused_before_robot_percent"), many);
 }
 
 TEST(Experiment, DoesNotDependOnTheNumberOfThreads) {
