@@ -52,7 +52,7 @@ class ConveyorRun {
  public:
   ConveyorRun(std::uint64_t seed, const RunSettings& settings)
       : settings_(settings),
-        simulation_(make_simulation("conveyor", options(seed))),
+        simulation_("conveyor", options(seed)),
         cell_(cell_of(simulation_)),
         watcher_(simulation_),
         estimator_(cell_.camera, simulation_.model_image().view(), cell_.object_size),

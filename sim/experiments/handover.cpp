@@ -35,7 +35,7 @@ class HandoverRun {
  public:
   HandoverRun(std::uint64_t seed, const RunSettings& settings)
       : settings_(settings),
-        simulation_(make_simulation("handover", simulation_options(settings, seed))),
+        simulation_("handover", simulation_options(settings, seed)),
         cell_(cell_of(simulation_)),
         watcher_(simulation_),
         random_(seed) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mutex>
-
 #include <sim/experiments/runs.hpp>
 
 namespace penumbra::sim {
@@ -14,12 +12,6 @@ SimulationOptions simulation_options(const RunSettings& settings, std::uint64_t 
   options.second_camera = true;
   options.duration = settings.duration;
   return options;
-}
-
-Simulation make_simulation(const std::string& scene, const SimulationOptions& options) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  return {scene, options};
 }
 
 Cell cell_of(const Simulation& simulation) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 
 #include <sim/experiments/detector.hpp>
 #include <sim/experiments/results.hpp>
@@ -18,10 +17,6 @@ struct RunHooks {
 };
 
 [[nodiscard]] SimulationOptions simulation_options(const RunSettings& settings, std::uint64_t seed);
-
-/// From any thread: MuJoCo reads one model at a time (mj_loadXML keeps it in a global).
-[[nodiscard]] Simulation make_simulation(const std::string& scene,
-                                         const SimulationOptions& options);
 
 /// What is known of a simulation's cell beforehand.
 [[nodiscard]] Cell cell_of(const Simulation& simulation);
