@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Measures the renderer on this machine and writes it down.
-#   scripts/bench.sh          bench/results/{renderers,scaling,gl-DEVICE}.{json,txt}, then the tables
+#   scripts/bench.sh          bench/results/{renderers,scaling,targets,gl-DEVICE}.{json,txt}, then the tables
 #                             of docs/performance.md and docs/performance-gl.md, and their plots;
 #                             some 15 minutes
 #   scripts/bench.sh --gl     the OpenGL renderer alone, on this machine's device
@@ -23,7 +23,7 @@ esac
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
 targets=(gl_benchmark)
-$only_gl || targets+=(compare_renderers scaling)
+$only_gl || targets+=(compare_renderers scaling target_benchmark)
 cmake --build build/bench --target "${targets[@]}"
 mkdir -p "$results"
 if ! $only_gl; then
@@ -31,6 +31,9 @@ if ! $only_gl; then
     tee "$results/renderers.txt"
   build/bench/bench/scaling --rounds "$rounds" --json "$results/scaling.json" |
     tee "$results/scaling.txt"
+  build/bench/bench/target_benchmark --benchmark_min_time=0.05 \
+    --benchmark_repetitions="$rounds" --benchmark_out="$results/targets.json" \
+    --benchmark_out_format=json 2>&1 | tee "$results/targets.txt"
 fi
 device=$(build/bench/bench/gl_benchmark --name)
 build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |

@@ -72,7 +72,8 @@ struct Judgement {
   std::string_view reason;               ///< one line, a constant, for verdict unknown; else empty
 };
 
-/// Judges targets on labelled images. Holds what verdicts remember, by the targets' names.
+/// Judges targets on labelled images. Holds what verdicts remember, by the targets' names, until
+/// forget().
 /// Allocates nothing per target once its name, and extents of its size, were seen.
 ///
 /// How a pixel of a target is seen. Without an expected depth its label says it: clear, front,

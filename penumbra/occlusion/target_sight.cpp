@@ -10,6 +10,11 @@ double bad_share(const Sight& sight, bool others_hide) {
   return sight.hidden(others_hide) + sight.fraction(Seen::unknown);
 }
 
+bool is_out_of_view(const Sight& sight, const TargetThresholds& thresholds) {
+  return static_cast<double>(sight.inside) <=
+         thresholds.min_inside * static_cast<double>(sight.covered);
+}
+
 Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
   if (hidden > (level == Verdict::hidden ? t.hidden_leave : t.hidden_enter)) return Verdict::hidden;
   if (hidden > (level == Verdict::visible ? t.partial_enter : t.partial_leave))
@@ -68,6 +73,7 @@ Sight Sights::look(const Look& at, const TargetMemory& memory) {
 
 Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight& now) {
   near_robot_ = lies_near_robot(at.frame, seen_.spans(), at.reach);
+  if (is_out_of_view(now, at.target.thresholds)) return now;
   if (memory.extent.empty()) {
     Sight first = now;
     first.first_near_robot = near_robot_;
@@ -75,13 +81,14 @@ Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight
   }
   const std::optional<Eigen::Vector2d>& motion = at.target.motion;
   last_.fill_moved(memory.extent, memory.moved + motion.value_or(Eigen::Vector2d::Zero()));
-  const std::size_t whole = motion ? last_.inside() : memory.extent_pixels;
+  const bool is_recent = at.number - memory.extent_frame <= TargetJudge::extent_frames;
+  const bool has_place = last_.inside() > 0 && (motion || is_recent);
+  const std::size_t whole = motion && has_place ? last_.inside() : memory.extent_pixels;
   const auto least = (1 - at.target.thresholds.partial_enter) * static_cast<double>(whole);
   if (static_cast<double>(now.inside) >= least) return now;
 
   const std::size_t missing = near_robot_ ? whole - now.inside : 0;
-  const bool known_place = motion || at.number - memory.extent_frame <= TargetJudge::extent_frames;
-  if (known_place && last_.inside() > 0) {
+  if (has_place) {
     const Sight last = look_last(at, missing);
     const bool others_hide = at.target.thresholds.others_hide;
     return bad_share(last, others_hide) >= bad_share(now, others_hide) ? last : now;
@@ -119,9 +126,7 @@ void Sights::remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_
 }
 
 Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMemory& memory) {
-  if (static_cast<double>(sight.inside) <=
-      thresholds.min_inside * static_cast<double>(sight.covered))
-    return Verdict::out_of_view;
+  if (is_out_of_view(sight, thresholds)) return Verdict::out_of_view;
   if (!sight.has_pose) return Verdict::unknown;
   const double hidden = sight.hidden(thresholds.others_hide);
   const double unknown = sight.first_near_robot ? 1 - hidden : sight.fraction(Seen::unknown);

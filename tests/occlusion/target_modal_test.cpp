@@ -131,6 +131,28 @@ TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
   EXPECT_NEAR(half.clear, 0.5, share_rounding);
 }
 
+TEST_F(ModalTargets, ThatLeaveTheImageAreOutOfView) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  TargetFrame frame;
+  TargetView target = box_target("cup", {-50, 40, 40, 20}, Extent::modal);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
+  target.motion = Eigen::Vector2d(-70, 0);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
+  target.region = PixelBox{-32, 40, 40, 20};
+  target.motion = Eigen::Vector2d(-52, 0);
+  target.thresholds.min_inside = 0.3;
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
+}
+
+TEST_F(ModalTargets, BesideTheRobotAreUnknownWhereTheyWereNotExpected) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  // Said to have left the image, yet a small part of it is seen beside the robot.
+  EXPECT_EQ(see(95, 100, -500.0).verdict, Verdict::unknown);
+}
+
 TEST_F(ModalTargets, AreForgottenOnRequest) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
   judge.forget("cup");
