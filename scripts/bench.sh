@@ -32,8 +32,10 @@ if ! $only_gl; then
   build/bench/bench/scaling --rounds "$rounds" --json "$results/scaling.json" |
     tee "$results/scaling.txt"
   build/bench/bench/target_benchmark --benchmark_min_time=0.05 \
-    --benchmark_repetitions="$rounds" --benchmark_out="$results/targets.json" \
-    --benchmark_out_format=json 2>&1 | tee "$results/targets.txt"
+    --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
+    --benchmark_out="$results/targets.json" --benchmark_out_format=json |
+    tee "$results/targets.txt"
+  sed -i '/"host_name"\|"executable"/d' "$results/targets.json"
 fi
 device=$(build/bench/bench/gl_benchmark --name)
 build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |

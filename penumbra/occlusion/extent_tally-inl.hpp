@@ -50,18 +50,33 @@ class Measured {
   Measured(ImageView<const T> image, const labelling::Rule& rule)
       : image_(image), range_(std::is_same_v<T, float> ? rule.metres : rule.millimetres) {}
 
-  struct Row {
-    const T* depth;
-    labelling::MeasuredRange range;
+  class Row {
+   public:
+    Row(const T* row, labelling::MeasuredRange in_range) : depth_(row), range_(in_range) {}
 
     [[nodiscard]] float operator[](int u) const {
-      float d;
-      if constexpr (std::is_same_v<T, float>)
-        d = depth[u];
-      else
-        d = static_cast<float>(depth[u]) * labelling::metres_per_millimetre;
-      return range.near <= d && d <= range.far ? d : 0.0f;
+      const float d = metres(u);
+      return is_measurement(d) ? d : 0.0f;
     }
+    /// Whether there is a measurement before a depth; without branches, for loops of vectors.
+    [[nodiscard]] bool is_before(int u, float limit) const {
+      const float d = metres(u);
+      return is_measurement(d) & (d < limit);
+    }
+
+   private:
+    [[nodiscard]] bool is_measurement(float d) const {
+      return (range_.near <= d) & (d <= range_.far);
+    }
+    [[nodiscard]] float metres(int u) const {
+      if constexpr (std::is_same_v<T, float>)
+        return depth_[u];
+      else
+        return static_cast<float>(depth_[u]) * labelling::metres_per_millimetre;
+    }
+
+    const T* depth_;
+    labelling::MeasuredRange range_;
   };
   [[nodiscard]] Row row(int v) const { return {image_.row(v), range_}; }
 

@@ -121,11 +121,9 @@ class DepthTally {
   void add_clear(int v, int u0, int u1) {
     const auto limits = limits_(v);
     const auto measured = measured_(v);
-    std::size_t before = 0;
-    for (int u = u0; u < u1; ++u) {
-      const float d = measured[u];
-      before += d > 0.0f && d < limits(u).near ? 1 : 0;
-    }
+    std::int32_t count = 0;  // as wide as a depth: so the compiler takes vectors
+    for (int u = u0; u < u1; ++u) count += measured.is_before(u, limits(u).near) ? 1 : 0;
+    const auto before = static_cast<std::size_t>(count);
     tally_.pixels[Seen::other] += before;
     tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0) - before;
   }
@@ -135,12 +133,30 @@ class DepthTally {
     const auto measured = measured_(v);
     const std::uint8_t* const labels = images_.labels.labels.row(v);
     const float* const robot = images_.virtual_depth.depth.row(v);
-    const ImageView<const std::uint16_t>& links = images_.virtual_depth.links;
+    const bool has_links = !images_.virtual_depth.links.empty();
+    const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
+    Run run;  // of pixels seen alike: counting them one by one in memory costs more
     for (int u = u0; u < u1; ++u) {
       const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], limits(u), beyond_hides_);
-      ++tally_.pixels[seen];
-      if (seen == Seen::occluded && !links.empty()) tally_.links.add(links(u, v), 1);
+      const std::uint16_t link = seen == Seen::occluded && has_links ? links[u] : 0;
+      if (seen != run.seen || link != run.link) {
+        add(run);
+        run = {seen, link, 0};
+      }
+      ++run.pixels;
     }
+    add(run);
+  }
+
+  struct Run {
+    Seen seen = Seen::clear;
+    std::uint16_t link = 0;  // of a link image
+    std::size_t pixels = 0;
+  };
+
+  void add(const Run& run) {
+    tally_.pixels[run.seen] += run.pixels;
+    if (run.pixels > 0) tally_.links.add(run.link, run.pixels);
   }
 
   const JudgedImages& images_;
@@ -152,6 +168,7 @@ class DepthTally {
 
 struct NoDepths {
   float operator[](int /*u*/) const { return 0.0f; }
+  [[nodiscard]] bool is_before(int /*u*/, float /*limit*/) const { return false; }
 };
 
 template <typename Limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -42,10 +42,11 @@ struct EllipseRows {
 }  // namespace
 
 int first_set(const std::uint8_t* p, int count) {
+  constexpr int step = 32;
   int i = 0;
-  for (std::uint64_t word = 0; i + 8 <= count; i += 8) {
-    std::memcpy(&word, p + i, sizeof word);
-    if (word != 0) break;
+  for (std::array<std::uint64_t, step / 8> words; i + step <= count; i += step) {
+    std::memcpy(words.data(), p + i, step);
+    if ((words[0] | words[1] | words[2] | words[3]) != 0) break;
   }
   while (i < count && p[i] == 0) ++i;
   return i;

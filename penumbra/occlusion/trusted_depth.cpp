@@ -30,7 +30,7 @@ std::int32_t least_above(FloatBits values, std::int32_t limit) {
 /// The value that `rank` values of `values` precede in order. Counts, which are cheap, leave few of
 /// them, which are put in order. `scratch` has their size.
 std::int32_t value_at(FloatBits values, std::size_t rank, std::span<std::int32_t> scratch) {
-  constexpr std::size_t few = 32, share = 16;
+  constexpr std::size_t few = 32, share = 6;
   std::int32_t low = values[0], high = values[0];
   for (const std::int32_t value : values) {
     low = std::min(low, value);
@@ -38,7 +38,8 @@ std::int32_t value_at(FloatBits values, std::size_t rank, std::span<std::int32_t
   }
   std::size_t below = 0, upto = values.size();  // how many are < low, and <= high
   while (low < high && upto - below > few + values.size() / share) {
-    const std::int32_t middle = low + (high - low) / 2;
+    const float between = 0.5f * (std::bit_cast<float>(low) + std::bit_cast<float>(high));
+    const std::int32_t middle = std::min(std::bit_cast<std::int32_t>(between), high - 1);
     const std::size_t count = count_up_to(values, middle);
     if (count > rank)
       high = middle, upto = count;
@@ -159,13 +160,16 @@ class Gatherer {
   template <typename Row, typename Limits>
   int take_run(int u, int end, const Row& row, const Limits& limits,
                RobotSurroundings::Depths of_robot) {
+    std::size_t count = count_;
+    std::int32_t* const out = out_;
     for (; u < end; ++u) {
       const float d = row[u];
       const DepthLimits within = limits(u);
-      out_[count_] = std::bit_cast<std::int32_t>(d);
-      count_ += static_cast<std::size_t>((d > 0.0f) & !of_robot.hold(d) & (within.near <= d) &
-                                         (d <= within.far));
+      out[count] = std::bit_cast<std::int32_t>(d);
+      count += static_cast<std::size_t>((d > 0.0f) & !of_robot.hold(d) & (within.near <= d) &
+                                        (d <= within.far));
     }
+    count_ = count;
     return end;
   }
 
