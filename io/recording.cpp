@@ -145,15 +145,16 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
   const std::filesystem::path folder = file.parent_path();
   const YamlNode root = YamlNode::read(file);
   root.allow_only({"robot", "camera", "frames", "targets"});
-  if (const YamlNode* targets = root.find("targets"))
-    targets->fail("targets are not supported yet; remove the key");
   const YamlNode& robot = root.at("robot");
   robot.allow_only({"urdf", "packages", "geometry", "ignore_links", "only_links", "margins"});
+  std::optional<std::filesystem::path> targets;
+  if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
   return {.file = file,
           .urdf = file_of(robot.at("urdf"), folder),
           .robot = robot_options_of(robot, folder),
           .camera = camera_of(root.at("camera"), folder),
-          .frames = frames_of(root.at("frames"), folder)};
+          .frames = frames_of(root.at("frames"), folder),
+          .targets = targets};
 }
 
 PipelineConfig Recording::pipeline_config() const {

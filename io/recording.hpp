@@ -47,6 +47,7 @@ struct Recording {
   RobotOptions robot;
   RecordingCamera camera;
   RecordingFrames frames;
+  std::optional<std::filesystem::path> targets = {};  ///< the targets.yaml
 
   /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. Throws
   /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or

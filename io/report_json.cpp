@@ -8,6 +8,7 @@
 #include <io/disk_file.hpp>
 #include <io/json-inl.hpp>
 #include <io/report_json.hpp>
+#include <io/target_json-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -60,6 +61,8 @@ Json settings_json(const UsedSettings& used) {
           {"beyond_factor", rule.beyond_factor},
           {"labels", used.paper_labels ? "paper" : "full"},
           {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
+          {"targets", or_null(used.targets)},
+          {"target_history_s", used.target_history},
           {"range", {finite(rule.range.near), finite(rule.range.far)}},
           {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
           {"geometry", geometry_json(used.robot)},
@@ -80,6 +83,9 @@ Json frame_json(const FrameReport& report) {
   for (const Stage& stage : stages) timing[stage.name] = or_null(report.timing.*stage.time);
   const Json age =
       report.joint_age ? Json(static_cast<double>(*report.joint_age) / ns_per_ms) : Json(nullptr);
+  Json targets = Json::array();
+  for (const TargetReport& target : report.targets)
+    targets.push_back(target_json(target, report.links));
   return {{"index", report.index},
           {"stamp_ns", or_null(report.stamp)},
           {"joint_age_ms", age},
@@ -87,7 +93,7 @@ Json frame_json(const FrameReport& report) {
           {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
           {"pixels", pixels_json(report.pixels)},
           {"timing_ms", std::move(timing)},
-          {"targets", Json::array()}};
+          {"targets", std::move(targets)}};
 }
 
 Json faults_json(const Statistics& statistics) {
@@ -112,13 +118,13 @@ Json summary_json(const Statistics& statistics, const Json& missing_links, const
     timing[stages[i].name] =
         q ? Json{{"median", q->median}, {"p99", q->p99}, {"max", q->max}} : Json(nullptr);
   }
-  return {{"frames", statistics.frames()},
-          {"bad_frames", statistics.bad_frames()},
-          {"timing_ms", std::move(timing)},
-          {"pixels", pixels_json(statistics.pixels())},
-          {"faults", faults_json(statistics)},
-          {"missing_links", missing_links},
-          {"notes", notes}};
+  Json targets = Json::array();
+  for (const TargetStatistics& target : statistics.targets())
+    targets.push_back(target_summary_json(target));
+  return {{"frames", statistics.frames()},     {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},    {"pixels", pixels_json(statistics.pixels())},
+          {"faults", faults_json(statistics)}, {"targets", std::move(targets)},
+          {"missing_links", missing_links},    {"notes", notes}};
 }
 
 Json link_json(const LinkReport& link) {

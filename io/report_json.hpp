@@ -33,6 +33,8 @@ struct UsedSettings {
   BeyondMeans beyond = BeyondMeans::occluded;
   ImageSpace image = ImageSpace::raw;
   RobotOptions robot;
+  std::string targets = {};     ///< the targets' file; empty: none
+  double target_history = 0.0;  ///< PipelineConfig's, seconds
 };
 
 /// What a report says before its frames.

@@ -252,7 +252,7 @@ void add_robot(CLI::App& app, RobotOptions& options) {
 
 /// Options of versions to come are told apart from mistyped ones; --help does not show them.
 void add_unbuilt(CLI::App& app) {
-  for (const char* const name : {"--targets", "--report", "--time-offset"})
+  for (const char* const name : {"--report", "--time-offset"})
     app.add_option_function<std::vector<std::string>>(
            name,
            [name](const std::vector<std::string>&) {
@@ -285,6 +285,10 @@ void check_gl_labels(const RunArguments& run) {
     throw InputError(
         "--gl-labels: vdi and links stay on the OpenGL device; --save labels and "
         "overlay, or leave --gl-labels out");
+  if (run.targets)
+    throw InputError(
+        "--gl-labels: targets cannot be judged on labels that are made on the device; "
+        "leave --gl-labels or --targets out");
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
@@ -312,6 +316,11 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.frames = to_range(text); });
   add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
              [&](const std::string& text) { run.saves = to_saves(text); });
+  add_option(app, "--targets", "which targets to judge; default: the recording's, if any", "YAML",
+             [&](const std::string& text) {
+               if (text.empty()) refuse("--targets", text, "a path");
+               run.targets = text;
+             });
   app.add_flag(
       "--gl-labels", run.gl_labels,
       "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay");

@@ -47,7 +47,8 @@ struct RunArguments {
   ImageSpace image = ImageSpace::raw;
   FrameRange frames;
   Saves saves;
-  bool gl_labels = false;  ///< PipelineConfig::labels_on_device
+  std::optional<std::filesystem::path> targets;  ///< in place of the recording's
+  bool gl_labels = false;                        ///< PipelineConfig::labels_on_device
 };
 
 struct RenderArguments {

@@ -9,6 +9,7 @@
 #include <io/npy.hpp>
 #include <io/overlay.hpp>
 #include <io/png.hpp>
+#include <io/target_overlay.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -51,7 +52,8 @@ OutputFolder::OutputFolder(const fs::path& folder, const Saves& saves,
     if (wanted) make_folder(folder / kind);
 }
 
-void OutputFolder::save(const FrameReport& report, const io::FrameData& frame) {
+void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
+                        const ShownTargets& targets) {
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
   if (saves_.vdi && !virtual_depth.depth.empty())
@@ -59,7 +61,7 @@ void OutputFolder::save(const FrameReport& report, const io::FrameData& frame) {
   if (saves_.links && !virtual_depth.links.empty())
     io::write_png(file("links", index, ".png"), virtual_depth.links);
   if (saves_.labels) io::write_png(file("labels", index, ".png"), report.labels);
-  if (saves_.overlay) save_overlay(report, frame);
+  if (saves_.overlay) save_overlay(report, frame, targets);
 }
 
 fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {
@@ -68,7 +70,8 @@ fs::path OutputFolder::file(const char* kind, std::size_t index, const char* end
   return folder_ / kind / (digits + ending);
 }
 
-void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& frame) {
+void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& frame,
+                                const ShownTargets& targets) {
   io::OverlayInput input;
   input.labels = labels_of(report);
   input.index = static_cast<std::int64_t>(report.index);
@@ -81,6 +84,7 @@ void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& 
     std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); }, frame.depth);
   }
   io::draw_overlay(input, overlay_);
+  io::draw_targets(targets.targets, report, targets.robot, targets.camera, overlay_);
   io::write_png(file("overlay", report.index, ".png"), std::as_const(overlay_).view());
 }
 

@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/robot/robot.hpp>
 
 #include <apps/penumbra/arguments.hpp>
 #include <io/frame_reader.hpp>
@@ -15,6 +18,13 @@ namespace penumbra::app {
 
 /// Digits of a frame's index in file names, at least.
 inline constexpr std::size_t frame_digits = 6;
+
+/// What overlays need to show a frame's targets.
+struct ShownTargets {
+  std::span<const Target> targets;
+  const Robot& robot;
+  const Camera& camera;  ///< of the report's images
+};
 
 /// Where `run` writes. Files are named by the frame's index: vdi/000000.npy, labels/000000.png.
 class OutputFolder {
@@ -29,12 +39,13 @@ class OutputFolder {
 
   /// Writes the frame's images. Where the robot's pose is unknown there is no VDI and no link
   /// image, and all labels are unknown. Throws InputError where writing fails.
-  void save(const FrameReport& report, const io::FrameData& frame);
+  void save(const FrameReport& report, const io::FrameData& frame, const ShownTargets& targets);
 
  private:
   [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
                                            const char* ending) const;
-  void save_overlay(const FrameReport& report, const io::FrameData& frame);
+  void save_overlay(const FrameReport& report, const io::FrameData& frame,
+                    const ShownTargets& targets);
 
   template <typename T>
   ImageView<const T> seen(const Image<T>& raw, Image<T>& rectified);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,9 +23,12 @@
 #include <io/names.hpp>
 #include <io/recording.hpp>
 #include <io/report_json.hpp>
+#include <io/targets_file.hpp>
 
 namespace penumbra::app {
 namespace {
+
+constexpr std::size_t most_targets = 20;  // that are told of by a line each
 
 io::Recording open_recording(const RunArguments& arguments) {
   if (arguments.input.extension() == ".mcap")
@@ -59,7 +65,34 @@ LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
   return rule;
 }
 
-Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recording, Robot robot) {
+/// The camera whose images the report is of.
+Camera camera_of_report(const RunArguments& arguments, const Camera& camera) {
+  if (arguments.image == ImageSpace::raw || camera.distortion.is_none()) return camera;
+  return {.intrinsics = Rectification(camera).pinhole(),
+          .distortion = {},
+          .range = camera.range,
+          .frame_id = camera.frame_id};
+}
+
+/// Targets of the command line before those of the recording; nothing: none.
+std::optional<io::TargetsFile> open_targets(const RunArguments& arguments,
+                                            const io::Recording& recording, const Robot& robot,
+                                            const Camera& camera) {
+  const auto& file = arguments.targets ? arguments.targets : recording.targets;
+  if (!file) return std::nullopt;
+  if (arguments.gl_labels)
+    throw InputError(file->string() +
+                     ": targets cannot be judged with --gl-labels; leave that out");
+  return io::TargetsFile::open(
+      *file, {.robot = robot,
+              .image = arguments.image,
+              .images = camera.intrinsics,
+              .is_bent = !recording.camera.camera.distortion.is_none(),
+              .beyond_hides = recording.camera.beyond != io::BeyondMeans::visible});
+}
+
+Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recording, Robot robot,
+                       double target_history) {
   const io::RecordingCamera& camera = recording.camera;
   if (!robot.find_link(camera.parent)) {
     const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
@@ -72,16 +105,20 @@ Pipeline make_pipeline(const RunArguments& arguments, const io::Recording& recor
   config.labels_on_device = arguments.gl_labels;
   config.rule = rule_of(arguments, config.rule);
   config.image = arguments.image;
+  config.target_history = target_history;
   return app::make_pipeline(std::move(robot), camera.camera, config, camera.info);
 }
 
 io::UsedSettings settings_of(const RunArguments& arguments, const io::Recording& recording,
-                             const Pipeline& pipeline) {
+                             const Pipeline& pipeline,
+                             const std::optional<io::TargetsFile>& targets) {
   return {.rule = pipeline.rule(),
           .paper_labels = arguments.paper_labels,
           .beyond = recording.camera.beyond.value_or(io::BeyondMeans::occluded),
           .image = arguments.image,
-          .robot = recording.robot};
+          .robot = recording.robot,
+          .targets = targets ? targets->file().string() : std::string(),
+          .target_history = targets ? targets->history() : 0.0};
 }
 
 /// Which of the reader's frames are wanted; the range must lie inside the recording.
@@ -158,6 +195,14 @@ void tell_faults(const Statistics& statistics, const ColorFaults& color) {
     std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
               << ", first in frame " << fault.reasons.front().first << ": "
               << fault.reasons.front().message << more_reasons(fault) << '\n';
+  std::size_t told = 0;
+  for (const TargetStatistics& target : statistics.targets())
+    if (target.frames(Verdict::unknown) > 0 && ++told <= most_targets)
+      std::cerr << "penumbra: target '" << target.name << "' unknown in "
+                << frames(target.frames(Verdict::unknown)) << ", first in frame "
+                << target.first_unknown << ": " << target.reason << '\n';
+  if (told > most_targets)
+    std::cerr << "penumbra: " << told - most_targets << " more targets unknown in some frames\n";
   if (color.frames > 0)
     std::cerr << "penumbra: no colour in the overlay of " << frames(color.frames)
               << ", first: " << color.first << '\n';
@@ -169,6 +214,19 @@ std::string percent(std::size_t part, std::size_t whole) {
              : fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
 }
 
+/// A line for each target; of very many, for the first.
+void tell_targets(const Statistics& statistics) {
+  const auto& targets = statistics.targets();
+  for (const TargetStatistics& target :
+       std::span(targets).first(std::min(most_targets, targets.size())))
+    std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
+              << " frames visible, " << target.frames(Verdict::partial) << " partial, "
+              << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
+              << " unknown, " << target.frames(Verdict::out_of_view) << " out of view\n";
+  if (targets.size() > most_targets)
+    std::cout << "and " << targets.size() - most_targets << " more targets, see the report\n";
+}
+
 void tell_summary(const Statistics& statistics, const std::filesystem::path& report) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
@@ -176,6 +234,7 @@ void tell_summary(const Statistics& statistics, const std::filesystem::path& rep
             << " robot pixels " << percent(pixels.front, robot) << " front, "
             << percent(pixels.occluded, robot) << " occluded, " << percent(pixels.beyond, robot)
             << " beyond\n";
+  tell_targets(statistics);
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (const auto q = statistics.timing(i))
       std::cout << stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
@@ -193,7 +252,10 @@ int execute(const RunArguments& arguments) {
   tell_notes(robot.notes());
   const io::FrameReader reader(recording, robot);
   const std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
-  Pipeline pipeline = make_pipeline(arguments, recording, std::move(robot));
+  const Camera camera = camera_of_report(arguments, recording.camera.camera);
+  auto targets = open_targets(arguments, recording, robot, camera);
+  Pipeline pipeline =
+      make_pipeline(arguments, recording, std::move(robot), targets ? targets->history() : 0.0);
   tell_choice(pipeline.renderer_choice());
   const std::vector<std::string> notes = notes_of(pipeline);
 
@@ -201,7 +263,7 @@ int execute(const RunArguments& arguments) {
   io::ReportWriter writer(
       output.report_file(),
       {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
-       settings_of(arguments, recording, pipeline), pipeline.robot().links(),
+       settings_of(arguments, recording, pipeline, targets), pipeline.robot().links(),
        pipeline.missing_links(), notes});
   Statistics statistics;
   SequenceNotes doubts(pipeline.robot());
@@ -211,12 +273,14 @@ int execute(const RunArguments& arguments) {
     io::FrameData data;
     for (const std::size_t i : selected) {
       reader.read(i, arguments.saves.overlay, data);
-      const FrameReport& report = judge(pipeline, frame_of(data), statistics);
+      Frame frame = frame_of(data);
+      if (targets) frame.targets = targets->of_frame(data.index);
+      const FrameReport& report = judge(pipeline, frame, statistics);
       statistics.add(report);
       doubts.add(report, data.positions);
       color.add(data.color_message);
       writer.add(report);
-      output.save(report, data);
+      output.save(report, data, {frame.targets, pipeline.robot(), camera});
       progress.step();
     }
   }

@@ -65,6 +65,7 @@ frames:
   joints: joint_states.csv       # header: frame,stamp,JOINT,...; nanoseconds, radians, metres
   depth: depth/%d.png            # 16-bit, millimetres, 0 = no measurement
   color: color/%d.png
+targets: targets.yaml
 )";
 
 void write_frame(const std::filesystem::path& folder, const Arm& arm, const View& view, int frame) {

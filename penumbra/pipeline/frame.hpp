@@ -9,8 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/pipeline/target.hpp>
 #include <penumbra/robot/joint_buffer.hpp>
 
 namespace penumbra {
@@ -54,6 +57,7 @@ struct Frame {
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
   DepthView depth = {};                    ///< of the camera's size; empty: missing_depth
   JointInput joints = {};
+  std::span<const Target> targets = {};
 
   /// What the frame's source knows to be wrong with it, and one line that says so. What the
   /// pipeline finds on its own is added.
@@ -80,7 +84,7 @@ struct StageTimes {
   std::optional<double> kinematics;
   std::optional<double> render;  ///< and mapping to the raw image
   std::optional<double> classify;
-  std::optional<double> targets;
+  std::optional<double> targets;  ///< and keeping the frame for late ones
 };
 
 /// What the pipeline says of one frame. Views are valid until the next call of the pipeline.
@@ -93,12 +97,18 @@ struct FrameReport {
   PixelCounts pixels;
   StageTimes timing;
 
+  /// Where the camera and each link were; nothing and empty where the robot's pose is unknown.
+  std::optional<Eigen::Isometry3d> T_root_camera;
+  std::span<const Eigen::Isometry3d> T_root_link;
+
   /// Of this frame; all views empty where the robot's pose is unknown or labels are made on the
   /// device (PipelineConfig::labels_on_device).
   VirtualDepthView virtual_depth;
 
   /// Label values; all `unknown` where the robot's pose is unknown.
   ImageView<const std::uint8_t> labels;
+
+  std::span<const TargetReport> targets;  ///< one for each of the frame's, in their order
 
   std::span<const std::string> links;          ///< names: links[i] stands as i + 1 in link images
   std::span<const std::string> missing_links;  ///< links drawn without (all of) their geometry

@@ -28,6 +28,8 @@ class LinkPoses {
   std::optional<std::size_t> update(std::span<const double> positions);
 
   [[nodiscard]] std::span<const Eigen::Isometry3d> T_camera_link() const { return T_camera_link_; }
+  [[nodiscard]] std::span<const Eigen::Isometry3d> T_root_link() const { return T_root_link_; }
+  [[nodiscard]] const Eigen::Isometry3d& T_root_camera() const { return T_root_camera_; }
 
  private:
   const Robot& robot_;
@@ -35,6 +37,7 @@ class LinkPoses {
   Eigen::Isometry3d T_camera_parent_;
   std::vector<Eigen::Isometry3d> T_root_link_;
   std::vector<Eigen::Isometry3d> T_camera_link_;
+  Eigen::Isometry3d T_root_camera_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace penumbra

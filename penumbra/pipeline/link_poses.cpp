@@ -3,22 +3,12 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/link_poses-inl.hpp>
+#include <penumbra/pipeline/rigid-inl.hpp>
 
 namespace penumbra {
 namespace {
 
-constexpr double rotation_error = 1e-4;  // of any element of R^T R, as for rotations in files
-
-void check_rigid(const Eigen::Isometry3d& T) {
-  const Eigen::Matrix3d R = T.linear();
-  const Eigen::Matrix3d error = R.transpose() * R - Eigen::Matrix3d::Identity();
-  if (T.matrix().allFinite() && error.cwiseAbs().maxCoeff() <= rotation_error &&
-      R.determinant() > 0.0)
-    return;
-  throw InputError(
-      "camera pose is no rigid transform: a rotation (orthonormal, determinant 1) and a finite "
-      "translation in metres are needed");
-}
+constexpr double rotation_error = 1e-4;  // of any element of R^T R
 
 std::size_t find_parent(const Robot& robot, const std::string& name) {
   if (name.empty()) return 0;
@@ -31,18 +21,29 @@ std::size_t find_parent(const Robot& robot, const std::string& name) {
 
 }  // namespace
 
+bool is_rigid(const Eigen::Isometry3d& T) {
+  const Eigen::Matrix3d R = T.linear();
+  const Eigen::Matrix3d error = R.transpose() * R - Eigen::Matrix3d::Identity();
+  return T.matrix().allFinite() && error.cwiseAbs().maxCoeff() <= rotation_error &&
+         R.determinant() > 0.0;
+}
+
 LinkPoses::LinkPoses(const Robot& robot, const PipelineConfig& config)
     : robot_(robot),
       parent_(find_parent(robot, config.camera_parent)),
       T_root_link_(robot.links().size()),
       T_camera_link_(robot.links().size()) {
-  check_rigid(config.T_parent_camera);
+  if (!is_rigid(config.T_parent_camera))
+    throw InputError(
+        "camera pose is no rigid transform: a rotation (orthonormal, determinant 1) and a finite "
+        "translation in metres are needed");
   T_camera_parent_ = config.T_parent_camera.inverse();
 }
 
 std::optional<std::size_t> LinkPoses::update(std::span<const double> positions) {
   robot_.forward_kinematics(positions, T_root_link_);
   const Eigen::Isometry3d T_camera_root = T_camera_parent_ * T_root_link_[parent_].inverse();
+  T_root_camera_ = T_camera_root.inverse();
   for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
     T_camera_link_[i] = T_camera_root * T_root_link_[i];
     const bool near = T_camera_link_[i].translation().cwiseAbs().maxCoeff() <= max_distance &&

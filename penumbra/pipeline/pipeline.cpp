@@ -12,6 +12,7 @@
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/link_poses-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/target_stage-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -90,11 +91,19 @@ std::unique_ptr<GlLabeller> labeller_of(const Camera& camera, const PipelineConf
                                       config.renderer);
 }
 
+Camera pinhole(const Camera& camera, const Intrinsics& intrinsics) {
+  return {.intrinsics = intrinsics,
+          .distortion = {},
+          .range = camera.range,
+          .frame_id = camera.frame_id};
+}
+
 }  // namespace
 
 struct Pipeline::State {
   State(Robot robot_, const Camera& camera_, const PipelineConfig& config);
 
+  [[nodiscard]] TargetStage::Setup target_setup(const PipelineConfig& config) const;
   void begin(const Frame& frame);
   std::optional<std::span<const Eigen::Isometry3d>> pose_links(std::span<const double> positions);
   void refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link);
@@ -104,9 +113,11 @@ struct Pipeline::State {
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
   [[nodiscard]] std::size_t uncovered() const { return raw_images ? raw_images->uncovered() : 0; }
-  const FrameReport& without_pose(FrameStatus status);
-  const FrameReport& finish(FrameStatus status, const VirtualDepthView& virtual_depth,
-                            const LabelView& labels);
+  void label(const Frame& frame);
+  void without_pose(FrameStatus status);
+  void finish(FrameStatus status, const VirtualDepthView& virtual_depth, const LabelView& labels);
+  void judge_targets(std::span<const Target> given);
+  [[nodiscard]] JudgedFrame judged_frame() const;
 
   Robot robot;
   Camera camera;
@@ -124,6 +135,10 @@ struct Pipeline::State {
   Classifier classifier;
   std::vector<std::uint8_t> unknown_row;    // stands for every row of an image (stride 0)
   std::vector<std::uint16_t> no_depth_row;  // likewise
+  Camera judged_camera;                     // of the report's images
+  TargetStage targets;
+  DepthView seen;    // of this frame, as it was compared
+  LabelView labels;  // likewise
   std::size_t calls = 0;
   FrameReport report;
 };
@@ -144,7 +159,9 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
       unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
                   static_cast<std::uint8_t>(Label::unknown)),
-      no_depth_row(unknown_row.size()) {
+      no_depth_row(unknown_row.size()),
+      judged_camera(config.image == ImageSpace::raw ? camera : pinhole(camera, output_intrinsics)),
+      targets(target_setup(config)) {
   if (rectification && config.image == ImageSpace::raw) raw_images.emplace(*rectification);
   if (rectification && config.image == ImageSpace::rectified)
     rectified_depth.emplace(*rectification);
@@ -177,17 +194,25 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
   s.begin(frame);
-  const FrameStatus status = s.check(frame, s.report.message);
-  if (!has_pose(status)) return s.without_pose(status);
+  s.label(frame);
+  s.judge_targets(frame.targets);
+  return s.report;
+}
 
-  const auto T_camera_link = s.pose_links(frame.joints.positions);
-  if (!T_camera_link) return s.without_pose(FrameStatus::missing_joints);
+void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }
+void Pipeline::forget_targets() { state_->targets.forget_all(); }
+
+void Pipeline::State::label(const Frame& frame) {
+  const FrameStatus status = check(frame, report.message);
+  if (!has_pose(status)) return without_pose(status);
+
+  const auto T_camera_link = pose_links(frame.joints.positions);
+  if (!T_camera_link) return without_pose(FrameStatus::missing_joints);
 
   const DepthView measured = has_depth(status) ? frame.depth : DepthView{};
-  if (s.labeller) return s.finish(status, {}, s.label_on_device(*T_camera_link, measured));
-  const VirtualDepthView virtual_depth = s.render(*T_camera_link);
-  const LabelView labels = s.classify(virtual_depth, measured);
-  return s.finish(status, virtual_depth, labels);
+  if (labeller) return finish(status, {}, label_on_device(*T_camera_link, measured));
+  const VirtualDepthView virtual_depth = render(*T_camera_link);
+  finish(status, virtual_depth, classify(virtual_depth, measured));
 }
 
 void Pipeline::State::begin(const Frame& frame) {
@@ -199,6 +224,9 @@ void Pipeline::State::begin(const Frame& frame) {
   report.timing = {};
   report.virtual_depth = {};
   report.labels = {};
+  report.targets = {};
+  report.T_root_camera.reset();
+  report.T_root_link = {};
 }
 
 std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(
@@ -239,8 +267,9 @@ LabelView Pipeline::State::label_on_device(std::span<const Eigen::Isometry3d> T_
 LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,
                                     const DepthView& measured) {
   const StageTimer timer(report.timing.classify);
-  const LabelView labels = classifier.classify(virtual_depth, seen_depth(measured));
-  return raw_images ? raw_images->labels(labels) : labels;
+  seen = seen_depth(measured);
+  const LabelView made = classifier.classify(virtual_depth, seen);
+  return raw_images ? raw_images->labels(made) : made;
 }
 
 DepthView Pipeline::State::seen_depth(const DepthView& measured) {
@@ -251,19 +280,17 @@ DepthView Pipeline::State::seen_depth(const DepthView& measured) {
   return measured;
 }
 
-const FrameReport& Pipeline::State::without_pose(FrameStatus status) {
+void Pipeline::State::without_pose(FrameStatus status) {
   report.status = status;
   report.labels = {unknown_row.data(), output_intrinsics.width(), output_intrinsics.height(), 0};
   report.pixels.uncovered = uncovered();
   report.pixels.unknown =
       unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height()) - uncovered();
-  return report;
 }
 
-const FrameReport& Pipeline::State::finish(FrameStatus status,
-                                           const VirtualDepthView& virtual_depth,
-                                           const LabelView& labels) {
-  const auto count = [&](Label label) { return labels.pixels[static_cast<std::size_t>(label)]; };
+void Pipeline::State::finish(FrameStatus status, const VirtualDepthView& virtual_depth,
+                             const LabelView& made) {
+  const auto count = [&](Label label) { return made.pixels[static_cast<std::size_t>(label)]; };
   PixelCounts& pixels = report.pixels;
   pixels.front = count(Label::front);
   pixels.occluded = count(Label::occluded);
@@ -273,8 +300,42 @@ const FrameReport& Pipeline::State::finish(FrameStatus status,
   pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   report.status = status;
   report.virtual_depth = virtual_depth;
-  report.labels = labels.labels;
-  return report;
+  report.labels = made.labels;
+  report.T_root_camera = poses.T_root_camera();
+  report.T_root_link = poses.T_root_link();
+  labels = made;
+}
+
+void Pipeline::State::judge_targets(std::span<const Target> given) {
+  std::optional<double> time;
+  {
+    const StageTimer timer(time);
+    report.targets = targets.process(given, judged_frame());
+  }
+  if (!given.empty()) report.timing.targets = time;
+}
+
+JudgedFrame Pipeline::State::judged_frame() const {
+  JudgedFrame frame{report.stamp, report.status, report.message, {}, {}};
+  if (report.T_root_camera) frame.poses = {report.T_root_link, *report.T_root_camera};
+  if (labeller)
+    frame.message = "labels are made on the device: no target can be judged on them";
+  else if (has_depth(report.status))
+    frame.images = {labels, report.virtual_depth, seen};
+  return frame;
+}
+
+TargetStage::Setup Pipeline::State::target_setup(const PipelineConfig& config) const {
+  const bool is_reference = config.backend == Backend::reference;
+  return {
+      .robot = robot,
+      .camera = judged_camera,
+      .rule = rule_of(camera, config),
+      .backend = is_reference ? Backend::reference : Backend::cpu,
+      .renderer = {.threads = 1, .isa = config.renderer.isa},
+      .render_intrinsics = render_intrinsics,
+      .rectification = rectification && config.image == ImageSpace::raw ? &*rectification : nullptr,
+      .history = config.target_history};
 }
 
 }  // namespace penumbra

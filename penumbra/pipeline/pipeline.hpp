@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
@@ -36,10 +37,15 @@ struct PipelineConfig {
   std::string camera_parent;  ///< link that the camera sits on; empty: the root
   /// Pose of the optical frame in that link's frame, metres.
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
+  /// How long frames are kept for targets of an earlier stamp, seconds up to max_target_history; 0:
+  /// not at all, and such targets are unknown. It costs time and memory: docs/targets.md.
+  double target_history = 0.0;
+
+  static constexpr double max_target_history = 60.0;
 };
 
-/// The whole method, one call per frame: poses, virtual depth, labels. Allocates nothing per frame
-/// after the first of its kind. One instance serves one thread at a time.
+/// The whole method, one call per frame: poses, virtual depth, labels, targets. Allocates nothing
+/// per frame after the first of its kind. One instance serves one thread at a time.
 class Pipeline {
  public:
   /// Throws InputError for a robot of which nothing is drawn, a camera parent that is no link, a
@@ -55,6 +61,12 @@ class Pipeline {
   /// lies inside of a closed link, which is the user's to mend if the first frame shows it. Whoever
   /// takes it for a later frame's own fault calls again with source_status missing_transform.
   const FrameReport& process(const Frame& frame);
+
+  /// Forgets a target's verdict, extent and track: the name stands for something new. All of them,
+  /// and the kept frames: a new sequence begins. A stamp that is more than 5 s before the one of
+  /// the last frame does so, too.
+  void forget_target(std::string_view name);
+  void forget_targets();
 
   [[nodiscard]] const Robot& robot() const;
   [[nodiscard]] const RendererInfo& renderer() const;

@@ -30,6 +30,26 @@ void Statistics::add(const FrameReport& report) {
   if (report.status == FrameStatus::ok || report.status == FrameStatus::missing_link)
     ++usable_frames_;
   if (report.status != FrameStatus::ok) add_fault(report);
+  for (std::size_t i = 0; i < report.targets.size(); ++i)
+    add_target(report.targets[i], i, report.index);
+}
+
+/// `place`: among the frame's targets; most often they come in the same order.
+void Statistics::add_target(const TargetReport& target, std::size_t place, std::size_t frame) {
+  if (place >= targets_.size() || targets_[place].name != target.name) {
+    const auto [known, is_new] =
+        target_places_.try_emplace(std::string(target.name), targets_.size());
+    if (is_new) targets_.emplace_back().name = target.name;
+    place = known->second;
+  }
+  TargetStatistics& sum = targets_[place];
+  if (target.verdict == Verdict::unknown && sum.frames(Verdict::unknown) == 0) {
+    sum.reason = target.reason;
+    sum.first_unknown = frame;
+  }
+  ++sum.verdicts[static_cast<std::size_t>(target.verdict)];
+  if (target.handled) ++sum.handled[static_cast<std::size_t>(target.handled->source)];
+  if (target.estimate) ++sum.outcomes[static_cast<std::size_t>(*target.estimate)];
 }
 
 void Statistics::add_fault(const FrameReport& report) {

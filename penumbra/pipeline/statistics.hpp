@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
@@ -47,6 +48,20 @@ struct Fault {
   std::size_t other_reasons = 0;  ///< frames of further ones
 };
 
+/// What was said of one target.
+struct TargetStatistics {
+  std::string name;
+  std::array<std::size_t, 5> verdicts{};  ///< frames by Verdict
+  std::array<std::size_t, 4> handled{};   ///< frames by Source; all 0 if it is not handled
+  std::array<std::size_t, 5> outcomes{};  ///< estimates by Outcome
+  std::string reason;                     ///< why it was unknown, where it first was
+  std::size_t first_unknown = 0;          ///< index of that frame
+
+  [[nodiscard]] std::size_t frames(Verdict verdict) const {
+    return verdicts[static_cast<std::size_t>(verdict)];
+  }
+};
+
 /// What many frames come to.
 class Statistics {
  public:
@@ -63,16 +78,22 @@ class Statistics {
   /// Sums over the frames; `robot` over those that have it.
   [[nodiscard]] const PixelCounts& pixels() const { return pixels_; }
 
+  /// In the order in which they came first.
+  [[nodiscard]] const std::vector<TargetStatistics>& targets() const { return targets_; }
+
   /// Of one of `stages`, milliseconds; nothing if it never ran.
   [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
 
  private:
   void add_fault(const FrameReport& report);
+  void add_target(const TargetReport& target, std::size_t place, std::size_t frame);
 
   std::size_t frames_ = 0;
   std::size_t usable_frames_ = 0;
   std::vector<Fault> faults_;
   PixelCounts pixels_;
+  std::vector<TargetStatistics> targets_;
+  std::unordered_map<std::string, std::size_t> target_places_;
   std::array<std::vector<double>, stages.size()> times_;
 };
 

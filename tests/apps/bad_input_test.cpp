@@ -195,7 +195,7 @@ std::vector<BadInput> bad_options() {
        nothing(),
        {"--gl-labels", "vdi"},
        {"--gl-labels", "--renderer", "gl", "--save", "vdi,labels"}},
-      {"TargetsOfALaterVersion", nothing(), {"--targets", "built"}, {"--targets", "t.yaml"}},
+      {"TargetsThatAreNotThere", nothing(), {"t.yaml"}, {"--targets", "t.yaml"}},
       {"ReportOfALaterVersion", nothing(), {"--report", "built"}, {"--report"}},
       {"TimeOffsetOfALaterVersion", nothing(), {"--time-offset", "built"}, {"--time-offset=-0.1"}},
       {"WidthTooLarge", nothing(), {"--front-min-width", "0 to 63"}, {"--front-min-width", "64"}},

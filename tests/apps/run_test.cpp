@@ -275,6 +275,8 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                             {"beyond_factor", rule.beyond_factor},
                             {"labels", "full"},
                             {"beyond", "occluded"},
+                            {"targets", nullptr},
+                            {"target_history_s", 0.0},
                             {"range", range},
                             {"image", "raw"},
                             {"geometry", "collision"},

@@ -195,7 +195,7 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
       {with("  parent", "  depth_pose: pose.csv\n  depth_info: info.yaml"),
        "a depth camera of its own is not supported yet"},
       {std::string(minimal) + "targets: targets.yaml\n",
-       ":11: targets: targets are not supported yet"},
+       ":11: targets: no file "},
       {with("  parent", "  parent: tool"), ":6: key 'parent' is there already, in line 5"},
       {"", ":1: is empty"},
       {"text", ":1: is 'text'; keys with values are wanted"},

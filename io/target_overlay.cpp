@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <io/bitmap_font.hpp>
+#include <io/target_outline.hpp>
+#include <io/target_overlay.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr int rows_per_width = 360;  // image rows for which lines grow by a pixel
+constexpr Rgb8 rim{0, 0, 0};         // around lines and names, so that they stand out on any ground
+constexpr Rgb8 mark{255, 255, 255};
+
+/// Draws on an image with lines of a width.
+struct Pen {
+  Image<Rgb8>& out;
+  int width;
+
+  void dot(const Eigen::Vector2d& p, int size, Rgb8 color) const {
+    // What is far outside has no pixel number that fits an int.
+    if (!(std::abs(p.x()) < 1e6 && std::abs(p.y()) < 1e6)) return;
+    const int u = static_cast<int>(std::lround(p.x())), v = static_cast<int>(std::lround(p.y()));
+    BitmapFont::fill(u - (size - 1) / 2, v - (size - 1) / 2, size, color, out);
+  }
+
+  /// The part of a line inside the image, in steps of at most a pixel.
+  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, int size, Rgb8 color) const {
+    double from = 0.0, to = 1.0;
+    const Eigen::Vector2d d = b - a;
+    const Eigen::Vector2d end(out.width() + width, out.height() + width);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double low = (-width - a[axis]) / d[axis], high = (end[axis] - a[axis]) / d[axis];
+      if (d[axis] == 0.0 && (a[axis] < -width || a[axis] > end[axis])) return;
+      if (d[axis] == 0.0) continue;
+      from = std::max(from, std::min(low, high));
+      to = std::min(to, std::max(low, high));
+    }
+    if (!(from <= to)) return;
+    const int steps =
+        static_cast<int>(std::ceil((to - from) * std::max(std::abs(d.x()), std::abs(d.y()))));
+    for (int i = 0; i <= steps; ++i)
+      dot(a + (from + (to - from) * i / std::max(steps, 1)) * d, size, color);
+  }
+
+  void path(const PixelPath& path, int size, Rgb8 color) const {
+    if (path.size() == 1) dot(path.front(), size, color);
+    for (std::size_t i = 1; i < path.size(); ++i) line(path[i - 1], path[i], size, color);
+  }
+
+  void paths(const std::vector<PixelPath>& paths, Rgb8 color) const {
+    for (const PixelPath& one : paths) path(one, width + 2, rim);
+    for (const PixelPath& one : paths) path(one, width, color);
+  }
+
+  void cross(const Eigen::Vector2d& p) const {
+    const double arm = 4.0 * width;
+    const Eigen::Vector2d a(arm, arm), b(arm, -arm);
+    paths({{p - a, p + a}, {p - b, p + b}}, mark);
+  }
+
+  /// A line of text on a dark ground after a square of the colour.
+  void text(std::string_view text, int u, int v, Rgb8 color) const {
+    const int line = (BitmapFont::height + 1) * width, letter = BitmapFont::advance * width;
+    const int end = u + (static_cast<int>(text.size()) + 2) * letter;
+    for (int y = std::max(v, 0); y < std::min(v + line, out.height()); ++y)
+      for (int x = std::max(u, 0); x < std::min(end, out.width()); ++x) out(x, y) = rim;
+    BitmapFont::fill(u + width, v + width, letter, color, out);
+    BitmapFont::draw(text, u + 2 * letter, v + width, width, mark, out);
+  }
+};
+
+/// What stands at a target: "crate hidden 97%, predicted".
+std::string caption(const TargetReport& target) {
+  std::string text(target.name);
+  text += " " + std::string(to_string(target.verdict));
+  if (target.judgement && target.judgement->inside > 0) {
+    const double hidden =
+        target.judgement->occluded + target.judgement->hidden_by_other.value_or(0);
+    text += " " + std::to_string(std::lround(100.0 * hidden)) + "%";
+  }
+  if (target.handled && target.handled->source != Source::measured)
+    text += ", " + std::string(to_string(target.handled->source));
+  return text;
+}
+
+/// Above the outline's upper left corner, inside the image.
+void draw_caption(const std::vector<PixelPath>& paths, const TargetReport& target, const Pen& pen) {
+  Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  for (const PixelPath& path : paths)
+    for (const Eigen::Vector2d& p : path) corner = corner.cwiseMin(p);
+  if (!corner.allFinite()) return;
+  const std::string text = caption(target);
+  const int line = (BitmapFont::height + 1) * pen.width;
+  const int width = static_cast<int>(text.size() + 2) * BitmapFont::advance * pen.width;
+  const double u = std::clamp(corner.x(), 0.0, std::max(0.0, 1.0 * pen.out.width() - width));
+  const double v = std::clamp(corner.y() - line, 0.0, 1.0 * pen.out.height() - line);
+  pen.text(text, static_cast<int>(u), static_cast<int>(v), verdict_color(target.verdict));
+}
+
+}  // namespace
+
+Rgb8 verdict_color(Verdict verdict) {
+  // Okabe and Ito's palette (2008): bluish green, orange, vermilion, yellow; grey.
+  constexpr std::array<Rgb8, 5> colors = {
+      {{0, 158, 115}, {230, 159, 0}, {213, 94, 0}, {240, 228, 66}, {160, 160, 160}}};
+  return colors[static_cast<std::size_t>(verdict)];
+}
+
+void draw_targets(std::span<const Target> targets, const FrameReport& report, const Robot& robot,
+                  const Camera& camera, Image<Rgb8>& out) {
+  const Pen pen{out, std::max(1, out.height() / rows_per_width)};
+  for (std::size_t i = 0; i < std::min(targets.size(), report.targets.size()); ++i) {
+    const TargetReport& target = report.targets[i];
+    const auto paths = outline_of(targets[i].shape, report, robot, camera);
+    pen.paths(paths, verdict_color(target.verdict));
+    if (i < max_target_names) draw_caption(paths, target, pen);
+    if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
+    const Eigen::Vector3d p = report.T_root_camera->inverse() * *target.handled->position;
+    if (const auto pixel = seen_at(p, camera)) pen.cross(*pixel);
+  }
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra::io {
+
+/// What targets are read for.
+struct TargetsContext {
+  const Robot& robot;    ///< whose links may be named
+  ImageSpace image;      ///< of the report
+  Intrinsics images;     ///< of the report's images
+  bool is_bent;          ///< the camera's raw images have lens distortion
+  bool beyond_hides;     ///< of targets that do not say it
+  double history = 0.5;  ///< seconds that frames are kept for late targets, if there are any
+};
+
+/// A targets.yaml (docs/targets.md): which targets each frame has.
+class TargetsFile {
+ public:
+  /// Reads the file and the CSV files, masks and meshes that it names; masks of single frames are
+  /// read with their frame. Throws InputError that names file, line and key for unknown, doubled or
+  /// missing keys, wrong values, names used twice, and pixels of another image than the report's.
+  [[nodiscard]] static TargetsFile open(const std::filesystem::path& file,
+                                        const TargetsContext& context);
+  ~TargetsFile();
+  TargetsFile(TargetsFile&&) noexcept;
+  TargetsFile& operator=(TargetsFile&&) noexcept;
+
+  /// The targets of a frame, always all of them in the file's order: one that is not given there,
+  /// or wrongly, has a fault and no shape. Valid until the next call.
+  [[nodiscard]] std::span<const Target> of_frame(std::int64_t index);
+
+  [[nodiscard]] const std::filesystem::path& file() const;
+  [[nodiscard]] std::size_t size() const;
+
+  /// PipelineConfig::target_history that they need, seconds.
+  [[nodiscard]] double history() const;
+
+ private:
+  struct State;
+  explicit TargetsFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra::io

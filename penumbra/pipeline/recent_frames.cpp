@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include <penumbra/pipeline/recent_frames-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Makes `image` show `source` inside `now` and zeros outside, given that it is zero outside of
+/// `before`.
+template <typename T>
+void copy_tiles(ImageView<const T> source, const TileMask& before, const TileMask& now,
+                Image<T>& image) {
+  TileMask left = before;
+  for (std::size_t j = 0; j < left.rows.size(); ++j) left.rows[j] &= ~now.rows[j];
+  left.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v) std::fill(&image(u0, v), &image(u0, v) + (u1 - u0), T{0});
+  });
+  now.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v) std::copy(source.row(v) + u0, source.row(v) + u1, &image(u0, v));
+  });
+}
+
+template <typename T>
+void fit(ImageView<const T> source, Image<T>& image) {
+  if (image.width() != source.width || image.height() != source.height)
+    image = Image<T>(source.width, source.height);
+}
+
+template <typename T>
+ImageView<const T> copy_all(ImageView<const T> source, Image<T>& image) {
+  fit(source, image);
+  for (int v = 0; v < source.height; ++v)
+    std::copy(source.row(v), source.row(v) + source.width, &image(0, v));
+  return std::as_const(image).view();
+}
+
+/// The distance of two stamps, whatever they are.
+std::uint64_t distance(std::int64_t a, std::int64_t b) {
+  const auto x = static_cast<std::uint64_t>(std::max(a, b));
+  return x - static_cast<std::uint64_t>(std::min(a, b));
+}
+
+}  // namespace
+
+RecentPoses::RecentPoses(std::size_t links) : links_(links), T_root_link_(links * frames) {}
+
+void RecentPoses::keep(std::int64_t stamp, const FramePoses& poses) {
+  const auto same = std::find_if(entries_.begin(), entries_.end(),
+                                 [&](const Entry& entry) { return entry.stamp == stamp; });
+  std::size_t at = next_;
+  if (same != entries_.end())
+    at = static_cast<std::size_t>(same - entries_.begin());
+  else
+    next_ = (next_ + 1) % frames;
+  entries_[at] = {stamp, poses.T_root_camera};
+  std::copy(poses.T_root_link.begin(), poses.T_root_link.end(),
+            T_root_link_.begin() + static_cast<std::ptrdiff_t>(at * links_));
+}
+
+std::optional<FramePoses> RecentPoses::find(std::int64_t stamp) const {
+  for (std::size_t i = 0; i < frames; ++i)
+    if (entries_[i].stamp == stamp) return FramePoses{links_of(i), entries_[i].T_root_camera};
+  return std::nullopt;
+}
+
+std::span<const Eigen::Isometry3d> RecentPoses::links_of(std::size_t entry) const {
+  return std::span(T_root_link_).subspan(entry * links_, links_);
+}
+
+void RecentPoses::clear() {
+  for (Entry& entry : entries_) entry.stamp.reset();
+}
+
+RecentFrames::RecentFrames(std::int64_t span, std::size_t links) : span_(span), links_(links) {}
+
+void RecentFrames::keep(const JudgedFrame& frame) {
+  if (!any() || !frame.stamp) return;
+  Copy& copy = place_for(*frame.stamp);
+  copy.frame = {frame.stamp, frame.status, {}, {}, {}};
+  copy.message = frame.message;
+  copy.frame.message = copy.message;
+  copy.frame.poses.T_root_camera = frame.poses.T_root_camera;
+  if (frame.poses.known()) {
+    copy.T_root_link.assign(frame.poses.T_root_link.begin(), frame.poses.T_root_link.end());
+    copy.frame.poses.T_root_link = copy.T_root_link;
+  }
+  if (!frame.images.labels.labels.empty()) copy_images(frame.images, copy);
+}
+
+/// The copy of the same stamp, else the oldest of those that are out of the span, else a new one.
+RecentFrames::Copy& RecentFrames::place_for(std::int64_t stamp) {
+  Copy* farthest = nullptr;
+  std::uint64_t most = 0;
+  for (Copy& copy : copies_) {
+    const std::uint64_t far =
+        copy.frame.stamp ? distance(*copy.frame.stamp, stamp) : ~std::uint64_t{0};
+    if (far == 0) return copy;
+    if (far > most) {
+      most = far;
+      farthest = &copy;
+    }
+  }
+  const bool is_over = most > static_cast<std::uint64_t>(span_) || copies_.size() == max_frames;
+  if (farthest != nullptr && is_over) return *farthest;
+  return copies_.emplace_back();
+}
+
+void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
+  const VirtualDepthView& virtual_depth = from.virtual_depth;
+  const int width = from.labels.labels.width, height = from.labels.labels.height;
+  if (to.labels.width() != width || to.labels.height() != height) {
+    to.labels = Image<std::uint8_t>(width, height);
+    to.depth = Image<float>(width, height);
+    to.links = Image<std::uint16_t>(width, height);
+    to.touched = to.labels_touched = TileMask(width, height);
+  }
+  if (everything_.width != width || everything_.height != height) {
+    everything_ = TileMask(width, height);
+    everything_.mark(0, 0, width - 1, height - 1);
+  }
+  const TileMask& touched = virtual_depth.touched ? *virtual_depth.touched : everything_;
+  const TileMask& labelled = from.labels.touched ? *from.labels.touched : everything_;
+  copy_tiles(virtual_depth.depth, to.touched, touched, to.depth);
+  copy_tiles(virtual_depth.links, to.touched, touched, to.links);
+  copy_tiles(from.labels.labels, to.labels_touched, labelled, to.labels);
+  to.touched.rows = touched.rows;
+  to.labels_touched.rows = labelled.rows;
+
+  JudgedImages& images = to.frame.images;
+  images.labels = {std::as_const(to.labels).view(), from.labels.pixels,
+                   from.labels.touched ? &to.labels_touched : nullptr};
+  images.virtual_depth = {std::as_const(to.depth).view(), std::as_const(to.links).view(),
+                          &to.touched};
+  if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&from.measured))
+    images.measured = copy_all(*millimetres, to.millimetres);
+  else
+    images.measured = copy_all(std::get<ImageView<const float>>(from.measured), to.metres);
+}
+
+const JudgedFrame* RecentFrames::find(std::int64_t stamp) const {
+  for (const Copy& copy : copies_)
+    if (copy.frame.stamp == stamp) return &copy.frame;
+  return nullptr;
+}
+
+void RecentFrames::clear() {
+  for (Copy& copy : copies_) copy.frame.stamp.reset();
+}
+
+}  // namespace penumbra

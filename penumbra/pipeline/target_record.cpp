@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include <penumbra/pipeline/rigid-inl.hpp>
+#include <penumbra/pipeline/target_record-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+Eigen::Vector3d position_of(const TargetEstimate& estimate) {
+  if (const auto* point = std::get_if<Eigen::Vector3d>(&estimate.value)) return *point;
+  return std::get<Eigen::Isometry3d>(estimate.value).translation();
+}
+
+Matrix6d turned(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = R;
+  both.bottomRightCorner<3, 3>() = R;
+  return both * covariance * both.transpose();
+}
+
+/// Of the direction in which the position is least known, metres.
+double largest_sigma(const Eigen::Matrix3d& covariance) {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().z()));
+}
+
+HandledTarget handled_pose(const TrackedPose& tracked) {
+  HandledTarget handled{
+      tracked.source, tracked.age, {}, {}, largest_sigma(tracked.covariance.topLeftCorner<3, 3>())};
+  if (tracked.source == Source::lost) return handled;
+  handled.position = tracked.pose.translation();
+  handled.orientation = Eigen::Quaterniond(tracked.pose.linear());
+  return handled;
+}
+
+HandledTarget handled_point(const TrackedPoint& tracked) {
+  HandledTarget handled{tracked.source, tracked.age, {}, {}, largest_sigma(tracked.covariance)};
+  if (tracked.source != Source::lost) handled.position = tracked.position;
+  return handled;
+}
+
+}  // namespace
+
+void VerdictLog::add(const StampedVerdict& verdict) {
+  entries_.reserve(verdicts);
+  const auto same =
+      std::find_if(entries_.begin(), entries_.end(),
+                   [&](const StampedVerdict& known) { return known.stamp == verdict.stamp; });
+  if (same != entries_.end()) {
+    *same = verdict;
+  } else if (entries_.size() < verdicts) {
+    entries_.push_back(verdict);
+  } else {
+    entries_[next_] = verdict;
+    next_ = (next_ + 1) % verdicts;
+  }
+}
+
+std::optional<StampedVerdict> VerdictLog::find(std::int64_t stamp) const {
+  for (const StampedVerdict& known : entries_)
+    if (known.stamp == stamp) return known;
+  return std::nullopt;
+}
+
+TargetTrack::TargetTrack(const TargetHandling& handling) {
+  if (const auto* pose = std::get_if<PoseTrackerConfig>(&handling))
+    tracker_.emplace<PoseTracker>(*pose);
+  else if (const auto* point = std::get_if<PointTrackerConfig>(&handling))
+    tracker_.emplace<PointTracker>(*point);
+}
+
+Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
+                            const Eigen::Isometry3d& T_root_frame, Verdict verdict) {
+  std::optional<Matrix6d> covariance;
+  if (estimate.covariance) covariance = turned(*estimate.covariance, T_root_frame.linear());
+  if (auto* points = std::get_if<PointTracker>(&tracker_)) {
+    PointEstimate point{stamp, T_root_frame * position_of(estimate), {}};
+    if (covariance) point.covariance = covariance->topLeftCorner<3, 3>();
+    return points->update(point, verdict);
+  }
+  const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value);
+  if (pose == nullptr || !is_rigid(*pose)) return Outcome::refused_invalid;
+  return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
+}
+
+std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp) const {
+  if (const auto* poses = std::get_if<PoseTracker>(&tracker_))
+    return handled_pose(poses->at(stamp));
+  if (const auto* points = std::get_if<PointTracker>(&tracker_))
+    return handled_point(points->at(stamp));
+  return std::nullopt;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/pipeline/recent_frames-inl.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/pipeline/target_record-inl.hpp>
+#include <penumbra/pipeline/target_views-inl.hpp>
+
+namespace penumbra {
+
+/// Judges a frame's targets and follows those that are handled.
+class TargetStage {
+ public:
+  /// A target that was not given in so many calls is forgotten.
+  static constexpr std::size_t forgotten_after = 300;
+
+  struct Setup {
+    const Robot& robot;
+    const Camera& camera;  ///< of the images that are judged
+    LabelRule rule;
+    Backend backend = Backend::cpu;  ///< of objects that are rendered alone
+    RendererOptions renderer;
+    Intrinsics render_intrinsics;
+    const Rectification* rectification = nullptr;  ///< as ObjectRenderers takes it
+    double history = 0;                            ///< seconds
+  };
+
+  explicit TargetStage(const Setup& setup);
+
+  /// Judges the targets; the reports are valid until the next call. Keeps the frame for later ones.
+  std::span<const TargetReport> process(std::span<const Target> targets, const JudgedFrame& frame);
+
+  void forget(std::string_view name);
+  void forget_all();
+
+ private:
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view name) const {
+      return std::hash<std::string_view>()(name);
+    }
+  };
+  using Memories = std::unordered_map<std::string, TargetRecord, Hash, std::equal_to<>>;
+
+  /// What a report refers to.
+  struct Slot {
+    Memories::value_type* known = nullptr;
+    const JudgedFrame* seen = nullptr;  ///< that the target was judged on, in order
+    std::vector<Blame> blame;
+    std::string reason;
+  };
+
+  void begin(std::span<const Target> targets, const JudgedFrame& frame);
+  Memories::value_type& known(std::string_view name);
+  void forget_unused(std::size_t given);
+
+  void judge(const Target& target, const JudgedFrame& frame, Slot& slot, TargetReport& report);
+  const JudgedFrame& frame_of(const Target& target, const JudgedFrame& frame) const;
+  void check(const Target& target, TargetRecord& memory) const;
+  static void doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report);
+  Judgement judge_on(const JudgedFrame& frame, const Target& target, Slot& slot);
+  void expect_motion(const JudgedFrame& frame, const TargetRecord& memory, TargetView& view) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const JudgedFrame& frame,
+                                                           const TargetRecord& memory) const;
+
+  void handle(const Target& target, const JudgedFrame& frame, const Slot& slot,
+              TargetReport& report) const;
+  Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetRecord& memory) const;
+
+  const Robot& robot_;
+  const Camera& camera_;
+  TargetJudge judge_;
+  ObjectRenderers renderers_;
+  TargetViews views_;
+  RecentPoses recent_poses_;
+  RecentFrames recent_frames_;
+  Memories memories_;
+  std::size_t calls_ = 0;
+  std::optional<std::int64_t> last_stamp_;
+  const JudgedFrame* judged_ = nullptr;  // that the judge's begin() was called with
+  std::deque<Slot> slots_;               // grows only
+  std::vector<TargetReport> reports_;    // likewise
+};
+
+}  // namespace penumbra

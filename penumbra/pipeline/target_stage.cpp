@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/target_stage-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+/// A clock that is set back further begins a new sequence.
+constexpr std::int64_t restart_gap = 5 * ns_per_s;
+
+/// By this name targets are judged whose stamp is before one that was judged: what verdicts
+/// remember is of later frames, and is left alone.
+constexpr std::string_view out_of_order = "\x01 out of order";
+
+std::int64_t nanoseconds(double seconds) {
+  if (seconds >= 0.0 && seconds <= PipelineConfig::max_target_history)
+    return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  throw InputError("target_history is " + std::to_string(seconds) + " s; 0 to " +
+                   std::to_string(PipelineConfig::max_target_history) + " are possible");
+}
+
+bool is_modal(const Target& target) {
+  const auto* region = std::get_if<RegionTarget>(&target.shape);
+  return region != nullptr && region->extent == Extent::modal;
+}
+
+void check_link(const LinkFrame& frame, const Robot& robot) {
+  if (!frame || frame->empty() || robot.find_link(*frame)) return;
+  throw InputError("estimate is given in '" + std::string(*frame) + "', no link of robot '" +
+                   robot.name() + "'");
+}
+
+/// What stands for an estimate that was not given, of the target's stamp.
+std::optional<TargetEstimate> own_estimate(const Target& target, const TargetReport& report) {
+  if (const auto* point = std::get_if<PointTarget>(&target.shape))
+    return TargetEstimate{.value = point->position, .frame = point->frame};
+  if (const auto* box = std::get_if<BoxTarget>(&target.shape))
+    return TargetEstimate{.value = box->pose, .frame = box->frame};
+  if (const auto* mesh = std::get_if<MeshTarget>(&target.shape))
+    return TargetEstimate{.value = mesh->pose, .frame = mesh->frame};
+  if (!report.point) return std::nullopt;
+  return TargetEstimate{.value = *report.point, .frame = ""};
+}
+
+}  // namespace
+
+TargetStage::TargetStage(const Setup& setup)
+    : robot_(setup.robot),
+      camera_(setup.camera),
+      judge_(setup.camera, setup.rule, setup.robot.links().size()),
+      renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
+      views_(robot_, camera_, renderers_),
+      recent_poses_(robot_.links().size()),
+      recent_frames_(nanoseconds(setup.history), robot_.links().size()) {}
+
+std::span<const TargetReport> TargetStage::process(std::span<const Target> targets,
+                                                   const JudgedFrame& frame) {
+  begin(targets, frame);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    judge(targets[i], frame, slots_[i], reports_[i]);
+    handle(targets[i], frame, slots_[i], reports_[i]);
+  }
+  forget_unused(targets.size());
+  recent_frames_.keep(frame);
+  return std::span(reports_).first(targets.size());
+}
+
+void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& frame) {
+  ++calls_;
+  judged_ = nullptr;
+  if (frame.stamp) {
+    if (last_stamp_ && *frame.stamp<*last_stamp_&& * last_stamp_ - *frame.stamp> restart_gap)
+      forget_all();
+    last_stamp_ = frame.stamp;
+    if (frame.poses.known()) recent_poses_.keep(*frame.stamp, frame.poses);
+  }
+  if (reports_.size() < targets.size()) reports_.resize(targets.size());
+  while (slots_.size() < targets.size()) slots_.emplace_back();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Memories::value_type& known_target = known(targets[i].name);
+    TargetRecord& memory = known_target.second;
+    memory.times = memory.call == calls_ ? memory.times + 1 : 1;
+    memory.call = calls_;
+    slots_[i].known = &known_target;
+    slots_[i].seen = nullptr;
+    reports_[i] = {};
+    reports_[i].name = known_target.first;
+  }
+}
+
+TargetStage::Memories::value_type& TargetStage::known(std::string_view name) {
+  const auto found = memories_.find(name);
+  return found != memories_.end() ? *found : *memories_.try_emplace(std::string(name)).first;
+}
+
+void TargetStage::forget_unused(std::size_t given) {
+  if (memories_.size() <= given) return;
+  for (auto it = memories_.begin(); it != memories_.end();) {
+    const bool unused = calls_ - it->second.call > forgotten_after;
+    if (unused) judge_.forget(it->first);
+    it = unused ? memories_.erase(it) : std::next(it);
+  }
+}
+
+void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& slot,
+                        TargetReport& report) {
+  TargetRecord& memory = slot.known->second;
+  report.stamp = target.stamp ? target.stamp : frame.stamp;
+  bool was_judged = false;
+  try {
+    check(target, memory);
+    const JudgedFrame& seen = frame_of(target, frame);
+    Judgement judgement = judge_on(seen, target, slot);
+    slot.blame.assign(judgement.blame.begin(), judgement.blame.end());
+    judgement.blame = slot.blame;
+    slot.reason = judgement.reason;
+    report.verdict = judgement.verdict;
+    if (judgement.point) report.point = seen.poses.T_root_camera * *judgement.point;
+    report.judgement = judgement;
+    was_judged = true;
+    doubt(seen, slot, report);
+  } catch (const InputError& fault) {
+    report.verdict = Verdict::unknown;
+    report.judgement.reset();
+    report.point.reset();
+    slot.reason = fault.what();
+  }
+  report.reason = report.verdict == Verdict::unknown ? std::string_view(slot.reason) : "";
+  if (report.judgement) report.judgement->reason = report.reason;
+  if (report.stamp && memory.track && memory.track->handles())
+    memory.log.add({*report.stamp, report.verdict, was_judged});
+}
+
+void TargetStage::check(const Target& target, TargetRecord& memory) const {
+  if (target.name.empty()) throw InputError("has no name");
+  if (!memory.track) memory.track.emplace(target.handling);
+  if (memory.times > 1) throw InputError("its name is used twice in this frame");
+  if (!target.fault.empty()) throw InputError(std::string(target.fault));
+  if (!target.frame_id.empty() && target.frame_id != camera_.frame_id)
+    throw InputError("is of image frame '" + std::string(target.frame_id) + "', the camera's is '" +
+                     camera_.frame_id + "'");
+  target.thresholds.check();
+  if (target.estimate) check_link(target.estimate->frame, robot_);
+}
+
+/// A link without geometry may hide anything, and any depth may be its own.
+void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report) {
+  if (frame.status != FrameStatus::missing_link) return;
+  report.point.reset();
+  report.judgement->point.reset();
+  if (report.verdict != Verdict::visible) return;
+  report.verdict = report.judgement->verdict = Verdict::unknown;
+  slot.reason = frame.message;
+}
+
+const JudgedFrame& TargetStage::frame_of(const Target& target, const JudgedFrame& frame) const {
+  const JudgedFrame* seen = &frame;
+  if (target.stamp && target.stamp != frame.stamp) {
+    if (!recent_frames_.any())
+      throw InputError("its stamp is not the frame's, and no frames are kept (target_history)");
+    seen = recent_frames_.find(*target.stamp);
+    if (seen == nullptr) throw InputError("no frame of its stamp is kept");
+  }
+  if (seen->images.labels.labels.empty()) {
+    if (seen->status == FrameStatus::ok) throw InputError(std::string(seen->message));
+    throw InputError(std::string(to_string(seen->status)) + ": " + std::string(seen->message));
+  }
+  return *seen;
+}
+
+Judgement TargetStage::judge_on(const JudgedFrame& frame, const Target& target, Slot& slot) {
+  TargetRecord& memory = slot.known->second;
+  const bool is_late = frame.stamp && memory.last_stamp && *frame.stamp < *memory.last_stamp;
+  if (is_late && is_modal(target))
+    throw InputError("its stamp is before one that was judged: a modal extent needs their order");
+  auto view = views_.view(target, frame);
+  if (!view) {
+    Judgement outside;
+    outside.verdict = Verdict::out_of_view;
+    return outside;
+  }
+  if (judged_ != &frame) judge_.begin(frame.images);
+  judged_ = &frame;
+  if (is_late) {
+    view->name = out_of_order;
+    Judgement judgement = judge_.judge(*view);
+    judge_.forget(out_of_order);
+    return judgement;
+  }
+  slot.seen = &frame;
+  memory.last_stamp = frame.stamp;
+  expect_motion(frame, memory, *view);
+  return judge_.judge(*view);
+}
+
+void TargetStage::expect_motion(const JudgedFrame& frame, const TargetRecord& memory,
+                                TargetView& view) const {
+  if (view.extent != Extent::modal || !memory.good_pixel) return;
+  if (const auto pixel = track_pixel(frame, memory)) view.motion = *pixel - *memory.good_pixel;
+}
+
+std::optional<Eigen::Vector2d> TargetStage::track_pixel(const JudgedFrame& frame,
+                                                        const TargetRecord& memory) const {
+  if (!memory.track || !frame.stamp) return std::nullopt;
+  const auto handled = memory.track->at(*frame.stamp);
+  if (!handled || !handled->position) return std::nullopt;
+  return views_.project(frame.poses.T_root_camera.inverse() * *handled->position);
+}
+
+void TargetStage::handle(const Target& target, const JudgedFrame& frame, const Slot& slot,
+                         TargetReport& report) const {
+  TargetRecord& memory = slot.known->second;
+  if (!memory.track || !memory.track->handles() || !frame.stamp) return;
+  auto estimate = target.estimate;
+  if (!estimate) estimate = own_estimate(target, report);
+  if (estimate && memory.times == 1) {
+    const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp));
+    report.estimate = feed(*estimate, stamp, memory);
+  }
+  report.handled = memory.track->at(*frame.stamp);
+  if (report.verdict == Verdict::visible && slot.seen != nullptr)
+    memory.good_pixel = track_pixel(*slot.seen, memory);
+}
+
+Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
+                          TargetRecord& memory) const {
+  const auto verdict = memory.log.find(stamp);
+  if (!verdict || !verdict->was_judged) return Outcome::refused_verdict;
+  const auto poses = recent_poses_.find(stamp);
+  if (!poses) return Outcome::refused_verdict;
+  return memory.track->update(estimate, stamp, pose_of(estimate.frame, *poses, robot_),
+                              verdict->verdict);
+}
+
+void TargetStage::forget(std::string_view name) {
+  const auto found = memories_.find(name);
+  if (found != memories_.end()) memories_.erase(found);
+  judge_.forget(name);
+}
+
+void TargetStage::forget_all() {
+  for (const auto& [name, memory] : memories_) judge_.forget(name);
+  memories_.clear();
+  recent_poses_.clear();
+  recent_frames_.clear();
+  last_stamp_.reset();
+}
+
+}  // namespace penumbra

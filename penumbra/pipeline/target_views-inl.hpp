@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/pipeline/image_space-inl.hpp>
+#include <penumbra/pipeline/recent_frames-inl.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// T_root_frame in a frame whose poses are known. Throws InputError for a link that is none.
+[[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses,
+                                        const Robot& robot);
+
+/// Renders objects alone, each by a renderer of its own that is kept as long as it is in use.
+class ObjectRenderers {
+ public:
+  /// Renderers that are kept; where more are wanted in one frame, they are made again and again.
+  static constexpr std::size_t max_kept = 32;
+
+  /// `rectification`: of raw images with lens distortion; else null. Must outlive this.
+  ObjectRenderers(const Intrinsics& intrinsics, Backend backend, const RendererOptions& options,
+                  const Rectification* rectification);
+  ~ObjectRenderers();
+
+  /// Depth of a box or mesh; valid until the next call. Throws InputError for a size or mesh that
+  /// cannot be drawn.
+  VirtualDepthView box(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box);
+  VirtualDepthView mesh(const std::shared_ptr<const TriangleMesh>& mesh,
+                        const Eigen::Isometry3d& T_camera_mesh);
+
+ private:
+  struct Kept;
+  VirtualDepthView render(Kept& kept, const Eigen::Isometry3d& T_camera_object);
+  Kept& place();
+
+  Intrinsics intrinsics_;
+  Backend backend_;
+  RendererOptions options_;
+  const Rectification* rectification_;
+  std::optional<RawImages> raw_images_;  // made with the first renderer
+  std::vector<std::unique_ptr<Kept>> kept_;
+  std::size_t uses_ = 0;
+};
+
+/// Brings targets' shapes to the image.
+class TargetViews {
+ public:
+  /// `camera`: of the images that are judged. All must outlive this.
+  TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers);
+
+  /// The target's region and expected depth; nothing where its shape lies outside of the camera's
+  /// view. Valid until the next call. Throws InputError for a shape that is none.
+  [[nodiscard]] std::optional<TargetView> view(const Target& target, const JudgedFrame& frame);
+
+  /// Where a point in the optical frame is seen, pixels; nothing where the camera cannot see it.
+  [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const;
+
+ private:
+  struct Builder;
+
+  [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
+                                        double radius) const;
+
+  const Robot& robot_;
+  const Camera& camera_;
+  ObjectRenderers& renderers_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <Eigen/SVD>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/rigid-inl.hpp>
+#include <penumbra/pipeline/target_views-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Float32 depths beyond would mean nothing, metres.
+constexpr double max_distance = 1e6;
+
+std::string written(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void check_positive(double value, const char* what, const char* unit) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw InputError(std::string(what) + " is " + written(value) + "; " + unit +
+                   " above 0 are wanted");
+}
+
+void check_expected(const std::optional<double>& depth) {
+  if (depth) check_positive(*depth, "expected depth", "metres");
+}
+
+void check_position(const Eigen::Vector3d& p) {
+  if (p.allFinite() && p.cwiseAbs().maxCoeff() <= max_distance) return;
+  throw InputError("position is not finite, or more than 1000 km away; metres are wanted");
+}
+
+void check_pose(const Eigen::Isometry3d& T) {
+  if (!is_rigid(T))
+    throw InputError(
+        "pose is no rigid transform: a rotation (a unit quaternion) and a finite position in "
+        "metres are wanted");
+  check_position(T.translation());
+}
+
+double metres_at(const DepthView& depth, const Eigen::Vector2d& pixel) {
+  return std::visit(
+      [&](const auto& image) {
+        const double u = std::round(pixel.x()), v = std::round(pixel.y());
+        if (!(u >= 0.0 && v >= 0.0 && u < image.width && v < image.height)) return 0.0;
+        using Pixel = std::remove_cvref_t<decltype(image(0, 0))>;
+        const double scale = std::is_same_v<Pixel, std::uint16_t> ? 1e-3 : 1.0;
+        return scale * static_cast<double>(image(static_cast<int>(u), static_cast<int>(v)));
+      },
+      depth);
+}
+
+bool shows_anything(const VirtualDepthView& view) {
+  bool found = false;
+  view.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1 && !found; ++v)
+      found = std::any_of(view.depth.row(v) + u0, view.depth.row(v) + u1,
+                          [](float z) { return z > 0.0F; });
+  });
+  return found;
+}
+
+}  // namespace
+
+Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const Robot& robot) {
+  if (!frame) return poses.T_root_camera;
+  if (frame->empty()) return Eigen::Isometry3d::Identity();
+  if (const auto link = robot.find_link(*frame)) return poses.T_root_link[*link];
+  throw InputError("'" + std::string(*frame) + "' is no link of robot '" + robot.name() + "'");
+}
+
+TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers)
+    : robot_(robot), camera_(camera), renderers_(renderers) {}
+
+/// Makes a view of each kind of shape.
+struct TargetViews::Builder {
+  TargetViews& views;
+  const JudgedFrame& frame;
+  TargetView view;
+
+  bool operator()(const std::monostate&) { throw InputError("not found in this frame"); }
+
+  bool operator()(const RegionTarget& target) {
+    check_expected(target.expected_depth);
+    view.region = target.region;
+    view.extent = target.extent;
+    view.expected_depth = target.expected_depth;
+    return true;
+  }
+
+  bool operator()(const KeypointTarget& target) {
+    check_expected(target.expected_depth);
+    if (!(target.score >= target.min_score))  // also NaN
+      throw InputError("score " + written(target.score) + " is below " + written(target.min_score));
+    if (!target.pixel.allFinite()) throw InputError("pixel is not finite");
+    for (const double semi_axis : target.semi_axes)
+      check_positive(semi_axis, "semi-axis", target.in_metres ? "metres" : "pixels");
+    if (!std::isfinite(target.angle)) throw InputError("angle is not finite");
+    view.expected_depth = target.expected_depth;
+    view.point_pixel = target.pixel;
+    PixelEllipse ellipse{target.pixel, target.semi_axes, target.angle};
+    if (target.in_metres) ellipse.semi_axes *= pixels_per_metre(target);
+    view.region = ellipse;
+    return true;
+  }
+
+  [[nodiscard]] double pixels_per_metre(const KeypointTarget& target) const {
+    const double depth =
+        target.expected_depth.value_or(metres_at(frame.images.measured, target.pixel));
+    if (!(depth > 0.0 && std::isfinite(depth)))
+      throw InputError(
+          "radius in metres, but no depth is measured at the pixel; give an expected depth");
+    return std::max(views.camera_.intrinsics.fx(), views.camera_.intrinsics.fy()) / depth;
+  }
+
+  bool operator()(const PointTarget& target) {
+    check_position(target.position);
+    check_positive(target.radius, "radius", "metres");
+    const Eigen::Vector3d p = T_camera(target.frame) * target.position;
+    const auto pixel = views.project(p);
+    if (!pixel) return false;
+    view.region = views.ellipse_of(p, *pixel, target.radius);
+    view.expected_depth = p.z();
+    view.depth_margin += target.radius;
+    view.point_pixel = pixel;
+    return true;
+  }
+
+  bool operator()(const BoxTarget& target) {
+    check_pose(target.pose);
+    return rendered(views.renderers_.box(target.size, T_camera(target.frame) * target.pose));
+  }
+
+  bool operator()(const MeshTarget& target) {
+    check_pose(target.pose);
+    return rendered(views.renderers_.mesh(target.mesh, T_camera(target.frame) * target.pose));
+  }
+
+  bool rendered(const VirtualDepthView& object) {
+    view.region = RenderedRegion{object.depth, object.touched};
+    return shows_anything(object);
+  }
+
+  [[nodiscard]] Eigen::Isometry3d T_camera(const LinkFrame& of) const {
+    if (!of) return Eigen::Isometry3d::Identity();
+    return frame.poses.T_root_camera.inverse() * pose_of(of, frame.poses, views.robot_);
+  }
+};
+
+std::optional<TargetView> TargetViews::view(const Target& target, const JudgedFrame& frame) {
+  Builder builder{*this, frame, {}};
+  builder.view.name = target.name;
+  builder.view.thresholds = target.thresholds;
+  builder.view.depth_margin = target.depth_margin;
+  if (!std::visit(builder, target.shape)) return std::nullopt;
+  return builder.view;
+}
+
+std::optional<Eigen::Vector2d> TargetViews::project(const Eigen::Vector3d& p) const {
+  if (!(p.z() >= DepthRenderer::near_plane) || !p.allFinite()) return std::nullopt;
+  const Eigen::Vector2d ray = p.head<2>() / p.z();
+  if (ray.norm() >= camera_.distortion.max_radius()) return std::nullopt;
+  const Eigen::Vector2d bent = camera_.distortion.distort(ray);
+  return camera_.intrinsics.project({bent.x(), bent.y(), 1.0});
+}
+
+/// The image of the disc of that radius around the point, parallel to the image plane.
+PixelEllipse TargetViews::ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
+                                     double radius) const {
+  const Intrinsics& k = camera_.intrinsics;
+  const Eigen::Matrix2d J = Eigen::Vector2d(k.fx(), k.fy()).asDiagonal() *
+                            camera_.distortion.derivative(p.head<2>() / p.z()) * (radius / p.z());
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(J, Eigen::ComputeFullU);
+  const Eigen::Vector2d axis = svd.matrixU().col(0);
+  return {pixel, svd.singularValues(), std::atan2(axis.y(), axis.x())};
+}
+
+}  // namespace penumbra
