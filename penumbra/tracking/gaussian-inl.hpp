@@ -33,13 +33,12 @@ template <int m, int n>
 [[nodiscard]] Eigen::Matrix<double, m, 1> kalman_correction(
     Eigen::Matrix<double, m, m>& covariance, const Eigen::Matrix<double, n, n>& noise,
     const Eigen::Matrix<double, n, 1>& residual) {
-  using Square = Eigen::Matrix<double, m, m>;
   const Eigen::Matrix<double, n, n> total = covariance.template topLeftCorner<n, n>() + noise;
   const Eigen::Matrix<double, m, n> gain =
       total.llt().solve(covariance.template topRows<n>()).transpose();
-  Square rest = Square::Identity();
-  rest.template leftCols<n>() -= gain;
-  const Square kept = rest * covariance * rest.transpose();
+  // (I - K H) P (I - K H)^T, where H picks the first n components.
+  Eigen::Matrix<double, m, m> kept = covariance - gain * covariance.template topRows<n>();
+  kept -= (kept.template leftCols<n>() * gain.transpose()).eval();
   covariance = symmetric<m>(kept + gain * noise * gain.transpose());
   return gain * residual;
 }
