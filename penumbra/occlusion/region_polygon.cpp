@@ -21,8 +21,8 @@ int side_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
 }
 
 /// Whether the insides of two segments cross; touching is allowed.
-bool cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-           const Eigen::Vector2d& d) {
+bool edges_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                 const Eigen::Vector2d& d) {
   if (std::max(a.x(), b.x()) < std::min(c.x(), d.x())) return false;
   if (std::max(c.x(), d.x()) < std::min(a.x(), b.x())) return false;
   return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
@@ -62,7 +62,7 @@ void PolygonRows::check_crossings() const {
     const Edge& a = edges_[i];
     for (std::size_t j = i + 1; j < edges_.size() && edges_[j].top.y() <= a.bottom.y(); ++j) {
       const Edge& b = edges_[j];
-      if (cross(a.top, a.bottom, b.top, b.bottom))
+      if (edges_cross(a.top, a.bottom, b.top, b.bottom))
         region_fault("polygon crosses itself: the edges that begin at corners ",
                      std::min(a.corner, b.corner), " and ", std::max(a.corner, b.corner), " cross");
     }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include <penumbra/occlusion/target_judge.hpp>
@@ -52,7 +50,7 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-std::string_view reason_of(const Sight& sight, bool has_pose, bool has_depth) {
+std::string_view reason_for_unknown(const Sight& sight, bool has_pose, bool has_depth) {
   if (!has_pose) return "the robot's pose is not known in this frame";
   if (sight.first_near_robot)
     return "first seen beside the robot: how much of it the robot hides is not known";
@@ -60,13 +58,6 @@ std::string_view reason_of(const Sight& sight, bool has_pose, bool has_depth) {
   if (has_depth) return "too much of it is robot without measurement, or at the robot's own depth";
   return "too much of it is robot without measurement";
 }
-
-struct NameHash {
-  using is_transparent = void;
-  std::size_t operator()(std::string_view name) const {
-    return std::hash<std::string_view>{}(name);
-  }
-};
 
 }  // namespace
 
@@ -85,7 +76,7 @@ struct TargetJudge::State {
   Sights sights;
   TrustedDepths depths;
   std::vector<Blame> blame;
-  std::unordered_map<std::string, TargetMemory, NameHash, std::equal_to<>> memories;
+  TargetMemories memories;
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links)
@@ -161,7 +152,7 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
     judgement.hidden_by_other = sight.fraction(Seen::other);
   judgement.blame = sight.links->write(sight.inside, blame);
   if (judgement.verdict == Verdict::unknown)
-    judgement.reason = reason_of(sight, frame.has_pose(), expected.known());
+    judgement.reason = reason_for_unknown(sight, frame.has_pose(), expected.known());
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

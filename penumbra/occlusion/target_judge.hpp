@@ -73,8 +73,7 @@ struct Judgement {
 };
 
 /// Judges targets on labelled images. Holds what verdicts remember, by the targets' names, until
-/// forget().
-/// Allocates nothing per target once its name, and extents of its size, were seen.
+/// forget(). Allocates nothing per target once its name, and extents of its size, were seen.
 ///
 /// How a pixel of a target is seen. Without an expected depth its label says it: clear, front,
 /// occluded, unknown; beyond is occluded, or clear where beyond_hides is false. With the expected
@@ -94,7 +93,7 @@ struct Judgement {
 ///
 /// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
 /// robot's pose, and where unknown exceeds its limit and the verdict would be another were all
-/// unknown pixels hidden. It is out_of_view whatever else is known. Hysteresis goes on from the
+/// unknown pixels hidden; it is out_of_view whatever else is known. Hysteresis goes on from the
 /// last verdict that was neither.
 ///
 /// A modal extent is compared with the last good one: that of the last frame with verdict visible,

@@ -4,7 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +28,17 @@ struct TargetMemory {
   std::uint64_t extent_frame = 0;    ///< in which it stood where it stands
   Eigen::Vector2d moved{0, 0};       ///< since then, until the last verdict visible
 };
+
+/// Finds a name without making a string of it.
+struct TargetNameHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view name) const {
+    return std::hash<std::string_view>{}(name);
+  }
+};
+
+using TargetMemories =
+    std::unordered_map<std::string, TargetMemory, TargetNameHash, std::equal_to<>>;
 
 /// An extent as it is seen.
 struct Sight {

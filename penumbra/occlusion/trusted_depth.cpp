@@ -29,7 +29,7 @@ std::int32_t least_above(FloatBits values, std::int32_t limit) {
 
 /// The value that `rank` values of `values` precede in order. Counts, which are cheap, leave few of
 /// them, which are put in order. `scratch` has their size.
-std::int32_t value_at(FloatBits values, std::size_t rank, std::span<std::int32_t> scratch) {
+std::int32_t ranked_value(FloatBits values, std::size_t rank, std::span<std::int32_t> scratch) {
   constexpr std::size_t few = 32, share = 6;
   std::int32_t low = values[0], high = values[0];
   for (const std::int32_t value : values) {
@@ -60,7 +60,7 @@ std::int32_t value_at(FloatBits values, std::size_t rank, std::span<std::int32_t
 /// The mean of the middle one or two.
 float median_of(FloatBits values, std::span<std::int32_t> scratch) {
   const std::size_t rank = (values.size() - 1) / 2;
-  const std::int32_t lower = value_at(values, rank, scratch);
+  const std::int32_t lower = ranked_value(values, rank, scratch);
   const bool is_double = values.size() % 2 == 1 || count_up_to(values, lower) > rank + 1;
   const std::int32_t upper = is_double ? lower : least_above(values, lower);
   return 0.5f * (std::bit_cast<float>(lower) + std::bit_cast<float>(upper));
