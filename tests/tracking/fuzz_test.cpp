@@ -97,7 +97,7 @@ TEST_P(PoseFuzz, StaysFiniteAndHonest) {
     config.worst = Verdict(run % 3);
     config.memory = run % 4 * 0.5;
     if (run % 2 == 0) config.gate = 1e6;  // so that all motions' corrections are met
-    config.max_estimates = static_cast<std::size_t>(2 + run * 5);
+    config.max_estimates = 2 + 5 * static_cast<std::size_t>(run);
     PoseTracker tracker(config);
     double now = 0;
     for (int i = 0; i < 400; ++i) {

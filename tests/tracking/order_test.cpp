@@ -91,6 +91,7 @@ TEST(Order, PointsToo) {
   auto random = seeded_random(413);
   for (const PointMotion motion : {PointMotion::hold, PointMotion::constant_velocity}) {
     std::vector<PointEstimate> all;
+    all.reserve(25);
     for (int i = 0; i < 25; ++i) all.push_back({stamp_at(i * 0.04), 0.02 * normal<3>(random), {}});
     PointTrackerConfig config;
     config.motion = motion;
