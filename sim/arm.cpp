@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <mutex>
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -130,6 +131,7 @@ Arm::Arm(const fs::path& urdf, const RobotOptions& options, const fs::path& fold
   const fs::path file = folder / "arm.urdf";
   write_text(file, prepared(urdf, options, folder));
   std::array<char, 1000> why{};
+  const std::lock_guard lock(mujoco_mutex());
   model_->model.reset(mj_loadXML(file.c_str(), nullptr, why.data(), why.size()));
   const mjModel* const model = model_->model.get();
   if (model == nullptr) throw InputError(urdf.string() + ": MuJoCo cannot read it: " + why.data());

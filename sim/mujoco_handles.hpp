@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include <Eigen/Geometry>
 #include <mujoco/mujoco.h>
@@ -16,6 +17,13 @@ struct DeleteData {
 };
 using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
 using DataPtr = std::unique_ptr<mjData, DeleteData>;
+
+/// OpenGL's loader, MuJoCo's reader, with the model that it read last, and its fault handler belong
+/// to the whole process.
+[[nodiscard]] inline std::mutex& mujoco_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 /// The world pose of body `body`, metres.
 [[nodiscard]] inline Eigen::Isometry3d body_pose(const mjData& data, int body) {

@@ -34,12 +34,6 @@ constexpr const char* light =
     "<light directional=\"true\" castshadow=\"false\" dir=\"0.4 0.3 -1\" ambient=\"0 0 0\" "
     "diffuse=\"0.35 0.35 0.35\" specular=\"0 0 0\"/>";
 
-/// OpenGL's loader, MuJoCo's reader and its fault handler belong to the whole process.
-std::mutex& mujoco_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 [[noreturn]] void throw_fault(const char* message) {
   throw std::runtime_error(std::string("MuJoCo: ") + message);
 }

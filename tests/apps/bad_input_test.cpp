@@ -328,7 +328,7 @@ TEST_F(BadOutputTest, TheReportsNameIsTakenByAFolder) {
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
-      {{}, "run, render, inspect or doctor"},
+      {{}, "run, render, inspect, doctor, simulate or experiment"},
       {{"walk"}, "walk"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
