@@ -58,6 +58,7 @@ TEST(ManyTargets, TenThousandAFrame) {
   TargetFrame frame;
   frame.add_robot(60, 30, 110, 90, 1.0f, 1);
   std::vector<std::string> names;
+  names.reserve(10000);
   for (int i = 0; i < 10000; ++i) names.push_back("target " + std::to_string(i));
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   std::size_t hidden = 0, visible = 0;
@@ -67,8 +68,9 @@ TEST(ManyTargets, TenThousandAFrame) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       TargetView target;
       target.name = names[i];
+      const std::size_t row = i / 100, column = i % 160;
       target.region =
-          PixelEllipse{{static_cast<double>(i % 160), static_cast<double>(i / 100)}, {5, 5}, 0};
+          PixelEllipse{{static_cast<double>(column), static_cast<double>(row)}, {5, 5}, 0};
       const Judgement judgement = judge.judge(target);
       hidden += judgement.verdict == Verdict::hidden ? 1 : 0;
       visible += judgement.verdict == Verdict::visible ? 1 : 0;
