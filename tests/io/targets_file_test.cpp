@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <io/png.hpp>
+#include <io/targets_file.hpp>
+
+namespace penumbra::test {
+namespace {
+
+class TargetsFileTest : public testing::Test {
+ protected:
+  io::TargetsFile open(const std::string& text, ImageSpace image = ImageSpace::raw,
+                       bool is_bent = false) {
+    return io::TargetsFile::open(folder_.write("targets.yaml", text),
+                                 {.robot = robot_,
+                                  .image = image,
+                                  .images = Intrinsics(64, 48, 60, 60, 31, 23),
+                                  .is_bent = is_bent,
+                                  .beyond_hides = true});
+  }
+
+  TempFolder folder_;
+  Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+};
+
+TEST_F(TargetsFileTest, GivesEachFrameItsValues) {
+  folder_.write("k.csv",
+                "frame,name,u,v,score\n0,a,1,2,0.5\n0,b,9,9,1\n2,a,nan,2,0.5\n3,a,7,8,1\n");
+  io::TargetsFile file = open(
+      "targets:\n- name: a\n  keypoint: {csv: k.csv}\n"
+      "- name: box\n  box: {frames: {0: [1, 2, 3, 4], 1: null}}\n  extent: modal\n");
+  const auto first = file.of_frame(0);
+  ASSERT_EQ(first.size(), 2U);
+  const auto& keypoint = std::get<KeypointTarget>(first[0].shape);
+  EXPECT_EQ(keypoint.pixel, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(keypoint.score, 0.5);
+  EXPECT_EQ(std::get<RegionTarget>(first[1].shape).extent, Extent::modal);
+  EXPECT_EQ(std::get<PixelBox>(std::get<RegionTarget>(first[1].shape).region).height, 4.0);
+  for (const std::int64_t frame : {1, 2}) {
+    const auto none = file.of_frame(frame);
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(none[0].shape)) << "never stale values";
+    EXPECT_FALSE(none[0].fault.empty());
+    EXPECT_FALSE(none[1].fault.empty());
+  }
+  EXPECT_NE(file.of_frame(2)[0].fault.find("k.csv:4: column 'u'"), std::string_view::npos);
+  EXPECT_TRUE(file.of_frame(3)[0].fault.empty());
+}
+
+TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
+  io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 7, 1).view());
+  folder_.write("odd.csv", "frame,u,w\n0,1,2\n");
+  const std::string head = "targets:\n- name: a\n  ";
+  const std::pair<std::string, std::string> cases[] = {
+      {head + "box: [1, 2, 0, 4]\n", ":3: targets[0].box: has no area"},
+      {head + "box: [1, 2, .nan, 4]\n", ":3: "},
+      {head + "box: [1, 2, 3]\n", ":3: targets[0].box: has 3 values"},
+      {head + "boxx: [1, 2, 3, 4]\n", "says not where it is"},
+      {head + "box: [1, 2, 3, 4]\n  radius: 3\n", ":4: targets[0].radius: unknown key"},
+      {head + "box: [1, 2, 3, 4]\n- name: a\n  box: [1, 2, 3, 4]\n", ":4: targets[1].name: 'a'"},
+      {head + "box3d: [0, 0, 1, 0, 0, 0, 0]\n  size: [1, 1, 1]\n", "quaternion has the length 0"},
+      {head + "box3d: [0, 0, 1, 0, 0, 0, 2]\n  size: [1, 1, 1]\n", "quaternion"},
+      {head + "point: [0, 0, 1]\n  link: arm\n", ":4: targets[0].link: 'arm' is no link"},
+      {head + "mask: small.png\n", "7 x 7"},
+      {head + "mask: {files: m%d.png}\n", "no file of that name"},
+      {head + "polygon: [[1, 1], [2, 2]]\n", "fewer than 3"},
+      {head + "rle: {size: [48, 64], counts: [5]}\n", "add up to 5"},
+      {head + "keypoint: {csv: odd.csv}\n", "odd.csv:1: has no column 'v'"},
+      {head + "keypoint: [1, 1]\n  handling: hold\n", ":4: targets[0].handling: is 'hold'"},
+      {head + "keypoint: [1, 1]\n  thresholds: {partial_enter: 2}\n", "partial_enter"},
+      {head + "keypoint: [1, 1]\n  estimate: {point: [0, 0, 1]}\n", "not handled"}};
+  for (const auto& [text, told] : cases) {
+    const std::string message = input_error([&] { static_cast<void>(open(text)); });
+    EXPECT_HAS(message, told);
+  }
+}
+
+TEST_F(TargetsFileTest, PixelsOfAnotherImageAreRefused) {
+  const std::string text = "targets:\n- name: a\n  box: [1, 2, 3, 4]\n";
+  EXPECT_HAS(input_error([&] { static_cast<void>(open(text, ImageSpace::rectified, true)); }),
+             "raw image");
+  EXPECT_EQ(open("image: rectified\n" + text, ImageSpace::rectified, true).size(), 1U);
+}
+
+}  // namespace
+}  // namespace penumbra::test
