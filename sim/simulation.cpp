@@ -195,11 +195,14 @@ void Simulation::State::count_alone(const Window& window, const SimFrame& frame_
                                     ObjectTruth& object) const {
   object.pixels_alone = object.pixels_behind_robot = 0;
   fit(object.alone, view.intrinsics);
+  fit(object.alone_depth, view.intrinsics);
   std::fill_n(object.alone.data(), object.alone.size(), std::uint8_t{0});
+  std::fill_n(object.alone_depth.data(), object.alone_depth.size(), 0.0F);
   for (int v = window.v0; v < window.v1; ++v)
     for (int u = window.u0; u < window.u1; ++u) {
       if (alone_ids(u, v) != object.id) continue;
       object.alone(u, v) = 1;
+      object.alone_depth(u, v) = alone_depth(u, v);
       ++object.pixels_alone;
       const float robot = frame_of.robot_depth(u, v);
       object.pixels_behind_robot += robot > 0.0F && robot < alone_depth(u, v) ? 1 : 0;
