@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double handover_time = 7.0;  // seconds
+constexpr double handover_time = 8.0;  // seconds
 
 // A person's measures, metres; z = 0 is the table's top, 0.75 m over the floor.
 constexpr double upper_arm = 0.30, forearm = 0.27, palm = 0.09;
@@ -117,13 +117,13 @@ void Handover::plan_hand(Random& random) {
   const Eigen::VectorXd last = near({0.60, 0.14, 0.30}, 0.02);
   hand_path_.emplace_back(std::vector<Knot>{{0.0, first + Eigen::VectorXd(near({0.1, 0, 0}, 0.03))},
                                             {1.0, first},
-                                            {2.0, first + 0.6 * drift},
-                                            {3.0, first + drift},
-                                            {3.7, near({0.74, -0.10, 0.40}, 0.02)},
-                                            {4.3, near(front, 0.015)},
-                                            {4.8, near(front, 0.015)},
-                                            {5.5, near({0.72, -0.05, 0.38}, 0.02)},
-                                            {6.1, last},
+                                            {2.2, first + 0.6 * drift},
+                                            {3.4, first + drift},
+                                            {4.2, near({0.74, -0.10, 0.40}, 0.02)},
+                                            {4.9, near(front, 0.015)},
+                                            {5.5, near(front, 0.015)},
+                                            {6.3, near({0.72, -0.05, 0.38}, 0.02)},
+                                            {7.0, last},
                                             {handover_time, last + 0.3 * drift}});
 }
 
@@ -142,13 +142,16 @@ void Handover::plan_arm(Arm& arm, Random& random) {
   const double early = random.uniform(0.9, 1.2);
   const std::vector<std::pair<double, Isometry3d>> goals = {
       {early, park},
-      {early + 0.7, between(early + 0.7, 0.02)},
-      {early + 1.5, between(early + 1.5, random.uniform(-0.02, 0.02))},
-      {3.3, park},
-      {4.1, at(arm_in_the_back, {1.0, 0.0, -0.2})},
-      {4.9, at(arm_in_the_back, {1.0, 0.0, -0.2})},
-      {5.5, park},
-      {6.3, between(6.3, 0.0)},
+      {early + 0.9, between(early + 0.9, 0.02)},
+      {early + 1.3, between(early + 1.3, 0.0)},
+      {early + 1.7, between(early + 1.7, random.uniform(-0.02, 0.02))},
+      {4.0, park},
+      {4.8, at(arm_in_the_back, {1.0, 0.0, -0.2})},
+      {5.2, at(arm_in_the_back, {1.0, 0.0, -0.2})},
+      {5.6, at(arm_in_the_back, {1.0, 0.0, -0.2})},
+      {6.3, park},
+      {7.2, between(7.2, 0.0)},
+      {7.6, between(7.6, 0.0)},
       {handover_time, between(handover_time, 0.0)}};
   std::vector<double> positions = {-0.3, 0.0, 1.2, 0.0, -1.57, 0.0, 0.02};
   std::vector<Knot> knots;

@@ -60,8 +60,8 @@ struct ObjectTruth {
   std::size_t pixels_seen = 0;   ///< that it covers
   std::size_t pixels_behind_robot = 0;  ///< of those alone, where a robot link is before it; of
                                         ///< what is not seen, the rest is behind other objects
-  Image<std::uint8_t> alone;  ///< 1 where it would be seen were nothing before it, else 0
-  Image<float> alone_depth;   ///< metres, there; else 0
+  Image<std::uint8_t> alone;            ///< 1 where it would be seen were nothing before it, else 0
+  Image<float> alone_depth;             ///< metres, there; else 0
 };
 
 /// One frame as the simulator knows it. Depth is along the optical axis.

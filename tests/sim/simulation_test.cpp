@@ -3,8 +3,12 @@
 #include "simulated.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include <penumbra/base/error.hpp>
 
@@ -53,6 +57,25 @@ TEST_P(Scenes, SameSeedGivesTheSameBytes) {
   }
   ASSERT_TRUE(two.next(b));
   EXPECT_TRUE(same(a, b)) << "a frame does not depend on those before";
+}
+
+TEST_P(Scenes, SeveralAtOnceGiveTheSameBytes) {
+  constexpr int count = 3;
+  const auto third_frame = [&](int i, SimFrame& frame) {
+    Simulation simulation(GetParam(), noisy(GetParam(), static_cast<std::uint64_t>(i)));
+    for (int k = 0; k < 3; ++k) simulation.next(frame);
+  };
+  std::array<SimFrame, count> alone, together;
+  for (int i = 0; i < count; ++i) third_frame(i, alone[static_cast<std::size_t>(i)]);
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < count; ++i)
+      threads.emplace_back([&, i] { third_frame(i, together[static_cast<std::size_t>(i)]); });
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_FALSE(alone[i].depth.empty());
+    EXPECT_TRUE(same(alone[i], together[i])) << i;
+  }
 }
 
 TEST_P(Scenes, LastAsLongAsTheySay) {

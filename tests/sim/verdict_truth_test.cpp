@@ -38,12 +38,15 @@ struct Truth {
   std::vector<double> blame;  // by link
 };
 
-/// Whether the target stands in the arm or so near to it that a depth camera cannot tell the two
-/// apart, which no target in the world does but one that is grasped.
+/// Whether the target stands in the arm or another target, or so near that a depth camera cannot
+/// tell the two apart, which no target in the world does but one that is grasped.
 bool touches(const SimFrame& frame, const ObjectTruth& target) {
   for (std::size_t i = 0; i < target.alone.size(); ++i) {
     const float z = target.alone_depth.data()[i], robot = frame.robot_depth.data()[i];
-    if (z > 0.0F && robot > 0.0F && std::abs(z - robot) < touching) return true;
+    if (!(z > 0.0F)) continue;
+    const bool other = frame.ids.data()[i] != target.id;
+    if (robot > 0.0F && std::abs(z - robot) < touching) return true;
+    if (other && std::abs(z - frame.true_depth.data()[i]) < touching) return true;
   }
   return false;
 }
@@ -209,7 +212,7 @@ Tallies judge_all(bool noisy) {
     bench.run(frames / seeds, tallies);
   }
   std::cout << frames << " frames; " << tallies.touching
-            << " targets that touch the arm left out\n";
+            << " targets that touch something left out\n";
   tallies.by_labels.print("by labels");
   tallies.by_depth.print("with expected depth");
   return tallies;
