@@ -9,13 +9,6 @@
 
 namespace penumbra::sim {
 
-/// MuJoCo's reader, its memory of what it read last, its loader of OpenGL and its fault handler
-/// belong to the whole process.
-[[nodiscard]] inline std::mutex& mujoco_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 struct DeleteModel {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
 };
