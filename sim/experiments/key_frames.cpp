@@ -16,6 +16,8 @@ namespace {
 constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, white{255, 255, 255}, black{0, 0, 0};
 constexpr double wrist_box = 0.12;  // metres: edge of the box about a wrist
 
+constexpr int largest_width = 800;  // pixels of an image that is kept as it is
+
 Image<io::Rgb8> halved(const Image<io::Rgb8>& image) {
   Image<io::Rgb8> half(image.width() / 2, image.height() / 2);
   const auto mean = [](int a, int b, int c, int d) {
@@ -50,21 +52,41 @@ void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb
   io::BitmapFont::draw(text, u, v, scale, color, image);
 }
 
-std::string captioned(const char* what, const FrameTruth& truth) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%s: t = %.2f s, %.0f %% hidden by the robot", what,
-                truth.time, 100 * truth.hidden);
+std::string error_text(const Sample& sample) {
+  if (!sample.known) return "no pose";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f cm off", 100 * sample.translation_error);
   return text.data();
 }
 
-/// The frame of the largest hidden share, the middle one of several.
+std::string captioned(const char* what, const SeedRun& run, std::size_t i) {
+  const std::vector<MethodRun>& methods = run.lanes.front().methods;
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%s: t = %.2f s, %.0f %% hidden by the robot. ", what,
+                run.frames[i].time, 100 * run.frames[i].hidden);
+  return text.data() + ("Raw: " + error_text(methods.front().samples[i])) +
+         ", handled: " + error_text(methods.back().samples[i]) + ".";
+}
+
+/// The frame of the largest hidden share in the first span of some length, the middle one of
+/// several.
 std::size_t most_hidden(const SeedRun& run) {
+  constexpr double least_seconds = 0.4;
+  std::vector<std::size_t> span, best;
+  for (std::size_t i = 0; i <= run.frames.size(); ++i) {
+    if (i < run.frames.size() && run.frames[i].hidden > occluded_share) {
+      span.push_back(i);
+      continue;
+    }
+    if (span.size() > best.size()) best = span;
+    if (static_cast<double>(best.size()) * run.frame_seconds >= least_seconds) break;
+    span.clear();
+  }
+  if (best.empty()) return run.goal;
   double most = 0;
-  for (const FrameTruth& truth : run.frames) most = std::max(most, truth.hidden);
-  std::vector<std::size_t> those;
-  for (std::size_t i = 0; i < run.frames.size(); ++i)
-    if (run.frames[i].hidden >= most) those.push_back(i);
-  return those[those.size() / 2];
+  for (const std::size_t i : best) most = std::max(most, run.frames[i].hidden);
+  std::erase_if(best, [&](std::size_t i) { return run.frames[i].hidden < most; });
+  return best[best.size() / 2];
 }
 
 }  // namespace
@@ -72,7 +94,11 @@ std::size_t most_hidden(const SeedRun& run) {
 KeyFrames::KeyFrames(std::string experiment, const Cell& cell)
     : experiment_(std::move(experiment)), cell_(cell) {}
 
-void KeyFrames::see(const SimFrame& frame) { images_.push_back(halved(frame.color)); }
+void KeyFrames::see(const SimFrame& frame) {
+  const bool large = frame.color.width() > largest_width;
+  scale_ = large ? 0.5 : 1.0;
+  images_.push_back(large ? halved(frame.color) : frame.color);
+}
 
 std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
   const std::size_t hidden = most_hidden(run);
@@ -91,9 +117,10 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
     if (run.frames[i].before_robot) front.push_back(i);
   if (!front.empty()) story.emplace_back("Hand before the arm", front[front.size() / 2]);
   story.emplace_back(experiment_ == "conveyor" ? "Grasp" : "End", run.goal);
+  std::stable_sort(story.begin(), story.end(),
+                   [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<Picture> pictures;
-  for (const auto& [what, i] : story)
-    pictures.push_back({draw(run, i), captioned(what, run.frames[i])});
+  for (const auto& [what, i] : story) pictures.push_back({draw(run, i), captioned(what, run, i)});
   return pictures;
 }
 
@@ -112,8 +139,9 @@ void KeyFrames::draw_target(const Sample& sample, io::Rgb8 color, bool dashed,
   const Eigen::Isometry3d pose = cell_.T_base_camera.inverse() * sample.pose;
   if (!sample.known || pose.translation().z() <= 0) return;
   if (experiment_ != "conveyor") {
-    const Eigen::Vector2d at = 0.5 * cell_.camera.intrinsics.project(pose.translation());
-    const double r = 0.25 * cell_.camera.intrinsics.fx() * wrist_box / pose.translation().z();
+    const Eigen::Vector2d at = scale_ * cell_.camera.intrinsics.project(pose.translation());
+    const double r =
+        0.5 * scale_ * cell_.camera.intrinsics.fx() * wrist_box / pose.translation().z();
     const std::array<Eigen::Vector2d, 4> corners{
         at + Eigen::Vector2d(-r, -r), at + Eigen::Vector2d(r, -r), at + Eigen::Vector2d(r, r),
         at + Eigen::Vector2d(-r, r)};
@@ -125,7 +153,7 @@ void KeyFrames::draw_target(const Sample& sample, io::Rgb8 color, bool dashed,
   for (std::size_t a = 0; a < corners.size(); ++a)
     for (const std::size_t axis : {std::size_t{1}, std::size_t{2}, std::size_t{4}})
       if ((a & axis) == 0)
-        draw_line(0.5 * corners[a], 0.5 * corners[a | axis], color, dashed, image);
+        draw_line(scale_ * corners[a], scale_ * corners[a | axis], color, dashed, image);
 }
 
 }  // namespace penumbra::sim

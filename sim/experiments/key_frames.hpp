@@ -13,8 +13,8 @@
 
 namespace penumbra::sim {
 
-/// Keeps a run's colour images at half their size, and draws into them what was believed: the raw
-/// estimate in red, dashed, and ours in green.
+/// Keeps a run's colour images, large ones at half their size, and draws into them what was
+/// believed: the raw estimate in red, dashed, and ours in green.
 class KeyFrames {
  public:
   KeyFrames(std::string experiment, const Cell& cell);
@@ -32,6 +32,7 @@ class KeyFrames {
 
   std::string experiment_;
   Cell cell_;
+  double scale_ = 1.0;  ///< of the kept images
   std::vector<Image<io::Rgb8>> images_;
 };
 

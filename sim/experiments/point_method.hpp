@@ -25,7 +25,7 @@ class PointMethod {
  public:
   static constexpr double radius = 5.0;  ///< pixels about the key point that are looked at
 
-  explicit PointMethod(const Cell& cell);
+  PointMethod(const Cell& cell, const PointTrackerConfig& tracker);
   virtual ~PointMethod() = default;
 
   [[nodiscard]] virtual MethodInfo info() const = 0;
@@ -52,8 +52,8 @@ class PointMethod {
   PointTracker tracker_;
 };
 
-/// Every method of experiment 2, the last of them ours. All but the raw one have a tracker of the
-/// same configuration, which holds the last accepted position.
+/// Every method of experiment 2, the last of them ours. All trackers have the same configuration,
+/// but for the worst verdict that they take, and hold the last accepted position.
 [[nodiscard]] std::vector<std::unique_ptr<PointMethod>> make_point_methods(const Cell& cell);
 
 /// What all trackers of experiment 2 are.

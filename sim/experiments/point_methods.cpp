@@ -178,8 +178,8 @@ class PointTwoCameras : public PointMethod {
 /// Ours: the verdict on the key point's pixels by the labels of its own stamp.
 class PenumbraPoint : public PointMethod {
  public:
-  explicit PenumbraPoint(const Cell& cell)
-      : PointMethod(cell), judge_(cell.camera, cell.rule, cell.links) {}
+  PenumbraPoint(const Cell& cell, const PointTrackerConfig& tracker)
+      : PointMethod(cell, tracker), judge_(cell.camera, cell.rule, cell.links) {}
   MethodInfo info() const override {
     return {"penumbra", "Penumbra",
             "Labels of the image's own stamp, verdict over the key point's pixels (5 %), position "
@@ -200,6 +200,16 @@ class PenumbraPoint : public PointMethod {
   TargetJudge judge_;
 };
 
+class PenumbraPartialPoint : public PenumbraPoint {
+ public:
+  using PenumbraPoint::PenumbraPoint;
+  MethodInfo info() const override {
+    return {"penumbra_partial", "Penumbra, partial",
+            "As Penumbra, but positions from the trusted depths of partly visible key points are "
+            "taken, too (the tracker's worst verdict: partial)."};
+  }
+};
+
 }  // namespace
 
 PointTrackerConfig handover_tracker() {
@@ -208,7 +218,8 @@ PointTrackerConfig handover_tracker() {
   return config;
 }
 
-PointMethod::PointMethod(const Cell& cell) : cell_(&cell), tracker_(handover_tracker()) {}
+PointMethod::PointMethod(const Cell& cell, const PointTrackerConfig& tracker)
+    : cell_(&cell), tracker_(tracker) {}
 
 Outcome PointMethod::take(const PointAnswer& answer) {
   return tracker_.update(*answer.estimate, answer.verdict);
@@ -226,14 +237,18 @@ PointEstimate PointMethod::wrist_at(const Sensed& sensed, const Keypoint& keypoi
 }
 
 std::vector<std::unique_ptr<PointMethod>> make_point_methods(const Cell& cell) {
+  const PointTrackerConfig tracker = handover_tracker();
+  PointTrackerConfig takes_partial = tracker;
+  takes_partial.worst = Verdict::partial;
   std::vector<std::unique_ptr<PointMethod>> methods;
-  methods.push_back(std::make_unique<RawPoint>(cell));
-  methods.push_back(std::make_unique<PointTrackerAlone>(cell));
-  methods.push_back(std::make_unique<PointHeightThreshold>(cell));
-  methods.push_back(std::make_unique<PointUrdfFilter>(cell));
-  methods.push_back(std::make_unique<PointOwnModel>(cell));
-  methods.push_back(std::make_unique<PointTwoCameras>(cell));
-  methods.push_back(std::make_unique<PenumbraPoint>(cell));
+  methods.push_back(std::make_unique<RawPoint>(cell, tracker));
+  methods.push_back(std::make_unique<PointTrackerAlone>(cell, tracker));
+  methods.push_back(std::make_unique<PointHeightThreshold>(cell, tracker));
+  methods.push_back(std::make_unique<PointUrdfFilter>(cell, tracker));
+  methods.push_back(std::make_unique<PointOwnModel>(cell, tracker));
+  methods.push_back(std::make_unique<PointTwoCameras>(cell, tracker));
+  methods.push_back(std::make_unique<PenumbraPartialPoint>(cell, takes_partial));
+  methods.push_back(std::make_unique<PenumbraPoint>(cell, tracker));
   return methods;
 }
 

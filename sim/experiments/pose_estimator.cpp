@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
@@ -61,6 +62,31 @@ Eigen::Isometry3d pose_of(const cv::Mat& rotation_vector, const cv::Mat& transla
     pose.translation()(i) = translation.at<double>(i);
   }
   return pose;
+}
+
+struct Solution {
+  Eigen::Isometry3d pose;
+  Correspondences inliers;
+};
+
+/// Of the two poses that a plane may have, IPPE answers the one that fits better; the others of
+/// OpenCV's solvers take either. Degenerate points (on a line) make OpenCV throw: no pose.
+std::optional<Solution> solve(const Correspondences& all, const cv::Mat& camera) try {
+  cv::Mat rotation, translation;
+  std::vector<int> agreed;
+  if (!cv::solvePnPRansac(all.points, all.pixels, camera, cv::noArray(), rotation, translation,
+                          false, ransac_rounds, static_cast<float>(ransac_pixels),
+                          ransac_confidence, agreed, cv::SOLVEPNP_P3P))
+    return std::nullopt;
+  Correspondences inliers = all.of(agreed);
+  if (!cv::solvePnP(inliers.points, inliers.pixels, camera, cv::noArray(), rotation, translation,
+                    false, cv::SOLVEPNP_IPPE))
+    return std::nullopt;
+  cv::solvePnPRefineLM(inliers.points, inliers.pixels, camera, cv::noArray(), rotation,
+                       translation);
+  return Solution{pose_of(rotation, translation), std::move(inliers)};
+} catch (const cv::Exception&) {
+  return std::nullopt;
 }
 
 /// Of least squares: sigma^2 (J^T J)^-1, J of the reprojection by position and rotation vector.
@@ -167,29 +193,18 @@ std::optional<PoseGuess> PoseEstimator::estimate(std::span<const FeatureMatch> m
     all.pixels.emplace_back(match.pixel.cast<float>().x(), match.pixel.cast<float>().y());
   }
   if (all.points.size() < least) return std::nullopt;
-  cv::Mat rotation, translation;
-  std::vector<int> agreed;
-  if (!cv::solvePnPRansac(all.points, all.pixels, state_->matrix, cv::noArray(), rotation,
-                          translation, false, ransac_rounds, static_cast<float>(ransac_pixels),
-                          ransac_confidence, agreed, cv::SOLVEPNP_P3P) ||
-      agreed.size() < least)
-    return std::nullopt;
-  const Correspondences inliers = all.of(agreed);
-  if (!cv::solvePnP(inliers.points, inliers.pixels, state_->matrix, cv::noArray(), rotation,
-                    translation, false, cv::SOLVEPNP_SQPNP))
-    return std::nullopt;
-  cv::solvePnPRefineLM(inliers.points, inliers.pixels, state_->matrix, cv::noArray(), rotation,
-                       translation);
+  const auto found = solve(all, state_->matrix);
+  if (!found || found->inliers.points.size() < least) return std::nullopt;
   PoseGuess guess;
-  guess.T_camera_object = pose_of(rotation, translation);
-  guess.inliers = agreed.size();
+  guess.T_camera_object = found->pose;
+  guess.inliers = found->inliers.points.size();
   const Eigen::Vector3d normal = guess.T_camera_object.linear().col(2);
   const bool faces_camera = normal.dot(guess.T_camera_object.translation()) < 0;
   if (!guess.T_camera_object.matrix().allFinite() || guess.T_camera_object.translation().z() <= 0 ||
       !faces_camera)
     return std::nullopt;
   if (acceptance == Acceptance::careful) {
-    guess.covariance = covariance_of(state_->camera, guess.T_camera_object, inliers);
+    guess.covariance = covariance_of(state_->camera, guess.T_camera_object, found->inliers);
     if (!guess.covariance->allFinite()) return std::nullopt;
   }
   return guess;
