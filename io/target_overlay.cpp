@@ -16,7 +16,7 @@ namespace {
 
 constexpr int rows_per_width = 360;  // image rows for which lines grow by a pixel
 constexpr Rgb8 rim{0, 0, 0};         // around lines and names, so that they stand out on any ground
-constexpr Rgb8 mark{255, 255, 255};
+constexpr Rgb8 marker_colour{255, 255, 255};
 
 /// Draws on an image with lines of a width.
 struct Pen {
@@ -62,7 +62,7 @@ struct Pen {
   void cross(const Eigen::Vector2d& p) const {
     const double arm = 4.0 * width;
     const Eigen::Vector2d a(arm, arm), b(arm, -arm);
-    paths({{p - a, p + a}, {p - b, p + b}}, mark);
+    paths({{p - a, p + a}, {p - b, p + b}}, marker_colour);
   }
 
   /// A line of text on a dark ground after a square of the colour.
@@ -72,7 +72,7 @@ struct Pen {
     for (int y = std::max(v, 0); y < std::min(v + line, out.height()); ++y)
       for (int x = std::max(u, 0); x < std::min(end, out.width()); ++x) out(x, y) = rim;
     BitmapFont::fill(u + width, v + width, letter, color, out);
-    BitmapFont::draw(text, u + 2 * letter, v + width, width, mark, out);
+    BitmapFont::draw(text, u + 2 * letter, v + width, width, marker_colour, out);
   }
 };
 

@@ -78,7 +78,7 @@ void write_stl(const TriangleMesh& mesh, const fs::path& file) {
 std::string place_mesh(const fs::path& from, const fs::path& folder, int number) {
   const std::string ending = lower_ending(from);
   const bool readable = ending == ".stl" || ending == ".obj";
-  const std::string name = "mesh_" + std::to_string(number) + (readable ? ending : ".stl");
+  std::string name = "mesh_" + std::to_string(number) + (readable ? ending : ".stl");
   if (readable) {
     std::error_code error;
     fs::copy_file(from, folder / name, fs::copy_options::overwrite_existing, error);

@@ -160,8 +160,7 @@ void DepthSensor::measure(const Image<float>& truth, std::uint64_t frame,
         }
       }
       const float s = (static_cast<float>(u % patch) + 0.5F) / patch;
-      const float* const corner =
-          &lattice_[static_cast<std::size_t>(v / patch * columns + u / patch)];
+      const float* const corner = lattice_.data() + v / patch * columns + u / patch;
       const float shared = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
                            t * ((1 - s) * corner[columns] + s * corner[columns + 1]);
       const float variance = ((1 - t) * (1 - t) + t * t) * ((1 - s) * (1 - s) + s * s);

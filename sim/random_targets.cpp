@@ -14,8 +14,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int frames = 1000;
-constexpr double nearest = 0.35;  // metres from the camera that a target keeps
-constexpr double gap = 0.05;      // metres of depth between a target and the part of the arm there
+constexpr double nearest_target = 0.35;  // metres from the camera that a target keeps
+constexpr double gap = 0.05;  // metres of depth between a target and the part of the arm there
 
 enum class Place { before, behind, beside };
 constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behind, Place::behind,
@@ -102,11 +102,11 @@ Vector3d RandomTargets::position(Place place, double radius, Random& random,
     const auto chosen =
         static_cast<std::size_t>(random.uniform() * static_cast<double>(parts.size()));
     const Vector3d part = T_camera_base * parts[chosen];
-    if (part.z() < nearest) continue;
+    if (part.z() < nearest_target) continue;
     double depth = part.z();
     if (place == Place::before) depth -= gap + radius + random.uniform(0.05, 0.35);
     if (place == Place::behind) depth += gap + radius + random.uniform(0.05, 0.60);
-    if (depth - radius < nearest) continue;
+    if (depth - radius < nearest_target) continue;
     const double least = place == Place::beside ? 0.12 + radius : 0.0;
     const double aside = random.uniform(least, least + 0.12);
     const double angle = random.uniform(0.0, 6.2831853);

@@ -49,7 +49,7 @@ void check_options(const SimulationOptions& options) {
 }
 
 std::filesystem::path shipped_urdf() {
-  const std::filesystem::path urdf = PENUMBRA_SIM_ARM;
+  std::filesystem::path urdf = PENUMBRA_SIM_ARM;
   std::error_code error;
   if (!std::filesystem::is_regular_file(urdf, error))
     throw InputError(urdf.string() +

@@ -86,8 +86,8 @@ class Measured {
 };
 
 /// A frame as targets are judged on it.
-struct JudgedFrame {
-  JudgedFrame(const JudgedImages& judged, const labelling::Rule& label_rule);
+struct LabelledFrame {
+  LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule);
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const {
@@ -188,7 +188,7 @@ void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expecte
 }
 
 /// Fills a tally with the pixels of an extent on a frame whose pose is known.
-void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,
+void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally);
 
 }  // namespace penumbra

@@ -56,7 +56,7 @@ void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
 
 class LabelTally {
  public:
-  LabelTally(const JudgedFrame& frame, bool beyond_hides, ExtentTally& tally)
+  LabelTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally)
       : images_(frame.images), beyond_hides_(beyond_hides), tally_(tally) {}
 
   void add(const RowSpan& span) {
@@ -100,8 +100,8 @@ class LabelTally {
 template <typename Limits, typename Depths>
 class DepthTally {
  public:
-  DepthTally(const JudgedFrame& frame, bool beyond_hides, ExtentTally& tally, const Limits& limits,
-             const Depths& measured)
+  DepthTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally,
+             const Limits& limits, const Depths& measured)
       : images_(frame.images),
         beyond_hides_(beyond_hides),
         tally_(tally),
@@ -172,7 +172,7 @@ struct NoDepths {
 };
 
 template <typename Limits>
-void tally_with(const JudgedFrame& frame, std::span<const RowSpan> spans, bool beyond_hides,
+void tally_with(const LabelledFrame& frame, std::span<const RowSpan> spans, bool beyond_hides,
                 ExtentTally& tally, const Limits& limits) {
   const auto add_all = [&](const auto& measured) {
     DepthTally adder(frame, beyond_hides, tally, limits, measured);
@@ -189,13 +189,13 @@ void tally_with(const JudgedFrame& frame, std::span<const RowSpan> spans, bool b
 
 }  // namespace
 
-JudgedFrame::JudgedFrame(const JudgedImages& judged, const labelling::Rule& label_rule)
+LabelledFrame::LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule)
     : images(judged),
       rule(&label_rule),
       width(judged.labels.labels.width),
       height(judged.labels.labels.height) {}
 
-bool JudgedFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
+bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   u0 = std::max(u0, 0), v0 = std::max(v0, 0);
   u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
   if (u0 > u1 || v0 > v1) return false;
@@ -223,7 +223,7 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
   return blame;
 }
 
-void tally_extent(const JudgedFrame& frame, std::span<const RowSpan> spans,
+void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally) {
   tally.clear();
   if (expected.known()) {

@@ -70,7 +70,7 @@ struct TargetJudge::State {
 
   Camera camera;
   labelling::Rule rule;
-  JudgedFrame frame;
+  LabelledFrame frame;
   std::uint64_t number = 0;  // of the frame
   RobotSurroundings robot;
   Sights sights;
@@ -107,7 +107,7 @@ void TargetJudge::begin(const JudgedImages& images) {
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
-  state_->frame = JudgedFrame(images, state_->rule);
+  state_->frame = LabelledFrame(images, state_->rule);
   state_->robot.begin(state_->frame);
   ++state_->number;
 }

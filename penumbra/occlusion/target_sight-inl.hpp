@@ -59,7 +59,7 @@ struct Sight {
 
 /// A target and the frame it is looked at on.
 struct Look {
-  const JudgedFrame& frame;
+  const LabelledFrame& frame;
   std::uint64_t number;  ///< of the frame
   const TargetView& target;
   const ExpectedDepth& expected;

@@ -23,7 +23,7 @@ Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
 }
 
 /// Whether some of the robot lies at most `reach` pixels from the box around some spans.
-bool lies_near_robot(const JudgedFrame& frame, std::span<const RowSpan> spans, int reach) {
+bool lies_near_robot(const LabelledFrame& frame, std::span<const RowSpan> spans, int reach) {
   if (spans.empty()) return false;
   const SpanBox box = box_of_spans(spans);
   const int u0 = std::max(box.u0 - reach, 0), u1 = std::min(box.u1 + reach, frame.width - 1);

@@ -20,7 +20,7 @@ class RobotSurroundings {
   RobotSurroundings(int width, int height, const LabelRule& rule);
 
   /// Forgets the last frame. `frame` is looked at until the next call.
-  void begin(const JudgedFrame& frame);
+  void begin(const LabelledFrame& frame);
 
   /// Depths that may be of the robot within edge_margin pixels of a cell; none: from > to.
   struct Depths {
@@ -46,7 +46,7 @@ class RobotSurroundings {
 
   int cells_;  // how many of them the margin reaches
   float beyond_factor_;
-  const JudgedFrame* frame_ = nullptr;
+  const LabelledFrame* frame_ = nullptr;
   std::uint64_t number_ = 0;
   Image<Cell> cell_;
   Image<Around> around_;
@@ -63,8 +63,8 @@ class TrustedDepths {
  public:
   /// Takes the depths of an extent that are labelled clear or front, that may not be of the robot
   /// and that lie within the limits of the expected depth. The extent has one pixel at least.
-  void take(const JudgedFrame& frame, std::span<const RowSpan> spans, const ExpectedDepth& expected,
-            RobotSurroundings& robot);
+  void take(const LabelledFrame& frame, std::span<const RowSpan> spans,
+            const ExpectedDepth& expected, RobotSurroundings& robot);
 
   [[nodiscard]] std::size_t count() const { return count_; }
 

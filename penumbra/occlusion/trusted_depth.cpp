@@ -79,7 +79,7 @@ RobotSurroundings::RobotSurroundings(int width, int height, const LabelRule& rul
       cell_(cells_of(width), cells_of(height)),
       around_(cells_of(width), cells_of(height)) {}
 
-void RobotSurroundings::begin(const JudgedFrame& frame) {
+void RobotSurroundings::begin(const LabelledFrame& frame) {
   frame_ = &frame;
   ++number_;
 }
@@ -130,7 +130,7 @@ namespace {
 template <typename Depths>
 class Gatherer {
  public:
-  Gatherer(const JudgedFrame& frame, const Depths& measured, RobotSurroundings* robot,
+  Gatherer(const LabelledFrame& frame, const Depths& measured, RobotSurroundings* robot,
            std::int32_t* out)
       : frame_(frame), measured_(measured), robot_(robot), out_(out) {}
 
@@ -173,7 +173,7 @@ class Gatherer {
     return end;
   }
 
-  const JudgedFrame& frame_;
+  const LabelledFrame& frame_;
   const Depths& measured_;
   RobotSurroundings* robot_;  // null: none is near
   std::int32_t* out_;
@@ -182,7 +182,7 @@ class Gatherer {
 
 }  // namespace
 
-void TrustedDepths::take(const JudgedFrame& frame, std::span<const RowSpan> spans,
+void TrustedDepths::take(const LabelledFrame& frame, std::span<const RowSpan> spans,
                          const ExpectedDepth& expected, RobotSurroundings& robot) {
   const SpanBox box = box_of_spans(spans);
   const int reach = robot.reach();
