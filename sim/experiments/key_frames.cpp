@@ -113,6 +113,7 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
     }
   story.emplace_back("Most hidden", hidden);
   std::vector<std::size_t> front;
+  front.reserve(run.frames.size());
   for (std::size_t i = 0; i < run.frames.size(); ++i)
     if (run.frames[i].before_robot) front.push_back(i);
   if (!front.empty()) story.emplace_back("Hand before the arm", front[front.size() / 2]);
