@@ -90,6 +90,10 @@ std::vector<Measure> conveyor_measures() {
            hidden_error(&Sample::rotation_error, 0.95, degrees)},
           {"wrong_accepted", "Poses off by > 2 cm accepted, per run", "", 2, false,
            events_per_seed(accepted_wrong(wrong_pose))},
+          {"wrong_accepted_hidden", "Of these, while the robot hid part", "", 2, false,
+           events_per_seed([](const Event& event) {
+             return !event.seen && accepted_wrong(wrong_pose)(event);
+           })},
           {"without_pose_s", "Time without a pose, per run", "s", 2, false, seconds_without_pose},
           {"success_percent", "Pick within 1 cm and 5 degrees", "%", 0, true, successes}};
 }
