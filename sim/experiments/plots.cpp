@@ -123,7 +123,7 @@ std::string error_plot(const SeedRun& run, std::size_t lane, std::string_view go
 
 std::string interval_chart(const std::vector<MethodInfo>& methods,
                            const std::vector<Interval>& intervals, std::string_view title) {
-  constexpr double row = 30, top = 12, left = 200, right = 40;
+  constexpr double row = 30, top = 12, left = 226, right = 40;
   double least = 1e9, most = 0;
   for (const Interval& interval : intervals) {
     if (!interval.value) continue;
