@@ -34,7 +34,7 @@ for i, colour in enumerate([(213, 94, 0), (0, 158, 115)]):  # of the boxes
 palette = sheet.quantize(COLOURS)
 few = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
 few[0].save(target, format="PNG", save_all=True, append_images=few[1:], duration=MILLISECONDS,
-            loop=0, optimize=True)
+            loop=0)
 print(target, target.stat().st_size // 1024, "kB")
 PYTHON
 done
