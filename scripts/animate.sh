@@ -32,6 +32,8 @@ for i in range(4):
 for i, colour in enumerate([(213, 94, 0), (0, 158, 115)]):  # of the boxes
     sheet.paste(colour, (60 * i, 0, 60 * i + 60, 60))
 palette = sheet.quantize(COLOURS)
+entries = palette.getpalette()[:3 * COLOURS]
+palette.putpalette(entries + entries[-3:] * (256 - COLOURS))  # else Pillow adds black, and drops it
 few = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
 few[0].save(target, format="PNG", save_all=True, append_images=few[1:], duration=MILLISECONDS,
             loop=0)
