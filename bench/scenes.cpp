@@ -80,8 +80,10 @@ BenchScene ur5e_scene(Geometry geometry, int width, int height, double f, std::s
                       std::uint64_t seed) {
   RobotOptions options;
   options.geometry = geometry;
-  auto robot = std::make_shared<const Robot>(
-      Robot::load(data_folder() / "robots" / "ur5e" / "ur5e.urdf", options));
+  const auto load = [options] {
+    return Robot::load(data_folder() / "robots" / "ur5e" / "ur5e.urdf", options);
+  };
+  auto robot = std::make_shared<const Robot>(load());
   const std::string kind = geometry == Geometry::visual ? "visual" : "collision";
   BenchScene scene{"UR5e " + kind + ", " + std::to_string(width) + "x" + std::to_string(height),
                    Intrinsics(width, height, f, f, 0.5 * width + 7.3, 0.5 * height - 4.1),
@@ -95,6 +97,8 @@ BenchScene ur5e_scene(Geometry geometry, int width, int height, double f, std::s
     speed.push_back(0.5 + unit(random));
   }
   const Isometry3d T_camera_root = look_at({1.15, -0.3, 0.5}, {0.0, 0.0, 0.3});
+  scene.T_root_camera = T_camera_root.inverse();
+  scene.load_robot = load;
   constexpr double frame_time = 1.0 / 30.0;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     std::vector<double> positions = robot->rest_positions();
@@ -102,18 +106,24 @@ BenchScene ur5e_scene(Geometry geometry, int width, int height, double f, std::s
       positions[i] = 1.5 * std::sin(phase[i] + speed[i] * frame_time * static_cast<double>(frame));
     }
     scene.path.push_back(link_poses(*robot, positions, T_camera_root));
+    scene.joints.push_back(positions);
   }
   return scene;
 }
 
 BenchScene xarm7_scene(std::size_t frames) {
   const io::Recording recording = io::Recording::open(data_folder() / "xarm7_realsense");
-  auto robot = std::make_shared<const Robot>(Robot::load(recording.urdf, recording.robot));
+  const auto load = [urdf = recording.urdf, options = recording.robot] {
+    return Robot::load(urdf, options);
+  };
+  auto robot = std::make_shared<const Robot>(load());
   const Intrinsics& k = recording.camera.camera.intrinsics;
   BenchScene scene{
       "xArm 7, " + std::to_string(k.width()) + "x" + std::to_string(k.height()), k, robot, {}};
   const std::vector<io::JointRow> rows = io::read_joint_file(recording.frames.joints, *robot);
   const Isometry3d T_camera_root = recording.camera.T_parent_camera.inverse();
+  scene.T_root_camera = recording.camera.T_parent_camera;
+  scene.load_robot = load;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const double at = static_cast<double>(frame) * static_cast<double>(rows.size() - 1) /
                       static_cast<double>(frames);
@@ -124,6 +134,7 @@ BenchScene xarm7_scene(std::size_t frames) {
       positions[i] += part * (rows[row + 1].positions[i] - positions[i]);
     }
     scene.path.push_back(link_poses(*robot, positions, T_camera_root));
+    scene.joints.push_back(positions);
   }
   return scene;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +24,10 @@ struct BenchScene {
   std::string name;
   Intrinsics intrinsics;
   std::shared_ptr<const Robot> robot;
-  std::vector<LinkPoses> path;  ///< a smooth motion, one entry per frame
+  std::vector<LinkPoses> path;                   ///< a smooth motion, one entry per frame
+  std::vector<std::vector<double>> joints = {};  ///< positions of the same frames
+  Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
+  std::function<Robot()> load_robot = {};  ///< another one like it
 
   [[nodiscard]] std::vector<Body> bodies() const;
 };

@@ -22,16 +22,6 @@ namespace {
 
 constexpr std::uint64_t max_camera_info_bytes = 1 << 20;
 
-/// Runs f and puts file, line and key of `node` before the message of what it throws.
-template <typename F>
-auto blamed_on(const YamlNode& node, F&& f) {
-  try {
-    return f();
-  } catch (const InputError& error) {
-    node.fail(error.what());
-  }
-}
-
 /// The value of one of two spellings of a key, which must not both stand there.
 const YamlNode* find_either(const YamlNode& map, std::string_view key, std::string_view other) {
   const YamlNode* first = map.find(key);
@@ -137,7 +127,7 @@ Intrinsics raw_intrinsics(const CameraInfo& info) {
   k.require(8, 1, "[fx 0 cx, 0 fy cy, 0 0 1] is wanted");
   const int width = info.width();
   const int height = info.height();
-  return blamed_on(k.node, [&] {
+  return k.node.blamed_for([&] {
     return Intrinsics(width, height, k.values[0], k.values[4], k.values[2], k.values[5]);
   });
 }
@@ -145,9 +135,9 @@ Intrinsics raw_intrinsics(const CameraInfo& info) {
 Distortion raw_distortion(const CameraInfo& info) {
   const YamlNode& model = info.distortion_model();
   const std::string& name = model.text_or_empty();
-  blamed_on(model, [&] { static_cast<void>(penumbra::distortion_model(name)); });
+  model.blamed_for([&] { static_cast<void>(penumbra::distortion_model(name)); });
   const Matrix d = info.d();
-  return blamed_on(d.node, [&] { return Distortion(name, d.values); });
+  return d.node.blamed_for([&] { return Distortion(name, d.values); });
 }
 
 void require_identity(const Matrix& r) {
@@ -172,7 +162,7 @@ Intrinsics rectified_intrinsics(const CameraInfo& info) {
   p.require(10, 1, "[fx 0 cx 0, 0 fy cy 0, 0 0 1 0] is wanted");
   const int width = info.width();
   const int height = info.height();
-  return blamed_on(p.node, [&] {
+  return p.node.blamed_for([&] {
     return Intrinsics(width, height, p.values[0], p.values[5], p.values[2], p.values[6]);
   });
 }
@@ -204,7 +194,7 @@ Intrinsics windowed(const CameraInfo& info, const Intrinsics& full, bool rectifi
     do_rectify->fail(
         "the rectified image's window is not that of roi; give the roi of the rectified image "
         "and do_rectify: false");
-  return blamed_on(*roi, [&] { return full.cropped(x, y, width, height); });
+  return roi->blamed_for([&] { return full.cropped(x, y, width, height); });
 }
 
 Intrinsics binned(const YamlNode& root, const Intrinsics& window) {
@@ -212,7 +202,7 @@ Intrinsics binned(const YamlNode& root, const Intrinsics& window) {
   const int by = std::max(pixels(root, "binning_y"), 1);
   if (bx == 1 && by == 1) return window;
   const YamlNode& blamed = root.at(bx > 1 ? "binning_x" : "binning_y");
-  return blamed_on(blamed, [&] { return window.binned(bx, by); });
+  return blamed.blamed_for([&] { return window.binned(bx, by); });
 }
 
 std::string frame_id(const YamlNode& root) {

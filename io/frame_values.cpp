@@ -223,11 +223,7 @@ FrameValue FrameValues::at(std::int64_t index) const {
 
 void FrameValues::check_written(const std::function<void(const FrameValue&)>& check) const {
   const auto check_one = [&](const Written& written) {
-    try {
-      check(written.value);
-    } catch (const InputError& fault) {
-      written.node.fail(fault.what());
-    }
+    written.node.blamed_for([&] { check(written.value); });
   };
   if (constant_) check_one(*constant_);
   for (const Written& written : written_) check_one(written);

@@ -10,16 +10,6 @@
 namespace penumbra::io {
 namespace {
 
-// Runs `check`; what it throws is told as a fault of `node`.
-template <typename F>
-auto at_node(const YamlNode& node, const F& check) {
-  try {
-    return check();
-  } catch (const InputError& fault) {
-    node.fail(fault.what());
-  }
-}
-
 std::filesystem::path file_of(const YamlNode& node, const std::filesystem::path& folder) {
   std::filesystem::path file = folder / node.text();
   std::error_code error;
@@ -83,7 +73,7 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
   if (const YamlNode* tolerance = node.find("tolerance")) {
     const std::vector<double> abc = tolerance->numbers(3);
     camera.tolerance = rule.tolerance = {abc[0], abc[1], abc[2]};
-    at_node(*tolerance, [&] { rule.check(); });
+    tolerance->blamed_for([&] { rule.check(); });
   }
   if (const YamlNode* width = node.find("front_min_width")) {
     const std::int64_t pixels = width->integer();
@@ -95,7 +85,7 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
   if (const YamlNode* range = node.find("range")) {
     const std::vector<double> ends = range->numbers(2);
     camera.range = camera.camera.range = {ends[0], ends[1]};
-    at_node(*range, [&] { camera.camera.check(); });
+    range->blamed_for([&] { camera.camera.check(); });
   }
   if (const YamlNode* beyond = node.find("beyond")) {
     if (beyond->text() == "occluded")
@@ -124,7 +114,7 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
 }
 
 FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folder) {
-  return at_node(node, [&] { return FramePattern(node.text(), folder); });
+  return node.blamed_for([&] { return FramePattern(node.text(), folder); });
 }
 
 RecordingFrames frames_of(const YamlNode& node, const std::filesystem::path& folder) {

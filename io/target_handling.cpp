@@ -11,16 +11,6 @@
 namespace penumbra::io {
 namespace {
 
-/// Runs `check`; what it throws is told as a fault of `node`.
-template <typename F>
-void checked_at(const YamlNode& node, const F& check) {
-  try {
-    check();
-  } catch (const InputError& fault) {
-    node.fail(fault.what());
-  }
-}
-
 void read_number(const YamlNode& node, std::string_view key, double& to) {
   if (const YamlNode* value = node.find(key)) to = value->number();
 }
@@ -93,7 +83,7 @@ PoseTrackerConfig read_pose(const YamlNode& node) {
   read_number(node, "angular_drift", config.angular_drift);
   read_number(node, "angular_speed_sigma", config.angular_speed_sigma);
   read_track(node, config);
-  checked_at(node, [&] { config.check(); });
+  node.blamed_for([&] { config.check(); });
   return config;
 }
 
@@ -105,7 +95,7 @@ PointTrackerConfig read_point(const YamlNode& node) {
   read_number(node, "sigma", config.sigma);
   read_number(node, "held_speed", config.held_speed);
   read_track(node, config);
-  checked_at(node, [&] { config.check(); });
+  node.blamed_for([&] { config.check(); });
   return config;
 }
 
@@ -126,7 +116,7 @@ TargetThresholds read_thresholds(const YamlNode& node, TargetThresholds threshol
   read_flag(node, "others_hide", thresholds.others_hide);
   read_count(node, "point_min_pixels", thresholds.point_min_pixels);
   read_number(node, "point_min_fraction", thresholds.point_min_fraction);
-  checked_at(node, [&] { thresholds.check(); });
+  node.blamed_for([&] { thresholds.check(); });
   return thresholds;
 }
 

@@ -64,7 +64,7 @@ Json target_json(const TargetReport& target, std::span<const std::string> links)
           {"hidden_by_other_fraction",
            judged.hidden_by_other ? share(*judged.hidden_by_other) : Json(nullptr)},
           {"verdict", to_string(target.verdict)},
-          {"blame", blame_json(judged, links)},
+          {"blame", target.judgement ? blame_json(judged, links) : Json(nullptr)},
           {"point", target.point ? vector_json(*target.point) : Json(nullptr)},
           {"point_pixels", target.point ? Json(judged.point_pixels) : Json(nullptr)},
           {"point_spread_m", target.point ? Json(judged.point_spread) : Json(nullptr)},

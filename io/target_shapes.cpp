@@ -82,11 +82,18 @@ auto at_place(const std::string& place, const F& call) {
   }
 }
 
+/// What would make a region unknown in every frame is told at once.
+void check_shape(const TargetShape& shape, const Intrinsics& images) {
+  if (const auto* target = std::get_if<RegionTarget>(&shape))
+    check_region(target->region, images.width(), images.height());
+}
+
 /// The shape that is made of a frame's numbers. Those of the YAML file itself are tried at once.
 ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const ValueFormat& format,
                       const MakeShape& make) {
   auto values = std::make_shared<FrameValues>(reader.values(node, format));
-  values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
+  const Intrinsics& images = reader.context.images;
+  values->check_written([&](const FrameValue& value) { check_shape(make(value), images); });
   const bool may_be_late = values->has_stamps();
   return {
       [=](std::int64_t index) {
@@ -198,19 +205,16 @@ ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   if (!node.is_map()) {
     const FileResult read = read_png(reader.folder / node.text(), *mask, size);
     if (!read.ok()) node.fail(read.message);
+    node.blamed_for([&] { check_shape(make().shape, reader.context.images); });
     return {[=](std::int64_t) { return make(); }};
   }
   node.allow_only({"files"});
   const YamlNode& files = node.at("files");
-  std::optional<FramePattern> pattern;
-  try {
-    pattern.emplace(files.text(), reader.folder);
-  } catch (const InputError& fault) {
-    files.fail(fault.what());
-  }
-  if (pattern->existing().empty()) files.fail("no file of that name for any frame");
+  const FramePattern pattern =
+      files.blamed_for([&] { return FramePattern(files.text(), reader.folder); });
+  if (pattern.existing().empty()) files.fail("no file of that name for any frame");
   return {[=](std::int64_t index) {
-    read_png(pattern->file(index), *mask, size).require();
+    read_png(pattern.file(index), *mask, size).require();
     return make();
   }};
 }

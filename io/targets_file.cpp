@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/disk_file.hpp>
 #include <io/frame_values.hpp>
 #include <io/target_shapes.hpp>
 #include <io/targets_file.hpp>
@@ -12,6 +13,8 @@
 
 namespace penumbra::io {
 namespace {
+
+constexpr std::uint64_t max_bytes = 16 << 20;  // thousands of targets, or masks
 
 /// One target and where its parts come from.
 struct TargetSource {
@@ -100,7 +103,7 @@ TargetsFile& TargetsFile::operator=(TargetsFile&&) noexcept = default;
 TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsContext& context) {
   auto state = std::make_unique<State>();
   state->file = file;
-  const YamlNode root = YamlNode::read(file);
+  const YamlNode root = YamlNode::parse(read_text(file, max_bytes), file);
   root.allow_only({"image", "history", "targets"});
   check_image(root, context);
   ValueTables tables;

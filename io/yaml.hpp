@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
+
 namespace penumbra::io {
 
 /// A value of a YAML file that knows where it stands: everything that throws, throws InputError
@@ -55,6 +57,16 @@ class YamlNode {
 
   /// Throws for this value: `what` says what is wrong and what would be right.
   [[noreturn]] void fail(const std::string& what) const;
+
+  /// Runs `call`; an InputError that it throws is told as a fault of this value.
+  template <typename F>
+  auto blamed_for(const F& call) const {
+    try {
+      return call();
+    } catch (const InputError& fault) {
+      fail(fault.what());
+    }
+  }
 
  private:
   enum class Kind { null, scalar, list, map };

@@ -114,6 +114,10 @@ Eigen::Vector2d RegionSpans::middle() const {
   return Eigen::Vector2d(u, v) / static_cast<double>(inside());
 }
 
+void check_region(const Region& region, int width, int height) {
+  RegionSpans(width, height).fill(region);
+}
+
 void RegionSpans::take(const PixelBox& box) {
   const Eigen::Array4d numbers(box.u, box.v, box.width, box.height);
   const auto fault = [&](const char* what) {

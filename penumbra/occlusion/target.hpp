@@ -65,6 +65,10 @@ struct RenderedRegion {
 using Region =
     std::variant<PixelBox, PixelPolygon, PixelMask, RunLengthMask, PixelEllipse, RenderedRegion>;
 
+/// Throws InputError, which says what is wrong, for a region that is none in an image of that size:
+/// whatever a target of it would be unknown for.
+void check_region(const Region& region, int width, int height);
+
 /// What a region covers of its target.
 enum class Extent {
   amodal,  ///< all of it, hidden parts too

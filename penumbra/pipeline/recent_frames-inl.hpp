@@ -101,6 +101,7 @@ class RecentFrames {
   std::size_t links_;
   std::deque<Copy> copies_;  // views of theirs stay valid as their number grows
   TileMask everything_;
+  TileMask left_;  // of a copy's tiles, while it is written anew
 };
 
 }  // namespace penumbra

@@ -8,13 +8,16 @@
 namespace penumbra {
 namespace {
 
+/// The tiles of `before` that are not of `now`.
+void find_left(const TileMask& before, const TileMask& now, TileMask& left) {
+  for (std::size_t j = 0; j < left.rows.size(); ++j) left.rows[j] = before.rows[j] & ~now.rows[j];
+}
+
 /// Makes `image` show `source` inside `now` and zeros outside, given that it is zero outside of
-/// `before`.
+/// `now` and `left`.
 template <typename T>
-void copy_tiles(ImageView<const T> source, const TileMask& before, const TileMask& now,
+void copy_tiles(ImageView<const T> source, const TileMask& left, const TileMask& now,
                 Image<T>& image) {
-  TileMask left = before;
-  for (std::size_t j = 0; j < left.rows.size(); ++j) left.rows[j] &= ~now.rows[j];
   left.for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v) std::fill(&image(u0, v), &image(u0, v) + (u1 - u0), T{0});
   });
@@ -120,12 +123,15 @@ void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
   if (everything_.width != width || everything_.height != height) {
     everything_ = TileMask(width, height);
     everything_.mark(0, 0, width - 1, height - 1);
+    left_ = TileMask(width, height);
   }
   const TileMask& touched = virtual_depth.touched ? *virtual_depth.touched : everything_;
   const TileMask& labelled = from.labels.touched ? *from.labels.touched : everything_;
-  copy_tiles(virtual_depth.depth, to.touched, touched, to.depth);
-  copy_tiles(virtual_depth.links, to.touched, touched, to.links);
-  copy_tiles(from.labels.labels, to.labels_touched, labelled, to.labels);
+  find_left(to.touched, touched, left_);
+  copy_tiles(virtual_depth.depth, left_, touched, to.depth);
+  copy_tiles(virtual_depth.links, left_, touched, to.links);
+  find_left(to.labels_touched, labelled, left_);
+  copy_tiles(from.labels.labels, left_, labelled, to.labels);
   to.touched.rows = touched.rows;
   to.labels_touched.rows = labelled.rows;
 

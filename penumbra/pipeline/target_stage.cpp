@@ -31,8 +31,12 @@ bool is_modal(const Target& target) {
   return region != nullptr && region->extent == Extent::modal;
 }
 
+bool is_known(const LinkFrame& frame, const Robot& robot) {
+  return !frame || frame->empty() || robot.find_link(*frame);
+}
+
 void check_link(const LinkFrame& frame, const Robot& robot) {
-  if (!frame || frame->empty() || robot.find_link(*frame)) return;
+  if (is_known(frame, robot)) return;
   throw InputError("estimate is given in '" + std::string(*frame) + "', no link of robot '" +
                    robot.name() + "'");
 }
@@ -235,6 +239,7 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
   if (!verdict || !verdict->was_judged) return Outcome::refused_verdict;
   const auto poses = recent_poses_.find(stamp);
   if (!poses) return Outcome::refused_verdict;
+  if (!is_known(estimate.frame, robot_)) return Outcome::refused_invalid;
   return memory.track->update(estimate, stamp, pose_of(estimate.frame, *poses, robot_),
                               verdict->verdict);
 }

@@ -48,6 +48,41 @@ TEST_F(TargetsFileTest, GivesEachFrameItsValues) {
   EXPECT_TRUE(file.of_frame(3)[0].fault.empty());
 }
 
+/// One for all frames, and one for each: a frame without a file has no target.
+TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
+  Image<std::uint8_t> mask(64, 48);
+  mask(5, 7) = 255;
+  io::write_png(folder_.path() / "all.png", mask.view());
+  mask(6, 7) = 1;
+  io::write_png(folder_.path() / "m_001.png", mask.view());
+  io::write_png(folder_.path() / "m_003.png", Image<std::uint8_t>(9, 9, 1).view());
+  io::TargetsFile file = open(
+      "targets:\n- {name: all, mask: all.png, extent: modal, expected_depth: 1.5}\n"
+      "- {name: each, mask: {files: m_%03d.png}}\n");
+  const auto pixels = [](const Target& target) {
+    const auto& region = std::get<RegionTarget>(target.shape);
+    const auto& image = std::get<PixelMask>(region.region).mask;
+    std::vector<Eigen::Vector2i> set;
+    for (int v = 0; v < image.height; ++v)
+      for (int u = 0; u < image.width; ++u)
+        if (image(u, v) != 0) set.emplace_back(u, v);
+    return set;
+  };
+  const auto targets = file.of_frame(1);
+  EXPECT_EQ(pixels(targets[0]), (std::vector<Eigen::Vector2i>{{5, 7}}));
+  EXPECT_EQ(pixels(targets[1]), (std::vector<Eigen::Vector2i>{{5, 7}, {6, 7}}));
+  const auto& all = std::get<RegionTarget>(targets[0].shape);
+  EXPECT_EQ(all.extent, Extent::modal);
+  EXPECT_EQ(all.expected_depth, 1.5);
+  const std::pair<std::int64_t, const char*> faults[] = {{2, "m_002.png"}, {3, "9 x 9"}};
+  for (const auto& [frame, told] : faults) {
+    const auto given = file.of_frame(frame);
+    EXPECT_TRUE(given[0].fault.empty());
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(given[1].shape)) << "never a stale mask";
+    EXPECT_NE(given[1].fault.find(told), std::string_view::npos) << given[1].fault;
+  }
+}
+
 TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
   io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 7, 1).view());
   folder_.write("odd.csv", "frame,u,w\n0,1,2\n");

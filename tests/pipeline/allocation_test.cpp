@@ -7,19 +7,23 @@
 namespace penumbra::test {
 namespace {
 
-/// Frames in which memory grows: both kinds of depth, and as many estimates as are remembered.
-constexpr int warm_up = 20;
+/// Frames in which memory grows: both kinds of depth, in every frame that is kept, and as many
+/// estimates as are remembered.
+constexpr int warm_up = 40;
 
 struct Case {
   const char* name;
   bool distorted;
   ImageSpace image;
+  double history = 0;
 };
 
 class AllocationTest : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Images, AllocationTest,
                          testing::Values(Case{"Pinhole", false, ImageSpace::raw},
+                                         Case{"PinholeKept", false, ImageSpace::raw, 0.1},
                                          Case{"Raw", true, ImageSpace::raw},
+                                         Case{"RawKept", true, ImageSpace::raw, 0.1},
                                          Case{"Rectified", true, ImageSpace::rectified}),
                          [](const auto& test) { return test.param.name; });
 
@@ -29,21 +33,24 @@ TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
   if (GetParam().distorted) camera.distortion = Distortion("plumb_bob", coefficients);
   PipelineConfig config;
   config.image = GetParam().image;
+  config.target_history = GetParam().history;
   Pipeline pipeline(slab_robot(), camera, config);
   const Image<float> metres = scene_depth(camera, 0.0);
   const Image<std::uint16_t> millimetres = to_millimetres(metres);
   std::vector<double> positions = {0.0};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation().z() = 0.7;
-  const std::vector<Target> targets{
+  std::vector<Target> targets{
       {.name = "region of pixels", .shape = RegionTarget{PixelBox{10, 80, 20, 12}}},
       {.name = "key point that is handled",
        .shape = KeypointTarget{.pixel = {20, 85}},
        .handling = PointTrackerConfig{.max_estimates = 8}},
       {.name = "box that is handled",
        .shape = BoxTarget{pose, {0.05, 0.05, 0.05}, {}},
-       .handling = PoseTrackerConfig{.max_estimates = 8}}};
-  for (int i = 0; i < 50; ++i) {
+       .handling = PoseTrackerConfig{.max_estimates = 8}},
+      {.name = "late", .shape = RegionTarget{PixelBox{30, 40, 60, 30}}}};
+  for (int i = 0; i < 80; ++i) {
+    if (GetParam().history > 0) targets.back().stamp = (i - 5) * 10'000'000;
     const std::size_t before = allocations();
     positions[0] = 0.01 * i;
     const DepthView depth = i % 2 == 0 ? DepthView(metres.view()) : DepthView(millimetres.view());

@@ -332,6 +332,19 @@ TEST_F(TargetsTest, EstimatesOfTheCameraAreBroughtToTheRoot) {
   }
 }
 
+/// Not even where it is of a frame that was judged before.
+TEST_F(TargetsTest, EstimatesInAnUnknownFrameAreRefused) {
+  Target target = region("a", beside_slab);
+  target.handling = PointTrackerConfig{};
+  judge(1 * ms, target);
+  target.estimate =
+      TargetEstimate{.value = Eigen::Vector3d(0, 0, 1), .stamp = 1 * ms, .frame = "arm"};
+  const TargetReport& report = judge(2 * ms, target);
+  EXPECT_EQ(report.verdict, Verdict::unknown);
+  EXPECT_NE(report.reason.find("'arm'"), std::string_view::npos) << report.reason;
+  EXPECT_EQ(report.estimate, Outcome::refused_invalid);
+}
+
 TEST_F(TargetsTest, WithoutStampsNothingIsHandled) {
   const Target target = followed(beside_slab);
   const FrameReport& report = pipeline_.process(
@@ -350,6 +363,44 @@ TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
 }
 
 // ---- Late targets
+
+/// In the raw image of a lens a rendered box covers the pixels whose rays meet it, and the robot
+/// hides those whose rays meet the robot.
+TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
+  Camera camera = slab_camera();
+  const double coefficients[] = {-0.25, 0.06, 0.001, -0.001, 0.0};
+  camera.distortion = Distortion("plumb_bob", coefficients);
+  const Image<float> depth = scene_depth(camera, 0.0);
+  Pipeline pipeline(slab_robot(), camera, plain_config());
+  const Eigen::Vector3d middle(0.40, 0.05, 1.5), size(0.6, 0.5, 0.001);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = middle;
+  const Target target{.name = "plate", .shape = BoxTarget{pose, size, {}}};
+  const std::vector<double> positions{0.0};
+  const FrameReport& report = pipeline.process(
+      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = {&target, 1}});
+  int covered = 0, hidden = 0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const Eigen::Vector3d straight = camera.intrinsics.ray(u, v);
+      const auto ray = camera.distortion.undistort(straight.head<2>());
+      if (!ray) continue;
+      const Eigen::Vector2d off = 1.4995 * *ray - middle.head<2>();
+      if (std::abs(off.x()) > size.x() / 2 || std::abs(off.y()) > size.y() / 2) continue;
+      ++covered;
+      if (cast({ray->x(), ray->y(), 1.0}, 0.0).depth > 0.0) ++hidden;
+    }
+  }
+  // Raw images are drawn through the pinhole image: outlines may be off by a pixel.
+  const TargetReport& plate = report.targets[0];
+  ASSERT_TRUE(plate.judgement) << plate.reason;
+  constexpr double outline = 0.04;  // of the plate's pixels
+  EXPECT_GT(covered, 1500);
+  EXPECT_GT(hidden, 300);
+  EXPECT_NEAR(static_cast<double>(plate.judgement->inside), covered, outline * covered);
+  EXPECT_NEAR(plate.judgement->occluded, hidden / (1.0 * covered), outline);
+  EXPECT_EQ(plate.verdict, Verdict::partial);
+}
 
 class LateTargetsTest : public TargetsTest {
  protected:
@@ -401,6 +452,60 @@ TEST_F(LateTargetsTest, SeeWhatTheLiveFrameSaw) {
     EXPECT_EQ(report.judgement->clear, live[static_cast<std::size_t>(i)].clear);
     EXPECT_EQ(report.point, points[static_cast<std::size_t>(i)]);
   }
+}
+
+/// A detector 100 ms late, with every kind of target: what is said of each frame is the same, and
+/// so are verdicts with their hysteresis and the accepted estimates.
+TEST_F(LateTargetsTest, SayWhatTargetsInTimeDo) {
+  PipelineConfig config = plain_config();
+  Pipeline in_time(slab_robot(), slab_camera(), config);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(0.5, 0.0, 1.6);
+  Image<std::uint8_t> mask(depth_.width(), depth_.height());
+  for (int u = 96; u < 112; ++u) mask(u, 50) = mask(u, 51) = 1;
+  std::vector<Target> targets{region("box", PixelBox{98, 46, 22, 9}),
+                              region("mask", PixelMask{mask.view()}),
+                              {.name = "keypoint", .shape = KeypointTarget{.pixel = {104, 56}}},
+                              {.name = "point", .shape = PointTarget{{0.5, 0.0, 1.6}, 0.03, ""}},
+                              {.name = "solid", .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, "base"}}};
+  targets[2].handling = PointTrackerConfig{};
+  targets[4].handling = PoseTrackerConfig{};
+  constexpr int frames = 12, delay = 2;
+  std::vector<std::vector<TargetReport>> said(frames);
+  const auto slide = [](int i) { return -0.4 * std::abs(std::sin(0.5 * i)); };
+  for (int i = 0; i < frames; ++i) {
+    positions_[0] = slide(i);
+    depth_ = scene_depth(slab_camera(), slide(i));
+    const auto& reports = in_time
+                              .process({.stamp = i * 50 * ms,
+                                        .depth = depth_.view(),
+                                        .joints = positions_,
+                                        .targets = targets})
+                              .targets;
+    said[static_cast<std::size_t>(i)].assign(reports.begin(), reports.end());
+  }
+  std::size_t changes = 0;
+  for (int i = 0; i < frames + delay; ++i) {
+    for (Target& target : targets) target.stamp = (i - delay) * 50 * ms;
+    const FrameReport& report =
+        frame_at(i * 50 * ms, slide(i), i < delay ? std::span<const Target>() : targets);
+    if (i < delay) continue;
+    const auto frame = static_cast<std::size_t>(i - delay);
+    for (std::size_t j = 0; j < targets.size(); ++j) {
+      const TargetReport &late = report.targets[j], &live = said[frame][j];
+      SCOPED_TRACE(std::string(live.name) + ", frame " + std::to_string(frame));
+      EXPECT_EQ(late.verdict, live.verdict) << late.reason;
+      ASSERT_TRUE(late.judgement && live.judgement) << late.reason;
+      EXPECT_EQ(late.judgement->inside, live.judgement->inside);
+      EXPECT_EQ(late.judgement->occluded, live.judgement->occluded);
+      EXPECT_EQ(late.judgement->unknown, live.judgement->unknown);
+      EXPECT_EQ(late.judgement->hidden_by_other, live.judgement->hidden_by_other);
+      EXPECT_EQ(late.point, live.point);
+      EXPECT_EQ(late.estimate, live.estimate);
+      if (frame > 0 && live.verdict != said[frame - 1][j].verdict) ++changes;
+    }
+  }
+  EXPECT_GT(changes, 5U) << "the slab comes and goes";
 }
 
 TEST_F(LateTargetsTest, FramesBeyondTheSpanAreGone) {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong in a targets.yaml ends a run with status 2 and one line that says where.
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+struct BadTargets {
+  const char* name;
+  std::string text;                ///< the entry of target `a` without its name
+  std::vector<std::string> words;  ///< which the line holds
+};
+
+std::ostream& operator<<(std::ostream& out, const BadTargets& bad) { return out << bad.name; }
+
+std::vector<BadTargets> bad_targets() {
+  const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
+  return {
+      {"BoxOfNoArea", "box: [1, 2, 0, 4]\n", {":3: targets[0].box", "area"}},
+      {"BoxOfNegativeWidth", "box: [1, 2, -3, 4]\n", {":3: targets[0].box", "area"}},
+      {"BoxWithNan", "box: [1, .nan, 3, 4]\n", {":3: targets[0].box", "finite"}},
+      {"BoxTooFarOut", "box: [1e300, 2, 3, 4]\n", {":3: targets[0].box", "far out"}},
+      {"BoxTooShort", "box: [1, 2, 3]\n", {":3: targets[0].box", "width, height"}},
+      {"PolygonThatCrossesItself",
+       "polygon: [[1, 1], [20, 20], [20, 1], [1, 20]]\n",
+       {":3: targets[0].polygon", "crosses itself"}},
+      {"PolygonThatCrossesItselfInAFrame",
+       "polygon:\n    frames:\n      0: [[1, 1], [20, 1], [20, 20]]\n"
+       "      1: [[1, 1], [20, 20], [20, 1], [1, 20]]\n",
+       {":6: targets[0].polygon.frames.1", "crosses itself"}},
+      {"PolygonOfNoArea",
+       "polygon: [[1, 1], [9, 9], [20, 20]]\n",
+       {":3: targets[0].polygon", "area"}},
+      {"PolygonOfTwoCorners", "polygon: [[1, 1], [2, 2]]\n", {":3: ", "3 corners"}},
+      {"PolygonWithInfinity", "polygon: [[1, .inf], [2, 2], [3, 1]]\n", {":3: ", "finite"}},
+      {"MaskMissing", "mask: no.png\n", {":3: targets[0].mask", "no.png"}},
+      {"MaskOfAnotherSize", "mask: small.png\n", {":3: targets[0].mask", "7 x 5", "64 x 48"}},
+      {"MaskOfNoPixel", "mask: empty.png\n", {":3: targets[0].mask", "without any pixel"}},
+      {"MasksMissing", "mask: {files: m%d.png}\n", {":3: targets[0].mask.files", "no file"}},
+      {"MaskIsColour", "mask: color_0.png\n", {":3: targets[0].mask", "color_0.png"}},
+      {"RunLengthsOfAnotherSize",
+       "rle: {size: [64, 48], counts: [3072]}\n",
+       {":3: targets[0].rle", "another size"}},
+      {"RunLengthsThatEndEarly", "rle: {size: [48, 64], counts: [5]}\n", {":3: ", "add up to 5"}},
+      {"RunLengthsOfNoPixel",
+       "rle: {size: [48, 64], counts: [3072]}\n",
+       {":3: targets[0].rle", "without any pixel"}},
+      {"KeypointOfRadiusZero", "keypoint: [5, 5]\n  radius: 0\n", {":4: targets[0].radius"}},
+      {"KeypointTooLarge", "keypoint: [5, 5]\n  radius: .inf\n", {":4: targets[0].radius"}},
+      {"KeypointFileMissing", "keypoint: {csv: no.csv}\n", {"no.csv"}},
+      {"KeypointFileOfOtherColumns", "keypoint: {csv: odd.csv}\n", {"odd.csv:1", "'v'"}},
+      {"KeypointFileWithAFrameTwice", "keypoint: {csv: twice.csv}\n", {"twice.csv:3", "frame 0"}},
+      {"QuaternionZero",
+       "box3d: [0, 0, 1, 0, 0, 0, 0]" + solid,
+       {":3: targets[0].box3d", "quaternion"}},
+      {"QuaternionNotUnit",
+       "box3d: [0, 0, 1, 0, 0, 0.5, 1]" + solid,
+       {":3: targets[0].box3d", "quaternion", "length 1"}},
+      {"SizeZero", "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0, 0.1]\n", {":4: ", "size"}},
+      {"PoseWithNan", "box3d: [0, 0, .nan, 0, 0, 0, 1]" + solid, {":3: ", "finite"}},
+      {"EstimateQuaternionZero",
+       "keypoint: [5, 5]\n  handling: pose\n  estimate: {pose: [0, 0, 1, 0, 0, 0, 0]}\n",
+       {":5: targets[0].estimate", "quaternion"}},
+      {"PointWithNan", "point: [0, .nan, 1]\n", {":3: targets[0].point", "finite"}},
+      {"LinkUnknown", "point: [0, 0, 1]\n  link: bord\n", {":4: targets[0].link", "base, board"}},
+      {"MeshMissing", "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: no.stl\n", {"no.stl"}},
+      {"KeyUnknown", "box: [1, 2, 3, 4]\n  extend: modal\n", {":4: targets[0].extend", "extent"}},
+      {"KindUnknown", "circle: [1, 2, 3]\n", {":2: targets[0]", "box, polygon"}},
+      {"KindsTwo", "box: [1, 2, 3, 4]\n  point: [0, 0, 1]\n", {"targets[0]", "point"}},
+      {"NameTwice", "box: [1, 2, 3, 4]\n- name: a\n  box: [1, 2, 3, 4]\n", {":4: ", "'a'"}},
+      {"DepthNegative",
+       "box: [1, 2, 3, 4]\n  expected_depth: -1\n",
+       {":4: targets[0].expected_depth"}},
+      {"MarginNegative", "box: [1, 2, 3, 4]\n  depth_margin: -1\n", {":4: ", "depth_margin"}},
+      {"ThresholdsSwapped",
+       "box: [1, 2, 3, 4]\n  thresholds: {partial_enter: 0.1, partial_leave: 0.2}\n",
+       {":4: targets[0].thresholds", "0.2"}},
+      {"HandlingUnknown", "box: [1, 2, 3, 4]\n  handling: hold\n", {":4: ", "'hold'"}},
+      {"TrackerAtFault",
+       "box: [1, 2, 3, 4]\n  handling: {point: {timeout: -1}}\n",
+       {":4: targets[0].handling.point", "timeout"}},
+  };
+}
+
+class TargetFaultsTest : public testing::Test {
+ protected:
+  TargetFaultsTest() {
+    write_tiny_recording(folder_.path());
+    io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 5, 1).view());
+    io::write_png(folder_.path() / "empty.png", Image<std::uint8_t>(64, 48).view());
+    write_file(folder_.path() / "odd.csv", "frame,u,w\n0,1,2\n");
+    write_file(folder_.path() / "twice.csv", "frame,u,v\n0,1,2\n0,1,2\n");
+  }
+
+  Outcome run(const std::string& text, const std::vector<std::string>& options = {}) {
+    write_file(folder_.path() / "targets.yaml", text);
+    std::vector<std::string> line{"run",       folder_.path(),
+                                  "-o",        folder_.path() / "out",
+                                  "--targets", folder_.path() / "targets.yaml"};
+    line.insert(line.end(), options.begin(), options.end());
+    return penumbra(line);
+  }
+
+  TemporaryFolder folder_;
+};
+void expect_fault(const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+}
+
+class BadTargetsTest : public TargetFaultsTest, public testing::WithParamInterface<BadTargets> {};
+INSTANTIATE_TEST_SUITE_P(All, BadTargetsTest, testing::ValuesIn(bad_targets()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(BadTargetsTest, IsToldInOneLine) {
+  expect_fault(run("targets:\n- name: a\n  " + GetParam().text), GetParam().words);
+}
+
+TEST_F(TargetFaultsTest, OfTheWholeFileAreTold) {
+  expect_fault(run("- name: a\n"), {"targets.yaml:1"});
+  expect_fault(run(""), {"targets.yaml"});
+  expect_fault(run("goals: []\n"), {"targets.yaml:1", "goals"});
+  expect_fault(run("targets:\n- {box: [1, 2, 3, 4]}\n"), {"targets.yaml:2", "name"});
+  expect_fault(run("targets: []\nhistory: 61\n"), {"targets.yaml:2", "history", "60"});
+  expect_fault(run("targets: []\nimage: bent\n"), {"targets.yaml:2", "raw or rectified"});
+  expect_fault(penumbra({"run", folder_.path(), "-o", folder_.path() / "out", "--targets",
+                         folder_.path() / "no.yaml"}),
+               {"no.yaml"});
+  edit_file(folder_.path() / "recording.yaml", "frames:", "targets: no.yaml\nframes:");
+  expect_fault(penumbra({"run", folder_.path(), "-o", folder_.path() / "out"}),
+               {"recording.yaml", "no.yaml"});
+}
+
+/// Outside of the image a target is out of view, which is no fault: a moving one may get there.
+TEST_F(TargetFaultsTest, OutsideOfTheImageIsOutOfView) {
+  const Outcome outcome = run("targets:\n- {name: a, box: [500, 2, 9, 9]}\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("target a: 0 frames visible, 0 partial, 0 hidden, 0 unknown, 3 out"),
+            std::string::npos)
+      << outcome.out;
+}
+
+/// What single frames have wrong is theirs.
+TEST_F(TargetFaultsTest, BadRowsAreFaultsOfTheirFrames) {
+  write_file(folder_.path() / "p.csv",
+             "frame,x,y,z,qx,qy,qz,qw\n0,0,0,2,0,0,0,0\n1,0,0,2,0,0,0,1\n2,0,0,nan,0,0,0,1\n");
+  const Outcome outcome =
+      run("targets:\n- {name: a, box3d: {csv: p.csv}, size: [0.1, 0.1, 0.1], handling: pose}\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("target 'a' unknown in 2 of 3 frames, first in frame 0: "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("p.csv:2: quaternion has the length 0"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(TargetFaultsTest, LabelsOnTheDeviceHaveNoTargets) {
+  expect_fault(run("targets: []\n", {"--renderer", "gl", "--gl-labels"}), {"--gl-labels"});
+}
+
+}  // namespace
+}  // namespace penumbra::test

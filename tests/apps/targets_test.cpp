@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// `run` with targets, on the shipped recording against its truth (an independent ray caster's).
+#include "program.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Keys = std::vector<std::string>;
+
+const fs::path example = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
+
+enum Truth : std::uint8_t { no_robot = 0, robot_seen = 1, before_robot = 2, robot_hides = 3 };
+
+/// Pixels of a target of some hundred or thousand that silhouettes of tessellated meshes cover
+/// otherwise than the exact shapes of the truth.
+constexpr double silhouettes = 0.01;
+
+/// Metres that the median of noisy depths (4 mm at 1 m, three times that at 1.8 m), and the wrist
+/// as a network finds it, may lie off.
+constexpr double depth_noise = 0.05;
+
+Keys keys(const Json& json) {
+  Keys names;
+  for (const auto& [name, value] : json.items()) names.push_back(name);
+  return names;
+}
+
+const Json& target(const Json& report, int frame, const std::string& name) {
+  for (const Json& one : report["frames"].at(static_cast<std::size_t>(frame))["targets"])
+    if (one["name"] == name) return one;
+  throw std::runtime_error("no target " + name);
+}
+
+/// The share of a pixel box for whose pixels the truth is not `value`.
+double share_not(Truth value, int frame, int u0, int v0, int width, int height) {
+  Image<std::uint8_t> truth;
+  io::read_png(example / "truth" / (std::to_string(frame) + ".png"), truth).require();
+  int count = 0;
+  for (int v = v0; v < v0 + height; ++v)
+    for (int u = u0; u < u0 + width; ++u) count += truth(u, v) != value ? 1 : 0;
+  return count / (1.0 * width * height);
+}
+
+class RunTargetsTest : public testing::Test {
+ protected:
+  Outcome run(const std::vector<std::string>& options = {}) {
+    std::vector<std::string> line{"run", example, "-o", out()};
+    line.insert(line.end(), options.begin(), options.end());
+    return penumbra(line);
+  }
+  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
+  [[nodiscard]] Json report() const { return Json::parse(read_file(out() / "report.json")); }
+  fs::path targets(const std::string& text) {
+    write_file(folder_.path() / "targets.yaml", text);
+    return folder_.path() / "targets.yaml";
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// DESIGN section 4's keys, then what the report adds: what became of the estimate, the stamp that
+/// was judged, the reason of an unknown verdict.
+TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = report();
+  for (const Json& frame : json["frames"]) {
+    EXPECT_GT(frame["timing_ms"]["targets"], 0.0);
+    ASSERT_EQ(frame["targets"].size(), 4U);
+    for (const Json& one : frame["targets"]) {
+      EXPECT_EQ(keys(one), (Keys{"name", "covered", "inside", "occluded_fraction", "front_fraction",
+                                 "clear_fraction", "unknown_fraction", "hidden_by_other_fraction",
+                                 "verdict", "blame", "point", "point_pixels", "point_spread_m",
+                                 "handled", "estimate", "stamp_ns", "reason"}));
+      for (const Json& blame : one["blame"]) EXPECT_EQ(keys(blame), (Keys{"link", "fraction"}));
+      EXPECT_EQ(one["point"].is_null(), one["point_pixels"].is_null());
+      EXPECT_EQ(one["point"].is_null(), one["point_spread_m"].is_null());
+      EXPECT_EQ(one["handled"].is_null(), one["name"] == "cylinder") << "which is not handled";
+      EXPECT_EQ(one["stamp_ns"], frame["stamp_ns"]);
+      EXPECT_EQ(one["reason"].is_null(), one["verdict"] != "unknown");
+      if (one["handled"].is_null()) continue;
+      EXPECT_EQ(keys(one["handled"]),
+                (Keys{"source", "age_s", "position", "orientation", "sigma_m"}));
+    }
+  }
+  EXPECT_EQ(json["settings"]["targets"], (example / "targets.yaml").string());
+  EXPECT_NE(outcome.out.find("target cylinder: 4 frames visible, 8 partial, 0 hidden"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("target lid: 5 frames visible, 2 partial, 4 hidden, 1 unknown, 0 out"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("\ntargets: median "), std::string::npos) << "its time";
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("target 'lid' unknown in 1 of 12 frames, first in frame 9: "),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(RunTargetsTest, WhatIsHiddenIsTheTruths) {
+  ASSERT_EQ(run().status, 0);
+  const Json json = report();
+  for (int frame = 0; frame < 12; ++frame) {
+    if (frame == 9) continue;  // the gripper is about as far away as the cylinder
+    const Json& cylinder = target(json, frame, "cylinder");
+    EXPECT_NEAR(cylinder["occluded_fraction"].get<double>(),
+                share_not(no_robot, frame, 460, 172, 38, 98), silhouettes)
+        << "frame " << frame;
+  }
+  EXPECT_GT(target(json, 9, "cylinder")["unknown_fraction"], 0.05);
+  EXPECT_EQ(target(json, 2, "cylinder")["blame"][0]["link"], "gripper");
+  EXPECT_GT(target(json, 5, "cylinder")["hidden_by_other_fraction"], 0.3) << "the hand";
+}
+
+TEST_F(RunTargetsTest, AHiddenPointIsHeldAndComesBack) {
+  ASSERT_EQ(run().status, 0);
+  const Json json = report();
+  const Json& hidden = target(json, 2, "lid");
+  EXPECT_EQ(hidden["verdict"], "hidden");
+  EXPECT_EQ(hidden["occluded_fraction"], 1.0);
+  EXPECT_TRUE(hidden["point"].is_null());
+  EXPECT_EQ(hidden["estimate"], "refused_verdict");
+  EXPECT_EQ(hidden["handled"]["source"], "held");
+  EXPECT_NEAR(hidden["handled"]["age_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_EQ(hidden["handled"]["position"], (Json{0.42, 0.56, 0.30}));
+  EXPECT_TRUE(hidden["handled"]["orientation"].is_null()) << "of a point";
+  EXPECT_EQ(target(json, 1, "lid")["handled"]["source"], "measured");
+  EXPECT_EQ(target(json, 4, "lid")["handled"]["source"], "measured");
+  EXPECT_EQ(target(json, 6, "lid")["verdict"], "hidden") << "by the arm of a person";
+  EXPECT_GT(target(json, 6, "lid")["hidden_by_other_fraction"], 0.9);
+  EXPECT_EQ(target(json, 9, "lid")["verdict"], "unknown") << "the gripper is about there";
+  EXPECT_EQ(target(json, 11, "lid")["handled"]["source"], "measured");
+}
+
+TEST_F(RunTargetsTest, PointsLieWhereThingsAre) {
+  ASSERT_EQ(run().status, 0);
+  const Json json = report();
+  const Json& cube = target(json, 0, "cube");
+  EXPECT_EQ(cube["verdict"], "visible");
+  // Of its faces towards the camera.
+  const auto p = cube["point"].get<std::vector<double>>();
+  EXPECT_NEAR(p[0], 0.52, depth_noise);
+  EXPECT_NEAR(p[1], 0.28, depth_noise);
+  EXPECT_NEAR(p[2], 0.04, depth_noise);
+  const Json& wrist = target(json, 6, "wrist");
+  EXPECT_EQ(wrist["verdict"], "visible") << "the hand stands before the arm";
+  const auto w = wrist["handled"]["position"].get<std::vector<double>>();
+  EXPECT_NEAR(w[0], 0.50, depth_noise);
+  EXPECT_NEAR(w[1], -0.34, depth_noise);
+  EXPECT_NEAR(w[2], 0.44, depth_noise);
+}
+
+/// What is not known is null: no number that JSON cannot hold, none that is made up.
+TEST_F(RunTargetsTest, LostAndOutsideIsNull) {
+  ASSERT_EQ(run().status, 0);
+  const std::string text = read_file(out() / "report.json");
+  for (const char* const word : {"inf", "nan", "Inf", "NaN"})
+    EXPECT_EQ(text.find(std::string(": ") + word), std::string::npos);
+  const Json wrist = target(report(), 0, "wrist");
+  EXPECT_EQ(wrist["verdict"], "out_of_view");
+  EXPECT_GT(wrist["covered"], 0);
+  EXPECT_EQ(wrist["inside"], 0);
+  for (const char* const share : {"occluded_fraction", "front_fraction", "clear_fraction",
+                                  "unknown_fraction", "hidden_by_other_fraction", "point"})
+    EXPECT_TRUE(wrist[share].is_null()) << share;
+  EXPECT_EQ(wrist["handled"], (Json{{"source", "lost"},
+                                    {"age_s", nullptr},
+                                    {"position", nullptr},
+                                    {"orientation", nullptr},
+                                    {"sigma_m", nullptr}}));
+}
+
+TEST_F(RunTargetsTest, TheOptionComesBeforeTheRecording) {
+  const fs::path file = targets("targets:\n- {name: only, box: [465, 180, 24, 60]}\n");
+  const Outcome outcome = run({"--targets", file});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = report();
+  EXPECT_EQ(json["settings"]["targets"], file.string());
+  ASSERT_EQ(json["frames"][2]["targets"].size(), 1U);
+  const Json& only = target(json, 2, "only");
+  EXPECT_EQ(only["verdict"], "hidden");
+  EXPECT_NEAR(only["occluded_fraction"].get<double>() + only["unknown_fraction"].get<double>(),
+              share_not(no_robot, 2, 465, 180, 24, 60), silhouettes);
+  EXPECT_TRUE(only["hidden_by_other_fraction"].is_null()) << "no expected depth";
+  EXPECT_EQ(target(json, 0, "only")["verdict"], "visible");
+}
+
+TEST_F(RunTargetsTest, TheOverlayShowsThem) {
+  const fs::path none = targets("targets: []\n");
+  Image<io::Rgb8> with, without;
+  ASSERT_EQ(run({"--save", "overlay", "--frames", "2:3"}).status, 0);
+  io::read_png(out() / "overlay/000002.png", with).require();
+  const Outcome outcome = run({"--save", "overlay", "--frames", "2:3", "--targets", none});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  io::read_png(out() / "overlay/000002.png", without).require();
+  const auto differ = [&](int u, int v) { return !(with(u, v) == without(u, v)); };
+  EXPECT_TRUE(differ(497, 200) || differ(498, 200)) << "the right edge of the cylinder's box";
+  EXPECT_FALSE(differ(130, 355)) << "nothing is judged at the ball";
+}
+
+/// Frames that a csv leaves out have no target there; the run goes on and says so.
+TEST_F(RunTargetsTest, FramesWithoutAKeypointAreUnknown) {
+  write_file(folder_.path() / "k.csv", "frame,u,v\n0,230,350\n2,230,350\n");
+  const fs::path file =
+      targets("targets:\n- {name: ball, keypoint: {csv: k.csv}, handling: point}\n");
+  const Outcome outcome = run({"--targets", file, "--frames", "0:4"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("target 'ball' unknown in 2 of 4 frames, first in frame 1"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("k.csv"), std::string::npos) << outcome.err;
+  const Json json = report();
+  const Json& gone = target(json, 1, "ball");
+  EXPECT_EQ(gone["verdict"], "unknown");
+  EXPECT_NE(gone["reason"].get<std::string>().find("not found in frame 1"), std::string::npos);
+  for (const char* const key : {"covered", "inside", "occluded_fraction", "blame", "estimate"})
+    EXPECT_TRUE(gone[key].is_null()) << key;
+  EXPECT_EQ(gone["handled"]["source"], "held") << "handling goes on";
+  EXPECT_EQ(target(json, 2, "ball")["verdict"], "visible");
+}
+
+/// Stamps of a detector that go back: each is judged on its own frame.
+TEST_F(RunTargetsTest, LateStampsMayGoBack) {
+  const auto row = [](int frame, int of) {
+    return std::to_string(frame) + "," + std::to_string(1700000000000000000 + of * 100000000LL) +
+           ",465,180,24,60\n";
+  };
+  write_file(folder_.path() / "b.csv", "frame,stamp,u,v,width,height\n" + row(2, 1) + row(3, 2) +
+                                           row(4, 1) + row(5, 4) + "11,7,465,180,24,60\n");
+  const Outcome outcome =
+      run({"--targets", targets("targets:\n- {name: part, box: {csv: b.csv}}\n")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json json = report();
+  EXPECT_EQ(json["settings"]["target_history_s"], 0.5);
+  EXPECT_EQ(target(json, 2, "part")["verdict"], "visible") << "in frame 1 it was";
+  EXPECT_EQ(target(json, 3, "part")["verdict"], "hidden") << "in frame 2 it was";
+  EXPECT_EQ(target(json, 4, "part")["verdict"], "visible") << "in frame 1 it was";
+  EXPECT_EQ(target(json, 4, "part")["stamp_ns"], 1700000000100000000);
+  EXPECT_EQ(target(json, 11, "part")["verdict"], "unknown");
+  EXPECT_NE(target(json, 11, "part")["reason"].get<std::string>().find("stamp"), std::string::npos);
+}
+
+TEST_F(RunTargetsTest, TenThousandAreJudged) {
+  std::string text = "targets:\n";
+  for (int i = 0; i < 10000; ++i)
+    text += "- {name: target number " + std::to_string(i) + ", keypoint: [" +
+            std::to_string(i % 640) + ", " + std::to_string(i / 21) +
+            "], radius: 3, expected_depth: 1.5, depth_margin: 0.05, thresholds: {partial_enter: "
+            "0.1}}\n";
+  const Outcome outcome = run({"--targets", targets(text), "--frames", "0:2"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(report()["frames"][1]["targets"].size(), 10000U);
+  EXPECT_LT(count_lines(outcome.out), 40U) << "a line for the first of them";
+  EXPECT_NE(outcome.out.find("and 9980 more targets"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace penumbra::test
