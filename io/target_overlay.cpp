@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <io/bitmap_font.hpp>
 #include <io/target_outline.hpp>
 #include <io/target_overlay.hpp>
@@ -90,8 +92,37 @@ std::string caption(const TargetReport& target) {
   return text;
 }
 
+/// Finds places for captions in an image so that none covers another.
+class CaptionPlaces {
+ public:
+  /// The nearest free place above or below `at`, inside the image; `at` where there is none.
+  Eigen::Vector2i find(const Eigen::Vector2i& at, const Eigen::Vector2i& size, int image_height) {
+    Eigen::AlignedBox2i best(at, at + size);
+    for (int step = 1; !is_free(best) && step <= 2 * image_height / size.y(); ++step) {
+      const int lines = step % 2 == 1 ? -(step + 1) / 2 : step / 2;
+      const Eigen::Vector2i moved(at.x(), at.y() + lines * size.y());
+      if (moved.y() < 0 || moved.y() + size.y() > image_height) continue;
+      const Eigen::AlignedBox2i box(moved, moved + size);
+      if (is_free(box)) best = box;
+    }
+    taken_.push_back(best);
+    return best.min();
+  }
+
+ private:
+  [[nodiscard]] bool is_free(const Eigen::AlignedBox2i& box) const {
+    return std::none_of(taken_.begin(), taken_.end(), [&](const Eigen::AlignedBox2i& other) {
+      return (box.min().array() < other.max().array()).all() &&
+             (other.min().array() < box.max().array()).all();
+    });
+  }
+
+  std::vector<Eigen::AlignedBox2i> taken_;
+};
+
 /// Above the outline's upper left corner, inside the image.
-void draw_caption(const std::vector<PixelPath>& paths, const TargetReport& target, const Pen& pen) {
+void draw_caption(const std::vector<PixelPath>& paths, const TargetReport& target, const Pen& pen,
+                  CaptionPlaces& places) {
   Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   for (const PixelPath& path : paths)
     for (const Eigen::Vector2d& p : path) corner = corner.cwiseMin(p);
@@ -101,7 +132,9 @@ void draw_caption(const std::vector<PixelPath>& paths, const TargetReport& targe
   const int width = static_cast<int>(text.size() + 2) * BitmapFont::advance * pen.width;
   const double u = std::clamp(corner.x(), 0.0, std::max(0.0, 1.0 * pen.out.width() - width));
   const double v = std::clamp(corner.y() - line, 0.0, 1.0 * pen.out.height() - line);
-  pen.text(text, static_cast<int>(u), static_cast<int>(v), verdict_color(target.verdict));
+  const Eigen::Vector2i at =
+      places.find({static_cast<int>(u), static_cast<int>(v)}, {width, line}, pen.out.height());
+  pen.text(text, at.x(), at.y(), verdict_color(target.verdict));
 }
 
 }  // namespace
@@ -116,11 +149,12 @@ Rgb8 verdict_color(Verdict verdict) {
 void draw_targets(std::span<const Target> targets, const FrameReport& report, const Robot& robot,
                   const Camera& camera, Image<Rgb8>& out) {
   const Pen pen{out, std::max(1, out.height() / rows_per_width)};
+  CaptionPlaces places;
   for (std::size_t i = 0; i < std::min(targets.size(), report.targets.size()); ++i) {
     const TargetReport& target = report.targets[i];
     const auto paths = outline_of(targets[i].shape, report, robot, camera);
     pen.paths(paths, verdict_color(target.verdict));
-    if (i < max_target_names) draw_caption(paths, target, pen);
+    if (i < max_target_names) draw_caption(paths, target, pen, places);
     if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
     const Eigen::Vector3d p = report.T_root_camera->inverse() * *target.handled->position;
     if (const auto pixel = seen_at(p, camera)) pen.cross(*pixel);
