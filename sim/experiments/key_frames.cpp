@@ -121,6 +121,7 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
   std::stable_sort(story.begin(), story.end(),
                    [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<Picture> pictures;
+  pictures.reserve(story.size());
   for (const auto& [what, i] : story) pictures.push_back({draw(run, i), captioned(what, run, i)});
   return pictures;
 }
