@@ -17,12 +17,6 @@ constexpr std::uint64_t max_table_bytes = std::uint64_t{1} << 28;
 constexpr std::string_view stamp_column = "stamp";
 constexpr std::string_view depth_column = "expected_depth";
 
-struct TableRow {
-  std::size_t line = 0;
-  std::int64_t frame = 0;
-  std::vector<std::string_view> cells;
-};
-
 std::string list_of(const std::vector<std::string_view>& names) {
   std::string text;
   for (const std::string_view name : names) text += "," + std::string(name);
@@ -32,12 +26,18 @@ std::string list_of(const std::vector<std::string_view>& names) {
 }  // namespace
 
 struct ValueTables::Table {
+  struct Row {
+    std::size_t line = 0;
+    std::int64_t frame = 0;
+    std::vector<std::string_view> cells;
+  };
+
   std::filesystem::path file;
   std::string text;
   std::size_t header_line = 1;
   std::vector<std::string_view> header;
   std::optional<std::size_t> name_column;
-  std::unordered_map<std::string_view, std::vector<TableRow>> rows;  // by name; "" without names
+  std::unordered_map<std::string_view, std::vector<Row>> rows;  // by name; "" without names
 
   [[nodiscard]] std::string place(std::size_t line) const {
     return file.string() + ":" + std::to_string(line) + ": ";
@@ -65,7 +65,7 @@ void ValueTables::Table::read_header(const CsvLines& lines) {
 }
 
 void ValueTables::Table::add(const CsvLines& lines) {
-  TableRow row{lines.line(), 0, lines.cells()};
+  Row row{lines.line(), 0, lines.cells()};
   const auto frame = parse_number<std::int64_t>(row.cells[0]);
   if (!frame || *frame < 0)
     throw InputError(place(row.line) + "'" + std::string(row.cells[0]) +
@@ -127,7 +127,7 @@ ValueColumns columns_of(const ValueTables::Table& table, const ValueFormat& form
 }
 
 template <typename T>
-T cell(const ValueTables::Table& table, const TableRow& row, std::size_t column) {
+T cell(const ValueTables::Table& table, const ValueTables::Table::Row& row, std::size_t column) {
   const std::string_view text = row.cells[column];
   if (const auto value = parse_number<T>(text)) return *value;
   throw InputError(
@@ -136,7 +136,7 @@ T cell(const ValueTables::Table& table, const TableRow& row, std::size_t column)
       (std::is_integral_v<T> ? "; whole nanoseconds are wanted" : "; a finite number is wanted"));
 }
 
-FrameValue value_of(const ValueTables::Table& table, const TableRow& row,
+FrameValue value_of(const ValueTables::Table& table, const ValueTables::Table::Row& row,
                     const ValueColumns& columns) {
   FrameValue value;
   value.place = table.place(row.line);
@@ -204,7 +204,7 @@ void FrameValues::read_csv(const YamlNode& node, const ValueFormat& format,
   if (rows == table.rows.end())
     node.fail(file_ + " has no row" +
               (table.name_column ? " of name '" + std::string(name) + "'" : std::string()));
-  for (const TableRow& row : rows->second) {
+  for (const ValueTables::Table::Row& row : rows->second) {
     const auto [known, is_new] = by_frame_.emplace(row.frame, value_of(table, row, columns));
     if (!is_new)
       throw InputError(table.place(row.line) + "frame " + std::to_string(row.frame) +

@@ -118,7 +118,8 @@ std::optional<double> depth_of(const YamlNode& node) {
 }
 
 /// What all regions have, with the value's own depth if it has one.
-RegionTarget region_target(const RegionTarget& common, Region region, const FrameValue& value) {
+RegionTarget region_target(const RegionTarget& common, const Region& region,
+                           const FrameValue& value) {
   RegionTarget target = common;
   target.region = region;
   if (value.expected_depth) target.expected_depth = value.expected_depth;

@@ -12,9 +12,6 @@
 #include <io/yaml.hpp>
 
 namespace penumbra::io {
-namespace {
-
-constexpr std::uint64_t max_bytes = 16 << 20;  // thousands of targets, or masks
 
 /// One target and where its parts come from.
 struct TargetSource {
@@ -22,6 +19,10 @@ struct TargetSource {
   ShapeSource shape;
   std::optional<EstimateSource> estimate;
 };
+
+namespace {
+
+constexpr std::uint64_t max_bytes = 16 << 20;  // thousands of targets, or masks
 
 /// Pixels are of the image that the file says, else of the camera's as it comes.
 void check_image(const YamlNode& root, const TargetsContext& context) {

@@ -23,7 +23,7 @@ esac
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
 targets=(gl_benchmark)
-$only_gl || targets+=(compare_renderers scaling target_benchmark)
+$only_gl || targets+=(compare_renderers scaling target_benchmark pipeline_benchmark)
 cmake --build build/bench --target "${targets[@]}"
 mkdir -p "$results"
 if ! $only_gl; then
@@ -35,7 +35,11 @@ if ! $only_gl; then
     --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/targets.json" --benchmark_out_format=json |
     tee "$results/targets.txt"
-  sed -i '/"host_name"\|"executable"/d' "$results/targets.json"
+  build/bench/bench/pipeline_benchmark --benchmark_min_time=0.2 \
+    --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
+    --benchmark_out="$results/frames.json" --benchmark_out_format=json |
+    tee "$results/frames.txt"
+  sed -i '/"host_name"\|"executable"/d' "$results/targets.json" "$results/frames.json"
 fi
 device=$(build/bench/bench/gl_benchmark --name)
 build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |

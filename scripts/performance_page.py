@@ -3,9 +3,9 @@
 """Rewrites the tables of the performance pages, and draws their plots, from the benchmarks' JSON.
 
 performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json,
-RESULTS/targets.json and every RESULTS/gl-*.json; replaces what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in
-PAGE/performance.md and PAGE/performance-gl.md; writes PAGE/performance.svg and
-PAGE/performance-gl.svg.
+RESULTS/targets.json, RESULTS/frames.json and every RESULTS/gl-*.json; replaces what stands between
+"<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md and PAGE/performance-gl.md;
+writes PAGE/performance.svg and PAGE/performance-gl.svg.
 """
 import json
 import math
@@ -63,6 +63,14 @@ def targets_table(report):
              f'{1e3 * run["cpu_time"] / run["pixels"]:.2f}')
             for run in report["benchmarks"] if run.get("aggregate_name") == "median"]
     return table(("targets", "us per frame", "pixels", "ns per pixel"), rows)
+
+
+def frames_table(report):
+    rows = [(run["run_name"].removesuffix("/manual_time"),
+             *(f'{1e-3 * run[stage + "_us"]:.3f}'
+               for stage in ("typical", "render", "classify", "targets")))
+            for run in report["benchmarks"] if run.get("aggregate_name") == "median"]
+    return table(("frame", "typical ms", "of it: render", "classify", "targets"), rows)
 
 
 def settings(renderers, scaling):
@@ -153,6 +161,7 @@ def main():
              "ratios": ratios_table(renderers), "aims": aims_table(renderers)}
     targets = json.loads((results / "targets.json").read_text())
     parts["targets"] = targets_table(targets)
+    parts["frames"] = frames_table(json.loads((results / "frames.json").read_text()))
     parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
     fill(page / "performance.md", parts)
     (page / "performance.svg").write_text(plot(

@@ -67,7 +67,7 @@ class RecentFrames {
   static constexpr std::size_t max_frames = 1024;
 
   /// `span`: nanoseconds that frames are kept for; 0: none is.
-  RecentFrames(std::int64_t span, std::size_t links);
+  explicit RecentFrames(std::int64_t span) : span_(span) {}
 
   /// Copies a frame, in place of one of the same stamp. Of the virtual depth and the labels it
   /// copies the touched tiles.
@@ -98,7 +98,6 @@ class RecentFrames {
   void copy_images(const JudgedImages& from, Copy& to);
 
   std::int64_t span_;
-  std::size_t links_;
   std::deque<Copy> copies_;  // views of theirs stay valid as their number grows
   TileMask everything_;
   TileMask left_;  // of a copy's tiles, while it is written anew

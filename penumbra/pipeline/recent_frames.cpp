@@ -77,8 +77,6 @@ void RecentPoses::clear() {
   for (Entry& entry : entries_) entry.stamp.reset();
 }
 
-RecentFrames::RecentFrames(std::int64_t span, std::size_t links) : span_(span), links_(links) {}
-
 void RecentFrames::keep(const JudgedFrame& frame) {
   if (!any() || !frame.stamp) return;
   Copy& copy = place_for(*frame.stamp);

@@ -62,7 +62,7 @@ TargetStage::TargetStage(const Setup& setup)
       renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
       views_(robot_, camera_, renderers_),
       recent_poses_(robot_.links().size()),
-      recent_frames_(nanoseconds(setup.history), robot_.links().size()) {}
+      recent_frames_(nanoseconds(setup.history)) {}
 
 std::span<const TargetReport> TargetStage::process(std::span<const Target> targets,
                                                    const JudgedFrame& frame) {

@@ -106,7 +106,7 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
       {head + "keypoint: [1, 1]\n  thresholds: {partial_enter: 2}\n", "partial_enter"},
       {head + "keypoint: [1, 1]\n  estimate: {point: [0, 0, 1]}\n", "not handled"}};
   for (const auto& [text, told] : cases) {
-    const std::string message = input_error([&] { static_cast<void>(open(text)); });
+    const std::string message = input_error([&, &yaml = text] { static_cast<void>(open(yaml)); });
     EXPECT_HAS(message, told);
   }
 }

@@ -179,9 +179,12 @@ TEST_F(TargetsTest, NamesUsedTwiceAreBothUnknown) {
 }
 
 TEST_F(TargetsTest, TenThousandAreJudged) {
+  constexpr int count = 10000;
   std::vector<std::string> names;
-  for (int i = 0; i < 10000; ++i) names.push_back("target " + std::to_string(i));
+  names.reserve(count);
+  for (int i = 0; i < count; ++i) names.push_back("target " + std::to_string(i));
   std::vector<Target> targets;
+  targets.reserve(count);
   for (const std::string& name : names)
     targets.push_back(region(name.c_str(), targets.size() % 2 == 0 ? beside_slab : behind_slab));
   const FrameReport& report = process(1, targets);
