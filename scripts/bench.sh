@@ -35,7 +35,7 @@ if ! $only_gl; then
     --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/targets.json" --benchmark_out_format=json |
     tee "$results/targets.txt"
-  build/bench/bench/pipeline_benchmark --benchmark_min_time=0.2 \
+  build/bench/bench/pipeline_benchmark \
     --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/frames.json" --benchmark_out_format=json |
     tee "$results/frames.txt"

@@ -66,7 +66,7 @@ def targets_table(report):
 
 
 def frames_table(report):
-    rows = [(run["run_name"].removesuffix("/manual_time"),
+    rows = [(run["run_name"].split("/")[0],
              *(f'{1e-3 * run[stage + "_us"]:.3f}'
                for stage in ("typical", "render", "classify", "targets")))
             for run in report["benchmarks"] if run.get("aggregate_name") == "median"]
