@@ -98,17 +98,20 @@ benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 undefined=bool,bounds,builtin,enum,float-cast-overflow,integer-divide-by-zero
 undefined+=,nonnull-attribute,pointer-overflow,return,shift,signed-integer-overflow,unreachable,vla-bound
 tidy_scope='penumbra|io|apps|sim'
+unity=ON  # many sources at once
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")
   undefined=undefined
+  unity=OFF
   benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=ON
   tidy_scope+='|tests|examples|bench'
 fi
 
 check format check_format
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
-check "build (release)" build release all "${everything[@]}" "$benchmarks" && run_tests release
+check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" &&
+  run_tests release
 if $full; then
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
