@@ -124,16 +124,18 @@ if $full; then
   fi
 fi
 if check "build (asan)" build asan all "${sanitizer_scope[@]}" "-DPENUMBRA_SANITIZE=address,$undefined"; then
-  # Threads are ThreadSanitizer's, and more meshes of the same robots say no more.
-  many='AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual'
+  # Threads are ThreadSanitizer's; more meshes of the same robots, and scenes through OpenGL beside
+  # its own tests, say no more.
+  scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
+  many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
   if $full; then many='^$'; fi
   run_tests asan -E "$many"
 fi
 if $full; then
   check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
 else
-  # Where one thread runs there is no race to find. FrameReader needs the apps' libraries.
-  one_thread='/(reference|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
+  # Where one thread of ours runs there is no race to find. FrameReader needs the apps' libraries.
+  one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
   check "build (tsan)" build tsan threaded_tests "${everything[@]}" -DPENUMBRA_WITH_SIMULATION=OFF &&
     run_tests tsan -L threaded -E "$one_thread"
 fi
