@@ -83,6 +83,9 @@ check_tidy() {
   run-clang-tidy -quiet -j "$(nproc)" -p build/tidy -checks=-bugprone-suspicious-include \
     -header-filter="^$PWD/($folders)/" "^$PWD/(build/tidy/)?($folders)/.*\.c(pp|xx)\$" \
     >build/tidy/tidy.log 2>/dev/null || { grep -E 'error:|warning:' build/tidy/tidy.log | sort -u; false; }
+  local status=$?
+  grep -q '^clang-tidy' build/tidy/tidy.log || { echo "clang-tidy looked at no file"; return 1; }
+  return "$status"
 }
 
 groups=(build sim test lint)

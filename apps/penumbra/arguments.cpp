@@ -7,185 +7,17 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/version.hpp>
 
+#include <apps/penumbra/argument_values.hpp>
 #include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/help.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/numbers.hpp>
 
 namespace penumbra::app {
 namespace {
 
-constexpr const char* about =
-    "Penumbra tells a robot which parts of its camera's view its own body hides.";
-
-constexpr const char* main_examples = R"(
-Examples:
-  penumbra run recording/ -o out             label every frame of a recording
-  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
-  penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
-  penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
-  penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
-  penumbra simulate conveyor -o belt         record a simulated scene with its truth
-  penumbra run --help                        all options of one command
-
-Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
-
-constexpr const char* run_examples = R"(
-OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot),
-labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond), links/000000.png (link
-number in the report + 1, 0 = none) and overlay/000000.png. Files of those names from an earlier
-run are removed. Faulty frames are told on stderr and in the report; the others are judged.
-
-Examples:
-  penumbra run recording/ -o out
-  penumbra run recording/ -o out --save labels,overlay --frames 10:20
-  penumbra run recording/ -o out --labels paper
-  penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
-  penumbra run recording/ -o out --renderer auto)";
-
-constexpr const char* render_examples = R"(
-Joints that are not given stand at rest (0, or no rotation); --json lists every position.
-Planar joints take NAME/x, NAME/y, NAME/yaw, floating ones NAME/x, y, z, qx, qy, qz, qw.
---repeat renders the same pose N times after a first one and labels each time the virtual depth
-image itself, as if the sensor saw nothing but the robot.
-
-Examples:
-  penumbra render --robot ur5e.urdf --package ur_description=/opt/ur_description \
-      --camera camera_info.yaml --pose pose.csv --joint elbow_joint=1.57 -o vdi.npy
-  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv --parent tool0 \
-      -o vdi.npy --links links.png --repeat 200 --json)";
-
-constexpr const char* inspect_examples = R"(
-Examples:
-  penumbra inspect arm.urdf
-  penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
-
-constexpr const char* doctor_examples = R"(
-Prints versions, SIMD targets, OpenGL devices and their faults, and which renderer
---renderer auto would take for a small robot at 640x480. The exit status is 0 without OpenGL too.
-
-Examples:
-  penumbra doctor
-  penumbra doctor --json)";
-
-constexpr const char* experiment_examples = R"(
-OUT gets metrics.json and report.html, one file with tables, plots and pictures; with --frames also
-frames/000000.png of the first seed. The same seeds give the same results on any number of threads.
-
-Examples:
-  penumbra experiment conveyor -o out
-  penumbra experiment handover --seeds 0:2 -o out)";
-constexpr const char* simulate_examples = R"(
-Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and grasps it), handover (a
-person's hand behind and before the arm), random (targets before, behind and beside an arm in a new
-pose in every frame). MuJoCo places and draws everything. OUT is a recording for penumbra run, with
-the truth beside it: ids/000000.png (0 nothing, 1 + link number, from 10000 objects), truth.csv
-(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. The same seed gives the same
-bytes.
-
-Examples:
-  penumbra simulate conveyor -o belt
-  penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
-  penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value,
-                         const std::string& wanted) {
-  throw InputError(option + ": '" + value + "' is not " + wanted);
-}
-
-/// Nothing for auto.
-std::optional<Backend> to_backend(const std::string& name) {
-  if (name == "auto") return std::nullopt;
-  for (const Backend backend : {Backend::cpu, Backend::gl, Backend::reference})
-    if (name == to_string(backend)) return backend;
-  refuse("--renderer", name, "one of cpu, gl, reference, auto");
-}
-
-Geometry to_geometry(const std::string& name) {
-  if (name == "collision") return Geometry::collision;
-  if (name == "visual") return Geometry::visual;
-  refuse("--geometry", name, "collision or visual");
-}
-
-ImageSpace to_image(const std::string& name) {
-  if (name == "raw") return ImageSpace::raw;
-  if (name == "rectified") return ImageSpace::rectified;
-  refuse("--image", name, "raw or rectified");
-}
-
-bool to_paper(const std::string& name) {
-  if (name == "paper") return true;
-  if (name == "full") return false;
-  refuse("--labels", name, "full or paper");
-}
-
-Tolerance to_tolerance(const std::string& text) {
-  const auto parts = split(text, ',');
-  const char* const wanted = "A,B,C: three numbers, of e(z) = A + B z + C z^2 in metres";
-  if (parts.size() != 3) refuse("--tolerance", text, wanted);
-  const auto a = io::parse_number<double>(parts[0]), b = io::parse_number<double>(parts[1]),
-             c = io::parse_number<double>(parts[2]);
-  if (!a || !b || !c) refuse("--tolerance", text, wanted);
-  return {*a, *b, *c};
-}
-
 constexpr int most_gl_devices = 1000;
 constexpr int most_repeats = 1'000'000;
-
-int to_count(const std::string& option, const std::string& text, int least, int most) {
-  const auto value = io::parse_number<std::int64_t>(text);
-  if (!value || *value < least || *value > most)
-    refuse(option, text,
-           "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<int>(*value);
-}
-
-FrameRange to_range(const std::string& text) {
-  const auto parts = split(text, ':');
-  const char* const wanted = "A:B, the frames from A up to but without B (either may be left out)";
-  if (parts.size() != 2) refuse("--frames", text, wanted);
-  FrameRange range;
-  for (auto [part, bound] : {std::pair(&parts[0], &range.first), {&parts[1], &range.end}}) {
-    if (part->empty()) continue;
-    *bound = io::parse_number<std::int64_t>(*part);
-    if (!*bound || **bound < 0) refuse("--frames", text, wanted);
-  }
-  return range;
-}
-
-Saves to_saves(const std::string& text) {
-  Saves saves;
-  for (const std::string& part : split(text, ',')) {
-    if (part == "vdi") {
-      saves.vdi = true;
-    } else if (part == "labels") {
-      saves.labels = true;
-    } else if (part == "links") {
-      saves.links = true;
-    } else if (part == "overlay") {
-      saves.overlay = true;
-    } else {
-      refuse("--save", part, "one of vdi, labels, links, overlay");
-    }
-  }
-  return saves;
-}
-
-/// Splits NAME=VALUE at the first '='.
-std::pair<std::string, std::string> to_pair(const std::string& option, const std::string& text,
-                                            const std::string& wanted) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-    refuse(option, text, wanted);
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-std::pair<std::string, double> to_joint(const std::string& text) {
-  const char* const wanted = "NAME=VALUE with a number (radians or metres)";
-  const auto [name, value] = to_pair("--joint", text, wanted);
-  const auto number = io::parse_number<double>(value);
-  if (!number) refuse("--joint", text, wanted);
-  return {name, *number};
-}
 
 /// Adds an option that may be given once and whose text `take` reads.
 template <typename Take>
@@ -212,7 +44,7 @@ void add_list(CLI::App& app, const std::string& names, const std::string& help,
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
                       const std::string& value, std::filesystem::path& to) {
   return add_option(app, names, help, value, [&to, names](const std::string& text) {
-    if (text.empty()) refuse(names, text, "a path");
+    if (text.empty()) refuse_option(names, text, "a path");
     to = text;
   });
 }
@@ -318,7 +150,7 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.saves = to_saves(text); });
   add_option(app, "--targets", "which targets to judge; default: the recording's, if any", "YAML",
              [&](const std::string& text) {
-               if (text.empty()) refuse("--targets", text, "a path");
+               if (text.empty()) refuse_option("--targets", text, "a path");
                run.targets = text;
              });
   app.add_flag(
@@ -344,7 +176,7 @@ void add_render(CLI::App& app, RenderArguments& render) {
       ->required();
   add_option(app, "--links", "link image, 16-bit: link number + 1, 0 = none", "PNG",
              [&](const std::string& text) {
-               if (text.empty()) refuse("--links", text, "a path");
+               if (text.empty()) refuse_option("--links", text, "a path");
                render.links = text;
              });
   add_renderer(app, render.renderer);
@@ -370,10 +202,10 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
 void to_seeds(const std::string& text, ExperimentArguments& experiment) {
   const auto parts = split(text, ':');
   const char* const wanted = "A:B, the seeds from A up to but without B";
-  if (parts.size() != 2) refuse("--seeds", text, wanted);
+  if (parts.size() != 2) refuse_option("--seeds", text, wanted);
   const auto first = io::parse_number<std::uint64_t>(parts[0]);
   const auto end = io::parse_number<std::uint64_t>(parts[1]);
-  if (!first || !end || *first >= *end) refuse("--seeds", text, wanted);
+  if (!first || !end || *first >= *end) refuse_option("--seeds", text, wanted);
   experiment.first_seed = *first;
   experiment.end_seed = *end;
 }
@@ -395,7 +227,7 @@ void add_experiment(CLI::App& app, ExperimentArguments& experiment) {
              [&](const std::string& text) {
                const auto seconds = io::parse_number<double>(text);
                if (!seconds || !(*seconds > 0) || *seconds > longest_run)
-                 refuse("--duration", text, "a number of seconds above 0, 600 at most");
+                 refuse_option("--duration", text, "a number of seconds above 0, 600 at most");
                experiment.duration = *seconds;
              });
   app.add_flag("--frames", experiment.frames, "write the first seed's frames with boxes");
@@ -407,7 +239,7 @@ void add_number(CLI::App& app, const std::string& names, const std::string& help
   const std::string wanted = std::is_floating_point_v<T> ? "a number" : "a whole number from 0";
   add_option(app, names, help, unit, [&to, names, wanted](const std::string& text) {
     const auto value = io::parse_number<T>(text);
-    if (!value) refuse(names, text, wanted);
+    if (!value) refuse_option(names, text, wanted);
     to = *value;
   });
 }

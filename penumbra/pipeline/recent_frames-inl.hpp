@@ -28,6 +28,9 @@ struct FramePoses {
   [[nodiscard]] bool known() const { return !T_root_link.empty(); }
 };
 
+/// Nanoseconds between two stamps, whatever they are.
+[[nodiscard]] std::uint64_t stamp_distance(std::int64_t a, std::int64_t b);
+
 /// One frame as targets are judged on it.
 struct JudgedFrame {
   std::optional<std::int64_t> stamp;  ///< nanoseconds

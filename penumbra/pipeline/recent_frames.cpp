@@ -40,13 +40,12 @@ ImageView<const T> copy_all(ImageView<const T> source, Image<T>& image) {
   return std::as_const(image).view();
 }
 
-/// The distance of two stamps, whatever they are.
-std::uint64_t distance(std::int64_t a, std::int64_t b) {
+}  // namespace
+
+std::uint64_t stamp_distance(std::int64_t a, std::int64_t b) {
   const auto x = static_cast<std::uint64_t>(std::max(a, b));
   return x - static_cast<std::uint64_t>(std::min(a, b));
 }
-
-}  // namespace
 
 RecentPoses::RecentPoses(std::size_t links) : links_(links), T_root_link_(links * frames) {}
 
@@ -97,7 +96,7 @@ RecentFrames::Copy& RecentFrames::place_for(std::int64_t stamp) {
   std::uint64_t most = 0;
   for (Copy& copy : copies_) {
     const std::uint64_t far =
-        copy.frame.stamp ? distance(*copy.frame.stamp, stamp) : ~std::uint64_t{0};
+        copy.frame.stamp ? stamp_distance(*copy.frame.stamp, stamp) : ~std::uint64_t{0};
     if (far == 0) return copy;
     if (far > most) {
       most = far;

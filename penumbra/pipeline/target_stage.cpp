@@ -10,10 +10,8 @@
 namespace penumbra {
 namespace {
 
-constexpr std::int64_t ns_per_s = 1'000'000'000;
-
 /// A clock that is set back further begins a new sequence.
-constexpr std::int64_t restart_gap = 5 * ns_per_s;
+constexpr std::uint64_t restart_gap = 5'000'000'000;  // nanoseconds
 
 /// By this name targets are judged whose stamp is before one that was judged: what verdicts
 /// remember is of later frames, and is left alone.
@@ -80,8 +78,8 @@ void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& fram
   ++calls_;
   judged_ = nullptr;
   if (frame.stamp) {
-    if (last_stamp_ && *frame.stamp<*last_stamp_&& * last_stamp_ - *frame.stamp> restart_gap)
-      forget_all();
+    const bool is_back = last_stamp_ && *frame.stamp < *last_stamp_;
+    if (is_back && stamp_distance(*frame.stamp, *last_stamp_) > restart_gap) forget_all();
     last_stamp_ = frame.stamp;
     if (frame.poses.known()) recent_poses_.keep(*frame.stamp, frame.poses);
   }

@@ -23,8 +23,7 @@ struct BadTargets {
 
 std::ostream& operator<<(std::ostream& out, const BadTargets& bad) { return out << bad.name; }
 
-std::vector<BadTargets> bad_targets() {
-  const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
+std::vector<BadTargets> bad_regions() {
   return {
       {"BoxOfNoArea", "box: [1, 2, 0, 4]\n", {":3: targets[0].box", "area"}},
       {"BoxOfNegativeWidth", "box: [1, 2, -3, 4]\n", {":3: targets[0].box", "area"}},
@@ -55,6 +54,12 @@ std::vector<BadTargets> bad_targets() {
       {"RunLengthsOfNoPixel",
        "rle: {size: [48, 64], counts: [3072]}\n",
        {":3: targets[0].rle", "without any pixel"}},
+  };
+}
+
+std::vector<BadTargets> bad_objects_and_settings() {
+  const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
+  return {
       {"KeypointOfRadiusZero", "keypoint: [5, 5]\n  radius: 0\n", {":4: targets[0].radius"}},
       {"KeypointTooLarge", "keypoint: [5, 5]\n  radius: .inf\n", {":4: targets[0].radius"}},
       {"KeypointFileMissing", "keypoint: {csv: no.csv}\n", {"no.csv"}},
@@ -122,8 +127,10 @@ void expect_fault(const Outcome& outcome, const std::vector<std::string>& words)
 }
 
 class BadTargetsTest : public TargetFaultsTest, public testing::WithParamInterface<BadTargets> {};
-INSTANTIATE_TEST_SUITE_P(All, BadTargetsTest, testing::ValuesIn(bad_targets()),
-                         [](const auto& test) { return test.param.name; });
+const auto name_of = [](const auto& test) { return test.param.name; };
+INSTANTIATE_TEST_SUITE_P(Regions, BadTargetsTest, testing::ValuesIn(bad_regions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Others, BadTargetsTest, testing::ValuesIn(bad_objects_and_settings()),
+                         name_of);
 
 TEST_P(BadTargetsTest, IsToldInOneLine) {
   expect_fault(run("targets:\n- name: a\n  " + GetParam().text), GetParam().words);

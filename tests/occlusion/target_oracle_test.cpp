@@ -95,6 +95,31 @@ void expect_same_point(const Judgement& judged, const test::NaiveJudgement& naiv
   EXPECT_NEAR(judged.point_spread, naive.spread(), depth_rounding);
 }
 
+/// Metres where the sensor measures, else 0.
+Image<float> measured_of(const Image<float>& metres, const Image<std::uint16_t>& millimetres,
+                         bool in_metres, const DepthRange& range) {
+  Image<float> measured(metres.width(), metres.height());
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const float d =
+        in_metres ? metres.data()[i] : 0.001f * static_cast<float>(millimetres.data()[i]);
+    const double exact = in_metres ? static_cast<double>(d) : millimetres.data()[i] / 1000.0;
+    const bool valid = exact > 0 && std::isfinite(d) && exact >= range.near &&
+                       static_cast<float>(exact) <= static_cast<float>(range.far) &&
+                       static_cast<float>(exact) >= static_cast<float>(range.near);
+    measured.data()[i] = valid ? d : 0.0f;
+  }
+  return measured;
+}
+
+Image<std::uint16_t> links_of(const Image<float>& robot) {
+  Image<std::uint16_t> links(robot.width(), robot.height());
+  for (int v = 0; v < robot.height(); ++v)
+    for (int u = 0; u < robot.width(); ++u)
+      if (robot(u, v) > 0)
+        links(u, v) = static_cast<std::uint16_t>((u / 13 + v / 17) % (link_count + 1));
+  return links;
+}
+
 TEST_F(TargetOracle, AgreesOnRandomFrames) {
   const int width = 101, height = 67;
   std::size_t points = 0, others = 0, blamed = 0;
@@ -107,21 +132,8 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
     const bool in_metres = frame % 2 == 0;
     const DepthView depth =
         in_metres ? DepthView(scene.metres.view()) : DepthView(millimetres.view());
-    Image<float> measured(width, height);
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-      const float d =
-          in_metres ? scene.metres.data()[i] : 0.001f * static_cast<float>(millimetres.data()[i]);
-      const double exact = in_metres ? static_cast<double>(d) : millimetres.data()[i] / 1000.0;
-      const bool valid = exact > 0 && std::isfinite(d) && exact >= rule.range.near &&
-                         static_cast<float>(exact) <= static_cast<float>(rule.range.far) &&
-                         static_cast<float>(exact) >= static_cast<float>(rule.range.near);
-      measured.data()[i] = valid ? d : 0.0f;
-    }
-    Image<std::uint16_t> links(width, height);
-    for (int v = 0; v < height; ++v)
-      for (int u = 0; u < width; ++u)
-        if (scene.robot(u, v) > 0)
-          links(u, v) = static_cast<std::uint16_t>((u / 13 + v / 17) % (link_count + 1));
+    const Image<float> measured = measured_of(scene.metres, millimetres, in_metres, rule.range);
+    const Image<std::uint16_t> links = links_of(scene.robot);
 
     Classifier classifier(width, height, rule);
     JudgedImages images{classifier.classify(scene.view(), depth), scene.view(), depth};

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace penumbra::app {
+
+// What --help says before and behind the options.
+
+inline constexpr const char* about =
+    "Penumbra tells a robot which parts of its camera's view its own body hides.";
+
+inline constexpr const char* main_examples = R"(
+Examples:
+  penumbra run recording/ -o out             label every frame of a recording
+  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
+  penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
+  penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
+  penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
+  penumbra simulate conveyor -o belt         record a simulated scene with its truth
+  penumbra run --help                        all options of one command
+
+Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
+
+inline constexpr const char* run_examples = R"(
+OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot),
+labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond), links/000000.png (link
+number in the report + 1, 0 = none) and overlay/000000.png. Files of those names from an earlier
+run are removed. Faulty frames are told on stderr and in the report; the others are judged.
+
+Examples:
+  penumbra run recording/ -o out
+  penumbra run recording/ -o out --save labels,overlay --frames 10:20
+  penumbra run recording/ -o out --labels paper
+  penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
+  penumbra run recording/ -o out --renderer auto)";
+
+inline constexpr const char* render_examples = R"(
+Joints that are not given stand at rest (0, or no rotation); --json lists every position.
+Planar joints take NAME/x, NAME/y, NAME/yaw, floating ones NAME/x, y, z, qx, qy, qz, qw.
+--repeat renders the same pose N times after a first one and labels each time the virtual depth
+image itself, as if the sensor saw nothing but the robot.
+
+Examples:
+  penumbra render --robot ur5e.urdf --package ur_description=/opt/ur_description \
+      --camera camera_info.yaml --pose pose.csv --joint elbow_joint=1.57 -o vdi.npy
+  penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv --parent tool0 \
+      -o vdi.npy --links links.png --repeat 200 --json)";
+
+inline constexpr const char* inspect_examples = R"(
+Examples:
+  penumbra inspect arm.urdf
+  penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
+
+inline constexpr const char* doctor_examples = R"(
+Prints versions, SIMD targets, OpenGL devices and their faults, and which renderer
+--renderer auto would take for a small robot at 640x480. The exit status is 0 without OpenGL too.
+
+Examples:
+  penumbra doctor
+  penumbra doctor --json)";
+
+inline constexpr const char* experiment_examples = R"(
+OUT gets metrics.json and report.html, one file with tables, plots and pictures; with --frames also
+frames/000000.png of the first seed. The same seeds give the same results on any number of threads.
+
+Examples:
+  penumbra experiment conveyor -o out
+  penumbra experiment handover --seeds 0:2 -o out)";
+
+inline constexpr const char* simulate_examples = R"(
+Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and grasps it), handover (a
+person's hand behind and before the arm), random (targets before, behind and beside an arm in a new
+pose in every frame). MuJoCo places and draws everything. OUT is a recording for penumbra run, with
+the truth beside it: ids/000000.png (0 nothing, 1 + link number, from 10000 objects), truth.csv
+(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. The same seed gives the same
+bytes.
+
+Examples:
+  penumbra simulate conveyor -o belt
+  penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
+  penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
+
+}  // namespace penumbra::app
