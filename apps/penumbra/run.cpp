@@ -260,6 +260,7 @@ int execute(const RunArguments& arguments) {
   const std::vector<std::string> notes = notes_of(pipeline);
 
   OutputFolder output(arguments.output, arguments.saves, pipeline.rectification());
+  UnfinishedRun unfinished(arguments.output);
   io::ReportWriter writer(
       output.report_file(),
       {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
@@ -285,6 +286,7 @@ int execute(const RunArguments& arguments) {
     }
   }
   writer.finish(statistics, doubts.lines());
+  unfinished.finish();
   tell_faults(statistics, color);
   tell_notes(doubts.lines());
   tell_summary(statistics, output.report_file());

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders that run may not write to, and what of earlier contents goes or stays.
+#include "program.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadOutputTest : public testing::Test {
+ protected:
+  BadOutputTest() { write_tiny_recording(folder_.path()); }
+
+  void expect_refused(const fs::path& output, const std::string& word) {
+    const Outcome outcome =
+        penumbra({"run", folder_.path(), "-o", output, "--save", "vdi,labels,links,overlay"});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(output / "report.json"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BadOutputTest, IsAFile) { expect_refused(folder_.path() / "tiny.urdf", "tiny.urdf"); }
+
+TEST_F(BadOutputTest, IsTheRecordingItself) {
+  expect_refused(folder_.path() / ".", "the recording's own folder");
+}
+
+TEST_F(BadOutputTest, LiesInAFile) {
+  expect_refused(folder_.path() / "tiny.urdf" / "out", "tiny.urdf");
+}
+
+TEST_F(BadOutputTest, LiesWhereNobodyMayWrite) { expect_refused("/proc/penumbra", "/proc"); }
+
+TEST_F(BadOutputTest, DiskIsFull) {
+  for (const char* file : {"report.json.part", "vdi/000000.npy", "labels/000001.png",
+                           "links/000002.png", "overlay/000000.png"}) {
+    const fs::path output = folder_.path() / "out";
+    fs::create_directories((output / file).parent_path());
+    fs::create_symlink("/dev/full", output / file);
+    expect_refused(output, fs::path(file).filename());
+    fs::remove_all(output);
+  }
+}
+
+TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
+  const fs::path output = folder_.path() / "out";
+  ASSERT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
+  ASSERT_TRUE(fs::exists(output / "report.json"));
+  fs::create_directory(output / "labels");
+  fs::create_symlink("/dev/full", output / "labels/000001.png");
+  expect_refused(output, "000001.png");
+}
+
+TEST_F(BadOutputTest, AFormerRunIsGoneHoweverEarlyTheNextFails) {
+  const fs::path output = folder_.path() / "out";
+  const std::vector<std::string> again = {"run",  folder_.path(), "-o",
+                                          output, "--save",       "vdi,labels,links,overlay"};
+  const auto expect_gone = [&](const std::vector<std::string>& line) {
+    const Outcome outcome = penumbra(line);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_FALSE(fs::exists(output / "report.json")) << outcome.err;
+    for (const char* kind : {"vdi", "labels", "links", "overlay"})
+      EXPECT_TRUE(fs::is_empty(output / kind)) << kind << outcome.err;
+  };
+  ASSERT_EQ(penumbra(again).status, 0);
+  write_file(output / "report.json.part", "");  // a run that was killed early
+  expect_gone({"run", folder_.path() / "nowhere", "-o", output});
+  EXPECT_FALSE(fs::exists(output / "report.json.part"));
+  ASSERT_EQ(penumbra(again).status, 0);
+  expect_gone({"run", "x.mcap", "-o", output});
+  ASSERT_EQ(penumbra(again).status, 0);
+  fs::rename(folder_.path() / "board.stl", folder_.path() / "board.away");
+  expect_gone(again);
+  fs::rename(folder_.path() / "board.away", folder_.path() / "board.stl");
+
+  ASSERT_EQ(penumbra(again).status, 0);
+  write_file(output / "labels/notes.txt", "the user's own");
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--labels", "half"}).status, 2);
+  EXPECT_TRUE(fs::exists(output / "report.json")) << "the arguments are not understood";
+  EXPECT_EQ(penumbra({"run", folder_.path() / "nowhere", "-o", output}).status, 2);
+  EXPECT_TRUE(fs::exists(output / "labels/notes.txt"));
+}
+
+TEST_F(BadOutputTest, ARecordingIsNoOutputFolder) {
+  const fs::path other = folder_.path() / "other";
+  fs::create_directories(other / "labels");
+  write_file(other / "recording.yaml", "robot:\n");
+  write_file(other / "labels/000000.png", "recorded");
+  expect_refused(other, "other");
+  EXPECT_TRUE(fs::exists(other / "labels/000000.png"));
+}
+
+TEST_F(BadOutputTest, ImagesOfNoRunStayAndAreRefused) {
+  const fs::path output = folder_.path() / "out";
+  for (const char* file :
+       {"vdi/0000001.npy", "labels/000000.png", "links/000123.png", "overlay/20261120.png"}) {
+    fs::create_directories((output / file).parent_path());
+    write_file(output / file, "the user's own");
+    for (const char* save : {"", "vdi,labels,links,overlay"}) {
+      std::vector<std::string> line = {"run", folder_.path(), "-o", output};
+      if (*save != '\0') line.insert(line.end(), {"--save", save});
+      const Outcome outcome = penumbra(line);
+      EXPECT_EQ(outcome.status, 2) << outcome.err;
+      EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+      EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+      EXPECT_FALSE(fs::exists(output / "report.json"));
+      EXPECT_EQ(read_file(output / file), "the user's own");
+    }
+    fs::remove_all(output);
+  }
+}
+
+TEST_F(BadOutputTest, AnotherProgramsReportStaysAndIsRefused) {
+  const fs::path output = folder_.path() / "out";
+  for (const char* file : {"report.json", "report.json.part"}) {
+    fs::create_directories(output / "labels");
+    write_file(output / file, "{\"lighthouse\": 11}");
+    write_file(output / "labels/000000.png", "the user's own");
+    const Outcome outcome = penumbra({"run", folder_.path(), "-o", output});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(std::string(file) + ": is no report of penumbra"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(read_file(output / file), "{\"lighthouse\": 11}");
+    EXPECT_EQ(read_file(output / "labels/000000.png"), "the user's own");
+    fs::remove_all(output);
+  }
+}
+
+TEST_F(BadOutputTest, ImagesBehindALinkStayAndAreRefused) {
+  const fs::path output = folder_.path() / "out";
+  const fs::path photos = folder_.path() / "photos";
+  fs::create_directory(photos);
+  write_file(photos / "000000.png", "the user's own");
+  ASSERT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
+  fs::create_directory_symlink(photos, output / "labels");
+  const Outcome outcome = penumbra({"run", folder_.path(), "-o", output});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("labels: leads to a folder with 000000.png"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(read_file(photos / "000000.png"), "the user's own");
+
+  fs::remove(output / "labels");
+  fs::create_directory(output / "labels");
+  fs::create_symlink(photos / "000000.png", output / "labels/000000.png");
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--save", "labels"}).status, 0);
+  EXPECT_EQ(read_file(photos / "000000.png"), "the user's own") << "the link alone is replaced";
+}
+
+TEST_F(BadOutputTest, AFailedRunsImagesAreGoneSoThatTheNextIsTaken) {
+  const fs::path output = folder_.path() / "out";
+  fs::create_directories(output / "labels");
+  fs::create_symlink("/dev/full", output / "labels/000001.png");
+  expect_refused(output, "000001.png");
+  EXPECT_FALSE(fs::exists(output / "labels/000000.png")) << "no report says whose it is";
+  EXPECT_FALSE(fs::exists(output / "vdi/000000.npy"));
+  fs::remove(output / "labels/000001.png");
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--save", "labels"}).status, 0);
+}
+
+TEST_F(BadOutputTest, TheReportsNameIsTakenByAFolder) {
+  fs::create_directories(folder_.path() / "out/report.json");
+  const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("report.json: is a folder"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(fs::is_directory(folder_.path() / "out/report.json"));
+}
+
+}  // namespace
+}  // namespace penumbra::test
