@@ -97,11 +97,14 @@ struct Judgement {
 /// last verdict that was neither.
 ///
 /// A modal extent is compared with the last good one: that of the last frame with verdict visible,
-/// except that a smaller one replaces it only where no robot is near. An extent smaller by more
-/// than partial_enter does not show the whole target. Then the last good extent is judged as well,
-/// moved by `motion` (without `motion`, where it was, for extent_frames frames), and the worse
-/// counts; and where the robot is near, what is missing beside what is known to be hidden is
-/// unknown. So is a target that is first seen near the robot.
+/// except that a smaller one replaces it only where no robot is near, within the last good extent's
+/// own width and height. An extent smaller by more than partial_enter does not show the whole
+/// target. Then the last good extent is judged as well, moved by `motion` (without `motion`, where
+/// it was, for extent_frames frames), and the worse counts; and where the robot may hide what is
+/// missing, which is near the last good extent or as near to the mask as what is missing can reach,
+/// what is missing beside what is known to be hidden is unknown, however long. What `motion`
+/// carries out of the image is missing too, unless the mask lies at that border and is no larger
+/// than what is left. A target that is first seen near the robot is unknown.
 ///
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where

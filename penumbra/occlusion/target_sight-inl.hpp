@@ -86,10 +86,13 @@ class Sights {
   [[nodiscard]] static Sight look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally);
   [[nodiscard]] Sight look_modal(const Look& at, const TargetMemory& memory, const Sight& now);
   [[nodiscard]] Sight look_last(const Look& at, std::size_t missing);
+  bool place_last(const Look& at, const TargetMemory& memory, const Sight& now, const SpanBox& box);
+  [[nodiscard]] bool lies_near_robot(const Look& at, const SpanBox& box,
+                                     const SpanBox& whole) const;
 
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;
-  bool near_robot_ = false;
+  bool may_replace_ = false;  // a smaller extent the last good one
 };
 
 /// The verdict, which `memory.level` follows.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include <penumbra/occlusion/target_sight-inl.hpp>
 
@@ -22,18 +23,30 @@ Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
   return Verdict::visible;
 }
 
-/// Whether some of the robot lies at most `reach` pixels from the box around some spans.
-bool lies_near_robot(const LabelledFrame& frame, std::span<const RowSpan> spans, int reach) {
-  if (spans.empty()) return false;
-  const SpanBox box = box_of_spans(spans);
-  const int u0 = std::max(box.u0 - reach, 0), u1 = std::min(box.u1 + reach, frame.width - 1);
-  const int v0 = std::max(box.v0 - reach, 0), v1 = std::min(box.v1 + reach, frame.height - 1);
+int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
+int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
+
+SpanBox grown(const SpanBox& box, int du, int dv) {
+  return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
+}
+
+/// Whether some of the robot lies in a box, which may reach past the image.
+bool holds_robot(const LabelledFrame& frame, const SpanBox& box) {
+  const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
+  const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
   if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;
   for (int v = v0; v <= v1; ++v) {
     const int count = u1 - u0 + 1;
     if (first_set(frame.images.labels.labels.row(v) + u0, count) < count) return true;
   }
   return false;
+}
+
+/// Whether a box reaches each border of the image that another one leaves it through.
+bool follows_out(const LabelledFrame& frame, const SpanBox& box, const SpanBox& leaving) {
+  return (leaving.u0 >= 0 || box.u0 == 0) && (leaving.v0 >= 0 || box.v0 == 0) &&
+         (leaving.u1 < frame.width || box.u1 == frame.width - 1) &&
+         (leaving.v1 < frame.height || box.v1 == frame.height - 1);
 }
 
 }  // namespace
@@ -72,22 +85,24 @@ Sight Sights::look(const Look& at, const TargetMemory& memory) {
 }
 
 Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight& now) {
-  near_robot_ = lies_near_robot(at.frame, seen_.spans(), at.reach);
   if (is_out_of_view(now, at.target.thresholds)) return now;
+  const SpanBox box = box_of_spans(seen_.spans());
   if (memory.extent.empty()) {
     Sight first = now;
-    first.first_near_robot = near_robot_;
+    first.first_near_robot = holds_robot(at.frame, grown(box, at.reach, at.reach));
     return first;
   }
-  const std::optional<Eigen::Vector2d>& motion = at.target.motion;
-  last_.fill_moved(memory.extent, memory.moved + motion.value_or(Eigen::Vector2d::Zero()));
-  const bool is_recent = at.number - memory.extent_frame <= TargetJudge::extent_frames;
-  const bool has_place = last_.inside() > 0 && (motion || is_recent);
-  const std::size_t whole = motion && has_place ? last_.inside() : memory.extent_pixels;
+  const SpanBox whole_box = box_of_spans(memory.extent);
+  may_replace_ = !holds_robot(
+      at.frame, grown(box, at.reach + width_of(whole_box), at.reach + height_of(whole_box)));
+  const bool has_place = place_last(at, memory, now, box);
+  const std::size_t whole = has_place && at.target.motion ? last_.inside() : memory.extent_pixels;
   const auto least = (1 - at.target.thresholds.partial_enter) * static_cast<double>(whole);
   if (static_cast<double>(now.inside) >= least) return now;
 
-  const std::size_t missing = near_robot_ ? whole - now.inside : 0;
+  const bool is_near = lies_near_robot(at, box, whole_box);
+  may_replace_ = may_replace_ && !is_near;
+  const std::size_t missing = is_near ? whole - now.inside : 0;
   if (has_place) {
     const Sight last = look_last(at, missing);
     const bool others_hide = at.target.thresholds.others_hide;
@@ -99,6 +114,35 @@ Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight
   shrunk.pixels[Seen::unknown] += missing;
   shrunk.is_missing = missing > 0;
   return shrunk;
+}
+
+/// Puts the last good extent where it is expected, and says whether it can be judged there. Motion
+/// that carries it out of the image is believed where the mask goes with it: it lies at that
+/// border, and is no larger than what is left.
+bool Sights::place_last(const Look& at, const TargetMemory& memory, const Sight& now,
+                        const SpanBox& box) {
+  const std::optional<Eigen::Vector2d>& motion = at.target.motion;
+  const Eigen::Vector2d by = memory.moved + motion.value_or(Eigen::Vector2d::Zero());
+  last_.fill_moved(memory.extent, by);
+  if (last_.inside() == 0) return false;
+  if (!motion) return at.number - memory.extent_frame <= TargetJudge::extent_frames;
+  if (last_.inside() == memory.extent_pixels) return true;
+  SpanBox moved = box_of_spans(memory.extent);
+  const int du = static_cast<int>(std::round(by.x())), dv = static_cast<int>(std::round(by.y()));
+  moved = {moved.u0 + du, moved.u1 + du, moved.v0 + dv, moved.v1 + dv};
+  const double most =
+      (1 + at.target.thresholds.partial_enter) * static_cast<double>(last_.inside());
+  return follows_out(at.frame, box, moved) && static_cast<double>(now.inside) <= most;
+}
+
+/// Whether the robot may hide what is missing in a mask: it lies near the last good extent, or as
+/// near to the mask as what is missing can reach.
+bool Sights::lies_near_robot(const Look& at, const SpanBox& box, const SpanBox& whole) const {
+  const int du = std::max(width_of(whole) - width_of(box), 0);
+  const int dv = std::max(height_of(whole) - height_of(box), 0);
+  if (holds_robot(at.frame, grown(box, at.reach + du, at.reach + dv))) return true;
+  return last_.inside() > 0 &&
+         holds_robot(at.frame, grown(box_of_spans(last_.spans()), at.reach, at.reach));
 }
 
 Sight Sights::look_last(const Look& at, std::size_t missing) {
@@ -114,7 +158,7 @@ Sight Sights::look_last(const Look& at, std::size_t missing) {
 
 void Sights::remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_t number,
                       TargetMemory& memory) const {
-  if (seen_.inside() >= memory.extent_pixels || !near_robot_) {
+  if (seen_.inside() >= memory.extent_pixels || may_replace_) {
     memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
     memory.extent_pixels = seen_.inside();
     memory.moved.setZero();

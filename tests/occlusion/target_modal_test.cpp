@@ -16,11 +16,11 @@ constexpr double share_rounding = 1e-12;
 class ModalTargets : public testing::Test {
  protected:
   /// The verdict on what a detector sees of a box: the part left of the robot, which covers the
-  /// columns from `robot` on.
-  Judgement see(int u, int robot, std::optional<double> motion = {}) {
+  /// columns from `robot` on, and not nearer to it than `gap`.
+  Judgement see(int u, int robot, std::optional<double> motion = {}, int gap = 0) {
     TargetFrame frame;
     frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-    const int seen = std::min(u + width, robot) - u;
+    const int seen = std::min(u + width, robot - gap) - u;
     TargetView target = box_target(
         "cup", {static_cast<double>(u), 40, static_cast<double>(seen), 20}, Extent::modal);
     if (motion) target.motion = Eigen::Vector2d(*motion, 0);
@@ -30,6 +30,7 @@ class ModalTargets : public testing::Test {
   }
 
   static constexpr int width = 40;
+  static constexpr int wide_gap = 15;  // more than the reach of the robot's edges
   TargetThresholds thresholds;
   TargetJudge judge{TargetFrame::camera(), TargetFrame::without_cleanup(), 3};
 };
@@ -108,6 +109,27 @@ TEST_F(ModalTargets, AreUnknownWhenTheLastExtentIsTooOld) {
   EXPECT_NE(late.reason.find("smaller"), std::string_view::npos);
 }
 
+TEST_F(ModalTargets, ThatAMaskShowsFarFromTheRobotStayHiddenHoweverLong) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  for (std::uint64_t i = 0; i < 3 * TargetJudge::extent_frames; ++i)
+    ASSERT_NE(see(20, 45, {}, wide_gap).verdict, Verdict::visible) << i;
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(20, 40).verdict, Verdict::partial) << "the whole extent is the last good one";
+}
+
+TEST_F(ModalTargets, DoNotCreepOutOfSightFarFromTheRobot) {
+  for (int robot = 120; robot > 21 + wide_gap; --robot) {
+    const Verdict verdict = see(20, robot, {}, wide_gap).verdict;
+    EXPECT_TRUE(verdict != Verdict::visible || robot >= 58) << robot;
+  }
+}
+
+/// The mask, 24 px from the robot, shows 10 of 40 columns; the next ones may be behind the robot.
+TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsAwayFromTheRobot) {
+  EXPECT_EQ(see(90, 145).verdict, Verdict::visible);
+  EXPECT_EQ(see(90, 124, -60.0, 24).verdict, Verdict::unknown);
+}
+
 TEST_F(ModalTargets, MayShrinkAwayFromTheRobot) {
   EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
   TargetFrame frame;
@@ -151,6 +173,25 @@ TEST_F(ModalTargets, BesideTheRobotAreUnknownWhereTheyWereNotExpected) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
   // Said to have left the image, yet a small part of it is seen beside the robot.
   EXPECT_EQ(see(95, 100, -500.0).verdict, Verdict::unknown);
+}
+
+/// What is left of the extent in the image, 8 columns, is less than the mask shows.
+TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsOutOfTheImage) {
+  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(20, 33, -52.0, 3).verdict, Verdict::unknown) << "the mask is not at the border";
+  judge.forget("cup");
+  EXPECT_EQ(see(0, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(0, 15, -32.0, 3).verdict, Verdict::unknown) << "the mask is larger than that";
+}
+
+TEST_F(ModalTargets, ThatLeaveTheImageBesideTheRobotStayVisible) {
+  EXPECT_EQ(see(0, 100).verdict, Verdict::visible);
+  TargetFrame frame;
+  frame.add_robot(22, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+  TargetView target = box_target("cup", {-28, 40, 40, 20}, Extent::modal);
+  target.motion = Eigen::Vector2d(-28, 0);
+  judge.begin(frame.images());
+  EXPECT_EQ(judge.judge(target).verdict, Verdict::visible);
 }
 
 TEST_F(ModalTargets, AreForgottenOnRequest) {
