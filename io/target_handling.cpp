@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,6 +67,40 @@ void read_track(const YamlNode& node, Config& config) {
   read_choice(node, "worst", verdicts, config.worst);
 }
 
+/// Settings that a motion does not use would be without effect.
+void refuse_unused(const YamlNode& node, std::string_view motion,
+                   std::initializer_list<std::string_view> unused) {
+  for (const std::string_view key : unused)
+    if (const YamlNode* value = node.find(key))
+      value->fail("is given; motion " + std::string(motion) + " does not use it");
+}
+
+void refuse_unused(const YamlNode& node, const PoseTrackerConfig& config) {
+  switch (config.motion) {
+    case Motion::constant_twist:
+      return refuse_unused(node, "constant_twist", {"drift", "angular_drift"});
+    case Motion::constant_velocity:
+      return refuse_unused(node, "constant_velocity",
+                           {"drift", "angular_acceleration", "angular_speed_sigma"});
+    case Motion::along_direction:
+      if (config.speed)
+        refuse_unused(node, "along_direction with a known speed", {"acceleration", "speed_sigma"});
+      return refuse_unused(node, "along_direction",
+                           {"angular_acceleration", "angular_speed_sigma"});
+    case Motion::still:
+      return refuse_unused(
+          node, "still",
+          {"acceleration", "speed_sigma", "angular_acceleration", "angular_speed_sigma"});
+  }
+}
+
+void refuse_unused(const YamlNode& node, const PointTrackerConfig& config) {
+  if (config.motion == PointMotion::hold)
+    refuse_unused(node, "hold", {"acceleration", "speed_sigma"});
+  else
+    refuse_unused(node, "constant_velocity", {"held_speed"});
+}
+
 PoseTrackerConfig read_pose(const YamlNode& node) {
   node.allow_only({"motion", "direction", "speed", "position_sigma", "orientation_sigma",
                    "acceleration", "angular_acceleration", "drift", "angular_drift", "speed_sigma",
@@ -84,6 +119,7 @@ PoseTrackerConfig read_pose(const YamlNode& node) {
   read_number(node, "angular_speed_sigma", config.angular_speed_sigma);
   read_track(node, config);
   node.blamed_for([&] { config.check(); });
+  refuse_unused(node, config);
   return config;
 }
 
@@ -96,6 +132,7 @@ PointTrackerConfig read_point(const YamlNode& node) {
   read_number(node, "held_speed", config.held_speed);
   read_track(node, config);
   node.blamed_for([&] { config.check(); });
+  refuse_unused(node, config);
   return config;
 }
 

@@ -309,22 +309,24 @@ struct ShapeKind {
   std::string_view key;
   ShapeSource (*read)(const TargetReader&, const YamlNode&);
   bool has_pixels;
+  bool has_pose;
   std::vector<std::string_view> keys;
 };
 
 const std::vector<ShapeKind>& kinds() {
   static const std::vector<ShapeKind> all{
-      {"box", read_box, true, {"extent", "expected_depth"}},
-      {"polygon", read_polygon, true, {"extent", "expected_depth"}},
-      {"mask", read_mask, true, {"extent", "expected_depth"}},
-      {"rle", read_run_lengths, true, {"extent", "expected_depth"}},
+      {"box", read_box, true, false, {"extent", "expected_depth"}},
+      {"polygon", read_polygon, true, false, {"extent", "expected_depth"}},
+      {"mask", read_mask, true, false, {"extent", "expected_depth"}},
+      {"rle", read_run_lengths, true, false, {"extent", "expected_depth"}},
       {"keypoint",
        read_keypoint,
        true,
+       false,
        {"radius", "ellipse", "radius_m", "ellipse_m", "min_score", "expected_depth"}},
-      {"point", read_point, false, {"radius", "link"}},
-      {"box3d", read_object_box, false, {"size", "link"}},
-      {"mesh", read_mesh, false, {"file", "scale", "link"}}};
+      {"point", read_point, false, false, {"radius", "link"}},
+      {"box3d", read_object_box, false, true, {"size", "link"}},
+      {"mesh", read_mesh, false, true, {"file", "scale", "link"}}};
   return all;
 }
 
@@ -360,7 +362,9 @@ ShapeSource read_shape(const TargetReader& reader) {
                      " is wanted");
   }
   check_keys(reader.node, *chosen);
-  return chosen->read(reader, reader.node.at(chosen->key));
+  ShapeSource source = chosen->read(reader, reader.node.at(chosen->key));
+  source.has_pose = chosen->has_pose;
+  return source;
 }
 
 EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
@@ -382,12 +386,13 @@ EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
       is_pose ? reader.values(*pose, pose_format())
               : reader.values(node.at("point"), fixed_format({"x", "y", "z"})));
   values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
-  return {[=](std::int64_t index) -> std::optional<TargetEstimate> {
+  const auto of_frame = [=](std::int64_t index) -> std::optional<TargetEstimate> {
     const FrameValue value = values->at(index);
     if (!value.fault.empty() && value.place.empty()) return std::nullopt;
     if (!value.fault.empty()) throw InputError(value.fault);
     return at_place(value.place, [&] { return make(value); });
-  }};
+  };
+  return {of_frame, is_pose};
 }
 
 }  // namespace penumbra::io

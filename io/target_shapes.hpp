@@ -40,6 +40,7 @@ struct ShapeSource {
   };
   std::function<Given(std::int64_t index)> of_frame;
   bool may_be_late = false;
+  bool has_pose = false;  ///< of its own: with an orientation
 };
 
 /// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
@@ -48,6 +49,7 @@ struct ShapeSource {
 /// An estimate by frames; nothing in frames without one.
 struct EstimateSource {
   std::function<std::optional<TargetEstimate>(std::int64_t index)> of_frame;
+  bool is_pose = false;
 };
 [[nodiscard]] EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node);
 

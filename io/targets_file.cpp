@@ -54,6 +54,25 @@ TargetSource source_of(const YamlNode& node, const TargetsContext& context,
   return source;
 }
 
+/// Handling that nothing can ever feed is a mistake, and would only say "lost".
+void check_handling(const YamlNode& node, const TargetSource& source,
+                    const TargetHandling& handling) {
+  if (source.estimate && std::holds_alternative<std::monostate>(handling))
+    node.at("estimate").fail("is given, but not handled; handling: pose or point is wanted");
+  if (!std::holds_alternative<PoseTrackerConfig>(handling)) return;
+  if (source.estimate && !source.estimate->is_pose)
+    node.at("handling")
+        .fail(
+            "is pose, but the estimate has no orientation; write handling: point, or estimate: "
+            "{pose: ...}");
+  if (!source.estimate && !source.shape.has_pose)
+    node.at("handling")
+        .fail(
+            "is pose, but only box3d and mesh have a pose of their own; write handling: point, or "
+            "add "
+            "estimate: {pose: ...}");
+}
+
 Target target_of(const YamlNode& node, const TargetSource& source, const TargetsContext& context) {
   Target target;
   target.name = source.name;
@@ -66,8 +85,7 @@ Target target_of(const YamlNode& node, const TargetSource& source, const Targets
     if (target.depth_margin < 0.0) margin->fail("is negative; metres from 0 are wanted");
   }
   if (const YamlNode* handling = node.find("handling")) target.handling = read_handling(*handling);
-  if (source.estimate && std::holds_alternative<std::monostate>(target.handling))
-    node.at("estimate").fail("is given, but not handled; handling: pose or point is wanted");
+  check_handling(node, source, target.handling);
   return target;
 }
 

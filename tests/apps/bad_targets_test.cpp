@@ -91,6 +91,35 @@ std::vector<BadTargets> bad_objects_and_settings() {
        "box: [1, 2, 3, 4]\n  thresholds: {partial_enter: 0.1, partial_leave: 0.2}\n",
        {":4: targets[0].thresholds", "0.2"}},
       {"HandlingUnknown", "box: [1, 2, 3, 4]\n  handling: hold\n", {":4: ", "'hold'"}},
+      {"PoseOfARegion",
+       "box: [1, 2, 3, 4]\n  handling: pose\n",
+       {":4: targets[0].handling", "point"}},
+      {"PoseOfAKeypoint",
+       "keypoint: [5, 5]\n  handling: {pose: {motion: still}}\n",
+       {":4: targets[0].handling", "point"}},
+      {"PoseOfAPoint", "point: [0, 0, 1]\n  handling: pose\n", {":4: targets[0].handling"}},
+      {"PoseOfAPointsEstimate",
+       "box3d: [0, 0, 1, 0, 0, 0, 1]" + solid +
+           "  handling: pose\n  estimate: {point: [0, 0, 1]}\n",
+       {":5: targets[0].handling", "orientation"}},
+      {"HeldWithAcceleration",
+       "point: [0, 0, 1]\n  handling: {point: {motion: hold, acceleration: 3}}\n",
+       {":4: targets[0].handling.point.acceleration", "hold does not use it"}},
+      {"MovingWithHeldSpeed",
+       "point: [0, 0, 1]\n  handling: {point: {motion: constant_velocity, held_speed: 3}}\n",
+       {":4: ", "held_speed", "constant_velocity does not use it"}},
+      {"StillWithAcceleration",
+       "box3d: [0, 0, 1, 0, 0, 0, 1]" + solid +
+           "  handling: {pose: {motion: still, acceleration: 3}}\n",
+       {":5: ", "acceleration", "still does not use it"}},
+      {"TwistWithDrift",
+       "box3d: [0, 0, 1, 0, 0, 0, 1]" + solid + "  handling: {pose: {drift: 3}}\n",
+       {":5: ", "drift", "constant_twist does not use it"}},
+      {"KnownSpeedWithAcceleration",
+       "box3d: [0, 0, 1, 0, 0, 0, 1]" + solid +
+           "  handling: {pose: {motion: along_direction, direction: [1, 0, 0], speed: 0.1, "
+           "acceleration: 3}}\n",
+       {":5: ", "acceleration", "known speed does not use it"}},
       {"TrackerAtFault",
        "box: [1, 2, 3, 4]\n  handling: {point: {timeout: -1}}\n",
        {":4: targets[0].handling.point", "timeout"}},
@@ -149,6 +178,22 @@ TEST_F(TargetFaultsTest, OfTheWholeFileAreTold) {
   edit_file(folder_.path() / "recording.yaml", "frames:", "targets: no.yaml\nframes:");
   expect_fault(penumbra({"run", folder_.path(), "-o", folder_.path() / "out"}),
                {"recording.yaml", "no.yaml"});
+}
+
+/// What the motions do use.
+TEST_F(TargetFaultsTest, SettingsOfTheMotionAreTaken) {
+  const std::string head =
+      "targets:\n- name: a\n  box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0.1, 0.1]\n  handling: ";
+  for (const char* const settings :
+       {"{pose: {acceleration: 1, angular_acceleration: 1, speed_sigma: 1, angular_speed_sigma: "
+        "1}}",
+        "{pose: {motion: constant_velocity, acceleration: 1, speed_sigma: 1, angular_drift: 1}}",
+        "{pose: {motion: along_direction, direction: [1, 0, 0], acceleration: 1, speed_sigma: 1, "
+        "drift: 1, angular_drift: 1}}",
+        "{pose: {motion: along_direction, direction: [1, 0, 0], speed: 1, drift: 1}}",
+        "{pose: {motion: still, drift: 1, angular_drift: 1}}", "{point: {held_speed: 1}}",
+        "{point: {motion: constant_velocity, acceleration: 1, speed_sigma: 1}}"})
+    EXPECT_EQ(run(head + settings + "\n").status, 0) << settings;
 }
 
 /// Outside of the image a target is out of view, which is no fault: a moving one may get there.
