@@ -120,7 +120,7 @@ void check_gl_labels(const RunArguments& run) {
   if (run.targets)
     throw InputError(
         "--gl-labels: targets cannot be judged on labels that are made on the device; "
-        "leave --gl-labels or --targets out");
+        "leave --gl-labels out, or say --targets none");
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
@@ -148,10 +148,11 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.frames = to_range(text); });
   add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
              [&](const std::string& text) { run.saves = to_saves(text); });
-  add_option(app, "--targets", "which targets to judge; default: the recording's, if any", "YAML",
-             [&](const std::string& text) {
-               if (text.empty()) refuse_option("--targets", text, "a path");
-               run.targets = text;
+  add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
+             "YAML", [&](const std::string& text) {
+               if (text.empty()) refuse_option("--targets", text, "a path, or none");
+               run.no_targets = text == "none";
+               if (!run.no_targets) run.targets = text;
              });
   app.add_flag(
       "--gl-labels", run.gl_labels,

@@ -48,6 +48,7 @@ struct RunArguments {
   FrameRange frames;
   Saves saves;
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
+  bool no_targets = false;                       ///< not the recording's either
   bool gl_labels = false;                        ///< PipelineConfig::labels_on_device
 };
 

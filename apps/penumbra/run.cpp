@@ -79,10 +79,12 @@ std::optional<io::TargetsFile> open_targets(const RunArguments& arguments,
                                             const io::Recording& recording, const Robot& robot,
                                             const Camera& camera) {
   const auto& file = arguments.targets ? arguments.targets : recording.targets;
-  if (!file) return std::nullopt;
+  if (!file || arguments.no_targets) return std::nullopt;
   if (arguments.gl_labels)
-    throw InputError(file->string() +
-                     ": targets cannot be judged with --gl-labels; leave that out");
+    throw InputError(
+        file->string() +
+        ": targets cannot be judged with --gl-labels; leave that out, or add --targets "
+        "none");
   return io::TargetsFile::open(
       *file, {.robot = robot,
               .image = arguments.image,

@@ -199,6 +199,20 @@ TEST_F(RunTargetsTest, TheOptionComesBeforeTheRecording) {
   EXPECT_EQ(target(json, 0, "only")["verdict"], "visible");
 }
 
+/// The recording names targets, which cannot be judged with labels from a device.
+TEST_F(RunTargetsTest, NoneLeavesTheRecordingsOut) {
+  const Outcome outcome = run({"--targets", "none", "--frames", "2:3"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(report()["frames"][0]["targets"].empty());
+  EXPECT_EQ(outcome.out.find("target "), std::string::npos) << outcome.out;
+  const Outcome labels = run({"--renderer", "gl", "--gl-labels", "--frames", "2:3"});
+  EXPECT_EQ(labels.status, 2);
+  EXPECT_NE(labels.err.find("--targets none"), std::string::npos) << labels.err;
+  const Outcome alone =
+      run({"--renderer", "gl", "--gl-labels", "--frames", "2:3", "--targets", "none"});
+  EXPECT_EQ(alone.err.find("targets cannot be judged"), std::string::npos) << alone.err;
+}
+
 TEST_F(RunTargetsTest, TheOverlayShowsThem) {
   const fs::path none = targets("targets: []\n");
   Image<io::Rgb8> with, without;
