@@ -220,6 +220,9 @@ Simulation::Simulation(const std::string& scene, const SimulationOptions& option
   if (options.joint_latency > 0.0 && !state_->scene->description().moves)
     throw InputError("simulation: joint_latency means nothing in the scene '" + scene +
                      "', whose frames have nothing to do with each other; leave it out");
+  if (options.belt_jitter > 0.0 && scene != "conveyor")
+    throw InputError("simulation: belt_jitter means nothing in the scene '" + scene +
+                     "', which has no belt; leave it out");
 }
 
 Simulation::~Simulation() = default;

@@ -91,7 +91,7 @@ class ConveyorRun {
 
  private:
   SimulationOptions options(std::uint64_t seed) const {
-    return simulation_options(settings_, seed);
+    return simulation_options("conveyor", settings_, seed);
   }
 
   void begin(const SimFrame& frame) {

@@ -118,8 +118,8 @@ void run_experiment(const ExperimentOptions& options, const std::function<void(s
   settings.duration = options.duration;
   std::optional<KeyFrames> frames;
   {
-    const Simulation simulation(options.experiment,
-                                simulation_options(settings, options.first_seed));
+    const Simulation simulation(
+        options.experiment, simulation_options(options.experiment, settings, options.first_seed));
     frames.emplace(options.experiment, cell_of(simulation));
     total((options.end_seed - options.first_seed) * simulation.frames());
   }

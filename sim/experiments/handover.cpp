@@ -35,12 +35,12 @@ class HandoverRun {
  public:
   HandoverRun(std::uint64_t seed, const RunSettings& settings)
       : settings_(settings),
-        simulation_("handover", simulation_options(settings, seed)),
+        simulation_("handover", simulation_options("handover", settings, seed)),
         cell_(cell_of(simulation_)),
         watcher_(simulation_),
         random_(seed) {
     run_.seed = seed;
-    run_.frame_seconds = 1.0 / simulation_options(settings, seed).frame_rate;
+    run_.frame_seconds = 1.0 / simulation_options("handover", settings, seed).frame_rate;
     cell_.links = watcher_.robot().links().size();
     cell_.rule = watcher_.rule();
     cell_.wrist_radius = wrist_radius;

@@ -3,12 +3,13 @@
 
 namespace penumbra::sim {
 
-SimulationOptions simulation_options(const RunSettings& settings, std::uint64_t seed) {
+SimulationOptions simulation_options(const std::string& scene, const RunSettings& settings,
+                                     std::uint64_t seed) {
   SimulationOptions options;
   options.seed = seed;
   options.joint_sigma = settings.joint_sigma;
   options.joint_latency = settings.joint_latency;
-  options.belt_jitter = settings.belt_jitter;
+  options.belt_jitter = scene == "conveyor" ? settings.belt_jitter : 0.0;
   options.second_camera = true;
   options.duration = settings.duration;
   return options;

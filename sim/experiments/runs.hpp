@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include <sim/experiments/detector.hpp>
 #include <sim/experiments/results.hpp>
@@ -16,7 +17,9 @@ struct RunHooks {
   std::function<void(const SimFrame&)> see = [](const SimFrame&) {};  ///< before it is judged
 };
 
-[[nodiscard]] SimulationOptions simulation_options(const RunSettings& settings, std::uint64_t seed);
+/// Of a seed's run in a scene: conveyor or handover.
+[[nodiscard]] SimulationOptions simulation_options(const std::string& scene,
+                                                   const RunSettings& settings, std::uint64_t seed);
 
 /// What is known of a simulation's cell beforehand.
 [[nodiscard]] Cell cell_of(const Simulation& simulation);

@@ -110,6 +110,8 @@ TEST_F(SimulateCommand, RefusesBadInput) {
   refused({"conveyor", "--duration", "1e99"}, "duration");
   refused({"conveyor", "--rate", "0"}, "frame_rate");
   refused({"random", "--joint-latency", "0.1"}, "joint_latency");
+  refused({"random", "--belt-jitter", "0.3"}, "belt_jitter");
+  refused({"handover", "--belt-jitter", "0.3"}, "belt_jitter");
 }
 
 TEST_F(SimulateCommand, LeavesWhatIsThereAlone) {
