@@ -107,6 +107,32 @@ std::string prepared(const fs::path& urdf, const RobotOptions& options, const fs
   return out.append(from, text.cend());
 }
 
+/// A geom's extent in its own frame. Of a mesh, MuJoCo keeps the vertices in that frame.
+Eigen::AlignedBox3d extent_of(const mjModel& model, int geom) {
+  const Eigen::Map<const Eigen::Vector3d> size(model.geom_size + 3 * geom);
+  Eigen::Vector3d half = size;
+  switch (model.geom_type[geom]) {
+    case mjGEOM_BOX:
+      break;
+    case mjGEOM_SPHERE:
+      half = Eigen::Vector3d::Constant(size.x());
+      break;
+    case mjGEOM_CYLINDER:
+      half = {size.x(), size.x(), size.y()};
+      break;
+    case mjGEOM_MESH: {
+      const int mesh = model.geom_dataid[geom], first = model.mesh_vertadr[mesh];
+      Eigen::AlignedBox3d box;
+      for (int i = first; i < first + model.mesh_vertnum[mesh]; ++i)
+        box.extend(Eigen::Map<const Eigen::Vector3f>(model.mesh_vert + 3 * i).cast<double>());
+      return box;
+    }
+    default:
+      throw std::logic_error("a URDF has no such shape");
+  }
+  return {-half, half};
+}
+
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
@@ -167,6 +193,27 @@ std::vector<Eigen::Vector3d> Arm::part_centres(std::span<const double> positions
     if (model_->model->geom_bodyid[geom] != 0)
       centres.emplace_back(Eigen::Map<const Eigen::Vector3d>(model_->data->geom_xpos + 3 * geom));
   return centres;
+}
+
+double Arm::PartBox::distance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d p = T_root_box.inverse() * point;
+  return (p.cwiseAbs() - half).cwiseMax(0.0).norm();
+}
+
+std::vector<Arm::PartBox> Arm::part_boxes(std::span<const double> positions) {
+  set(positions);
+  using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  std::vector<PartBox> boxes;
+  for (int geom = 0; geom < model_->model->ngeom; ++geom) {
+    const Eigen::AlignedBox3d extent = extent_of(*model_->model, geom);
+    PartBox& box = boxes.emplace_back();
+    box.T_root_box.linear() = Eigen::Map<const RowMatrix>(model_->data->geom_xmat + 9 * geom);
+    box.T_root_box.translation() =
+        Eigen::Map<const Eigen::Vector3d>(model_->data->geom_xpos + 3 * geom) +
+        box.T_root_box.linear() * extent.center();
+    box.half = 0.5 * extent.sizes();
+  }
+  return boxes;
 }
 
 Eigen::Isometry3d Arm::link_pose(std::span<const double> positions, const std::string& link) {

@@ -46,6 +46,18 @@ class Arm {
   /// left out.
   [[nodiscard]] std::vector<Eigen::Vector3d> part_centres(std::span<const double> positions);
 
+  /// A box that holds one drawn part.
+  struct PartBox {
+    Eigen::Isometry3d T_root_box = Eigen::Isometry3d::Identity();  ///< of its centre
+    Eigen::Vector3d half = Eigen::Vector3d::Zero();                ///< half edges, metres
+
+    /// Of a point in the root link's frame, metres; 0 inside.
+    [[nodiscard]] double distance(const Eigen::Vector3d& point) const;
+  };
+
+  /// Boxes about all drawn parts, the root link's too.
+  [[nodiscard]] std::vector<PartBox> part_boxes(std::span<const double> positions);
+
   /// Pose of link `link` in the root link's frame.
   [[nodiscard]] Eigen::Isometry3d link_pose(std::span<const double> positions,
                                             const std::string& link);

@@ -16,12 +16,16 @@ using Eigen::Vector3d;
 constexpr int frames = 1000;
 constexpr double nearest_target = 0.35;  // metres from the camera that a target keeps
 constexpr double gap = 0.05;  // metres of depth between a target and the part of the arm there
+// Nothing stands in anything else: from each target, taken as a ball, metres to all else.
+constexpr double clearance = 0.05;
+constexpr double ground = -0.80, pedestal = 0.12;  // metres: the floor's height, a radius
 
 enum class Place { before, behind, beside };
 constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behind, Place::behind,
                                       Place::behind, Place::behind, Place::beside, Place::beside};
 
-/// Every frame is a new arm pose with new places of the same eight targets.
+/// Every frame is a new arm pose with new places of the same eight targets, which touch neither the
+/// arm nor one another.
 class RandomTargets : public Scene {
  public:
   RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsics& intrinsics);
@@ -30,8 +34,14 @@ class RandomTargets : public Scene {
 
  private:
   [[nodiscard]] std::uint64_t index(double time) const;
+  /// What stands there already: the arm, and balls about targets.
+  struct Taken {
+    std::vector<Arm::PartBox> parts;
+    std::vector<std::pair<Vector3d, double>> balls;
+  };
+  [[nodiscard]] bool is_free(const Vector3d& at, double radius, const Taken& taken) const;
   [[nodiscard]] Vector3d position(Place place, double radius, Random& random,
-                                  const std::vector<Vector3d>& parts) const;
+                                  const std::vector<Vector3d>& parts, const Taken& taken) const;
 
   Arm& arm_;
   std::uint64_t seed_;
@@ -63,6 +73,8 @@ RandomTargets::RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsi
          std::string("<geom type=\"") + (ball ? "sphere" : "box") + "\" size=\"" + size +
              "\" rgba=\"" + numbers({color.x(), color.y(), color.z(), 1.0}) + "\" group=\"2\"/>"});
     description_.objects.push_back("target_" + std::to_string(i));
+    description_.solids.push_back({ball ? Solid::ball : Solid::box,
+                                   2 * (ball ? Vector3d(half.x(), half.x(), half.x()) : half)});
     radii_.push_back(ball ? half.x() : half.norm());
   }
   std::string room =
@@ -93,12 +105,24 @@ std::vector<double> RandomTargets::joints(double time) const {
   return positions;
 }
 
-/// Near the ray through one of the arm's parts, at a depth that the place asks for.
+bool RandomTargets::is_free(const Vector3d& at, double radius, const Taken& taken) const {
+  const double least = radius + clearance;
+  if (at.z() < ground + least) return false;
+  if (at.z() < least && at.head<2>().norm() < pedestal + least) return false;
+  return std::none_of(taken.parts.begin(), taken.parts.end(),
+                      [&](const Arm::PartBox& part) { return part.distance(at) < least; }) &&
+         std::none_of(taken.balls.begin(), taken.balls.end(), [&](const auto& ball) {
+           return (ball.first - at).norm() < ball.second + least;
+         });
+}
+
+/// Near the ray through one of the arm's parts, at a depth that the place asks for, apart from
+/// everything.
 Vector3d RandomTargets::position(Place place, double radius, Random& random,
-                                 const std::vector<Vector3d>& parts) const {
+                                 const std::vector<Vector3d>& parts, const Taken& taken) const {
+  constexpr int attempts = 1000;
   const Isometry3d T_camera_base = description_.T_base_camera.inverse();
-  Vector3d best = Vector3d::Zero();
-  for (int attempt = 0; attempt < 100; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     const auto chosen =
         static_cast<std::size_t>(random.uniform() * static_cast<double>(parts.size()));
     const Vector3d part = T_camera_base * parts[chosen];
@@ -110,22 +134,28 @@ Vector3d RandomTargets::position(Place place, double radius, Random& random,
     const double least = place == Place::beside ? 0.12 + radius : 0.0;
     const double aside = random.uniform(least, least + 0.12);
     const double angle = random.uniform(0.0, 6.2831853);
-    best = part * (depth / part.z()) + aside * Vector3d(std::cos(angle), std::sin(angle), 0.0);
-    const Eigen::Vector2d pixel = intrinsics_.project(best);
+    const Vector3d at =
+        part * (depth / part.z()) + aside * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    const Eigen::Vector2d pixel = intrinsics_.project(at);
     if (pixel.x() > 0 && pixel.y() > 0 && pixel.x() < intrinsics_.width() &&
-        pixel.y() < intrinsics_.height())
-      break;
+        pixel.y() < intrinsics_.height() && is_free(description_.T_base_camera * at, radius, taken))
+      return description_.T_base_camera * at;
   }
-  return description_.T_base_camera * best;
+  // No room in the view: out of it, behind the camera.
+  return description_.T_base_camera *
+         Vector3d(0.0, 0.0, -1.0 - 0.5 * static_cast<double>(taken.balls.size()));
 }
 
 ScenePose RandomTargets::pose(double time) {
   Random random(seed_, mix(index(time)) ^ 14);
-  const std::vector<Vector3d> parts = arm_.part_centres(joints(time));
+  const std::vector<double> positions = joints(time);
+  const std::vector<Vector3d> parts = arm_.part_centres(positions);
+  Taken taken{arm_.part_boxes(positions), {}};
   ScenePose all;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Isometry3d target = Isometry3d::Identity();
-    target.translation() = position(places[i], radii_[i], random, parts);
+    target.translation() = position(places[i], radii_[i], random, parts, taken);
+    taken.balls.emplace_back(target.translation(), radii_[i]);
     Eigen::Vector4d turn;
     for (double& x : turn) x = random.normal();
     target.linear() = Eigen::Quaterniond(turn).normalized().toRotationMatrix();

@@ -16,6 +16,7 @@
 #include <io/png.hpp>
 #include <sim/arm.hpp>
 #include <sim/numbers.hpp>
+#include <sim/simulation.hpp>
 
 namespace penumbra::sim {
 
@@ -37,6 +38,7 @@ struct SceneDescription {
   std::vector<SceneTexture> textures;
   std::vector<ScenePart> parts;
   std::vector<std::string> objects;  ///< names
+  std::vector<ObjectSolid> solids;   ///< of the objects, or empty
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_base_second_camera = Eigen::Isometry3d::Identity();
   double duration = 0.0;        ///< seconds; what the scene takes of its own accord

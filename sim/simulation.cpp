@@ -172,6 +172,7 @@ void Simulation::State::draw(const ScenePose& pose, SimFrame& to) {
 
 void Simulation::State::draw_objects(const ScenePose& pose, SimFrame& to) {
   const std::vector<std::string>& names = scene->description().objects;
+  const std::vector<ObjectSolid>& solids = scene->description().solids;
   to.objects.resize(names.size());
   fit(alone_ids, view.intrinsics);
   fit(alone_depth, view.intrinsics);
@@ -180,6 +181,7 @@ void Simulation::State::draw_objects(const ScenePose& pose, SimFrame& to) {
     object.name = names[i];
     object.id = first_object_id + static_cast<std::int32_t>(i);
     object.T_base_object = pose.objects[i];
+    object.solid = solids.empty() ? ObjectSolid() : solids[i];
     const Window window = stage.window_of(view, object.id);
     const auto itself = [&](std::int32_t id) { return id == object.id; };
     stage.draw_ids(view, itself, window, &alone_ids, &alone_depth);

@@ -54,6 +54,14 @@ struct SimulationOptions {
   double frame_rate = 30.0;
 };
 
+/// What an object is, as targets can say it.
+enum class Solid { other, box, ball };
+struct ObjectSolid {
+  Solid kind = Solid::other;
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< metres: a box's edges, a ball's diameter in
+                                                   ///< each; about the object's origin
+};
+
 /// A thing with a pose that targets are made of: the textured object, the wrist, a person's body.
 struct ObjectTruth {
   std::string name;
@@ -65,6 +73,7 @@ struct ObjectTruth {
                                         ///< what is not seen, the rest is behind other objects
   Image<std::uint8_t> alone;            ///< 1 where it would be seen were nothing before it, else 0
   Image<float> alone_depth;             ///< metres, there; else 0
+  ObjectSolid solid;                    ///< known in the scene `random` only
 };
 
 /// One frame as the simulator knows it. Depth is along the optical axis.
