@@ -266,6 +266,9 @@ Eigen::Vector3d Simulation::conveyor_direction() const {
   return state_->scene->description().conveyor_direction;
 }
 double Simulation::duration() const { return state_->duration; }
+bool Simulation::is_whole() const {
+  return state_->duration >= state_->scene->description().duration;
+}
 
 std::optional<std::int64_t> Simulation::grasp_stamp() const {
   const std::optional<double> grasp = state_->scene->description().grasp;

@@ -128,8 +128,9 @@ class Simulation {
   [[nodiscard]] const Image<io::Rgb8>& model_image() const;
   [[nodiscard]] Eigen::Vector3d object_size() const;  ///< a box about the object's origin; the
                                                       ///< image is on its +z face, u along +x
-  [[nodiscard]] Eigen::Vector3d conveyor_direction() const;       ///< unit, base frame
-  [[nodiscard]] double duration() const;                          ///< seconds
+  [[nodiscard]] Eigen::Vector3d conveyor_direction() const;  ///< unit, base frame
+  [[nodiscard]] double duration() const;                     ///< seconds
+  [[nodiscard]] bool is_whole() const;  ///< the scene comes to its own end in that time
   [[nodiscard]] std::optional<std::int64_t> grasp_stamp() const;  ///< of the conveyor scene
 
  private:

@@ -42,6 +42,7 @@ const Image<io::Rgb8>& Simulation::model_image() const { refuse_simulation(); }
 Eigen::Vector3d Simulation::object_size() const { refuse_simulation(); }
 Eigen::Vector3d Simulation::conveyor_direction() const { refuse_simulation(); }
 double Simulation::duration() const { refuse_simulation(); }
+bool Simulation::is_whole() const { refuse_simulation(); }
 std::optional<std::int64_t> Simulation::grasp_stamp() const { refuse_simulation(); }
 
 }  // namespace penumbra::sim

@@ -80,9 +80,7 @@ class ConveyorRun {
     for (PoseLane& lane : lanes_) {
       run_.lanes.push_back({lane.key, lane.name, {}});
       for (PoseFollower& follower : lane.followers) {
-        const Sample& sample = follower.run().samples.at(run_.goal);
-        follower.run().success = sample.known && sample.translation_error < grasp_distance &&
-                                 sample.rotation_error < grasp_angle;
+        if (run_.goal) follower.run().success = grasps(follower.run().samples.at(*run_.goal));
         run_.lanes.back().methods.push_back(std::move(follower.run()));
       }
     }
@@ -92,6 +90,11 @@ class ConveyorRun {
  private:
   SimulationOptions options(std::uint64_t seed) const {
     return simulation_options("conveyor", settings_, seed);
+  }
+
+  static bool grasps(const Sample& sample) {
+    return sample.known && sample.translation_error < grasp_distance &&
+           sample.rotation_error < grasp_angle;
   }
 
   void begin(const SimFrame& frame) {
@@ -157,7 +160,7 @@ class ConveyorRun {
       in_view_since_ = truth.time;
     truth.counted = in_view_since_ && truth.time >= *in_view_since_ + settings_.counted_after;
     const auto grasp = simulation_.grasp_stamp();
-    if (!grasp || stamp <= *grasp) run_.goal = run_.frames.size();
+    if (grasp && stamp <= *grasp) run_.goal = run_.frames.size();
     run_.frames.push_back(truth);
     for (PoseLane& lane : lanes_)
       for (PoseFollower& follower : lane.followers) {

@@ -94,7 +94,6 @@ void make_folder(const std::filesystem::path& folder) {
 
 void write_frames(const std::filesystem::path& folder, const KeyFrames& frames,
                   const SeedRun& run) {
-  make_folder(folder);
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     std::string name = std::to_string(i);
     name.insert(0, 6 - std::min<std::size_t>(name.size(), 6), '0');
@@ -114,6 +113,8 @@ void run_experiment(const ExperimentOptions& options, const std::function<void(s
                     const std::function<void()>& step) {
   check(options);
   make_folder(options.output);
+  if (options.frames) make_folder(options.output / "frames");
+  ReportFiles files(options.output);
   RunSettings settings;
   settings.duration = options.duration;
   std::optional<KeyFrames> frames;
@@ -128,7 +129,7 @@ void run_experiment(const ExperimentOptions& options, const std::function<void(s
   result.settings = settings;
   result.seeds = SeedRunner(options, settings, step).go([&](const SimFrame& f) { frames->see(f); });
   result.pictures = frames->choose(result.seeds.front());
-  write_report(result, options.output);
+  files.write(result);
   if (options.frames) write_frames(options.output / "frames", *frames, result.seeds.front());
 }
 

@@ -61,11 +61,12 @@ class HandoverRun {
       record(frame.stamp, truth);
       hooks.step();
     }
-    run_.goal = run_.frames.size() - 1;
+    if (simulation_.is_whole()) run_.goal = run_.frames.size() - 1;
     run_.lanes.push_back({"keypoint", "Wrist key point of a pose network", {}});
     for (PointFollower& follower : followers_) {
       const Sample& last = follower.run().samples.back();
-      follower.run().success = last.known && last.translation_error < reached_distance;
+      if (run_.goal)
+        follower.run().success = last.known && last.translation_error < reached_distance;
       run_.methods.push_back(follower.method().info());
       run_.lanes.back().methods.push_back(std::move(follower.run()));
     }

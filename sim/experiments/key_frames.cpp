@@ -13,7 +13,8 @@ namespace penumbra::sim {
 namespace {
 
 // Okabe and Ito's vermilion and bluish green: told apart with any common colour blindness.
-constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, white{255, 255, 255}, black{0, 0, 0};
+constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, black{0, 0, 0};
+constexpr int text_scale = 2, letter_width = text_scale * io::BitmapFont::advance;
 constexpr double wrist_box = 0.12;  // metres: edge of the box about a wrist
 
 constexpr int largest_width = 800;  // pixels of an image that is kept as it is
@@ -32,24 +33,23 @@ Image<io::Rgb8> halved(const Image<io::Rgb8>& image) {
   return half;
 }
 
-void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, io::Rgb8 color, bool dashed,
+void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Look& look,
                Image<io::Rgb8>& image) {
   constexpr int width = 3, dash = 8;  // pixels
   const double length = (to - from).norm();
   if (!(length < 4.0 * image.width())) return;  // a pose that is far off need not be drawn
   for (int i = 0; i <= static_cast<int>(length); ++i) {
-    if (dashed && (i / dash) % 2 == 1) continue;
+    if (look.dashed && (i / dash) % 2 == 1) continue;
     const Eigen::Vector2d at = from + (to - from) * (length > 0 ? i / length : 0.0);
     io::BitmapFont::fill(static_cast<int>(std::lround(at.x())) - 1,
-                         static_cast<int>(std::lround(at.y())) - 1, width, color, image);
+                         static_cast<int>(std::lround(at.y())) - 1, width, look.color, image);
   }
 }
 
 void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb8>& image) {
-  constexpr int scale = 2;
   for (const auto& [du, dv] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {2, 0}, {0, 2}})
-    io::BitmapFont::draw(text, u + du, v + dv, scale, black, image);
-  io::BitmapFont::draw(text, u, v, scale, color, image);
+    io::BitmapFont::draw(text, u + du, v + dv, text_scale, black, image);
+  io::BitmapFont::draw(text, u, v, text_scale, color, image);
 }
 
 std::string error_text(const Sample& sample) {
@@ -82,12 +82,14 @@ std::size_t most_hidden(const SeedRun& run) {
     if (static_cast<double>(best.size()) * run.frame_seconds >= least_seconds) break;
     span.clear();
   }
-  if (best.empty()) return run.goal;
+  if (best.empty()) return run.goal.value_or(run.frames.size() - 1);
   double most = 0;
   for (const std::size_t i : best) most = std::max(most, run.frames[i].hidden);
   std::erase_if(best, [&](std::size_t i) { return run.frames[i].hidden < most; });
   return best[best.size() / 2];
 }
+
+constexpr Look raw{"raw", red, true, false}, ours{"handled", green, false, true};
 
 }  // namespace
 
@@ -117,7 +119,8 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
   for (std::size_t i = 0; i < run.frames.size(); ++i)
     if (run.frames[i].before_robot) front.push_back(i);
   if (!front.empty()) story.emplace_back("Hand before the arm", front[front.size() / 2]);
-  story.emplace_back(experiment_ == "conveyor" ? "Grasp" : "End", run.goal);
+  const bool grasps = experiment_ == "conveyor" && run.goal;
+  story.emplace_back(grasps ? "Grasp" : "End", run.goal.value_or(run.frames.size() - 1));
   std::stable_sort(story.begin(), story.end(),
                    [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<Picture> pictures;
@@ -129,17 +132,33 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
 Image<io::Rgb8> KeyFrames::draw(const SeedRun& run, std::size_t i) const {
   Image<io::Rgb8> image = images_.at(i);
   const std::vector<MethodRun>& methods = run.lanes.front().methods;
-  draw_target(methods.back().samples[i], green, false, image);
-  draw_target(methods.front().samples[i], red, true, image);
-  write_on("- - raw", 8, 8, red, image);
-  write_on("--- handled", 8, 30, green, image);
+  draw_target(methods.back().samples[i], ours, image);
+  draw_target(methods.front().samples[i], raw, image);
+  for (const auto& [look, v] : {std::pair(raw, 18), {ours, 40}}) {
+    draw_line({10, v}, {66, v}, look, image);
+    write_on(look.name, 78, v - 8, look.color, image);
+  }
   return image;
 }
 
-void KeyFrames::draw_target(const Sample& sample, io::Rgb8 color, bool dashed,
-                            Image<io::Rgb8>& image) const {
+void KeyFrames::draw_target(const Sample& sample, const Look& look, Image<io::Rgb8>& image) const {
   const Eigen::Isometry3d pose = cell_.T_base_camera.inverse() * sample.pose;
   if (!sample.known || pose.translation().z() <= 0) return;
+  Eigen::AlignedBox2d extent;
+  for (const auto& [from, to] : edges_of(pose)) {
+    draw_line(from, to, look, image);
+    extent.extend(from).extend(to);
+  }
+  if (!extent.min().allFinite() || !extent.max().allFinite()) return;
+  const std::string text = error_text(sample);
+  const double most_u = image.width() - letter_width * static_cast<double>(text.size() + 1);
+  const double v = look.is_below ? extent.max().y() + 8 : extent.min().y() - 24;
+  write_on(text, static_cast<int>(std::clamp(extent.min().x(), 4.0, std::max(4.0, most_u))),
+           static_cast<int>(std::clamp(v, 56.0, image.height() - 22.0)), look.color, image);
+}
+
+std::vector<KeyFrames::Edge> KeyFrames::edges_of(const Eigen::Isometry3d& pose) const {
+  std::vector<Edge> edges;
   if (experiment_ != "conveyor") {
     const Eigen::Vector2d at = scale_ * cell_.camera.intrinsics.project(pose.translation());
     const double r =
@@ -148,14 +167,14 @@ void KeyFrames::draw_target(const Sample& sample, io::Rgb8 color, bool dashed,
         at + Eigen::Vector2d(-r, -r), at + Eigen::Vector2d(r, -r), at + Eigen::Vector2d(r, r),
         at + Eigen::Vector2d(-r, r)};
     for (std::size_t k = 0; k < corners.size(); ++k)
-      draw_line(corners[k], corners[(k + 1) % corners.size()], color, dashed, image);
-    return;
+      edges.emplace_back(corners[k], corners[(k + 1) % corners.size()]);
+    return edges;
   }
   const auto corners = project_box(cell_.camera, pose, cell_.object_size);
   for (std::size_t a = 0; a < corners.size(); ++a)
     for (const std::size_t axis : {std::size_t{1}, std::size_t{2}, std::size_t{4}})
-      if ((a & axis) == 0)
-        draw_line(scale_ * corners[a], scale_ * corners[a | axis], color, dashed, image);
+      if ((a & axis) == 0) edges.emplace_back(scale_ * corners[a], scale_ * corners[a | axis]);
+  return edges;
 }
 
 }  // namespace penumbra::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <penumbra/base/image.hpp>
@@ -13,8 +14,16 @@
 
 namespace penumbra::sim {
 
+/// How an estimate is drawn.
+struct Look {
+  const char* name;
+  io::Rgb8 color;
+  bool dashed;
+  bool is_below;  ///< its error stands below the box, else above
+};
+
 /// Keeps a run's colour images, large ones at half their size, and draws into them what was
-/// believed: the raw estimate in red, dashed, and ours in green.
+/// believed, with its error: the raw estimate in red, dashed, and ours in green.
 class KeyFrames {
  public:
   KeyFrames(std::string experiment, const Cell& cell);
@@ -28,7 +37,9 @@ class KeyFrames {
   [[nodiscard]] Image<io::Rgb8> draw(const SeedRun& run, std::size_t i) const;
 
  private:
-  void draw_target(const Sample& sample, io::Rgb8 color, bool dashed, Image<io::Rgb8>& image) const;
+  using Edge = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+  void draw_target(const Sample& sample, const Look& look, Image<io::Rgb8>& image) const;
+  [[nodiscard]] std::vector<Edge> edges_of(const Eigen::Isometry3d& pose) const;
 
   std::string experiment_;
   Cell cell_;

@@ -30,10 +30,10 @@ OrderedJson settings_json(const RunSettings& settings) {
 OrderedJson method_json(const std::vector<Measure>& measures, std::span<const Watched> runs) {
   OrderedJson summary, seeds;
   for (const Measure& measure : measures) {
-    const Interval interval = bootstrap(measure, runs);
-    summary[measure.key] = {
-        {"value", number_or_null(interval.value)},
-        {"ci95", interval.value ? OrderedJson{interval.low, interval.high} : OrderedJson(nullptr)}};
+    const auto [value, confidence] = interval_of(measure, runs);
+    summary[measure.key] = {{"value", number_or_null(value)},
+                            {"ci95", confidence ? OrderedJson{confidence->low, confidence->high}
+                                                : OrderedJson(nullptr)}};
   }
   for (const Watched& run : runs) {
     OrderedJson one{{"seed", run.seed->seed}};

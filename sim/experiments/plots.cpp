@@ -71,6 +71,18 @@ std::string grid(const Axes& axes) {
   return svg;
 }
 
+/// A whisker; none where nothing is known of the confidence.
+Confidence span_of(const Interval& interval) {
+  return interval.confidence.value_or(Confidence{*interval.value, *interval.value});
+}
+
+std::string goal_mark(double x, const std::string& name) {
+  return format("<line class='goal' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", x, x, margin_top,
+                plot_height - margin_bottom) +
+         format("<text x='%.1f' y='%.1f' text-anchor='%s'>%s</text>", x, plot_height - 6,
+                x > 0.8 * plot_width ? "end" : "middle", name.c_str());
+}
+
 std::string error_line(const SeedRun& run, const MethodRun& method, const Axes& axes,
                        const std::string& key) {
   std::string path;
@@ -106,15 +118,10 @@ LineStyle line_style(const std::string& key) {
 
 std::string error_plot(const SeedRun& run, std::size_t lane, std::string_view goal_name) {
   const Axes axes{run.frames.back().time + run.frame_seconds};
-  const std::string goal(goal_name);
-  const double x = axes.x(run.frames[run.goal].time);
   std::string svg =
       format("<svg class='plot' role='img' viewBox='0 0 %.0f %.0f'>", plot_width, plot_height);
   svg += "<title>Position error against time</title>" + shaded_spans(run, axes) + grid(axes);
-  svg += format("<line class='goal' x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f'/>", x, x, margin_top,
-                plot_height - margin_bottom);
-  svg += format("<text x='%.1f' y='%.1f' text-anchor='%s'>%s</text>", x, plot_height - 6,
-                x > 0.8 * plot_width ? "end" : "middle", goal.c_str());
+  if (run.goal) svg += goal_mark(axes.x(run.frames[*run.goal].time), std::string(goal_name));
   const std::vector<MethodRun>& methods = run.lanes[lane].methods;
   for (std::size_t i = 0; i < methods.size(); ++i)
     svg += error_line(run, methods[i], axes, run.methods[i].key);
@@ -127,9 +134,11 @@ std::string interval_chart(const std::vector<MethodInfo>& methods,
   double least = 1e9, most = 0;
   for (const Interval& interval : intervals) {
     if (!interval.value) continue;
-    least = std::min({least, *interval.value, std::max(interval.low, 1e-3)});
-    most = std::max({most, *interval.value, interval.high});
+    const Confidence span = span_of(interval);
+    least = std::min({least, *interval.value, std::max(span.low, 1e-3)});
+    most = std::max({most, *interval.value, span.high});
   }
+  if (most <= 0) return "<p>Nothing to show: in no frame that counts is the target hidden.</p>";
   const double low = std::pow(10.0, std::floor(std::log10(least)));
   const double high = std::max(std::pow(10.0, std::ceil(std::log10(most))), 10 * low);
   const auto x = [&](double value) {
@@ -152,8 +161,9 @@ std::string interval_chart(const std::vector<MethodInfo>& methods,
                   methods[i].name.c_str());
     if (!intervals[i].value) continue;
     const char* const color = line_style(methods[i].key).color;
+    const Confidence span = span_of(intervals[i]);
     svg += format("<line x1='%.1f' x2='%.1f' y1='%.1f' y2='%.1f' stroke='%s' stroke-width='3'/>",
-                  x(intervals[i].low), x(intervals[i].high), y, y, color);
+                  x(span.low), x(span.high), y, y, color);
     svg +=
         format("<circle cx='%.1f' cy='%.1f' r='6' fill='%s'/>", x(*intervals[i].value), y, color);
   }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <optional>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/version.hpp>
 
 #include <sim/experiments/picture_data.hpp>
@@ -24,8 +22,11 @@ std::string rounded(double value, int digits) {
 
 std::string cell_of(const Measure& measure, const Interval& interval) {
   if (!interval.value) return "<td>-</td>";
+  const auto& confidence = interval.confidence;
   return "<td>" + rounded(*interval.value, measure.digits) + "<small>" +
-         rounded(interval.low, measure.digits) + " to " + rounded(interval.high, measure.digits) +
+         (confidence ? rounded(confidence->low, measure.digits) + " to " +
+                           rounded(confidence->high, measure.digits)
+                     : "-") +
          "</small></td>";
 }
 
@@ -57,7 +58,7 @@ std::string lane_section(const ExperimentResult& result, std::size_t lane) {
   for (std::size_t method = 0; method < first.methods.size(); ++method) {
     const auto runs = watched(result, lane, method);
     rows.emplace_back();
-    for (const Measure& measure : measures) rows.back().push_back(bootstrap(measure, runs));
+    for (const Measure& measure : measures) rows.back().push_back(interval_of(measure, runs));
     p95.push_back(rows.back()[p95_measure]);
   }
   std::string html = "<h2>" + first.lanes[lane].name + "</h2><div class='wide'><table><thead><tr>" +
@@ -100,7 +101,8 @@ std::string methods_section(const SeedRun& run) {
 std::string settings_line(const ExperimentResult& result) {
   const RunSettings& s = result.settings;
   const SeedRun& first = result.seeds.front();
-  std::string text = std::to_string(result.seeds.size()) + " seeds from " +
+  std::string text = std::to_string(result.seeds.size()) +
+                     (result.seeds.size() == 1 ? " seed, " : " seeds from ") +
                      std::to_string(first.seed) + ", " + rounded(first.frames.back().time, 1) +
                      " s each at " + rounded(1 / first.frame_seconds, 0) +
                      " frames/s. Perception works on every " + std::to_string(s.perception_every) +
@@ -122,7 +124,9 @@ std::string report_html(const ExperimentResult& result) {
   html += std::string("</title><style>") + report_style + "</style></head><body><main><h1>" +
           (conveyor ? conveyor_title : handover_title) + "</h1><p class='lead'>" +
           (conveyor ? conveyor_story : handover_story) + "</p><p>" + settings_line(result) +
-          " Values are over all seeds; small: 95 % confidence by a bootstrap over seeds.</p>";
+          " Values are over all seeds; small: 95 % confidence, by a bootstrap over seeds; of "
+          "counts below 10 "
+          "and of shares of seeds, exact; of a single seed, none.</p>";
   html += pictures_section(result);
   for (std::size_t lane = 0; lane < result.seeds.front().lanes.size(); ++lane)
     html += lane_section(result, lane);
@@ -132,15 +136,6 @@ std::string report_html(const ExperimentResult& result) {
           result.experiment + " --seeds " + std::to_string(result.seeds.front().seed) + ":" +
           std::to_string(result.seeds.back().seed + 1) + "</footer></main></body></html>\n";
   return html;
-}
-
-void write_report(const ExperimentResult& result, const std::filesystem::path& folder) {
-  for (const auto& [name, text] :
-       {std::pair("metrics.json", metrics_json(result)), {"report.html", report_html(result)}}) {
-    std::ofstream file(folder / name, std::ios::binary);
-    if (!(file << text) || !file.flush())
-      throw InputError("-o: " + (folder / name).string() + " cannot be written");
-  }
 }
 
 }  // namespace penumbra::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,7 @@ struct Event {
 struct MethodRun {
   std::vector<Sample> samples;  ///< one per frame
   std::vector<Event> events;    ///< one per image that perception worked on
-  bool success = false;
+  std::optional<bool> success;  ///< nothing where the run has no goal
 };
 
 /// The same methods with one kind of detection.
@@ -74,7 +75,8 @@ struct SeedRun {
   std::uint64_t seed = 0;
   double frame_seconds = 0;
   std::vector<FrameTruth> frames;
-  std::size_t goal = 0;  ///< the frame of grasp, or the last one
+  std::optional<std::size_t> goal;  ///< the frame of the grasp, or in which the hand is reached;
+                                    ///< nothing: the run is shorter
   std::vector<MethodInfo> methods;
   std::vector<LaneRun> lanes;
 };

@@ -67,10 +67,15 @@ std::optional<double> seconds_without_pose(Runs runs) {
   return seconds / static_cast<double>(runs.size());
 }
 
+/// Of the runs that came to their goal.
 std::optional<double> successes(Runs runs) {
-  const auto count = std::count_if(runs.begin(), runs.end(),
-                                   [](const Watched& run) { return run.method->success; });
-  return percent * static_cast<double>(count) / static_cast<double>(runs.size());
+  std::size_t all = 0, good = 0;
+  for (const Watched& run : runs) {
+    all += run.method->success ? 1 : 0;
+    good += run.method->success.value_or(false) ? 1 : 0;
+  }
+  if (all == 0) return std::nullopt;
+  return percent * static_cast<double>(good) / static_cast<double>(all);
 }
 
 auto accepted_wrong(double distance) {
@@ -89,13 +94,14 @@ std::vector<Measure> conveyor_measures() {
           {"rotation_p95_deg", "Rotation error while hidden, p95", "deg", 2, false,
            hidden_error(&Sample::rotation_error, 0.95, degrees)},
           {"wrong_accepted", "Poses off by > 2 cm accepted, per run", "", 2, false,
-           events_per_seed(accepted_wrong(wrong_pose))},
+           events_per_seed(accepted_wrong(wrong_pose)), Spread::count},
           {"wrong_accepted_hidden", "Of these, while the robot hid part", "", 2, false,
-           events_per_seed([](const Event& event) {
-             return !event.seen && accepted_wrong(wrong_pose)(event);
-           })},
+           events_per_seed(
+               [](const Event& event) { return !event.seen && accepted_wrong(wrong_pose)(event); }),
+           Spread::count},
           {"without_pose_s", "Time without a pose, per run", "s", 2, false, seconds_without_pose},
-          {"success_percent", "Pick within 1 cm and 5 degrees", "%", 0, true, successes}};
+          {"success_percent", "Pick within 1 cm and 5 degrees", "%", 0, true, successes,
+           Spread::seeds}};
 }
 
 std::vector<Measure> handover_measures() {
@@ -105,15 +111,55 @@ std::vector<Measure> handover_measures() {
       {"translation_p95_mm", "Wrist error while hidden, p95", "mm", 1, false,
        hidden_error(&Sample::translation_error, 0.95, millimetres)},
       {"on_robot_accepted", "Positions on the robot's body accepted, per run", "", 2, false,
-       events_per_seed([](const Event& event) { return event.accepted && event.on_robot; })},
+       events_per_seed([](const Event& event) { return event.accepted && event.on_robot; }),
+       Spread::count},
       {"wrong_accepted", "Positions off by > 10 cm accepted, per run", "", 2, false,
-       events_per_seed(accepted_wrong(wrong_wrist))},
+       events_per_seed(accepted_wrong(wrong_wrist)), Spread::count},
       {"refused_visible_percent", "Refused although visible", "%", 1, false,
-       share_of_events([](const Event& event) { return event.seen; }, refused)},
+       share_of_events([](const Event& event) { return event.seen; }, refused), Spread::events},
       {"refused_before_robot_percent", "Refused although visible, hand before the arm", "%", 1,
-       false, share_of_events([](const Event& event) { return event.before_robot; }, refused)},
+       false, share_of_events([](const Event& event) { return event.before_robot; }, refused),
+       Spread::events},
       {"without_pose_s", "Time without a position, per run", "s", 2, false, seconds_without_pose},
-      {"success_percent", "Hand reached within 5 cm", "%", 0, true, successes}};
+      {"success_percent", "Hand reached within 5 cm", "%", 0, true, successes, Spread::seeds}};
+}
+
+std::optional<Confidence> bootstrap(const Measure& measure, Runs seeds) {
+  constexpr int resamples = 1000;
+  std::mt19937_64 random(1);
+  std::vector<double> values;
+  std::vector<Watched> drawn(seeds.size());
+  for (int i = 0; i < resamples; ++i) {
+    for (Watched& one : drawn) one = seeds[random() % seeds.size()];
+    if (const auto value = measure.value(drawn)) values.push_back(*value);
+  }
+  const auto low = quantile(values, 0.025), high = quantile(values, 0.975);
+  if (!low || *low == *high) return std::nullopt;
+  return Confidence{*low, *high};
+}
+
+/// Of a value that is a percentage of seeds.
+Confidence percent_confidence(double value, std::size_t seeds) {
+  const auto count = std::llround(value / percent * static_cast<double>(seeds));
+  const Confidence share = share_confidence(static_cast<std::size_t>(count), seeds);
+  return {percent * share.low, percent * share.high};
+}
+
+std::optional<Confidence> confidence_of(const Measure& measure, Runs seeds, double value) {
+  constexpr double few = 10;
+  const auto n = static_cast<double>(seeds.size());
+  const auto with_value =
+      static_cast<std::size_t>(std::count_if(seeds.begin(), seeds.end(), [&](const Watched& run) {
+        return measure.value(std::span(&run, 1)).has_value();
+      }));
+  const bool all_alike = value == 0 || value == percent;
+  if (measure.spread == Spread::count && value * n < few - 0.5) {
+    const Confidence count = count_confidence(static_cast<std::size_t>(std::llround(value * n)));
+    return Confidence{count.low / n, count.high / n};
+  }
+  if (measure.spread == Spread::seeds || (measure.spread == Spread::events && all_alike))
+    return percent_confidence(value, with_value);
+  return bootstrap(measure, seeds);
 }
 
 }  // namespace
@@ -133,20 +179,11 @@ std::optional<double> quantile(std::vector<double> values, double q) {
   return low + (place - static_cast<double>(below)) * (high - low);
 }
 
-Interval bootstrap(const Measure& measure, std::span<const Watched> seeds) {
-  constexpr int resamples = 1000;
+Interval interval_of(const Measure& measure, std::span<const Watched> seeds) {
   Interval interval;
   interval.value = measure.value(seeds);
-  if (!interval.value) return interval;
-  std::mt19937_64 random(1);
-  std::vector<double> values;
-  std::vector<Watched> drawn(seeds.size());
-  for (int i = 0; i < resamples; ++i) {
-    for (Watched& one : drawn) one = seeds[random() % seeds.size()];
-    if (const auto value = measure.value(drawn)) values.push_back(*value);
-  }
-  interval.low = quantile(values, 0.025).value_or(*interval.value);
-  interval.high = quantile(values, 0.975).value_or(*interval.value);
+  if (interval.value && seeds.size() > 1)
+    interval.confidence = confidence_of(measure, seeds, *interval.value);
   return interval;
 }
 

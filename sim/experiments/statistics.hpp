@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sim/experiments/confidence.hpp>
 #include <sim/experiments/results.hpp>
 
 namespace penumbra::sim {
@@ -18,6 +19,16 @@ struct Watched {
   const MethodRun* method = nullptr;
 };
 
+/// How a measure's confidence is found. A bootstrap says nothing of what never or always came out:
+/// every resample is the same.
+enum class Spread {
+  resampled,  ///< a bootstrap over seeds
+  count,      ///< events per seed: of fewer than 10 in all Poisson's exact interval
+  seeds,      ///< percent of the seeds: Clopper's and Pearson's exact interval
+  events      ///< percent of the events: where none or all, as if each seed were one event, since
+              ///< those of one seed belong together
+};
+
 /// What is measured of a method: over one seed or several.
 struct Measure {
   std::string key;   ///< in metrics.json
@@ -26,21 +37,23 @@ struct Measure {
   int digits = 1;
   bool more_is_better = false;
   std::function<std::optional<double>(std::span<const Watched>)> value;
+  Spread spread = Spread::resampled;
 };
 
 [[nodiscard]] std::vector<Measure> measures_of(const std::string& experiment);
 
 struct Interval {
   std::optional<double> value;  ///< over all seeds; nothing where nothing was there to measure
-  double low = 0, high = 0;     ///< 95 % confidence over seeds
+  std::optional<Confidence> confidence;  ///< 95 %; nothing of a single seed, or where all resamples
+                                         ///< are the same
 };
 
 /// The value that share `q` of `values` lies below, between the two nearest; nothing of nothing.
 [[nodiscard]] std::optional<double> quantile(std::vector<double> values, double q);
 
-/// The measure over all seeds, its confidence by a bootstrap over seeds (percentiles of 1000
-/// resamples, always the same ones).
-[[nodiscard]] Interval bootstrap(const Measure& measure, std::span<const Watched> seeds);
+/// The measure over all seeds. A bootstrap takes percentiles of 1000 resamples, always the same
+/// ones.
+[[nodiscard]] Interval interval_of(const Measure& measure, std::span<const Watched> seeds);
 
 /// One method of one lane in every seed.
 [[nodiscard]] std::vector<Watched> watched(const ExperimentResult& result, std::size_t lane,

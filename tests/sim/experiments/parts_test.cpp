@@ -31,6 +31,7 @@ std::pair<std::vector<SeedRun>, std::vector<MethodRun>> runs_of(const std::vecto
     seed.frames = {{0, 1.0, false, true}, {0.5, 0.0, false, true}};
     seeds.push_back(seed);
     MethodRun method;
+    method.success = false;
     method.samples.resize(2);
     method.samples[0].known = true;
     method.samples[0].translation_error = error;
@@ -86,11 +87,55 @@ TEST(Bootstrap, OfAMeanHasTheWidthThatTheNormalDistributionSays) {
     for (const Watched& run : some) sum += run.method->samples[0].translation_error;
     return sum / static_cast<double>(some.size());
   };
-  const Interval interval = bootstrap(mean, watched_of(runs));
+  const Interval interval = interval_of(mean, watched_of(runs));
+  ASSERT_TRUE(interval.confidence);
   const double sigma = 0.1 / std::sqrt(12.0) / std::sqrt(100.0);
   constexpr double slack = 0.15;  // 1000 resamples leave a few percent
-  EXPECT_NEAR(interval.high - interval.low, 2 * 1.96 * sigma, slack * 2 * 1.96 * sigma);
+  EXPECT_NEAR(interval.confidence->high - interval.confidence->low, 2 * 1.96 * sigma,
+              slack * 2 * 1.96 * sigma);
   EXPECT_NEAR(*interval.value, 0.0495, 1e-12);
+}
+
+/// R's poisson.test and binom.test, to their digits.
+TEST(Confidence, IsTheExactOneOfTables) {
+  constexpr double digits = 5e-5;
+  EXPECT_EQ(count_confidence(0).low, 0.0);
+  EXPECT_NEAR(count_confidence(0).high, 3.6889, digits);
+  EXPECT_NEAR(count_confidence(1).low, 0.0253, digits);
+  EXPECT_NEAR(count_confidence(1).high, 5.5716, digits);
+  EXPECT_NEAR(count_confidence(5).low, 1.6235, digits);
+  EXPECT_NEAR(count_confidence(5).high, 11.6683, digits);
+  EXPECT_EQ(share_confidence(0, 30).low, 0.0);
+  EXPECT_NEAR(share_confidence(0, 30).high, 0.1157, digits);
+  EXPECT_NEAR(share_confidence(3, 30).low, 0.0211, digits);
+  EXPECT_NEAR(share_confidence(3, 30).high, 0.2653, digits);
+  EXPECT_NEAR(share_confidence(30, 30).low, 0.8843, digits);
+  EXPECT_EQ(share_confidence(30, 30).high, 1.0);
+}
+
+/// "None of 30" leaves room for some; so does "all".
+TEST(Confidence, OfNoneAndAllIsNotCertainty) {
+  auto runs = runs_of(std::vector<double>(30, 0.01));
+  for (MethodRun& run : runs.second) {
+    run.success = true;
+    run.events = {{.seen = true}};
+  }
+  const auto all = watched_of(runs);
+  const auto conveyor = measures_of("conveyor"), handover = measures_of("handover");
+  const Interval wrong = interval_of(measure_named(conveyor, "wrong_accepted"), all);
+  EXPECT_EQ(wrong.value, 0.0);
+  EXPECT_NEAR(wrong.confidence.value().high, 3.6889 / 30, 1e-4);
+  const Interval picks = interval_of(measure_named(conveyor, "success_percent"), all);
+  EXPECT_EQ(picks.value, 100.0);
+  EXPECT_NEAR(picks.confidence.value().low, 88.43, 0.01);
+  const Interval refused = interval_of(measure_named(handover, "refused_visible_percent"), all);
+  EXPECT_EQ(refused.value, 100.0);
+  EXPECT_NEAR(refused.confidence.value().low, 88.43, 0.01);
+  const Interval median = interval_of(measure_named(conveyor, "translation_median_mm"), all);
+  EXPECT_FALSE(median.confidence) << "every resample is the same";
+  const Interval one =
+      interval_of(measure_named(conveyor, "success_percent"), std::span(all).first(1));
+  EXPECT_FALSE(one.confidence) << "of one seed";
 }
 
 TEST(BoxDepth, IsWhereARayEntersTheBox) {
