@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A detection in every frame: is it the object or the robot, which link hides it, and where is the
+// object meanwhile?
+#include <cmath>
+#include <iostream>
+#include <variant>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/frame_reader.hpp>
+#include <io/recording.hpp>
+
+using namespace penumbra;
+
+namespace {
+
+constexpr PixelBox detected{460, 172, 38, 98};  // a detector's answer: a cylinder on the table
+
+/// Stands in for a perception system that believes its depth image: the point at the box's middle,
+/// in the optical frame. While the robot hides the object, that is a point of the robot.
+Eigen::Vector3d perceive(const io::FrameData& frame, const Intrinsics& camera) {
+  const int u = 479, v = 221;
+  const double z = 1e-3 * std::get<Image<std::uint16_t>>(frame.depth)(u, v);
+  return {(u - camera.cx()) / camera.fx() * z, (v - camera.cy()) / camera.fy() * z, z};
+}
+
+Target target_of(const Eigen::Vector3d& point) {
+  Target target;
+  target.name = "cylinder";
+  target.shape = RegionTarget{.region = detected, .expected_depth = 1.87};
+  target.depth_margin = 0.10;              // metres: the depth is of its middle
+  target.handling = PointTrackerConfig{};  // held while it is hidden
+  target.estimate = TargetEstimate{.value = point};
+  return target;
+}
+
+void tell(const FrameReport& report, const Eigen::Vector3d& raw) {
+  const TargetReport& target = report.targets[0];
+  std::cout << "frame " << report.index << ": " << to_string(target.verdict);
+  if (target.judgement && !target.judgement->blame.empty()) {
+    const Blame& blame = target.judgement->blame.front();
+    std::cout << ", " << std::lround(100 * blame.fraction) << " % behind "
+              << report.links[blame.link];
+  }
+  if (target.estimate) std::cout << "; estimate " << to_string(*target.estimate);
+  std::cout << " (" << raw.z() << " m away)";
+  if (target.handled && target.handled->position)
+    std::cout << "; " << to_string(target.handled->source) << " at "
+              << target.handled->position->transpose() << ", " << target.handled->age << " s old";
+  std::cout << '\n';
+}
+
+void run(const std::filesystem::path& folder) {
+  const io::Recording recording = io::Recording::open(folder);
+  Robot robot = Robot::load(recording.urdf, recording.robot);
+  const io::FrameReader frames(recording, robot);
+  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
+
+  io::FrameData frame;
+  int refused = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames.read(i, /*with_color=*/false, frame);
+    const Eigen::Vector3d raw = perceive(frame, recording.camera.camera.intrinsics);
+    const Target target = target_of(raw);
+    const FrameReport& report = pipeline.process({.stamp = frame.stamp,
+                                                  .depth = frame.depth_view(),
+                                                  .joints = frame.positions,
+                                                  .targets = {&target, 1},
+                                                  .index = i});
+    tell(report, raw);
+    if (report.targets[0].estimate == Outcome::refused_verdict) ++refused;
+  }
+  std::cout << refused << " of " << frames.size() << " estimates refused\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  run(argc > 1 ? argv[1] : "examples/arm_over_table");
+} catch (const InputError& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}
