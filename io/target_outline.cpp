@@ -86,7 +86,7 @@ PixelPath hull_of(std::vector<Eigen::Vector2d> points) {
 
 /// Outlines of each kind of shape.
 struct Outliner {
-  const FrameReport& report;
+  const TargetPoses& poses;
   const Robot& robot;
   const Camera& camera;
 
@@ -133,11 +133,13 @@ struct Outliner {
   std::vector<PixelPath> operator()(const MeshTarget& target) const;
 
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_camera(const LinkFrame& frame) const {
-    if (!frame) return Eigen::Isometry3d::Identity();
-    if (!report.T_root_camera) return std::nullopt;
+    if (!frame && !poses.is_late) return Eigen::Isometry3d::Identity();
+    if (!poses.T_root_camera || !poses.T_root_camera_then) return std::nullopt;
+    const Eigen::Isometry3d T_camera_root = poses.T_root_camera->inverse();
+    if (!frame) return T_camera_root * *poses.T_root_camera_then;
     const auto link = frame->empty() ? std::optional<std::size_t>(0) : robot.find_link(*frame);
     if (!link) return std::nullopt;
-    return report.T_root_camera->inverse() * report.T_root_link[*link];
+    return T_camera_root * poses.T_root_link_then[*link];
   }
 };
 
@@ -183,9 +185,9 @@ std::optional<Eigen::Vector2d> seen_at(const Eigen::Vector3d& p, const Camera& c
   return camera.intrinsics.project({bent.x(), bent.y(), 1.0});
 }
 
-std::vector<PixelPath> outline_of(const TargetShape& shape, const FrameReport& report,
+std::vector<PixelPath> outline_of(const TargetShape& shape, const TargetPoses& poses,
                                   const Robot& robot, const Camera& camera) {
-  return std::visit(Outliner{report, robot, camera}, shape);
+  return std::visit(Outliner{poses, robot, camera}, shape);
 }
 
 }  // namespace penumbra::io

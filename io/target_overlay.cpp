@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/bitmap_font.hpp>
 #include <io/target_outline.hpp>
@@ -78,14 +81,31 @@ struct Pen {
   }
 };
 
-/// What stands at a target: "crate hidden 97%, predicted".
-std::string caption(const TargetReport& target) {
+/// To a millionth; stamps may be as far apart as numbers are.
+double seconds_from(std::int64_t first, std::int64_t second) {
+  return 1e-9 * (static_cast<double>(second) - static_cast<double>(first));
+}
+
+/// Seconds by which a target is of an earlier frame; nothing: it is of this one.
+std::optional<double> lateness(const TargetReport& target, const FrameReport& report) {
+  if (!target.stamp || !report.stamp || *target.stamp == *report.stamp) return std::nullopt;
+  return seconds_from(*target.stamp, *report.stamp);
+}
+
+/// What stands at a target: "crate hidden 97%, 0.20 s ago, predicted". Where the verdict is unknown
+/// a share would look like one that is known.
+std::string caption(const TargetReport& target, const std::optional<double>& late) {
   std::string text(target.name);
   text += " " + std::string(to_string(target.verdict));
-  if (target.judgement && target.judgement->inside > 0) {
+  if (target.verdict != Verdict::unknown && target.judgement && target.judgement->inside > 0) {
     const double hidden =
         target.judgement->occluded + target.judgement->hidden_by_other.value_or(0);
     text += " " + std::to_string(std::lround(100.0 * hidden)) + "%";
+  }
+  if (late) {
+    std::array<char, 32> ago{};
+    std::snprintf(ago.data(), ago.size(), ", %.2f s ago", *late);
+    text += ago.data();
   }
   if (target.handled && target.handled->source != Source::measured)
     text += ", " + std::string(to_string(target.handled->source));
@@ -121,20 +141,19 @@ class CaptionPlaces {
 };
 
 /// Above the outline's upper left corner, inside the image.
-void draw_caption(const std::vector<PixelPath>& paths, const TargetReport& target, const Pen& pen,
-                  CaptionPlaces& places) {
+void draw_caption(const std::vector<PixelPath>& paths, const std::string& text, Rgb8 color,
+                  const Pen& pen, CaptionPlaces& places) {
   Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   for (const PixelPath& path : paths)
     for (const Eigen::Vector2d& p : path) corner = corner.cwiseMin(p);
   if (!corner.allFinite()) return;
-  const std::string text = caption(target);
   const int line = (BitmapFont::height + 1) * pen.width;
   const int width = static_cast<int>(text.size() + 2) * BitmapFont::advance * pen.width;
   const double u = std::clamp(corner.x(), 0.0, std::max(0.0, 1.0 * pen.out.width() - width));
   const double v = std::clamp(corner.y() - line, 0.0, 1.0 * pen.out.height() - line);
   const Eigen::Vector2i at =
       places.find({static_cast<int>(u), static_cast<int>(v)}, {width, line}, pen.out.height());
-  pen.text(text, at.x(), at.y(), verdict_color(target.verdict));
+  pen.text(text, at.x(), at.y(), color);
 }
 
 }  // namespace
@@ -146,19 +165,39 @@ Rgb8 verdict_color(Verdict verdict) {
   return colors[static_cast<std::size_t>(verdict)];
 }
 
-void draw_targets(std::span<const Target> targets, const FrameReport& report, const Robot& robot,
-                  const Camera& camera, Image<Rgb8>& out) {
+void TargetOverlay::draw(std::span<const Target> targets, const FrameReport& report,
+                         const Robot& robot, const Camera& camera, Image<Rgb8>& out) {
   const Pen pen{out, std::max(1, out.height() / rows_per_width)};
   CaptionPlaces places;
   for (std::size_t i = 0; i < std::min(targets.size(), report.targets.size()); ++i) {
     const TargetReport& target = report.targets[i];
-    const auto paths = outline_of(targets[i].shape, report, robot, camera);
-    pen.paths(paths, verdict_color(target.verdict));
-    if (i < max_target_names) draw_caption(paths, target, pen, places);
+    const Rgb8 color = verdict_color(target.verdict);
+    const auto paths = outline_of(targets[i].shape, poses_of(target, report), robot, camera);
+    pen.paths(paths, color);
+    if (i < max_target_names)
+      draw_caption(paths, caption(target, lateness(target, report)), color, pen, places);
     if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
     const Eigen::Vector3d p = report.T_root_camera->inverse() * *target.handled->position;
     if (const auto pixel = seen_at(p, camera)) pen.cross(*pixel);
   }
+  remember(report);
+}
+
+void TargetOverlay::remember(const FrameReport& report) {
+  if (!report.stamp) return;
+  recent_[*report.stamp] = {report.T_root_camera,
+                            {report.T_root_link.begin(), report.T_root_link.end()}};
+  recent_.erase(recent_.upper_bound(*report.stamp), recent_.end());  // a clock that was set back
+  while (seconds_from(recent_.begin()->first, *report.stamp) > PipelineConfig::max_target_history)
+    recent_.erase(recent_.begin());
+}
+
+TargetPoses TargetOverlay::poses_of(const TargetReport& target, const FrameReport& report) const {
+  if (!lateness(target, report))
+    return {report.T_root_camera, report.T_root_camera, report.T_root_link, false};
+  const auto then = recent_.find(*target.stamp);
+  if (then == recent_.end()) return {report.T_root_camera, std::nullopt, {}, true};
+  return {report.T_root_camera, then->second.T_root_camera, then->second.T_root_link, true};
 }
 
 }  // namespace penumbra::io

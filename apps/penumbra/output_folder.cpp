@@ -9,7 +9,6 @@
 #include <io/npy.hpp>
 #include <io/overlay.hpp>
 #include <io/png.hpp>
-#include <io/target_overlay.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -84,7 +83,7 @@ void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& 
     std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); }, frame.depth);
   }
   io::draw_overlay(input, overlay_);
-  io::draw_targets(targets.targets, report, targets.robot, targets.camera, overlay_);
+  target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
   io::write_png(file("overlay", report.index, ".png"), std::as_const(overlay_).view());
 }
 

@@ -13,6 +13,7 @@
 
 #include <apps/penumbra/arguments.hpp>
 #include <io/frame_reader.hpp>
+#include <io/target_overlay.hpp>
 
 namespace penumbra::app {
 
@@ -59,6 +60,7 @@ class OutputFolder {
   Image<std::uint16_t> millimetres_;
   Image<float> metres_;
   Image<io::Rgb8> overlay_;
+  io::TargetOverlay target_overlay_;
 };
 
 }  // namespace penumbra::app
