@@ -67,7 +67,7 @@ class ConveyorRun {
     SimFrame frame;
     while (simulation_.next(frame)) {
       hooks.see(frame);
-      if (run_.frames.empty()) begin(frame);
+      if (run_.frames.empty()) begin(frame, hooks.detector);
       const ObjectTruth& object = object_named(frame, "parcel");
       const Sensed sensed = watcher_.see(frame);
       if (run_.frames.size() % static_cast<std::size_t>(settings_.perception_every) == 0)
@@ -97,7 +97,7 @@ class ConveyorRun {
            sample.rotation_error < grasp_angle;
   }
 
-  void begin(const SimFrame& frame) {
+  void begin(const SimFrame& frame, const DetectorMaker<Detector>& make_detector) {
     first_stamp_ = frame.stamp;
     const Eigen::Isometry3d& pose = object_named(frame, "parcel").T_base_object;
     cell_.floor = pose.translation().z() - 0.5 * cell_.object_size.z();
@@ -106,17 +106,22 @@ class ConveyorRun {
       const bool careful = acceptance == Acceptance::careful;
       const std::string key = careful ? "" : "_eager";
       const std::string estimator = careful ? "careful estimator" : "eager estimator";
-      lanes_.push_back({"amodal" + key,
-                        "Detector of full extents (amodal), " + estimator,
-                        std::make_unique<AmodalDetector>(cell_, seed),
-                        {}});
-      lanes_.push_back({"modal" + key,
-                        "Detector of visible pixels (modal), " + estimator,
-                        std::make_unique<ModalDetector>(seed),
-                        {}});
-      for (PoseLane* lane : {&lanes_[lanes_.size() - 2], &lanes_.back()})
-        add_followers(*lane, cell_, {&estimator_, acceptance});
+      if (make_detector) {
+        add_lane("own" + key, "Detector that was given, " + estimator, make_detector(cell_, seed),
+                 acceptance);
+        continue;
+      }
+      add_lane("amodal" + key, "Detector of full extents (amodal), " + estimator,
+               std::make_unique<AmodalDetector>(cell_, seed), acceptance);
+      add_lane("modal" + key, "Detector of visible pixels (modal), " + estimator,
+               std::make_unique<ModalDetector>(seed), acceptance);
     }
+  }
+
+  void add_lane(const std::string& key, const std::string& name, std::unique_ptr<Detector> detector,
+                Acceptance acceptance) {
+    lanes_.push_back({key, name, std::move(detector), {}});
+    add_followers(lanes_.back(), cell_, {&estimator_, acceptance});
   }
 
   void perceive(const SimFrame& frame, const Sensed& sensed, const ObjectTruth& object) {

@@ -66,6 +66,8 @@ class SeedRunner {
         step_();
       };
       if (i == 0) hooks.see = see;
+      hooks.detector = options_.detector;
+      hooks.keypoint_detector = options_.keypoint_detector;
       try {
         runs_[i] = run_seed(options_, settings_, options_.first_seed + i, hooks);
       } catch (...) {

@@ -4,10 +4,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace penumbra::sim {
+
+class Detector;
+class KeypointDetector;
+struct Cell;
+
+/// Makes what finds the object in a run's images: a network of one's own, say. Called once per run
+/// with what is known of the cell and the run's seed, by several threads at once.
+template <typename T>
+using DetectorMaker = std::function<std::unique_ptr<T>(const Cell& cell, std::uint64_t seed)>;
 
 struct ExperimentOptions {
   std::string experiment;        ///< one of experiments()
@@ -17,6 +27,8 @@ struct ExperimentOptions {
   int threads = 0;               ///< seeds side by side; 0: as many as the machine has cores
   bool frames = false;           ///< also write the first seed's annotated frames
   std::filesystem::path output;  ///< folder; made if need be
+  DetectorMaker<Detector> detector = {};  ///< conveyor: in place of the simulated ones
+  DetectorMaker<KeypointDetector> keypoint_detector = {};  ///< handover: likewise
 };
 
 /// conveyor, handover.

@@ -33,7 +33,8 @@ double share(std::size_t part, std::size_t whole) {
 
 class HandoverRun {
  public:
-  HandoverRun(std::uint64_t seed, const RunSettings& settings)
+  HandoverRun(std::uint64_t seed, const RunSettings& settings,
+              const DetectorMaker<KeypointDetector>& make_detector)
       : settings_(settings),
         simulation_("handover", simulation_options("handover", settings, seed)),
         cell_(cell_of(simulation_)),
@@ -44,7 +45,11 @@ class HandoverRun {
     cell_.links = watcher_.robot().links().size();
     cell_.rule = watcher_.rule();
     cell_.wrist_radius = wrist_radius;
-    keypoints_ = std::make_unique<NoisyKeypoints>(cell_, random_(), settings.keypoint_sigma);
+    const std::uint64_t own_seed = random_();
+    if (make_detector)
+      keypoints_ = make_detector(cell_, own_seed);
+    else
+      keypoints_ = std::make_unique<NoisyKeypoints>(cell_, own_seed, settings.keypoint_sigma);
     for (auto& method : make_point_methods(cell_)) followers_.emplace_back(std::move(method));
   }
 
@@ -146,7 +151,7 @@ class HandoverRun {
 }  // namespace
 
 SeedRun run_handover(std::uint64_t seed, const RunSettings& settings, const RunHooks& hooks) {
-  return HandoverRun(seed, settings).go(hooks);
+  return HandoverRun(seed, settings, hooks.keypoint_detector).go(hooks);
 }
 
 }  // namespace penumbra::sim

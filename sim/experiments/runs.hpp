@@ -6,6 +6,7 @@
 #include <string>
 
 #include <sim/experiments/detector.hpp>
+#include <sim/experiments/experiment.hpp>
 #include <sim/experiments/results.hpp>
 #include <sim/simulation.hpp>
 
@@ -15,6 +16,8 @@ namespace penumbra::sim {
 struct RunHooks {
   std::function<void()> step = [] {};                                 ///< after each frame
   std::function<void(const SimFrame&)> see = [](const SimFrame&) {};  ///< before it is judged
+  DetectorMaker<Detector> detector = {};                              ///< ExperimentOptions'
+  DetectorMaker<KeypointDetector> keypoint_detector = {};
 };
 
 /// Of a seed's run in a scene: conveyor or handover.

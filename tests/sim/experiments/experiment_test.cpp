@@ -9,6 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <sim/experiments/detector.hpp>
 #include <sim/experiments/experiment.hpp>
 
 namespace penumbra::test {
@@ -122,6 +123,37 @@ TEST(Experiment, AShortRunHasNoGrasp) {
   const Results hand =
       run({.experiment = "handover", .end_seed = 1, .duration = 0.5, .output = {}});
   EXPECT_TRUE(value_or_null(hand, "keypoint", "success_percent").is_null());
+}
+
+/// Finds nothing: what a caller's own detector says is what is used.
+class Blind : public sim::Detector {
+ public:
+  std::optional<sim::Detection> detect(const sim::SimFrame&) override { return std::nullopt; }
+};
+class BlindToHands : public sim::KeypointDetector {
+ public:
+  std::optional<sim::Keypoint> detect(const sim::SimFrame&) override { return std::nullopt; }
+};
+
+TEST(Experiment, TakesDetectorsOfOnesOwn) {
+  const Results conveyor =
+      run({.experiment = "conveyor",
+           .end_seed = 1,
+           .duration = 0.5,
+           .output = {},
+           .detector = [](const sim::Cell&, std::uint64_t) { return std::make_unique<Blind>(); }});
+  const json lanes = json::parse(conveyor.metrics).at("detections");
+  EXPECT_EQ(lanes.size(), 2U) << "a careful and an eager estimator";
+  EXPECT_TRUE(lanes.contains("own") && lanes.contains("own_eager"));
+  const Results handover = run({.experiment = "handover",
+                                .end_seed = 1,
+                                .duration = 1.5,
+                                .output = {},
+                                .keypoint_detector = [](const sim::Cell&, std::uint64_t) {
+                                  return std::make_unique<BlindToHands>();
+                                }});
+  EXPECT_TRUE(value_or_null(handover, "keypoint", "refused_visible_percent").is_null())
+      << "nothing was ever answered";
 }
 
 /// Before the runs, which take minutes.
