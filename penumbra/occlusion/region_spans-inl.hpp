@@ -39,6 +39,20 @@ struct SpanBox {
 /// The box around some spans, one or more.
 [[nodiscard]] SpanBox box_of_spans(std::span<const RowSpan> spans);
 
+/// The pixels of an image that show what the camera saw.
+class SeenPixels {
+ public:
+  /// `unseen`: not 0 where they do not; empty: all do.
+  explicit SeenPixels(ImageView<const std::uint8_t> unseen);
+
+  [[nodiscard]] bool all() const { return ends_.empty(); }
+  [[nodiscard]] std::span<const RowSpan> row(int v) const;  ///< not of all()
+
+ private:
+  std::vector<RowSpan> spans_;
+  std::vector<std::size_t> ends_;  // of each row, in spans_
+};
+
 /// Takes an extent row by row, and keeps what of it lies inside an image. Rows outside of the image
 /// are counted, not kept.
 class ExtentRows {
@@ -58,6 +72,7 @@ class ExtentRows {
     covered_ += u1 - u0;
   }
   void add_area(double pixels) { covered_ += pixels; }  ///< outside of the image
+  void keep(const SeenPixels& seen);                    ///< takes the others for outside
   /// The pixel next to a point, for an extent that holds no pixel's centre.
   void add_nearest(const Eigen::Vector2d& point);
 
@@ -78,7 +93,7 @@ class ExtentRows {
 
  private:
   int width_, height_;
-  std::vector<RowSpan> spans_;
+  std::vector<RowSpan> spans_, kept_;
   std::size_t inside_ = 0;
   double covered_ = 0;
 };
@@ -128,6 +143,11 @@ class RegionSpans {
 
   /// Spans of the image, moved by whole pixels; what moves out of the image is covered, not inside.
   void fill_moved(std::span<const RowSpan> spans, const Eigen::Vector2d& by);
+
+  /// Takes what lies beside `seen` for outside of the image.
+  void keep(const SeenPixels& seen) {
+    if (!seen.all()) rows_.keep(seen);
+  }
 
   [[nodiscard]] std::span<const RowSpan> spans() const { return rows_.spans(); }
   [[nodiscard]] std::size_t inside() const { return rows_.inside(); }

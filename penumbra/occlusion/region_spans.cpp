@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <utility>
 
 #include <penumbra/occlusion/region_spans-inl.hpp>
 
@@ -59,6 +60,40 @@ SpanBox box_of_spans(std::span<const RowSpan> spans) {
     box.v0 = std::min(box.v0, span.v), box.v1 = std::max(box.v1, span.v);
   }
   return box;
+}
+
+SeenPixels::SeenPixels(ImageView<const std::uint8_t> unseen) {
+  if (unseen.empty()) return;
+  for (int v = 0; v < unseen.height; ++v) {
+    const std::uint8_t* const row = unseen.row(v);
+    for (int u = 0; u < unseen.width;) {
+      const int first = u;
+      while (u < unseen.width && row[u] == 0) ++u;
+      if (u > first) spans_.push_back({v, first, u});
+      while (u < unseen.width && row[u] != 0) ++u;
+    }
+    ends_.push_back(spans_.size());
+  }
+}
+
+std::span<const RowSpan> SeenPixels::row(int v) const {
+  const auto i = static_cast<std::size_t>(v);
+  const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+  return std::span(spans_).subspan(begin, ends_[i] - begin);
+}
+
+void ExtentRows::keep(const SeenPixels& seen) {
+  kept_.clear();
+  inside_ = 0;
+  for (const RowSpan& span : spans_) {
+    for (const RowSpan& part : seen.row(span.v)) {
+      const int u0 = std::max(span.u0, part.u0), u1 = std::min(span.u1, part.u1);
+      if (u0 >= u1) continue;
+      kept_.push_back({span.v, u0, u1});
+      inside_ += static_cast<std::size_t>(u1 - u0);
+    }
+  }
+  std::swap(spans_, kept_);
 }
 
 void ExtentRows::clear() {

@@ -62,7 +62,8 @@ std::string_view reason_for_unknown(const Sight& sight, bool has_pose, bool has_
 }  // namespace
 
 struct TargetJudge::State {
-  State(const Camera& camera_, const LabelRule& rule, std::size_t links);
+  State(const Camera& camera_, const LabelRule& rule, std::size_t links,
+        ImageView<const std::uint8_t> unseen);
 
   Judgement judge(const TargetView& target);
   TargetMemory& memory_of(std::string_view name);
@@ -79,17 +80,19 @@ struct TargetJudge::State {
   TargetMemories memories;
 };
 
-TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links)
+TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
+                          ImageView<const std::uint8_t> unseen)
     : camera(checked_camera(camera_)),
       rule(checked_rule(label_rule)),
       frame({}, rule),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
-      sights(camera.intrinsics.width(), camera.intrinsics.height(), links) {
+      sights(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
   blame.reserve(links);
 }
 
-TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links)
-    : state_(std::make_unique<State>(camera, rule, links)) {}
+TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
+                         ImageView<const std::uint8_t> unseen)
+    : state_(std::make_unique<State>(camera, rule, links, unseen)) {}
 TargetJudge::~TargetJudge() = default;
 TargetJudge::TargetJudge(TargetJudge&&) noexcept = default;
 TargetJudge& TargetJudge::operator=(TargetJudge&&) noexcept = default;

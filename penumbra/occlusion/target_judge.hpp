@@ -117,8 +117,10 @@ class TargetJudge {
 
   /// For images of a camera as they come (with its distortion) or of its pinhole part.
   /// Throws InputError as Camera and LabelRule do. `rule`: that of the labels. `links`: how many
-  /// the robot has, for blame.
-  TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links);
+  /// the robot has, for blame. `unseen`: not 0 where the images, rectified ones, show nothing that
+  /// the camera saw; such pixels count as outside of the image. Looked at during the call only.
+  TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
+              ImageView<const std::uint8_t> unseen = {});
   ~TargetJudge();
   TargetJudge(TargetJudge&&) noexcept;
   TargetJudge& operator=(TargetJudge&&) noexcept;

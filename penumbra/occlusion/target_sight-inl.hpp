@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,10 +70,17 @@ struct Look {
 /// Looks at extents, as they are given and as they are remembered.
 class Sights {
  public:
-  Sights(int width, int height, std::size_t links)
-      : seen_(width, height), last_(width, height), seen_tally_(links), last_tally_(links) {}
+  Sights(int width, int height, std::size_t links, SeenPixels seen_pixels)
+      : seen_pixels_(std::move(seen_pixels)),
+        seen_(width, height),
+        last_(width, height),
+        seen_tally_(links),
+        last_tally_(links) {}
 
-  void fill(const Region& region) { seen_.fill(region); }
+  void fill(const Region& region) {
+    seen_.fill(region);
+    seen_.keep(seen_pixels_);
+  }
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
   /// Of the region that fill() took: valid until the next call.
@@ -90,6 +98,7 @@ class Sights {
   [[nodiscard]] bool lies_near_robot(const Look& at, const SpanBox& box,
                                      const SpanBox& whole) const;
 
+  SeenPixels seen_pixels_;
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;
   bool may_replace_ = false;  // a smaller extent the last good one

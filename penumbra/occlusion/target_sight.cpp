@@ -124,6 +124,7 @@ bool Sights::place_last(const Look& at, const TargetMemory& memory, const Sight&
   const std::optional<Eigen::Vector2d>& motion = at.target.motion;
   const Eigen::Vector2d by = memory.moved + motion.value_or(Eigen::Vector2d::Zero());
   last_.fill_moved(memory.extent, by);
+  last_.keep(seen_pixels_);
   if (last_.inside() == 0) return false;
   if (!motion) return at.number - memory.extent_frame <= TargetJudge::extent_frames;
   if (last_.inside() == memory.extent_pixels) return true;

@@ -75,7 +75,8 @@ struct PixelCounts {
   std::size_t unknown = 0;  ///< robot without measurement; every covered pixel without a pose
   std::size_t beyond = 0;
 
-  /// Pixels that the lens model does not reach: labelled unknown, counted here alone.
+  /// Pixels of the raw image that the lens model does not reach, or of the rectified one that the
+  /// camera did not see and that show no robot: labelled unknown, counted here alone.
   std::size_t uncovered = 0;
 };
 

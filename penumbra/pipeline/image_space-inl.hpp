@@ -30,7 +30,6 @@ class PixelMap {
     }
   }
 
-  [[nodiscard]] bool covers(int u, int v) const { return sources_(u, v).u != nowhere; }
   [[nodiscard]] int width() const { return sources_.width(); }
   [[nodiscard]] int height() const { return sources_.height(); }
 
@@ -50,22 +49,35 @@ class RawImages {
   /// The virtual depth image seen in the raw image; valid until the next call.
   VirtualDepthView virtual_depth(const VirtualDepthView& pinhole);
 
-  /// The labels of `virtual_depth`'s image, with every pixel unknown that the pinhole image does
-  /// not cover, and without a tile mask; its counts leave those out. Valid until the next call.
-  LabelView labels(const LabelView& labels);
-
-  [[nodiscard]] std::size_t uncovered() const { return uncovered_count_; }
-
  private:
   const Rectification& rectification_;
   PixelMap map_;
   Image<float> depth_;
   Image<std::uint16_t> links_;
   TileMask touched_;
-  Image<std::uint8_t> uncovered_;  // Label::unknown where not covered, else Label::clear
+};
+
+/// The pixels of an image that a map to or from the raw image leaves out. No robot can be drawn
+/// there in the raw image; in the pinhole image the camera sees nothing there.
+class UncoveredPixels {
+ public:
+  explicit UncoveredPixels(ImageView<const std::int32_t> map);
+
+  /// The labels with every uncovered pixel unknown; counts leave those out that were clear. Without
+  /// a tile mask, if there are such pixels. Valid until the next call.
+  LabelView mark(const LabelView& labels);
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t marked() const { return marked_; }  ///< of them clear in the last image
+
+  /// Not 0 where a pixel is uncovered.
+  [[nodiscard]] ImageView<const std::uint8_t> mask() const { return mask_.view(); }
+
+ private:
+  Image<std::uint8_t> mask_;  // Label::unknown where not covered, else Label::clear
   Image<std::uint8_t> labels_;
-  TileMask labels_touched_;
-  std::size_t uncovered_count_ = 0;
+  TileMask touched_;  // tiles of labels_ that hold other than mask_
+  std::size_t count_ = 0, marked_ = 0;
 };
 
 /// A raw depth image brought to the pinhole image.

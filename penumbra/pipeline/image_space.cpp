@@ -34,18 +34,7 @@ RawImages::RawImages(const Rectification& rectification)
       map_(rectification.raw_to_pinhole(), rectification.pinhole().width()),
       depth_(map_.width(), map_.height()),
       links_(map_.width(), map_.height()),
-      touched_(map_.width(), map_.height()),
-      uncovered_(map_.width(), map_.height()),
-      labels_touched_(touched_) {
-  for (int v = 0; v < map_.height(); ++v) {
-    for (int u = 0; u < map_.width(); ++u) {
-      if (map_.covers(u, v)) continue;
-      uncovered_(u, v) = static_cast<std::uint8_t>(Label::unknown);
-      ++uncovered_count_;
-    }
-  }
-  labels_ = uncovered_;
-}
+      touched_(map_.width(), map_.height()) {}
 
 VirtualDepthView RawImages::virtual_depth(const VirtualDepthView& pinhole) {
   clear(touched_, depth_);
@@ -58,21 +47,44 @@ VirtualDepthView RawImages::virtual_depth(const VirtualDepthView& pinhole) {
   return {depth_.view(), links_.view(), &touched_};
 }
 
-LabelView RawImages::labels(const LabelView& labels) {
-  labels_touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
+UncoveredPixels::UncoveredPixels(ImageView<const std::int32_t> map)
+    : mask_(map.width, map.height), touched_(map.width, map.height) {
+  for (int v = 0; v < map.height; ++v) {
+    for (int u = 0; u < map.width; ++u) {
+      if (map(u, v) != Rectification::no_pixel) continue;
+      mask_(u, v) = static_cast<std::uint8_t>(Label::unknown);
+      ++count_;
+    }
+  }
+  marked_ = count_;
+  labels_ = mask_;
+}
+
+LabelView UncoveredPixels::mark(const LabelView& labels) {
+  if (count_ == 0) return labels;
+  touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v)
-      std::copy(uncovered_.view().row(v) + u0, uncovered_.view().row(v) + u1,
-                labels_.view().row(v) + u0);
+      std::copy(&mask_(u0, v), &mask_(u0, v) + (u1 - u0), &labels_(u0, v));
   });
+  marked_ = count_;
   labels.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    // An uncovered pixel has no virtual depth and so label 0: "or" puts unknown there alone.
-    for (int v = v0; v < v1; ++v)
-      for (int u = u0; u < u1; ++u)
-        labels_(u, v) = static_cast<std::uint8_t>(labels.labels(u, v) | uncovered_(u, v));
+    // An uncovered pixel has no measurement, so that its label is clear or unknown: "or" makes it
+    // unknown, "and" tells where it was.
+    for (int v = v0; v < v1; ++v) {
+      const std::uint8_t* const from = labels.labels.row(v);
+      const std::uint8_t* const mask = &mask_(0, v);
+      std::uint8_t* const to = &labels_(0, v);
+      std::uint32_t robot = 0;
+      for (int u = u0; u < u1; ++u) {
+        to[u] = static_cast<std::uint8_t>(from[u] | mask[u]);
+        robot += (from[u] & mask[u]) != 0 ? 1U : 0U;
+      }
+      marked_ -= robot;
+    }
   });
-  labels_touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
+  touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
   LabelView covered{labels_.view(), labels.pixels, nullptr};
-  covered.pixels[static_cast<std::size_t>(Label::clear)] -= uncovered_count_;
+  covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_;
   return covered;
 }
 

@@ -65,6 +65,14 @@ std::optional<Rectification> rectification_of(const Camera& camera) {
 }
 
 LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
+std::optional<UncoveredPixels> uncovered_of(const std::optional<Rectification>& rectification,
+                                            ImageSpace image) {
+  if (!rectification) return std::nullopt;
+  return std::optional<UncoveredPixels>(std::in_place, image == ImageSpace::raw
+                                                           ? rectification->raw_to_pinhole()
+                                                           : rectification->pinhole_to_raw());
+}
+
   LabelRule rule = config.rule;
   rule.range.near = std::max(rule.range.near, camera.range.near);
   rule.range.far = std::min(rule.range.far, camera.range.far);
@@ -112,7 +120,6 @@ struct Pipeline::State {
                             const DepthView& measured);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
-  [[nodiscard]] std::size_t uncovered() const { return raw_images ? raw_images->uncovered() : 0; }
   void label(const Frame& frame);
   void without_pose(FrameStatus status);
   void finish(FrameStatus status, const VirtualDepthView& virtual_depth, const LabelView& labels);
@@ -133,6 +140,7 @@ struct Pipeline::State {
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
   Classifier classifier;
+  std::optional<UncoveredPixels> uncovered;       // with distortion
   std::vector<std::uint8_t> unknown_row;    // stands for every row of an image (stride 0)
   std::vector<std::uint16_t> no_depth_row;  // likewise
   Camera judged_camera;                     // of the report's images
@@ -156,6 +164,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
       labeller(labeller_of(camera, config, bodies_of(robot))),
       classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
+      uncovered(uncovered_of(rectification, config.image)),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
       unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
                   static_cast<std::uint8_t>(Label::unknown)),
@@ -269,7 +278,7 @@ LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,
   const StageTimer timer(report.timing.classify);
   seen = seen_depth(measured);
   const LabelView made = classifier.classify(virtual_depth, seen);
-  return raw_images ? raw_images->labels(made) : made;
+  return uncovered ? uncovered->mark(made) : made;
 }
 
 DepthView Pipeline::State::seen_depth(const DepthView& measured) {
@@ -283,9 +292,10 @@ DepthView Pipeline::State::seen_depth(const DepthView& measured) {
 void Pipeline::State::without_pose(FrameStatus status) {
   report.status = status;
   report.labels = {unknown_row.data(), output_intrinsics.width(), output_intrinsics.height(), 0};
-  report.pixels.uncovered = uncovered();
+  report.pixels.uncovered = uncovered ? uncovered->count() : 0;
   report.pixels.unknown =
-      unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height()) - uncovered();
+      unknown_row.size() * static_cast<std::size_t>(output_intrinsics.height()) -
+      report.pixels.uncovered;
 }
 
 void Pipeline::State::finish(FrameStatus status, const VirtualDepthView& virtual_depth,
@@ -296,7 +306,7 @@ void Pipeline::State::finish(FrameStatus status, const VirtualDepthView& virtual
   pixels.occluded = count(Label::occluded);
   pixels.unknown = count(Label::unknown);
   pixels.beyond = count(Label::beyond);
-  pixels.uncovered = uncovered();
+  pixels.uncovered = uncovered ? uncovered->marked() : 0;
   pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   report.status = status;
   report.virtual_depth = virtual_depth;
@@ -327,15 +337,16 @@ JudgedFrame Pipeline::State::judged_frame() const {
 
 TargetStage::Setup Pipeline::State::target_setup(const PipelineConfig& config) const {
   const bool is_reference = config.backend == Backend::reference;
-  return {
-      .robot = robot,
-      .camera = judged_camera,
-      .rule = rule_of(camera, config),
-      .backend = is_reference ? Backend::reference : Backend::cpu,
-      .renderer = {.threads = 1, .isa = config.renderer.isa},
-      .render_intrinsics = render_intrinsics,
-      .rectification = rectification && config.image == ImageSpace::raw ? &*rectification : nullptr,
-      .history = config.target_history};
+  const bool is_raw = config.image == ImageSpace::raw;
+  return {.robot = robot,
+          .camera = judged_camera,
+          .rule = rule_of(camera, config),
+          .backend = is_reference ? Backend::reference : Backend::cpu,
+          .renderer = {.threads = 1, .isa = config.renderer.isa},
+          .render_intrinsics = render_intrinsics,
+          .rectification = rectification && is_raw ? &*rectification : nullptr,
+          .unseen = uncovered && !is_raw ? uncovered->mask() : ImageView<const std::uint8_t>{},
+          .history = config.target_history};
 }
 
 }  // namespace penumbra

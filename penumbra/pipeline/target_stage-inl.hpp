@@ -35,6 +35,7 @@ class TargetStage {
     RendererOptions renderer;
     Intrinsics render_intrinsics;
     const Rectification* rectification = nullptr;  ///< as ObjectRenderers takes it
+    ImageView<const std::uint8_t> unseen = {};     ///< as TargetJudge takes it
     double history = 0;                            ///< seconds
   };
 

@@ -56,7 +56,7 @@ std::optional<TargetEstimate> own_estimate(const Target& target, const TargetRep
 TargetStage::TargetStage(const Setup& setup)
     : robot_(setup.robot),
       camera_(setup.camera),
-      judge_(setup.camera, setup.rule, setup.robot.links().size()),
+      judge_(setup.camera, setup.rule, setup.robot.links().size(), setup.unseen),
       renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
       views_(robot_, camera_, renderers_),
       recent_poses_(robot_.links().size()),
