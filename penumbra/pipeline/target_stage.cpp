@@ -152,13 +152,16 @@ void TargetStage::check(const Target& target, TargetRecord& memory) const {
   if (target.estimate) check_link(target.estimate->frame, robot_);
 }
 
-/// A link without geometry may hide anything, and any depth may be its own.
+/// A link without geometry may hide whatever seems to be seen, and any depth may be its own.
 void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report) {
   if (frame.status != FrameStatus::missing_link) return;
+  Judgement& judgement = *report.judgement;
   report.point.reset();
-  report.judgement->point.reset();
-  if (report.verdict != Verdict::visible) return;
-  report.verdict = report.judgement->verdict = Verdict::unknown;
+  judgement.point.reset();
+  judgement.unknown += judgement.clear + judgement.front;
+  judgement.clear = judgement.front = 0.0;
+  if (report.verdict != Verdict::visible && report.verdict != Verdict::partial) return;
+  report.verdict = judgement.verdict = Verdict::unknown;
   slot.reason = frame.message;
 }
 

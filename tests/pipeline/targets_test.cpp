@@ -107,14 +107,25 @@ TEST(TargetsWithoutALink, AreNeverVisible) {
   Pipeline pipeline(std::move(robot), slab_camera(), plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   const std::vector<double> positions{0.0};
-  const std::vector<Target> targets{region("clear", beside_slab), region("hidden", behind_slab)};
+  const PixelBox half_behind{40, 50, 20, 12}, outside{-50, 50, 20, 12};
+  const std::vector<Target> targets{region("clear", beside_slab), region("hidden", behind_slab),
+                                    region("half", half_behind), region("outside", outside)};
   const FrameReport& report = pipeline.process(
       {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
   ASSERT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
   EXPECT_NE(report.targets[0].reason.find("'gone'"), std::string_view::npos);
   EXPECT_FALSE(report.targets[0].point) << "the link's own body may be there";
+  EXPECT_EQ(report.targets[0].judgement->clear, 0.0);
+  EXPECT_EQ(report.targets[0].judgement->unknown, 1.0);
   EXPECT_EQ(report.targets[1].verdict, Verdict::hidden);
+  EXPECT_EQ(report.targets[2].verdict, Verdict::unknown) << "not partial: its rest is not clear";
+  EXPECT_NE(report.targets[2].reason.find("'gone'"), std::string_view::npos);
+  const Judgement& half = *report.targets[2].judgement;
+  EXPECT_NEAR(half.occluded, 12.0 / 20.0, 1e-9);
+  EXPECT_NEAR(half.unknown, 8.0 / 20.0, 1e-9);
+  EXPECT_EQ(half.clear + half.front, 0.0);
+  EXPECT_EQ(report.targets[3].verdict, Verdict::out_of_view);
 }
 
 TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
