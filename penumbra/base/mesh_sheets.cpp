@@ -209,12 +209,14 @@ std::vector<Sample> choose_samples(const TriangleMesh& mesh, const MeshSheet& sh
   return samples;
 }
 
-}  // namespace
+/// The sheets, and the rims of those that are not closed, by their first triangles.
+struct SplitMesh {
+  std::vector<MeshSheet> sheets;
+  std::map<std::size_t, std::vector<RimEdge>> rims;
+};
 
-std::vector<MeshSheet> mesh_sheets(const TriangleMesh& welded) {
-  const std::size_t count = welded.triangles.size();
-  EdgeUses edges = collect_edges(welded);
-  DisjointSets sets(count);
+SplitMesh split_mesh(const TriangleMesh& welded, EdgeUses& edges) {
+  DisjointSets sets(welded.triangles.size());
   std::vector<std::pair<std::uint32_t, RimEdge>> rim_runs;  // by triangles
   for_each_edge(edges, [&](std::uint32_t lower, const EdgeUse* begin, const EdgeUse* end) {
     if (is_regular(begin, end)) {
@@ -227,23 +229,38 @@ std::vector<MeshSheet> mesh_sheets(const TriangleMesh& welded) {
                             falls ? RimEdge{use->upper, lower} : RimEdge{lower, use->upper});
     }
   });
-  std::map<std::size_t, std::vector<RimEdge>> rims;  // by the sheets' first triangles
-  for (const auto& [triangle, edge] : rim_runs) rims[sets.find(triangle)].push_back(edge);
+  SplitMesh mesh;
+  for (const auto& [triangle, edge] : rim_runs) mesh.rims[sets.find(triangle)].push_back(edge);
+  for (std::vector<std::size_t>& triangles : sets.members()) {
+    MeshSheet& sheet = mesh.sheets.emplace_back();
+    sheet.triangles = std::move(triangles);
+    sheet.closed = !mesh.rims.contains(sheet.triangles.front());
+  }
+  return mesh;
+}
 
-  std::vector<MeshSheet> sheets;
+}  // namespace
+
+std::vector<MeshSheet> split_sheets(const TriangleMesh& welded) {
+  EdgeUses edges = collect_edges(welded);
+  return split_mesh(welded, edges).sheets;
+}
+
+std::vector<MeshSheet> mesh_sheets(const TriangleMesh& welded) {
+  const std::size_t count = welded.triangles.size();
+  EdgeUses edges = collect_edges(welded);
+  auto [sheets, rims] = split_mesh(welded, edges);
   std::vector<std::pair<std::size_t, Caps>> capped;  // with the sheets' numbers
   std::vector<bool> touching(count, false);
-  for (std::vector<std::size_t>& triangles : sets.members()) {
-    MeshSheet& sheet = sheets.emplace_back();
-    sheet.triangles = std::move(triangles);
-    const auto rim = rims.find(sheet.triangles.front());
-    sheet.closed = rim == rims.end();
-    std::optional<Caps> caps = sheet.closed ? Caps{} : make_caps(welded, sheet, rim->second);
+  for (std::size_t number = 0; number < sheets.size(); ++number) {
+    const MeshSheet& sheet = sheets[number];
+    std::optional<Caps> caps =
+        sheet.closed ? Caps{} : make_caps(welded, sheet, rims[sheet.triangles.front()]);
     if (!caps) continue;
     for (const std::size_t i : sheet.triangles) {
       touching[i] = touches(caps->balls, corners_of(welded, i));
     }
-    capped.emplace_back(sheets.size() - 1, *std::move(caps));
+    capped.emplace_back(number, *std::move(caps));
   }
 
   DisjointSets parts(count);

@@ -38,6 +38,9 @@ struct MeshSheet {
   std::vector<Ball> holes;
 };
 
+/// The sheets of a welded mesh, in the same order, without `facing` and `holes`, which cost most.
+[[nodiscard]] std::vector<MeshSheet> split_sheets(const TriangleMesh& welded);
+
 /// The sheets of a welded mesh, ordered by their first triangle. A sheet's holes are small where
 /// their radii add up to an eighth of its size at most, and there are few.
 [[nodiscard]] std::vector<MeshSheet> mesh_sheets(const TriangleMesh& welded);

@@ -116,7 +116,8 @@ class DepthRenderer {
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});
 
-/// Finds a body whose closed mesh holds the camera's centre. The answer of a body whose pose
+/// Finds a body whose meshes hold the camera's centre: a closed piece, or an open one, or all open
+/// ones together, that close around it for more than half. The answer of a body whose pose
 /// relative to the camera has not changed is remembered.
 class CameraInsideCheck {
  public:

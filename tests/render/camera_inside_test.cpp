@@ -4,6 +4,8 @@
 #include "scene.hpp"
 #include "shapes.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -36,11 +38,49 @@ TEST(CameraInside, TellsTheFirstBodyThatHoldsTheCamera) {
   EXPECT_EQ(check.find(scene.poses), 1U);
 }
 
-TEST(CameraInside, OpenAndEmptyBodiesHoldNothing) {
+/// A mesh without the triangles that have a corner there.
+TriangleMesh cut(TriangleMesh mesh, const std::function<bool(const Eigen::Vector3f&)>& there) {
+  std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& corners) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t i) { return there(mesh.vertices[i]); });
+  });
+  return mesh;
+}
+
+TEST(CameraInside, AnOpenPieceHoldsWhatItClosesAroundForMoreThanHalf) {
+  // As meshes for the eye are: a cylinder without its ends, a shell that is no body.
+  const TriangleMesh ball = sphere(0.3F, 24);
+  const TriangleMesh most = cut(ball, [](const auto& p) { return p.z() > 0.1F; });
+  const TriangleMesh least = cut(ball, [](const auto& p) { return p.z() > -0.1F; });
+  for (const TriangleMesh& mesh : {most, mirrored(most)}) {
+    Scene scene;
+    scene.add(mesh);
+    EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+    scene.poses[0] = at(0, 0, 0.4);
+    EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+  }
   Scene scene;
-  TriangleMesh open = box({0.2F, 0.2F, 0.2F});
-  open.triangles.pop_back();
-  scene.add(open);
+  scene.add(least);
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt)
+      << "a bowl, from above its rim";
+}
+
+TEST(CameraInside, OpenPiecesTogetherHoldWhatTheyCloseAround) {
+  const TriangleMesh ball = sphere(0.3F, 24);
+  const TriangleMesh above = cut(ball, [](const auto& p) { return p.z() < 0.03F; });
+  const TriangleMesh below = cut(ball, [](const auto& p) { return p.z() > -0.03F; });
+  Scene scene;
+  scene.add(std::vector<TriangleMesh>{above, below});
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+  scene.poses[0] = at(0, 0.4, 0);
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+}
+
+TEST(CameraInside, SheetsThatBoundNothingAndEmptyBodiesHoldNothing) {
+  Scene scene;
+  const TriangleMesh plate =
+      cut(box({0.2F, 0.2F, 0.001F}), [](const auto& p) { return p.z() < 0; });
+  scene.add(plate, at(0, 0, 0.01));
   scene.add(TriangleMesh{});
   scene.add(std::vector<TriangleMesh>{});
   EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
