@@ -57,8 +57,11 @@ class Image {
   std::vector<T> pixels_;
 };
 
+/// What a sensor writes, in millimetres, where its depth does not fit.
+inline constexpr std::uint16_t saturated_depth = 0xFFFF;
+
 /// A sensor's depth image: millimetres as uint16 or metres as float32, z-depth along the optical
-/// axis. 0, NaN, inf and negative values are "no measurement".
+/// axis. 0, NaN, inf, negative values and saturated_depth are "no measurement".
 using DepthView = std::variant<ImageView<const std::uint16_t>, ImageView<const float>>;
 
 }  // namespace penumbra

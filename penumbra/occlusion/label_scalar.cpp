@@ -20,7 +20,7 @@ bool is_measurement(const Rule& rule, float d) {
   return rule.metres.near <= d && d <= rule.metres.far;
 }
 bool is_measurement(const Rule& rule, std::uint16_t d) {
-  return is_measurement(rule, static_cast<float>(d / 1000.0));
+  return d != saturated_depth && is_measurement(rule, static_cast<float>(d / 1000.0));
 }
 
 template <typename T>

@@ -24,9 +24,10 @@ std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
   return bits & (~std::uint64_t{0} >> (64 - in_image));
 }
 
-/// The range of millimetres whose depths, as floats nearest to them, lie in a range.
+/// The range of millimetres whose depths, as floats nearest to them, lie in a range; saturated ones
+/// do not.
 MeasuredRange in_millimetres(const MeasuredRange& range) {
-  constexpr int count = std::numeric_limits<std::uint16_t>::max() + 1;
+  constexpr int count = saturated_depth;
   const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
   int first = 0;
   while (first < count && nearest(first) < range.near) ++first;

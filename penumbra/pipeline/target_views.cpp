@@ -51,8 +51,10 @@ double metres_at(const DepthView& depth, const Eigen::Vector2d& pixel) {
         const double u = std::round(pixel.x()), v = std::round(pixel.y());
         if (!(u >= 0.0 && v >= 0.0 && u < image.width && v < image.height)) return 0.0;
         using Pixel = std::remove_cvref_t<decltype(image(0, 0))>;
-        const double scale = std::is_same_v<Pixel, std::uint16_t> ? 1e-3 : 1.0;
-        return scale * static_cast<double>(image(static_cast<int>(u), static_cast<int>(v)));
+        constexpr bool is_millimetres = std::is_same_v<Pixel, std::uint16_t>;
+        const Pixel depth_there = image(static_cast<int>(u), static_cast<int>(v));
+        if (is_millimetres && depth_there == saturated_depth) return 0.0;
+        return (is_millimetres ? 1e-3 : 1.0) * static_cast<double>(depth_there);
       },
       depth);
 }

@@ -85,14 +85,16 @@ TEST_P(Rules, NoMeasurementIsUnknownOnTheRobotAndClearBesideIt) {
     EXPECT_EQ(label(rule, 0.0f, d), Label::clear) << d;
   }
   EXPECT_EQ(label_millimetres(rule, 1.0f, 0), Label::unknown);
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 65535), Label::unknown) << "saturated";
+  EXPECT_EQ(label_millimetres(rule, 0.0f, 65535), Label::clear);
 }
 
 TEST_P(Rules, MillimetresAreThousandths) {
   const LabelRule rule = without_cleanup();
   EXPECT_EQ(label_millimetres(rule, 1.0f, 978), Label::front);
   EXPECT_EQ(label_millimetres(rule, 1.0f, 980), Label::occluded);
-  EXPECT_EQ(label_millimetres(rule, 1.0f, 65535), Label::beyond);
-  EXPECT_EQ(label_millimetres(rule, 70.0f, 65535), Label::occluded);  // not read as negative
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 65534), Label::beyond);
+  EXPECT_EQ(label_millimetres(rule, 70.0f, 65534), Label::occluded);  // not read as negative
   EXPECT_EQ(label_millimetres(rule, 40.0f, 1), Label::front);
 }
 
@@ -129,9 +131,10 @@ TEST_P(Rules, MillimetresAtTheRangesEndsAreInside) {
     EXPECT_FALSE(is_measured(rule, end - 1)) << end << " mm is range.near";
   }
   rule.range = {0.0, infinity};
-  EXPECT_TRUE(is_measured(rule, 65535));
+  EXPECT_TRUE(is_measured(rule, 65534));
+  EXPECT_FALSE(is_measured(rule, 65535)) << "saturated";
   rule.range = {70.0, 80.0};
-  EXPECT_FALSE(is_measured(rule, 65535));
+  EXPECT_FALSE(is_measured(rule, 65534));
   rule.range = {0.0, 0.0005};
   EXPECT_FALSE(is_measured(rule, 1));
 }
