@@ -115,6 +115,10 @@ std::vector<Line> legend_lines(const OverlayInput& input) {
     return lines;
   }
   add_counts(input.labels, lines);
+  if (input.uncovered > 0) {
+    std::snprintf(text.data(), text.size(), "%-9s%7zu", "uncovered", input.uncovered);
+    lines.push_back({text.data(), label_color(Label::unknown)});
+  }
   return lines;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -19,8 +20,9 @@ struct OverlayInput {
   LabelView labels;             ///< empty: no robot could be drawn; `message` says why
   std::int64_t index = 0;
   std::optional<std::int64_t> stamp;  ///< nanoseconds
-  std::string_view message;  ///< drawn at the lower edge, such as what is wrong; may be empty
-  bool pose_known = true;    ///< false: labels say nothing of the robot, all are unknown
+  std::string_view message;   ///< drawn at the lower edge, such as what is wrong; may be empty
+  bool pose_known = true;     ///< false: labels say nothing of the robot, all are unknown
+  std::size_t uncovered = 0;  ///< PixelCounts::uncovered: unknown in the image, not in its counts
 };
 
 /// The colour that stands for a label; told apart by people with any common colour blindness.

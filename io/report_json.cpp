@@ -218,7 +218,9 @@ void ReportWriter::finish(const Statistics& statistics, std::span<const std::str
 }
 
 std::string render_json(const RenderResult& result) {
-  Json json = {{"triangles", result.triangles}, {"robot_pixels", result.robot_pixels}};
+  Json json = {{"triangles", result.triangles},
+               {"robot_pixels", result.robot_pixels},
+               {"uncovered", result.uncovered_pixels}};
   for (std::size_t i = 0; i < stages.size(); ++i) {
     if (stages[i].name == "targets") continue;
     const auto q = result.statistics.timing(i);

@@ -71,6 +71,7 @@ class ReportWriter {
 struct RenderResult {
   std::size_t triangles = 0;
   std::size_t robot_pixels = 0;
+  std::size_t uncovered_pixels = 0;  ///< PixelCounts::uncovered
   UsedRenderer renderer;
   std::span<const std::string> variables;      ///< names of the joint positions
   std::span<const double> positions;           ///< in their order, rad and m

@@ -21,11 +21,11 @@ Examples:
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault.)";
 
 inline constexpr const char* run_examples = R"(
-OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot),
-labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond), links/000000.png (link
-number in the report + 1, 0 = none) and overlay/000000.png. What an earlier run left there is
-removed; images of such names without its report, or behind a link, are refused. Faulty frames are
-told on stderr and in the report; the others are judged.
+OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot, or where the lens
+model does not reach), labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond),
+links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.png. What an earlier
+run left there is removed; images of such names without its report, or behind a link, are refused.
+Faulty frames are told on stderr and in the report; the others are judged.
 
 Examples:
   penumbra run recording/ -o out

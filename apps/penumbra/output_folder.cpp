@@ -73,6 +73,7 @@ void OutputFolder::save_overlay(const FrameReport& report, const io::FrameData& 
                                 const ShownTargets& targets) {
   io::OverlayInput input;
   input.labels = labels_of(report);
+  input.uncovered = report.pixels.uncovered;
   input.index = static_cast<std::int64_t>(report.index);
   input.stamp = report.stamp;
   input.message = report.message;

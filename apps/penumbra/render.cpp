@@ -141,6 +141,7 @@ int execute(const RenderArguments& arguments) {
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),
                           .robot_pixels = first.pixels.robot.value_or(0),
+                          .uncovered_pixels = first.pixels.uncovered,
                           .renderer = used_renderer(pipeline, arguments.renderer.backend),
                           .variables = pipeline.robot().variables(),
                           .positions = positions,

@@ -232,10 +232,13 @@ void tell_targets(const Statistics& statistics) {
 void tell_summary(const Statistics& statistics, const std::filesystem::path& report) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
+  const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
   std::cout << statistics.frames() << " frames, " << statistics.bad_frames() << " bad; of " << robot
             << " robot pixels " << percent(pixels.front, robot) << " front, "
-            << percent(pixels.occluded, robot) << " occluded, " << percent(pixels.beyond, robot)
-            << " beyond\n";
+            << percent(pixels.occluded, robot) << " occluded, " << percent(unknown, robot)
+            << " unknown, " << percent(pixels.beyond, robot) << " beyond";
+  if (pixels.uncovered > 0) std::cout << "; besides " << pixels.uncovered << " uncovered pixels";
+  std::cout << '\n';
   tell_targets(statistics);
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (const auto q = statistics.timing(i))

@@ -75,6 +75,7 @@ TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "nothing is said in a pipe where nothing is wrong";
+  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond\n"), std::string::npos) << outcome.out;
   const Json json = report();
   expect_report(json);
   EXPECT_EQ(json["links"], (Json{"base", "board"}));

@@ -126,6 +126,17 @@ TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
   EXPECT_FALSE(shows(out, "robot 76800 px"));
 }
 
+TEST(Overlay, TheLegendCountsUncoveredPixels) {
+  const Scene scene(640, 480, Label::occluded);
+  OverlayInput input = scene.input();
+  Image<Rgb8> out;
+  draw_overlay(input, out);
+  EXPECT_FALSE(shows(out, "uncovered"));
+  input.uncovered = 1234;
+  draw_overlay(input, out);
+  EXPECT_TRUE(shows(out, "uncovered   1234"));
+}
+
 // The legend lies in the corner where it hides the least of the robot.
 TEST(Overlay, LegendGivesWayToTheRobot) {
   Scene scene(640, 480, Label::occluded);
