@@ -134,7 +134,7 @@ int execute(const RenderArguments& arguments) {
   const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
   const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
   write_images(arguments, first);
-  SequenceNotes doubts(pipeline.robot());
+  SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
   append(notes, doubts.lines());
   tell_notes(std::span(notes).subspan(told));

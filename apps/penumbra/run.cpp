@@ -272,7 +272,7 @@ int execute(const RunArguments& arguments) {
        settings_of(arguments, recording, pipeline, targets), pipeline.robot().links(),
        pipeline.missing_links(), notes});
   Statistics statistics;
-  SequenceNotes doubts(pipeline.robot());
+  SequenceNotes doubts(pipeline.robot(), {.image = arguments.image});
   ColorFaults color;
   {
     Progress progress(selected.size());

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <utility>
 
+#include <penumbra/pipeline/frame_check-inl.hpp>
 #include <penumbra/pipeline/sequence_notes.hpp>
 
 namespace penumbra {
@@ -19,18 +23,43 @@ std::string counted(std::size_t n, const std::string& thing) {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
+constexpr const char* doubted_depth = "is depth in millimetres (16-bit PNG) or metres (float32)";
+
+std::string percent_of(std::size_t part, std::size_t whole) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %%",
+                100.0 * static_cast<double>(part) / static_cast<double>(whole));
+  return text.data();
+}
+
+bool exceeds(std::size_t part, double share, std::size_t whole) {
+  return static_cast<double>(part) > share * static_cast<double>(whole);
+}
+
 }  // namespace
 
-SequenceNotes::SequenceNotes(const Robot& robot)
-    : robot_(robot), frames_beyond_(robot.joints().size()) {}
+SequenceNotes::SequenceNotes(const Robot& robot) : SequenceNotes(robot, Source{}) {}
+SequenceNotes::SequenceNotes(const Robot& robot, const Source& source)
+    : robot_(robot), source_(source), frames_beyond_(robot.joints().size()) {}
 
 void SequenceNotes::add(const FrameReport& report, std::span<const double> positions) {
   if (report.pixels.robot) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
+    add_pixels(report);
   }
+  uncovered_ = std::max(uncovered_, report.pixels.uncovered);
   add_stamp(report);
   add_positions(positions);
+}
+
+void SequenceNotes::add_pixels(const FrameReport& report) {
+  if (!source_.has_sensor || !has_depth(report.status)) return;
+  const PixelCounts& pixels = report.pixels;
+  robot_pixels_ += *pixels.robot;
+  measured_ += *pixels.robot - pixels.unknown;
+  front_ += pixels.front;
+  beyond_ += pixels.beyond;
 }
 
 void SequenceNotes::add_stamp(const FrameReport& report) {
@@ -55,9 +84,29 @@ std::vector<std::string> SequenceNotes::lines() const {
                     (posed_frames_ == 1 ? "not in the image" : "in no frame") +
                     ": is the camera's pose that of the camera in its parent link's frame (not "
                     "the inverse), in metres?");
+  if (std::string line = depth_line(); !line.empty()) lines.push_back(std::move(line));
+  if (source_.image == ImageSpace::raw && uncovered_ > 0) lines.push_back(uncovered_line());
   if (late_stamps_ > 0) lines.push_back(stamp_line());
   if (std::string line = limit_line(); !line.empty()) lines.push_back(std::move(line));
   return lines;
+}
+
+std::string SequenceNotes::depth_line() const {
+  if (robot_pixels_ == 0) return {};
+  if (!exceeds(measured_, nearly_none, robot_pixels_))
+    return "depth is measured on " + percent_of(measured_, robot_pixels_) +
+           " of the robot's pixels: " + doubted_depth +
+           ", of the camera that is named, and within its range?";
+  if (!exceeds(front_ + beyond_, most, measured_)) return {};
+  return "of the robot's pixels with a measured depth " + percent_of(front_, measured_) +
+         " are front and " + percent_of(beyond_, measured_) + " beyond: " + doubted_depth +
+         ", and the camera's pose right?";
+}
+
+std::string SequenceNotes::uncovered_line() const {
+  return "the lens model does not reach " + counted(uncovered_, "pixel") +
+         " of the image: unknown in labels, but 0 as without robot in virtual depth and link "
+         "images; are the distortion coefficients right?";
 }
 
 std::string SequenceNotes::stamp_line() const {

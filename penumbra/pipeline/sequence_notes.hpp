@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
@@ -21,14 +22,27 @@ class SequenceNotes {
   static constexpr double revolute_slack = 0.01;
   static constexpr double prismatic_slack = 0.001;
 
+  /// Share of the robot's measured pixels that are front or beyond above which the pose or the
+  /// depth is doubted, and share of its pixels with a measurement below which the depth is.
+  static constexpr double most = 0.5;
+  static constexpr double nearly_none = 0.05;
+
+  /// What the frames are of.
+  struct Source {
+    ImageSpace image = ImageSpace::raw;
+    bool has_sensor = true;  ///< false: depth images are no sensor's, pixels' labels tell nothing
+  };
+
   /// `robot` must outlive this.
   explicit SequenceNotes(const Robot& robot);
+  SequenceNotes(const Robot& robot, const Source& source);
 
   /// `positions`: those of the frame, in the order of Robot::variables(); empty if not known.
   void add(const FrameReport& report, std::span<const double> positions);
 
-  /// A line each: a robot that is in no frame whose pose is known, stamps that do not rise from
-  /// frame to frame, joints beyond their limits.
+  /// A line each: a robot that is in no frame whose pose is known, robot pixels that are nearly all
+  /// without measurement or mostly front or beyond, raw images that the lens model does not reach
+  /// everywhere, stamps that do not rise from frame to frame, joints beyond their limits.
   [[nodiscard]] std::vector<std::string> lines() const;
 
  private:
@@ -38,14 +52,20 @@ class SequenceNotes {
     std::int64_t stamp = 0, before = 0;  // nanoseconds
   };
 
+  void add_pixels(const FrameReport& report);
   void add_stamp(const FrameReport& report);
   void add_positions(std::span<const double> positions);
+  [[nodiscard]] std::string depth_line() const;
+  [[nodiscard]] std::string uncovered_line() const;
   [[nodiscard]] std::string stamp_line() const;
   [[nodiscard]] std::string limit_line() const;
 
   const Robot& robot_;
+  Source source_;
   std::size_t posed_frames_ = 0;
   bool robot_seen_ = false;
+  std::size_t robot_pixels_ = 0, measured_ = 0, front_ = 0, beyond_ = 0;  // of frames with depth
+  std::size_t uncovered_ = 0;  // pixels of the frame with the most of them
   std::optional<std::int64_t> last_stamp_;
   std::optional<LateStamp> first_late_;
   std::size_t late_stamps_ = 0;

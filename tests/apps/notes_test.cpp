@@ -60,7 +60,7 @@ TEST_F(NotesTest, ARobotThatIsNeverInView) {
   const auto camera_at = [&](const std::string& z) {
     write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
   };
-  camera_at("-2");
+  camera_at("0");
   expect_note_of_run("");
   expect_note_of_render({}, "");
   camera_at("2");  // the inverse: the robot is behind the camera
@@ -68,6 +68,24 @@ TEST_F(NotesTest, ARobotThatIsNeverInView) {
   expect_note_of_render({}, "the robot is not in the image");
   camera_at("-2000");  // millimetres
   expect_note_of_run("the robot is in no frame");
+}
+
+TEST_F(NotesTest, ACameraPoseThatDoesNotFitTheDepth) {
+  write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1,-2\n0,0,0,1\n");
+  expect_note_of_run("% are front and 0.0 % beyond");
+  expect_note_of_render({}, "");
+}
+
+TEST_F(NotesTest, RawPixelsThatTheLensModelDoesNotReach) {
+  edit_file(path("camera_info.yaml"), "d: [0.0,", "d: [-0.6,");
+  expect_note_of_run("the lens model does not reach ");
+  expect_note_of_render({}, "the lens model does not reach ");
+  const Outcome ran = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
+  EXPECT_NE(ran.out.find(" uncovered pixels"), std::string::npos) << ran.out;
+  const Outcome rendered = penumbra({"render", "--json", "--robot", path("tiny.urdf"), "--camera",
+                                     path("camera_info.yaml"), "--pose", path("camera_pose.csv"),
+                                     "-o", path("vdi.npy")});
+  EXPECT_GT(Json::parse(rendered.out)["uncovered"], 0) << rendered.out;
 }
 
 TEST_F(NotesTest, StampsThatDoNotRise) {

@@ -84,6 +84,64 @@ TEST(SequenceNotes, ARobotInOneFrameOrOfUnknownPoseIsNot) {
   EXPECT_EQ(notes_of({}), Lines{});
 }
 
+/// The notes of frames that are labelled so.
+Lines notes_of_labels(const std::vector<PixelCounts>& frames, FrameStatus status = FrameStatus::ok,
+                      const SequenceNotes::Source& source = {}) {
+  const Robot any = robot();
+  SequenceNotes notes(any, source);
+  for (const PixelCounts& pixels : frames) {
+    FrameReport report;
+    report.status = status;
+    report.pixels = pixels;
+    notes.add(report, {});
+  }
+  return notes.lines();
+}
+
+PixelCounts counts_of(std::size_t front, std::size_t occluded, std::size_t unknown,
+                      std::size_t beyond) {
+  PixelCounts pixels;
+  pixels.robot = front + occluded + unknown + beyond;
+  pixels.front = front;
+  pixels.occluded = occluded;
+  pixels.unknown = unknown;
+  pixels.beyond = beyond;
+  return pixels;
+}
+
+TEST(SequenceNotes, APoseOrDepthThatFitsNowhereIsAsked) {
+  const PixelCounts good = counts_of(200, 600, 100, 100);
+  EXPECT_EQ(notes_of_labels({good, good}), Lines{});
+  const PixelCounts off = counts_of(50, 90, 260, 600);
+  const Lines pose = notes_of_labels({off, off});
+  ASSERT_EQ(pose.size(), 1U) << "a pose off by 15 cm";
+  EXPECT_NE(pose[0].find("6.8 % are front and 81.1 % beyond"), std::string::npos) << pose[0];
+  EXPECT_NE(pose[0].find("camera's pose"), std::string::npos) << pose[0];
+  EXPECT_NE(pose[0].find("millimetres"), std::string::npos) << pose[0];
+  EXPECT_EQ(notes_of_labels({counts_of(980, 10, 10, 0)}).size(), 1U) << "cm";
+  EXPECT_EQ(notes_of_labels({off, good, good, good}), Lines{}) << "one frame is not the sequence";
+}
+
+TEST(SequenceNotes, ARobotWithoutMeasurementIsTold) {
+  const PixelCounts blind = counts_of(1, 30, 969, 0);
+  const Lines lines = notes_of_labels({blind});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("measured on 3.1 % of the robot's pixels"), std::string::npos);
+  EXPECT_EQ(notes_of_labels({counts_of(0, 60, 940, 0)}), Lines{});
+  EXPECT_EQ(notes_of_labels({blind}, FrameStatus::missing_depth), Lines{}) << "said elsewhere";
+  EXPECT_EQ(notes_of_labels({blind}, FrameStatus::ok, {.has_sensor = false}), Lines{});
+}
+
+TEST(SequenceNotes, RawPixelsThatTheLensModelDoesNotReachAreTold) {
+  PixelCounts pixels = counts_of(0, 10, 0, 0);
+  pixels.uncovered = 38;
+  const Lines lines = notes_of_labels({pixels});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("does not reach 38 pixels"), std::string::npos) << lines[0];
+  EXPECT_EQ(notes_of_labels({pixels}, FrameStatus::ok, {.image = ImageSpace::rectified}), Lines{})
+      << "every rectified image has a rim that the camera did not see";
+}
+
 TEST(SequenceNotes, StampsThatDoNotRiseAreTold) {
   EXPECT_EQ(notes_of_stamps({5, 6, 7}), Lines{});
   EXPECT_EQ(notes_of_stamps({std::nullopt, std::nullopt}), Lines{});
