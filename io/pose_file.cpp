@@ -14,6 +14,7 @@ namespace penumbra::io {
 namespace {
 
 constexpr double max_rotation_error = 1e-4;  // per element; files with few digits are off by less
+constexpr double max_distance = 1e6;         // metres: float32 depths beyond would mean nothing
 constexpr std::uint64_t max_bytes = 1 << 16;
 constexpr std::string_view wanted = "four rows of four comma-separated numbers are wanted";
 
@@ -61,9 +62,13 @@ Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file) {
     throw InputError(file.string() +
                      ": is no rigid transform: it mirrors (determinant -1 instead of 1)");
 
+  const Eigen::Vector3d position = matrix.topRightCorner<3, 1>();
+  if (position.cwiseAbs().maxCoeff() > max_distance)
+    throw InputError(file.string() + ": is more than 1000 km away; metres are wanted");
+
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = nearest;
-  pose.translation() = matrix.topRightCorner<3, 1>();
+  pose.translation() = position;
   return pose;
 }
 

@@ -20,7 +20,8 @@ class LinkPoses {
   /// depths of them would mean nothing.
   static constexpr double max_distance = 1e6;
 
-  /// Throws InputError for a parent that is no link and a camera pose that is no rigid transform.
+  /// Throws InputError for a parent that is no link and a camera pose that is no rigid transform or
+  /// farther than max_distance.
   LinkPoses(const Robot& robot, const PipelineConfig& config);
 
   /// Computes T_camera_link of every link; nothing is at fault with the positions if it answers

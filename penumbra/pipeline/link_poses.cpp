@@ -37,6 +37,8 @@ LinkPoses::LinkPoses(const Robot& robot, const PipelineConfig& config)
     throw InputError(
         "camera pose is no rigid transform: a rotation (orthonormal, determinant 1) and a finite "
         "translation in metres are needed");
+  if (config.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_distance)
+    throw InputError("camera pose is more than 1000 km from its parent link; metres are wanted");
   T_camera_parent_ = config.T_parent_camera.inverse();
 }
 

@@ -49,8 +49,8 @@ struct PipelineConfig {
 class Pipeline {
  public:
   /// Throws InputError for a robot of which nothing is drawn, a camera parent that is no link, a
-  /// camera pose that is no rigid transform, and what Camera, LabelRule and make_depth_renderer
-  /// or make_fastest_renderer refuse.
+  /// camera pose that is no rigid transform or over 1000 km away, and what Camera, LabelRule and
+  /// make_depth_renderer or make_fastest_renderer refuse.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;

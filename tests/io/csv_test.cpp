@@ -105,6 +105,7 @@ TEST_F(PoseFile, RefusesWhatIsNoPose) {
   EXPECT_HAS(fault("1,0,0,1\n0,x,0,1\n"), ":2: 'x' is no finite number");
   EXPECT_HAS(fault("1,0,0,nan\n"), ":1: 'nan' is no finite number");
   EXPECT_HAS(fault(""), "has 0 rows");
+  EXPECT_HAS(fault("1,0,0,1e300\n0,1,0,0\n0,0,1,0\n0,0,0,1\n"), "pose.csv: is more than 1000 km");
   EXPECT_HAS(input_error([&] { static_cast<void>(read_pose_csv(folder_.path() / "none.csv")); }),
              "none.csv: cannot be read");
 }
