@@ -93,8 +93,8 @@ std::unique_ptr<GlLabeller> labeller_of(const Camera& camera, const PipelineConf
   if (config.backend != Backend::gl) throw InputError("labels on the device need the renderer gl");
   if (!camera.distortion.is_none())
     throw InputError(
-        "labels on the device are of images without lens distortion: rectify them, or "
-        "label with the CPU");
+        "labels on the device are of images without lens distortion: take recordings that were "
+        "rectified beforehand (camera.rectified: true), or label with the CPU");
   return std::make_unique<GlLabeller>(camera.intrinsics, bodies, rule_of(camera, config),
                                       config.renderer);
 }
