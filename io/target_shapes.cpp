@@ -345,6 +345,12 @@ void check_keys(const YamlNode& node, const ShapeKind& kind) {
 
 }  // namespace
 
+bool names_pixels(const YamlNode& target) {
+  return std::any_of(kinds().begin(), kinds().end(), [&](const ShapeKind& kind) {
+    return kind.has_pixels && target.find(kind.key) != nullptr;
+  });
+}
+
 ShapeSource read_shape(const TargetReader& reader) {
   const ShapeKind* chosen = nullptr;
   for (const ShapeKind& kind : kinds()) {

@@ -43,6 +43,9 @@ struct ShapeSource {
   bool has_pose = false;  ///< of its own: with an orientation
 };
 
+/// Whether the target is given by pixels of an image.
+[[nodiscard]] bool names_pixels(const YamlNode& target);
+
 /// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
 [[nodiscard]] ShapeSource read_shape(const TargetReader& reader);
 

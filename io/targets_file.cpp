@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <deque>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -34,6 +36,8 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
     if (key->text() == "rectified") image = ImageSpace::rectified;
   }
   if (!context.is_bent || image == context.image) return;
+  const std::span<const YamlNode> targets = root.at("targets").items();
+  if (std::none_of(targets.begin(), targets.end(), names_pixels)) return;
   const YamlNode& blamed = key != nullptr ? *key : root.at("targets");
   blamed.fail(image == ImageSpace::raw
                   ? "pixels are of the raw image, results of the rectified one; write image: "

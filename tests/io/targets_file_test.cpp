@@ -118,5 +118,16 @@ TEST_F(TargetsFileTest, PixelsOfAnotherImageAreRefused) {
   EXPECT_EQ(open("image: rectified\n" + text, ImageSpace::rectified, true).size(), 1U);
 }
 
+TEST_F(TargetsFileTest, TargetsWithoutPixelsAreOfAnyImage) {
+  const std::string text = "targets:\n- name: a\n  point: [0, 0, 1]\n  radius: 0.1\n";
+  EXPECT_EQ(open(text, ImageSpace::rectified, true).size(), 1U);
+  EXPECT_EQ(open("image: rectified\n" + text, ImageSpace::raw, true).size(), 1U);
+  EXPECT_HAS(input_error([&] {
+               static_cast<void>(open(text + "- name: b\n  keypoint: [1, 2]\n  radius: 3\n",
+                                      ImageSpace::rectified, true));
+             }),
+             "raw image");
+}
+
 }  // namespace
 }  // namespace penumbra::test
