@@ -49,7 +49,8 @@ struct JointInput {
       : positions(all), status(JointStatus::ok) {}
   JointInput(const std::vector<double>& all)  // NOLINT(google-explicit-constructor)
       : JointInput(std::span<const double>(all)) {}
-  JointInput(const JointAnswer& answer);  // NOLINT(google-explicit-constructor)
+  JointInput(std::vector<double>&&) = delete;  ///< it would not live as long as a Frame
+  JointInput(const JointAnswer& answer);       // NOLINT(google-explicit-constructor)
 };
 
 /// What goes into Pipeline::process. Refers to the caller's memory, needed during the call only.

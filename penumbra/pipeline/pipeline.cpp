@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -64,7 +65,6 @@ std::optional<Rectification> rectification_of(const Camera& camera) {
   return std::optional<Rectification>(std::in_place, camera);
 }
 
-LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
 std::optional<UncoveredPixels> uncovered_of(const std::optional<Rectification>& rectification,
                                             ImageSpace image) {
   if (!rectification) return std::nullopt;
@@ -73,6 +73,7 @@ std::optional<UncoveredPixels> uncovered_of(const std::optional<Rectification>& 
                                                            : rectification->pinhole_to_raw());
 }
 
+LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
   LabelRule rule = config.rule;
   rule.range.near = std::max(rule.range.near, camera.range.near);
   rule.range.far = std::min(rule.range.far, camera.range.far);
@@ -139,8 +140,8 @@ struct Pipeline::State {
   std::unique_ptr<GlLabeller> labeller;           // labels_on_device
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
-  Classifier classifier;
   std::optional<UncoveredPixels> uncovered;       // with distortion
+  Classifier classifier;
   std::vector<std::uint8_t> unknown_row;    // stands for every row of an image (stride 0)
   std::vector<std::uint16_t> no_depth_row;  // likewise
   Camera judged_camera;                     // of the report's images
@@ -163,8 +164,8 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       camera_inside(bodies_of(robot)),
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
       labeller(labeller_of(camera, config, bodies_of(robot))),
-      classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
       uncovered(uncovered_of(rectification, config.image)),
+      classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
       unknown_row(static_cast<std::size_t>(output_intrinsics.width()),
                   static_cast<std::uint8_t>(Label::unknown)),
@@ -203,7 +204,14 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
   s.begin(frame);
-  s.label(frame);
+  try {
+    s.label(frame);
+  } catch (const std::exception& fault) {
+    // The report must not go on saying what the last frame was.
+    s.report.status = FrameStatus::missing_transform;
+    s.report.message = fault.what();
+    throw;
+  }
   s.judge_targets(frame.targets);
   return s.report;
 }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -199,6 +202,37 @@ TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsRefused) {
     EXPECT_NE(message.find("ignore_links"), std::string::npos) << message;
   }
 }
+
+TEST(FrameStatusOfRobot, AFrameThatThrowsLeavesNoGoodReport) {
+  PipelineConfig config = plain_config();
+  config.T_parent_camera.translation() = Eigen::Vector3d(0.0, 0.0, -1.0);
+  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  const Image<float> depth = scene_depth(slab_camera(), 0.0);
+  std::vector<double> positions = {0.0};
+  const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+  ASSERT_EQ(report.status, FrameStatus::ok);
+  positions[0] = -slab_depth - 1.05;  // the slab's middle lies just behind its near face
+  EXPECT_THROW(static_cast<void>(pipeline.process({.depth = depth.view(), .joints = positions})),
+               InputError);
+  EXPECT_EQ(report.status, FrameStatus::missing_transform);
+  EXPECT_NE(report.message, "");
+}
+
+TEST(FrameStatusOfRobot, AFarCameraPoseIsNotBlamedOnTheJoints) {
+  PipelineConfig config = plain_config();
+  config.T_parent_camera.translation() = Eigen::Vector3d(1e300, 0.0, 0.0);
+  try {
+    const Pipeline pipeline(slab_robot(), slab_camera(), config);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("camera pose"), std::string::npos) << error.what();
+  }
+}
+
+// A temporary would be gone before the frame that refers to it.
+static_assert(!std::is_constructible_v<JointInput, std::vector<double>>);
+static_assert(std::is_constructible_v<JointInput, const std::vector<double>&>);
+static_assert(std::is_constructible_v<JointInput, std::vector<double>&>);
 
 }  // namespace
 }  // namespace penumbra::test

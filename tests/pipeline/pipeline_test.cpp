@@ -97,7 +97,8 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
 
 TEST_P(PipelineOf, TimesItsStages) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config(GetParam()));
-  const FrameReport& report = pipeline.process({.joints = std::vector<double>{0.0}});
+  const std::vector<double> positions{0.0};
+  const FrameReport& report = pipeline.process({.joints = positions});
   EXPECT_GT(report.timing.kinematics.value(), 0.0);
   EXPECT_GT(report.timing.render.value(), 0.0);
   EXPECT_GT(report.timing.classify.value(), 0.0);
@@ -158,7 +159,8 @@ TEST(Pipeline, TakesTheFasterRendererAndSaysWhy) {
   Pipeline automatic(slab_robot(), camera, config);
   EXPECT_EQ(automatic.renderer_choice().backend, automatic.renderer().backend);
   EXPECT_NE(automatic.renderer_choice().reason, "");
-  const FrameReport& report = automatic.process({.joints = std::vector<double>{0.1}});
+  const std::vector<double> positions{0.1};
+  const FrameReport& report = automatic.process({.joints = positions});
   const Seen seen = cast(camera.intrinsics.ray(73, 57), 0.1);
   ASSERT_GT(seen.depth, 0.0);
   EXPECT_NEAR(report.virtual_depth.depth(73, 57), seen.depth, depth_tolerance);
