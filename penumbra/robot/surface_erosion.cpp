@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,11 @@ constexpr double fewest_triangles = 60e3;  // of a grid's result, on the average
 constexpr double most_triangles = 1e6;
 constexpr std::size_t most_cells = 16'000'000;
 
-std::string millimetres(double metres) { return std::to_string(1e3 * metres) + " mm"; }
+std::string millimetres(double metres) {
+  std::ostringstream text;
+  text << 1e3 * metres << " mm";
+  return text.str();
+}
 
 /// The shortest move by which a vertex comes `depth` behind all planes of its faces, as nearly as
 /// one can: least squares weighted by angle, without the directions that no face tells.
