@@ -106,7 +106,7 @@ class Targets {
       if (c.has_depth) target.expected_depth = 2.5;
       target.wants_point = c.wants_points;
       target.thresholds.hidden_enter = 1;  // all of them try to have a point
-      target.thresholds.unknown_limit = 1;
+      target.thresholds.unknown_limit = target.thresholds.past_limit = 1;
       all.push_back(target);
     }
   }
@@ -183,7 +183,7 @@ void judge_large(benchmark::State& state, const LabelledFrame& frame, const Regi
   target.region = region;
   target.wants_point = wants_point;
   target.thresholds.hidden_enter = 1;
-  target.thresholds.unknown_limit = 1;
+  target.thresholds.unknown_limit = target.thresholds.past_limit = 1;
   target.thresholds.point_min_fraction = 0;
   std::size_t pixels = 0;
   for (auto _ : state) {

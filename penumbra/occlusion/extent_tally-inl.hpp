@@ -63,6 +63,10 @@ class Measured {
       const float d = metres(u);
       return is_measurement(d) & (d < limit);
     }
+    [[nodiscard]] bool is_past(int u, float limit) const {
+      const float d = metres(u);
+      return is_measurement(d) & (d > limit);
+    }
 
    private:
     [[nodiscard]] bool is_measurement(float d) const {
@@ -155,11 +159,13 @@ struct ExtentTally {
 
   void clear() {
     pixels = {};
+    past = 0;
     links.clear();
   }
 
   SeenCounts pixels;
-  LinkCounts links;  ///< those that hide
+  std::size_t past = 0;  ///< of the clear and front ones: measured past the expected depth
+  LinkCounts links;      ///< those that hide
 };
 
 /// A target's expected depth, checked.

@@ -121,9 +121,13 @@ class DepthTally {
   void add_clear(int v, int u0, int u1) {
     const auto limits = limits_(v);
     const auto measured = measured_(v);
-    std::int32_t count = 0;  // as wide as a depth: so the compiler takes vectors
-    for (int u = u0; u < u1; ++u) count += measured.is_before(u, limits(u).near) ? 1 : 0;
-    const auto before = static_cast<std::size_t>(count);
+    std::int32_t nearer = 0, farther = 0;  // as wide as a depth: so the compiler takes vectors
+    for (int u = u0; u < u1; ++u) {
+      nearer += measured.is_before(u, limits(u).near) ? 1 : 0;
+      farther += measured.is_past(u, limits(u).far) ? 1 : 0;
+    }
+    const auto before = static_cast<std::size_t>(nearer);
+    tally_.past += static_cast<std::size_t>(farther);
     tally_.pixels[Seen::other] += before;
     tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0) - before;
   }
@@ -135,9 +139,12 @@ class DepthTally {
     const float* const robot = images_.virtual_depth.depth.row(v);
     const bool has_links = !images_.virtual_depth.links.empty();
     const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
+    std::size_t past = 0;
     Run run;  // of pixels seen alike: counting them one by one in memory costs more
     for (int u = u0; u < u1; ++u) {
-      const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], limits(u), beyond_hides_);
+      const DepthLimits target = limits(u);
+      const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], target, beyond_hides_);
+      past += measured.is_past(u, target.far) && (seen == Seen::clear || seen == Seen::front);
       const std::uint16_t link = seen == Seen::occluded && has_links ? links[u] : 0;
       if (seen != run.seen || link != run.link) {
         add(run);
@@ -146,6 +153,7 @@ class DepthTally {
       ++run.pixels;
     }
     add(run);
+    tally_.past += past;
   }
 
   struct Run {
@@ -169,6 +177,7 @@ class DepthTally {
 struct NoDepths {
   float operator[](int /*u*/) const { return 0.0f; }
   [[nodiscard]] bool is_before(int /*u*/, float /*limit*/) const { return false; }
+  [[nodiscard]] bool is_past(int /*u*/, float /*limit*/) const { return false; }
 };
 
 template <typename Limits>

@@ -86,6 +86,9 @@ struct TargetThresholds {
   std::optional<double> unknown_limit;  ///< unknown share above which it becomes `unknown`, unless
                                         ///< the verdict is the same were all of it hidden; nothing:
                                         ///< partial_enter
+  /// Share of what is seen of it (clear and front) above which it becomes `unknown` where the
+  /// sensor looks past its expected depth: it is not there, or transparent. 1: however much.
+  double past_limit = 0.5;
   double min_inside = 0.0;           ///< at most this share of the extent in the image: out_of_view
   bool beyond_hides = true;          ///< `beyond` counts as occluded; else it counts as clear
   bool others_hide = true;           ///< what is hidden by others than the robot counts in verdicts

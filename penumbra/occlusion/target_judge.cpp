@@ -50,11 +50,13 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-std::string_view reason_for_unknown(const Sight& sight, bool has_pose, bool has_depth) {
+std::string_view reason_for_unknown(const Sight& sight, double past_limit, bool has_pose,
+                                    bool has_depth) {
   if (!has_pose) return "the robot's pose is not known in this frame";
   if (sight.first_near_robot)
     return "first seen beside the robot: how much of it the robot hides is not known";
   if (sight.is_missing) return "its mask is smaller than it was, and the robot is beside it";
+  if (sight.is_passed(past_limit)) return "the sensor looks past where most of it is expected";
   if (has_depth) return "too much of it is robot without measurement, or at the robot's own depth";
   return "too much of it is robot without measurement";
 }
@@ -151,11 +153,14 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   judgement.front = sight.fraction(Seen::front);
   judgement.unknown = sight.fraction(Seen::unknown);
   judgement.clear = sight.fraction(Seen::clear);
-  if (expected.known() && frame.is_measured() && frame.has_pose())
+  if (expected.known() && frame.is_measured() && frame.has_pose()) {
     judgement.hidden_by_other = sight.fraction(Seen::other);
+    judgement.seen_past = sight.past_fraction();
+  }
   judgement.blame = sight.links->write(sight.inside, blame);
   if (judgement.verdict == Verdict::unknown)
-    judgement.reason = reason_for_unknown(sight, frame.has_pose(), expected.known());
+    judgement.reason =
+        reason_for_unknown(sight, target.thresholds.past_limit, frame.has_pose(), expected.known());
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

@@ -65,6 +65,9 @@ struct Judgement {
   double clear = 0;
   /// By something that is not the robot; nothing where no expected depth or no image is there.
   std::optional<double> hidden_by_other;
+  /// Share of pixels, clear or front ones, where the sensor measures past the expected depth: the
+  /// target is not seen there. Nothing as hidden_by_other.
+  std::optional<double> seen_past;
   std::span<const Blame> blame;          ///< largest first; valid until the judge's next call
   std::optional<Eigen::Vector3d> point;  ///< optical frame, metres: of trusted depths only
   std::size_t point_pixels = 0;          ///< depths behind the point
@@ -93,8 +96,10 @@ struct Judgement {
 ///
 /// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
 /// robot's pose, and where unknown exceeds its limit and the verdict would be another were all
-/// unknown pixels hidden; it is out_of_view whatever else is known. Hysteresis goes on from the
-/// last verdict that was neither.
+/// unknown pixels hidden; instead of visible, where no more is seen (clear and front) than unknown,
+/// and of visible and partial, where none is seen or, of what is seen, more than past_limit is
+/// measured past the expected depth, d > ze + m. It is out_of_view whatever else is known.
+/// Hysteresis goes on from the last verdict that was neither.
 ///
 /// A modal extent is compared with the last good one: that of the last frame with verdict visible,
 /// except that a smaller one replaces it only where no robot is near, within the last good extent's

@@ -44,14 +44,21 @@ using TargetMemories =
 /// An extent as it is seen.
 struct Sight {
   [[nodiscard]] double fraction(Seen seen) const;
+  [[nodiscard]] double past_fraction() const;
   [[nodiscard]] double hidden(bool others_hide) const {
     return fraction(Seen::occluded) + (others_hide ? fraction(Seen::other) : 0.0);
+  }
+  [[nodiscard]] std::size_t seen() const { return pixels[Seen::clear] + pixels[Seen::front]; }
+  /// Whether the sensor looks past where more than `limit` of what is seen is expected.
+  [[nodiscard]] bool is_passed(double limit) const {
+    return static_cast<double>(past) > limit * static_cast<double>(seen());
   }
   /// Counts pixels that were seen so as unknown instead, as many as there are.
   void doubt(Seen seen, std::size_t& count);
 
   std::size_t covered = 0, inside = 0;
-  SeenCounts pixels{};  ///< inside
+  SeenCounts pixels{};   ///< inside
+  std::size_t past = 0;  ///< as in ExtentTally
   const LinkCounts* links = nullptr;
   bool has_pose = true;
   bool first_near_robot = false;  ///< how much more of it there is is not known

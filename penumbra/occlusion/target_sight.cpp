@@ -26,6 +26,13 @@ Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
 int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
 int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
 
+/// Nothing that was not seen is called visible, and nothing partial of which no pixel was.
+bool is_seen_enough(const Sight& sight, Verdict level, double past_limit) {
+  if (level == Verdict::hidden) return true;
+  const std::size_t least = level == Verdict::visible ? sight.pixels[Seen::unknown] : 0;
+  return sight.seen() > least && !sight.is_passed(past_limit);
+}
+
 SpanBox grown(const SpanBox& box, int du, int dv) {
   return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
 }
@@ -55,6 +62,10 @@ double Sight::fraction(Seen seen) const {
   return inside == 0 ? 0.0 : static_cast<double>(pixels[seen]) / static_cast<double>(inside);
 }
 
+double Sight::past_fraction() const {
+  return inside == 0 ? 0.0 : static_cast<double>(past) / static_cast<double>(inside);
+}
+
 void Sight::doubt(Seen seen, std::size_t& count) {
   const std::size_t some = std::min(count, pixels[seen]);
   pixels[seen] -= some;
@@ -67,6 +78,7 @@ Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& ta
   return {.covered = extent.covered(),
           .inside = extent.inside(),
           .pixels = tally.pixels,
+          .past = tally.past,
           .links = &tally.links};
 }
 
@@ -180,6 +192,7 @@ Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMem
   const Verdict level = next_level(memory.level, hidden, thresholds);
   if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
     return Verdict::unknown;
+  if (!is_seen_enough(sight, level, thresholds.past_limit)) return Verdict::unknown;
   memory.level = level;
   return level;
 }

@@ -84,8 +84,8 @@ TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
     for (const Json& one : frame["targets"]) {
       EXPECT_EQ(keys(one), (Keys{"name", "covered", "inside", "occluded_fraction", "front_fraction",
                                  "clear_fraction", "unknown_fraction", "hidden_by_other_fraction",
-                                 "verdict", "blame", "point", "point_pixels", "point_spread_m",
-                                 "handled", "estimate", "stamp_ns", "reason"}));
+                                 "seen_past_fraction", "verdict", "blame", "point", "point_pixels",
+                                 "point_spread_m", "handled", "estimate", "stamp_ns", "reason"}));
       for (const Json& blame : one["blame"]) EXPECT_EQ(keys(blame), (Keys{"link", "fraction"}));
       EXPECT_EQ(one["point"].is_null(), one["point_pixels"].is_null());
       EXPECT_EQ(one["point"].is_null(), one["point_spread_m"].is_null());

@@ -17,6 +17,7 @@ namespace penumbra::test {
 struct NaiveJudgement {
   std::size_t inside = 0;
   std::size_t clear = 0, front = 0, occluded = 0, unknown = 0, other = 0;
+  std::size_t past = 0;                      // of the clear and front ones
   std::map<std::size_t, std::size_t> blame;  // pixels by link
   std::vector<float> trusted;                // sorted
 
@@ -71,6 +72,8 @@ struct NaiveTarget {
         label = robot_behind ? Label::clear : Label::unknown;
       }
     }
+    const bool is_seen = label == Label::clear || label == Label::front;
+    if (ze > 0 && is_seen && d > ze + (tolerance(ze) + depth_margin)) ++result.past;
     if (label == Label::clear) ++result.clear;
     if (label == Label::front) ++result.front;
     if (label == Label::unknown) ++result.unknown;

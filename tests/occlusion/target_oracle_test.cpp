@@ -77,6 +77,7 @@ void expect_same(const Judgement& judged, const test::NaiveJudgement& naive) {
   EXPECT_NEAR(judged.occluded, share(naive.occluded), rounding);
   EXPECT_NEAR(judged.unknown, share(naive.unknown), rounding);
   EXPECT_NEAR(judged.hidden_by_other.value_or(0), share(naive.other), rounding);
+  EXPECT_NEAR(judged.seen_past.value_or(0), share(naive.past), rounding);
   ASSERT_EQ(judged.blame.size(), naive.blame.size());
   for (std::size_t i = 0; i < judged.blame.size(); ++i) {
     const Blame& blame = judged.blame[i];
@@ -122,7 +123,7 @@ Image<std::uint16_t> links_of(const Image<float>& robot) {
 
 TEST_F(TargetOracle, AgreesOnRandomFrames) {
   const int width = 101, height = 67;
-  std::size_t points = 0, others = 0, blamed = 0;
+  std::size_t points = 0, others = 0, blamed = 0, passed = 0;
   for (int frame = 0; frame < 60; ++frame) {
     test::Scene scene = test::random_scene(width, height, random);
     if (frame % 5 == 0) scene.robot = Image<float>(width, height), scene.mark_tiles();
@@ -154,7 +155,7 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
       target.thresholds.point_min_pixels = 1;
       target.thresholds.point_min_fraction = 0;
       target.thresholds.hidden_enter = 1;
-      target.thresholds.unknown_limit = 1;
+      target.thresholds.unknown_limit = target.thresholds.past_limit = 1;
       Image<float> expected(width, height);
       if (!shape.depth.empty()) {
         expected = shape.depth;
@@ -179,12 +180,14 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
       if (HasFatalFailure()) return;
       points += judged.point ? 1 : 0;
       others += truth.other > 0 ? 1 : 0;
+      passed += truth.past > 0 ? 1 : 0;
       blamed += truth.blame.size() > 1 ? 1 : 0;
     }
   }
   EXPECT_GT(points, 100u);
   EXPECT_GT(others, 50u);
   EXPECT_GT(blamed, 50u);
+  EXPECT_GT(passed, 50u);
 }
 
 }  // namespace

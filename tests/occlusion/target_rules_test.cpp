@@ -157,11 +157,67 @@ TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
   EXPECT_NEAR(*judgement.hidden_by_other, 0.5, share_rounding);
   EXPECT_NEAR(judgement.occluded, 0.1, share_rounding);
   EXPECT_NEAR(judgement.clear, 0.4, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::partial);
+  EXPECT_EQ(judgement.verdict, Verdict::unknown) << "the rest is not seen where it should be";
+  frame.see(40, 52, 60, 60, 1.5f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial);
   target.thresholds.partial_enter = 0.2;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial);
   target.thresholds.others_hide = false;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
+}
+
+/// e(1.5 m) = 0.0265 m.
+TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
+  TargetFrame frame;  // the wall is at 2 m
+  frame.add_robot(40, 40, 60, 45, 1.8f, 1);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = 1.5;
+  Judgement judgement = judge_once(frame, target);
+  EXPECT_EQ(judgement.verdict, Verdict::unknown);
+  EXPECT_EQ(judgement.reason, "the sensor looks past where most of it is expected");
+  EXPECT_EQ(*judgement.seen_past, 1.0) << "at the robot and at the wall";
+  EXPECT_EQ(judgement.clear, 1.0);
+  EXPECT_FALSE(judgement.point);
+  frame.see(40, 45, 60, 55, 1.526f);
+  judgement = judge_once(frame, target);
+  EXPECT_NEAR(*judgement.seen_past, 0.5, share_rounding);
+  EXPECT_EQ(judgement.verdict, Verdict::visible) << "not more than the limit";
+  target.depth_margin = 0.6;
+  EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
+  target.depth_margin = 0;
+  target.thresholds.past_limit = 0.4;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
+  frame.see(40, 40, 60, 60, hole);
+  EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
+  target.expected_depth = {};
+  EXPECT_FALSE(judge_once(frame, target).seen_past) << "no depth is expected";
+}
+
+/// Half hidden, the rest in thin air: nothing of it was seen.
+TEST(Judging, WhatTheSensorLooksPastIsNotPartialButMayBeHidden) {
+  TargetFrame frame;
+  frame.add_robot(40, 40, 60, 50, 1.0f, 1);
+  TargetView target = box_target("cup", box);
+  target.expected_depth = 1.5;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
+  frame.add_robot(40, 50, 60, 59, 1.0f, 1);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::hidden);
+}
+
+TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
+  TargetFrame frame;
+  frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
+  frame.see(40, 40, 60, 60, hole);
+  TargetView target = box_target("cup", box);
+  target.thresholds.unknown_limit = 1;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
+  frame.see(40, 40, 60, 50, 0.8f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "half of it";
+  frame.see(40, 50, 60, 51, 0.8f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
+  frame.see(40, 40, 60, 46, 1.0f);
+  frame.see(40, 46, 60, 60, hole);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "partial: none of it is seen";
 }
 
 TEST(Judging, WithoutTheRobotsPoseAllIsUnknown) {

@@ -17,7 +17,8 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   const Eigen::Vector3d middle(0.40, 0.05, 1.5), size(0.6, 0.5, 0.001);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = middle;
-  const Target target{.name = "plate", .shape = BoxTarget{pose, size, {}}};
+  Target target{.name = "plate", .shape = BoxTarget{pose, size, {}}};
+  target.thresholds.past_limit = 1;  // the wall is what is measured
   const std::vector<double> positions{0.0};
   const FrameReport& report = pipeline.process(
       {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = {&target, 1}});

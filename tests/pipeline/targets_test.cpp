@@ -55,6 +55,11 @@ TEST_F(TargetsTest, PointsAreOfTheRootsFrame) {
 TEST_F(TargetsTest, SolidsAreSeenAlikeFromEveryFrame) {
   positions_[0] = 0.1;
   depth_ = scene_depth(slab_camera(), 0.1);
+  const Eigen::Vector3d before(0.02, 0.01, 0.5);
+  const Eigen::Vector2d at = slab_camera().intrinsics.project(before);
+  for (int v = -6; v <= 6; ++v)
+    for (int u = -6; u <= 6; ++u)
+      depth_(static_cast<int>(at.x()) + u, static_cast<int>(at.y()) + v) = 0.5F;
   Eigen::Isometry3d in_camera = Eigen::Isometry3d::Identity();
   in_camera.translation() = Eigen::Vector3d(0.02, 0.01, 1.6);
   Eigen::Isometry3d in_slab = in_camera;
@@ -65,7 +70,7 @@ TEST_F(TargetsTest, SolidsAreSeenAlikeFromEveryFrame) {
       {.name = "root", .shape = BoxTarget{in_camera, {0.1, 0.1, 0.1}, ""}},
       {.name = "link", .shape = BoxTarget{in_slab, {0.1, 0.1, 0.1}, "slab"}},
       {.name = "mesh", .shape = MeshTarget{mesh, in_camera, {}}},
-      {.name = "before", .shape = PointTarget{{0.02, 0.01, 0.5}, 0.02, ""}},
+      {.name = "before", .shape = PointTarget{before, 0.02, ""}},
       {.name = "behind", .shape = PointTarget{{0.02, 0.01, 1.6}, 0.02, {}}}};
   const FrameReport& report = process(1, targets);
   for (std::size_t i = 0; i < 4; ++i) {
