@@ -49,6 +49,7 @@ void SequenceNotes::add(const FrameReport& report, std::span<const double> posit
     add_pixels(report);
   }
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
+  add_targets(report);
   add_stamp(report);
   add_positions(positions);
 }
@@ -71,6 +72,16 @@ void SequenceNotes::add_stamp(const FrameReport& report) {
   last_stamp_ = report.stamp;
 }
 
+/// Before add_stamp().
+void SequenceNotes::add_targets(const FrameReport& report) {
+  if (report.targets.empty()) return;
+  if (report.stamp && last_stamp_ && *report.stamp < *last_stamp_) ++forgotten_;
+  const bool is_waiting =
+      std::any_of(report.targets.begin(), report.targets.end(),
+                  [](const TargetReport& target) { return target.wants_stamp; });
+  if (is_waiting) ++not_handled_;
+}
+
 void SequenceNotes::add_positions(std::span<const double> positions) {
   if (positions.size() != robot_.variables().size()) return;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
@@ -87,6 +98,12 @@ std::vector<std::string> SequenceNotes::lines() const {
   if (std::string line = depth_line(); !line.empty()) lines.push_back(std::move(line));
   if (source_.image == ImageSpace::raw && uncovered_ > 0) lines.push_back(uncovered_line());
   if (late_stamps_ > 0) lines.push_back(stamp_line());
+  if (forgotten_ > 0)
+    lines.push_back("stamps went back in " + counted(forgotten_, "frame") +
+                    " with targets: what was known of them until then was forgotten");
+  if (not_handled_ > 0)
+    lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +
+                    " without a stamp: none is handled there");
   if (std::string line = limit_line(); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }

@@ -42,7 +42,8 @@ class SequenceNotes {
 
   /// A line each: a robot that is in no frame whose pose is known, robot pixels that are nearly all
   /// without measurement or mostly front or beyond, raw images that the lens model does not reach
-  /// everywhere, stamps that do not rise from frame to frame, joints beyond their limits.
+  /// everywhere, stamps that do not rise from frame to frame, targets that were forgotten as stamps
+  /// went back or not handled without stamps, joints beyond their limits.
   [[nodiscard]] std::vector<std::string> lines() const;
 
  private:
@@ -55,6 +56,7 @@ class SequenceNotes {
   void add_pixels(const FrameReport& report);
   void add_stamp(const FrameReport& report);
   void add_positions(std::span<const double> positions);
+  void add_targets(const FrameReport& report);
   [[nodiscard]] std::string depth_line() const;
   [[nodiscard]] std::string uncovered_line() const;
   [[nodiscard]] std::string stamp_line() const;
@@ -69,6 +71,8 @@ class SequenceNotes {
   std::optional<std::int64_t> last_stamp_;
   std::optional<LateStamp> first_late_;
   std::size_t late_stamps_ = 0;
+  std::size_t forgotten_ = 0;               // times, with targets in the frame
+  std::size_t not_handled_ = 0;             // frames
   std::vector<std::size_t> frames_beyond_;  // of each joint
 };
 

@@ -124,6 +124,7 @@ struct TargetReport {
 
   std::optional<HandledTarget> handled;  ///< nothing without handling, or without stamps
   std::optional<Outcome> estimate;       ///< nothing where there was none
+  bool wants_stamp = false;              ///< it would be handled, had the frame a stamp
 };
 
 }  // namespace penumbra

@@ -48,11 +48,13 @@ class TargetTrack {
   Outcome update(const TargetEstimate& estimate, std::int64_t stamp,
                  const Eigen::Isometry3d& T_root_frame, Verdict verdict);
 
-  /// Nothing where the target is not handled.
-  [[nodiscard]] std::optional<HandledTarget> at(std::int64_t stamp) const;
+  /// Nothing where the target is not handled. `is_refused`: the estimate of this frame; so nothing
+  /// is `measured`, not even by another estimate of the same stamp.
+  [[nodiscard]] std::optional<HandledTarget> at(std::int64_t stamp, bool is_refused = false) const;
 
  private:
   std::variant<std::monostate, PoseTracker, PointTracker> tracker_;
+  Source carried_ = Source::predicted;  ///< what a target is that is not measured, nor lost
 };
 
 /// What is remembered of a target from frame to frame.

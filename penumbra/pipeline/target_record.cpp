@@ -70,10 +70,15 @@ std::optional<StampedVerdict> VerdictLog::find(std::int64_t stamp) const {
 }
 
 TargetTrack::TargetTrack(const TargetHandling& handling) {
-  if (const auto* pose = std::get_if<PoseTrackerConfig>(&handling))
+  bool stays = false;
+  if (const auto* pose = std::get_if<PoseTrackerConfig>(&handling)) {
     tracker_.emplace<PoseTracker>(*pose);
-  else if (const auto* point = std::get_if<PointTrackerConfig>(&handling))
+    stays = pose->motion == Motion::still;
+  } else if (const auto* point = std::get_if<PointTrackerConfig>(&handling)) {
     tracker_.emplace<PointTracker>(*point);
+    stays = point->motion == PointMotion::hold;
+  }
+  if (stays) carried_ = Source::held;
 }
 
 Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
@@ -90,12 +95,14 @@ Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
   return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
 }
 
-std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp) const {
+std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_refused) const {
+  std::optional<HandledTarget> handled;
   if (const auto* poses = std::get_if<PoseTracker>(&tracker_))
-    return handled_pose(poses->at(stamp));
-  if (const auto* points = std::get_if<PointTracker>(&tracker_))
-    return handled_point(points->at(stamp));
-  return std::nullopt;
+    handled = handled_pose(poses->at(stamp));
+  else if (const auto* points = std::get_if<PointTracker>(&tracker_))
+    handled = handled_point(points->at(stamp));
+  if (handled && is_refused && handled->source == Source::measured) handled->source = carried_;
+  return handled;
 }
 
 }  // namespace penumbra

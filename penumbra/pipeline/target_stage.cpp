@@ -10,9 +10,6 @@
 namespace penumbra {
 namespace {
 
-/// A clock that is set back further begins a new sequence.
-constexpr std::uint64_t restart_gap = 5'000'000'000;  // nanoseconds
-
 /// By this name targets are judged whose stamp is before one that was judged: what verdicts
 /// remember is of later frames, and is left alone.
 constexpr std::string_view out_of_order = "\x01 out of order";
@@ -78,8 +75,8 @@ void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& fram
   ++calls_;
   judged_ = nullptr;
   if (frame.stamp) {
-    const bool is_back = last_stamp_ && *frame.stamp < *last_stamp_;
-    if (is_back && stamp_distance(*frame.stamp, *last_stamp_) > restart_gap) forget_all();
+    // Frames come in order: one that goes back is of a clock that was set back, and begins anew.
+    if (last_stamp_ && *frame.stamp < *last_stamp_) forget_all();
     last_stamp_ = frame.stamp;
     if (frame.poses.known()) recent_poses_.keep(*frame.stamp, frame.poses);
   }
@@ -222,14 +219,17 @@ std::optional<Eigen::Vector2d> TargetStage::track_pixel(const JudgedFrame& frame
 void TargetStage::handle(const Target& target, const JudgedFrame& frame, const Slot& slot,
                          TargetReport& report) const {
   TargetRecord& memory = slot.known->second;
-  if (!memory.track || !memory.track->handles() || !frame.stamp) return;
+  if (!memory.track || !memory.track->handles()) return;
+  report.wants_stamp = !frame.stamp;
+  if (report.wants_stamp) return;
   auto estimate = target.estimate;
   if (!estimate) estimate = own_estimate(target, report);
   if (estimate && memory.times == 1) {
     const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp));
     report.estimate = feed(*estimate, stamp, memory);
   }
-  report.handled = memory.track->at(*frame.stamp);
+  const bool is_refused = report.estimate && *report.estimate != Outcome::accepted;
+  report.handled = memory.track->at(*frame.stamp, is_refused);
   if (report.verdict == Verdict::visible && slot.seen != nullptr)
     memory.good_pixel = track_pixel(*slot.seen, memory);
 }

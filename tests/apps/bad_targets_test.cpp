@@ -212,7 +212,10 @@ TEST_F(TargetFaultsTest, BadRowsAreFaultsOfTheirFrames) {
   const Outcome outcome =
       run("targets:\n- {name: a, box3d: {csv: p.csv}, size: [0.1, 0.1, 0.1], handling: pose}\n");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 2U) << outcome.err;
+  EXPECT_NE(outcome.err.find("note: targets that want handling in 3 frames without a stamp"),
+            std::string::npos)
+      << outcome.err;
   EXPECT_NE(outcome.err.find("target 'a' unknown in 2 of 3 frames, first in frame 0: "),
             std::string::npos)
       << outcome.err;

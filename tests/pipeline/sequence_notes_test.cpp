@@ -154,6 +154,31 @@ TEST(SequenceNotes, StampsThatDoNotRiseAreTold) {
       << "a frame without a stamp is passed over";
 }
 
+TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
+  const Robot any = robot();
+  SequenceNotes notes(any);
+  const std::vector<TargetReport> plain(1);
+  std::vector<TargetReport> waiting(2);
+  waiting[1].wants_stamp = true;
+  FrameReport report;
+  for (const std::int64_t stamp : {5, 4, 6, 6, 2}) {
+    report.stamp = stamp;
+    report.targets = stamp == 2 ? std::span<const TargetReport>() : plain;
+    notes.add(report, {});
+  }
+  report.stamp.reset();
+  report.targets = waiting;
+  notes.add(report, {});
+  notes.add(report, {});
+  const Lines lines = notes.lines();
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[1],
+            "stamps went back in 1 frame with targets: what was known of them until then was "
+            "forgotten");
+  EXPECT_EQ(lines[2],
+            "targets that want handling in 2 frames without a stamp: none is handled there");
+}
+
 TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {
   EXPECT_EQ(notes_of_positions({{1.57, 0.025, 1000.0, 3.0}, {-1.579, 0.0025, -1000.0, 0.0}, {}}),
             Lines{})

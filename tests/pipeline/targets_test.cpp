@@ -337,6 +337,8 @@ TEST_F(TargetsTest, WithoutStampsNothingIsHandled) {
       {.stamp = {}, .depth = depth_.view(), .joints = positions_, .targets = {&target, 1}});
   EXPECT_EQ(report.targets[0].verdict, Verdict::visible);
   EXPECT_FALSE(report.targets[0].handled);
+  EXPECT_TRUE(report.targets[0].wants_stamp);
+  EXPECT_FALSE(judge(1 * ms, target).wants_stamp);
 }
 
 TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
@@ -346,6 +348,27 @@ TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
   judge(200 * ms, followed(beside_slab));
   EXPECT_EQ(judge(-7000 * ms, followed(behind_slab)).handled->source, Source::lost)
       << "a clock that is set back begins a new sequence";
+}
+
+/// Half a second is enough: at the old stamps the target is elsewhere.
+TEST_F(TargetsTest, AClockThatIsSetBackALittleLeavesNothingMeasured) {
+  for (int i = 0; i < 6; ++i)
+    ASSERT_EQ(judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.0)).handled->source,
+              Source::measured);
+  for (int i = 0; i < 6; ++i) {
+    const TargetReport& report = judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.17));
+    ASSERT_EQ(report.estimate, penumbra::Outcome::accepted);
+    EXPECT_EQ(report.handled->source, Source::measured);
+    EXPECT_NEAR(report.handled->position->x(), 0.17, 1e-9);
+  }
+}
+
+/// As of a clock that stands still.
+TEST_F(TargetsTest, ARefusedEstimateIsNotMeasured) {
+  ASSERT_EQ(judge(0, estimated(0, beside_slab, 0.0)).handled->source, Source::measured);
+  const TargetReport& report = judge(0, estimated(0, beside_slab, 0.17));
+  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_invalid);
+  EXPECT_EQ(report.handled->source, Source::predicted);
 }
 
 // ---- Late targets
