@@ -20,7 +20,7 @@ namespace penumbra {
 struct StampedVerdict {
   std::int64_t stamp = 0;
   Verdict verdict = Verdict::unknown;
-  bool was_judged = false;  ///< false: robot or depth were unknown, or the target was refused
+  bool was_judged = false;  ///< false: robot or depth were not wholly known, or the target refused
 };
 
 /// The last verdicts of a target.

@@ -123,7 +123,7 @@ void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& sl
     report.verdict = judgement.verdict;
     if (judgement.point) report.point = seen.poses.T_root_camera * *judgement.point;
     report.judgement = judgement;
-    was_judged = true;
+    was_judged = seen.status == FrameStatus::ok;
     doubt(seen, slot, report);
   } catch (const InputError& fault) {
     report.verdict = Verdict::unknown;
@@ -157,6 +157,7 @@ void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& repo
   judgement.point.reset();
   judgement.unknown += judgement.clear + judgement.front;
   judgement.clear = judgement.front = 0.0;
+  judgement.seen_past.reset();
   if (report.verdict != Verdict::visible && report.verdict != Verdict::partial) return;
   report.verdict = judgement.verdict = Verdict::unknown;
   slot.reason = frame.message;

@@ -102,16 +102,41 @@ TEST_F(TargetsTest, AreUnknownWithoutPoseOrDepth) {
   EXPECT_NE(reason_of(FrameStatus::missing_joints).find("missing_joints"), std::string::npos);
 }
 
-TEST(TargetsWithoutALink, AreNeverVisible) {
+class TargetsWithoutALink : public testing::Test {
+ protected:
   Robot robot = Robot::parse(
       slab_urdf(R"(<link name="gone"><collision><geometry><mesh filename="gone.stl"/></geometry>
                    </collision></link>
                    <joint name="weld" type="fixed"><parent link="base"/><child link="gone"/>
                    </joint>)"),
       ".", {.allow_missing_meshes = true});
-  Pipeline pipeline(std::move(robot), slab_camera(), plain_config());
+  Pipeline pipeline{std::move(robot), slab_camera(), plain_config()};
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   const std::vector<double> positions{0.0};
+};
+
+/// What is partly hidden may be wholly so.
+TEST_F(TargetsWithoutALink, AreNotPartialAndNoEstimateIsTaken) {
+  PoseTrackerConfig any;
+  any.worst = Verdict::hidden;
+  const PixelBox half_behind{88, 50, 20, 12};
+  std::vector<Target> targets{region("half", half_behind), region("hidden", behind_slab)};
+  for (Target& target : targets) {
+    target.handling = any;
+    target.estimate = TargetEstimate{.frame = ""};
+  }
+  const FrameReport& report = pipeline.process(
+      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
+  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+  EXPECT_GT(report.targets[0].judgement->occluded, 0.3);
+  EXPECT_EQ(report.targets[1].verdict, Verdict::hidden);
+  for (const TargetReport& target : report.targets) {
+    EXPECT_EQ(target.estimate, penumbra::Outcome::refused_verdict);
+    EXPECT_EQ(target.handled->source, Source::lost);
+  }
+}
+
+TEST_F(TargetsWithoutALink, AreNeverVisible) {
   const PixelBox half_behind{40, 50, 20, 12}, outside{-50, 50, 20, 12};
   const std::vector<Target> targets{region("clear", beside_slab), region("hidden", behind_slab),
                                     region("half", half_behind), region("outside", outside)};
