@@ -39,8 +39,8 @@ struct KeypointTarget {
   double min_score = 0.0;
   Eigen::Vector2d semi_axes = Eigen::Vector2d(5, 5);  ///< pixels, or metres if in_metres; > 0
   double angle = 0.0;  ///< radians from +u to +v: of the first semi-axis
-  /// Lengths are metres at the expected depth; without that at the depth measured at the pixel,
-  /// which makes the ellipse larger where the robot is nearer than the target.
+  /// Lengths are metres at the expected depth; without that at the depth measured at the pixel.
+  /// Where that is not labelled clear or front, it may be the robot's: the verdict is unknown.
   bool in_metres = false;
   std::optional<double> expected_depth = {};  ///< metres, > 0
 };

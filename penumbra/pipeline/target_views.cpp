@@ -59,6 +59,14 @@ double metres_at(const DepthView& depth, const Eigen::Vector2d& pixel) {
       depth);
 }
 
+/// Whether what is measured at a pixel can be of a target there. Beside the image nothing is.
+bool shows_target(const ImageView<const std::uint8_t>& labels, const Eigen::Vector2d& pixel) {
+  const double u = std::round(pixel.x()), v = std::round(pixel.y());
+  if (!(u >= 0.0 && v >= 0.0 && u < labels.width && v < labels.height)) return true;
+  const auto label = static_cast<Label>(labels(static_cast<int>(u), static_cast<int>(v)));
+  return label == Label::clear || label == Label::front;
+}
+
 bool shows_anything(const VirtualDepthView& view) {
   bool found = false;
   view.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
@@ -114,6 +122,10 @@ struct TargetViews::Builder {
   }
 
   [[nodiscard]] double pixels_per_metre(const KeypointTarget& target) const {
+    if (!target.expected_depth && !shows_target(frame.images.labels.labels, target.pixel))
+      throw InputError(
+          "radius in metres, but at the pixel the robot is measured, or may be; give an expected "
+          "depth");
     const double depth =
         target.expected_depth.value_or(metres_at(frame.images.measured, target.pixel));
     if (!(depth > 0.0 && std::isfinite(depth)))

@@ -245,6 +245,16 @@ TEST_F(TargetsTest, KeypointsInMetresTakeTheDepthAtTheirPixel) {
             std::string_view::npos);
 }
 
+/// The robot's depth would make the ellipse larger, and what is hidden a smaller share of it.
+TEST_F(TargetsTest, KeypointsInMetresDoNotTakeTheRobotsDepth) {
+  KeypointTarget shape{.pixel = {70, 56}, .semi_axes = {0.05, 0.05}, .in_metres = true};
+  const TargetReport& report = judge(1, {.name = "k", .shape = shape});
+  EXPECT_EQ(report.verdict, Verdict::unknown);
+  EXPECT_NE(report.reason.find("the robot is measured"), std::string_view::npos) << report.reason;
+  shape.expected_depth = 2.0;
+  EXPECT_EQ(judge(2, {.name = "k", .shape = shape}).verdict, Verdict::hidden);
+}
+
 // ---- Handling
 
 Target followed(const PixelBox& box) {
