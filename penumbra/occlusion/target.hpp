@@ -89,9 +89,10 @@ struct TargetThresholds {
   /// Share of what is seen of it (clear and front) above which it becomes `unknown` where the
   /// sensor looks past its expected depth: it is not there, or transparent. 1: however much.
   double past_limit = 0.5;
-  double min_inside = 0.0;           ///< at most this share of the extent in the image: out_of_view
-  bool beyond_hides = true;          ///< `beyond` counts as occluded; else it counts as clear
-  bool others_hide = true;           ///< what is hidden by others than the robot counts in verdicts
+  double min_inside = 0.0;   ///< at most this share of the extent in the image: out_of_view;
+                             ///< of rendered regions, 3-D boxes and meshes 0 alone
+  bool beyond_hides = true;  ///< `beyond` counts as occluded; else it counts as clear
+  bool others_hide = true;   ///< what is hidden by others than the robot counts in verdicts
   std::size_t point_min_pixels = 5;  ///< trusted depths that a point needs
   double point_min_fraction = 0.2;   ///< and their share of the pixels inside the image
 

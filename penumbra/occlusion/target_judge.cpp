@@ -29,6 +29,9 @@ void check_target(const TargetView& target) {
   if (rendered && target.extent == Extent::modal)
     region_fault("a rendered region is the full extent: amodal");
   if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
+  if (rendered && target.thresholds.min_inside > 0)
+    region_fault("min_inside ", target.thresholds.min_inside,
+                 ": what of a rendered region lies outside of the image is not known: must be 0");
   if (depth && !(*depth > 0 && *depth <= most))
     region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
   if (!(target.depth_margin >= 0 && target.depth_margin <= most))

@@ -26,6 +26,11 @@ bool is_modal(const Target& target) {
   return region != nullptr && region->extent == Extent::modal;
 }
 
+bool is_rendered(const Target& target) {
+  return std::holds_alternative<BoxTarget>(target.shape) ||
+         std::holds_alternative<MeshTarget>(target.shape);
+}
+
 bool is_known(const LinkFrame& frame, const Robot& robot) {
   return !frame || frame->empty() || robot.find_link(*frame);
 }
@@ -146,6 +151,10 @@ void TargetStage::check(const Target& target, TargetRecord& memory) const {
     throw InputError("is of image frame '" + std::string(target.frame_id) + "', the camera's is '" +
                      camera_.frame_id + "'");
   target.thresholds.check();
+  if (is_rendered(target) && target.thresholds.min_inside > 0)
+    throw InputError(
+        "min_inside needs to know what lies outside of the image, which is not known of 3-D boxes "
+        "and meshes: leave it out");
   if (target.estimate) check_link(target.estimate->frame, robot_);
 }
 

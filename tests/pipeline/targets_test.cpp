@@ -164,8 +164,9 @@ TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
   bent.linear() *= 1.1;
   const std::vector<Eigen::Vector2d> bow{{10, 10}, {50, 50}, {50, 10}, {10, 50}};
   const Image<std::uint8_t> small(7, 7, 1);
-  TargetThresholds wrong;
+  TargetThresholds wrong, inside;
   wrong.partial_enter = 2.0;
+  inside.min_inside = 0.5;
   PoseTrackerConfig lame;
   lame.timeout = -1.0;
   struct Case {
@@ -196,7 +197,11 @@ TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
       {{.name = "r", .shape = PointTarget{{0, 0, 1}, 0.1, "arm"}}, "no link"},
       {{.name = "s", .shape = BoxTarget{bent, {0.1, 0.1, 0.1}, {}}}, "rigid"},
       {{.name = "t", .shape = BoxTarget{Eigen::Isometry3d::Identity(), {0.1, 0, 0.1}, {}}}, ""},
-      {{.name = "u", .shape = MeshTarget{}}, "triangles"}};
+      {{.name = "u", .shape = MeshTarget{}}, "triangles"},
+      {{.name = "v",
+        .shape = BoxTarget{Eigen::Isometry3d::Identity(), {0.1, 0.1, 0.1}, {}},
+        .thresholds = inside},
+       "min_inside"}};
   for (const Case& one : cases) {
     const TargetReport& report = judge(1, one.target);
     EXPECT_EQ(report.verdict, Verdict::unknown) << one.target.name;
