@@ -149,17 +149,46 @@ struct TargetViews::Builder {
 
   bool operator()(const BoxTarget& target) {
     check_pose(target.pose);
-    return rendered(views.renderers_.box(target.size, T_camera(target.frame) * target.pose));
+    const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
+    return rendered(views.renderers_.box(target.size, T)) ||
+           nearest_pixel(T.translation(), 0.5 * target.size.norm());
   }
 
   bool operator()(const MeshTarget& target) {
     check_pose(target.pose);
-    return rendered(views.renderers_.mesh(target.mesh, T_camera(target.frame) * target.pose));
+    const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
+    if (rendered(views.renderers_.mesh(target.mesh, T))) return true;
+    Eigen::AlignedBox3f bounds;
+    for (const Eigen::Vector3f& vertex : target.mesh->vertices) bounds.extend(vertex);
+    return nearest_pixel(T * bounds.center().cast<double>(),
+                         0.5 * static_cast<double>(bounds.diagonal().norm()));
   }
 
   bool rendered(const VirtualDepthView& object) {
     view.region = RenderedRegion{object.depth, object.touched};
     return shows_anything(object);
+  }
+
+  /// For an object that holds no pixel's centre: the pixel next to its middle, if that is of the
+  /// image and the object is no larger.
+  bool nearest_pixel(const Eigen::Vector3d& middle, double radius) {
+    const auto pixel = views.project(middle);
+    if (!pixel || !is_inside(*pixel)) return false;
+    const PixelEllipse ellipse = views.ellipse_of(middle, *pixel, radius);
+    if (ellipse.semi_axes.maxCoeff() > 1.0)
+      throw InputError(
+          "no pixel shows it, though its middle lies in the image: too thin, or hollow");
+    view.region = ellipse;
+    view.expected_depth = middle.z();
+    view.depth_margin += radius;
+    view.point_pixel = pixel;
+    return true;
+  }
+
+  [[nodiscard]] bool is_inside(const Eigen::Vector2d& pixel) const {
+    const Intrinsics& size = views.camera_.intrinsics;
+    return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < size.width() - 0.5 &&
+           pixel.y() < size.height() - 0.5;
   }
 
   [[nodiscard]] Eigen::Isometry3d T_camera(const LinkFrame& of) const {

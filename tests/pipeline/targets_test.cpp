@@ -158,6 +158,38 @@ TEST_F(TargetsWithoutALink, AreNeverVisible) {
   EXPECT_EQ(report.targets[3].verdict, Verdict::out_of_view);
 }
 
+/// Half a millimetre is a thirtieth of a pixel there.
+TEST_F(TargetsTest, TinySolidsCoverThePixelNextToThem) {
+  Eigen::Isometry3d beside = Eigen::Isometry3d::Identity();
+  beside.translation() = wall_depth * slab_camera().intrinsics.ray(20.3, 85.3);
+  Eigen::Isometry3d behind = Eigen::Isometry3d::Identity();
+  behind.translation() = 2.0 * slab_camera().intrinsics.ray(70.3, 56.3);
+  Eigen::Isometry3d outside = Eigen::Isometry3d::Identity();
+  outside.translation() = 2.0 * slab_camera().intrinsics.ray(-3.0, 56.3);
+  const Eigen::Vector3d size(0.0005, 0.0005, 0.0005);
+  auto mesh = std::make_shared<TriangleMesh>(make_box(size));
+  for (Eigen::Vector3f& vertex : mesh->vertices) vertex.x() += 0.1F;
+  Eigen::Isometry3d mesh_pose = behind;
+  mesh_pose.translation().x() -= 0.1;
+  const std::vector<Target> targets{
+      {.name = "beside", .shape = BoxTarget{beside, size, {}}},
+      {.name = "behind", .shape = BoxTarget{behind, size, {}}},
+      {.name = "mesh", .shape = MeshTarget{mesh, mesh_pose, {}}},
+      {.name = "outside", .shape = BoxTarget{outside, size, {}}},
+      {.name = "sheet", .shape = BoxTarget{behind, {0.3, 0.0001, 0.0001}, {}}}};
+  const FrameReport& report = process(1, targets);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(report.targets[i].judgement) << report.targets[i].reason;
+    EXPECT_EQ(report.targets[i].judgement->inside, 1U) << i;
+  }
+  EXPECT_EQ(report.targets[0].verdict, Verdict::visible) << report.targets[0].reason;
+  EXPECT_EQ(report.targets[1].verdict, Verdict::hidden);
+  EXPECT_EQ(report.targets[2].verdict, Verdict::hidden);
+  EXPECT_EQ(report.targets[3].verdict, Verdict::out_of_view);
+  EXPECT_EQ(report.targets[4].verdict, Verdict::unknown);
+  EXPECT_NE(report.targets[4].reason.find("too thin"), std::string_view::npos);
+}
+
 TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Eigen::Isometry3d bent = Eigen::Isometry3d::Identity();
