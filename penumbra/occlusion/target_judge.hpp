@@ -24,6 +24,7 @@ struct JudgedImages {
   LabelView labels;
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by others
+  bool is_blind = false;  ///< the sensor saw nothing: what the robot does not hide is unknown
 };
 
 /// A target as it is judged in one frame.

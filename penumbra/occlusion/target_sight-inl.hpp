@@ -55,6 +55,7 @@ struct Sight {
   }
   /// Counts pixels that were seen so as unknown instead, as many as there are.
   void doubt(Seen seen, std::size_t& count);
+  void doubt_all();  ///< what counts as seen is unknown
 
   std::size_t covered = 0, inside = 0;
   SeenCounts pixels{};   ///< inside

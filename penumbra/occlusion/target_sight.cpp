@@ -73,13 +73,20 @@ void Sight::doubt(Seen seen, std::size_t& count) {
   count -= some;
 }
 
+void Sight::doubt_all() {
+  pixels[Seen::unknown] += seen();
+  pixels[Seen::clear] = pixels[Seen::front] = past = 0;
+}
+
 Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally) {
   tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, tally);
-  return {.covered = extent.covered(),
-          .inside = extent.inside(),
-          .pixels = tally.pixels,
-          .past = tally.past,
-          .links = &tally.links};
+  Sight sight{.covered = extent.covered(),
+              .inside = extent.inside(),
+              .pixels = tally.pixels,
+              .past = tally.past,
+              .links = &tally.links};
+  if (at.frame.images.is_blind) sight.doubt_all();
+  return sight;
 }
 
 Sight Sights::look(const Look& at, const TargetMemory& memory) {

@@ -338,8 +338,11 @@ JudgedFrame Pipeline::State::judged_frame() const {
   if (report.T_root_camera) frame.poses = {report.T_root_link, *report.T_root_camera};
   if (labeller)
     frame.message = "labels are made on the device: no target can be judged on them";
-  else if (has_depth(report.status))
-    frame.images = {labels, report.virtual_depth, seen};
+  else if (has_pose(report.status))
+    frame.images = {.labels = labels,
+                    .virtual_depth = report.virtual_depth,
+                    .measured = has_depth(report.status) ? seen : DepthView{},
+                    .is_blind = !has_depth(report.status)};
   return frame;
 }
 

@@ -137,6 +137,9 @@ void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
                    from.labels.touched ? &to.labels_touched : nullptr};
   images.virtual_depth = {std::as_const(to.depth).view(), std::as_const(to.links).view(),
                           &to.touched};
+  images.is_blind = from.is_blind;
+  images.measured = {};
+  if (from.is_blind) return;
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&from.measured))
     images.measured = copy_all(*millimetres, to.millimetres);
   else

@@ -31,6 +31,20 @@ bool is_rendered(const Target& target) {
          std::holds_alternative<MeshTarget>(target.shape);
 }
 
+/// Whether it is known how far it is, whatever is measured.
+bool is_expected(const Target& target) {
+  if (const auto* region = std::get_if<RegionTarget>(&target.shape))
+    return region->expected_depth.has_value();
+  if (const auto* keypoint = std::get_if<KeypointTarget>(&target.shape))
+    return keypoint->expected_depth.has_value();
+  return !std::holds_alternative<std::monostate>(target.shape);
+}
+
+std::string fault_of(const JudgedFrame& frame) {
+  if (frame.status == FrameStatus::ok) return std::string(frame.message);
+  return std::string(to_string(frame.status)) + ": " + std::string(frame.message);
+}
+
 bool is_known(const LinkFrame& frame, const Robot& robot) {
   return !frame || frame->empty() || robot.find_link(*frame);
 }
@@ -159,7 +173,9 @@ void TargetStage::check(const Target& target, TargetRecord& memory) const {
 }
 
 /// A link without geometry may hide whatever seems to be seen, and any depth may be its own.
+/// Without depth, what the robot does not hide is unknown.
 void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report) {
+  if (frame.images.is_blind && report.verdict == Verdict::unknown) slot.reason = fault_of(frame);
   if (frame.status != FrameStatus::missing_link) return;
   Judgement& judgement = *report.judgement;
   report.point.reset();
@@ -180,10 +196,8 @@ const JudgedFrame& TargetStage::frame_of(const Target& target, const JudgedFrame
     seen = recent_frames_.find(*target.stamp);
     if (seen == nullptr) throw InputError("no frame of its stamp is kept");
   }
-  if (seen->images.labels.labels.empty()) {
-    if (seen->status == FrameStatus::ok) throw InputError(std::string(seen->message));
-    throw InputError(std::string(to_string(seen->status)) + ": " + std::string(seen->message));
-  }
+  const bool is_blind = seen->images.is_blind && !is_expected(target);
+  if (seen->images.labels.labels.empty() || is_blind) throw InputError(fault_of(*seen));
   return *seen;
 }
 

@@ -131,6 +131,17 @@ TEST_F(LateTargetsTest, AFrameWithoutDepthStaysUnknown) {
   EXPECT_EQ(report.reason, "missing_depth: no depth image");
 }
 
+TEST_F(LateTargetsTest, AFrameWithoutDepthStillShowsWhatTheRobotHides) {
+  positions_[0] = -0.3;
+  pipeline_.process({.stamp = 0, .depth = {}, .joints = positions_});
+  Target target = late("target", 0);
+  std::get<RegionTarget>(target.shape).expected_depth = 2.0;
+  const TargetReport& report = frame_at(100 * ms, 0.0, {&target, 1}).targets[0];
+  EXPECT_EQ(report.verdict, Verdict::hidden) << report.reason;
+  target.stamp = 100 * ms;
+  EXPECT_EQ(frame_at(200 * ms, 0.0, {&target, 1}).targets[0].judgement->clear, 1.0);
+}
+
 /// Hysteresis is of the order of stamps: one that goes back neither sees nor changes it.
 TEST_F(LateTargetsTest, StampsThatGoBackLeaveHysteresisAlone) {
   // At slide 0 the slab hides 1 of 22 columns, 4.5 %: between the thresholds of leave and enter.

@@ -102,6 +102,38 @@ TEST_F(TargetsTest, AreUnknownWithoutPoseOrDepth) {
   EXPECT_NE(reason_of(FrameStatus::missing_joints).find("missing_joints"), std::string::npos);
 }
 
+/// The model alone says so: the rest was not looked at.
+TEST_F(TargetsTest, WithoutDepthWhatTheRobotHidesIsHidden) {
+  PoseTrackerConfig any;
+  any.worst = Verdict::hidden;
+  const PixelBox half_behind{88, 50, 20, 12};
+  std::vector<Target> targets{
+      {.name = "hidden", .shape = RegionTarget{behind_slab, Extent::amodal, 2.0}},
+      {.name = "beside", .shape = RegionTarget{beside_slab, Extent::amodal, 2.0}},
+      {.name = "before", .shape = RegionTarget{behind_slab, Extent::amodal, 0.5}},
+      {.name = "half", .shape = RegionTarget{half_behind, Extent::amodal, 2.0}},
+      {.name = "point", .shape = PointTarget{{0.02, 0.01, 1.6}, 0.02, ""}}};
+  for (Target& target : targets) {
+    target.handling = any;
+    target.thresholds.unknown_limit = 1;
+  }
+  targets[0].estimate = TargetEstimate{.frame = ""};
+  const FrameReport& report =
+      pipeline_.process({.stamp = 1, .depth = {}, .joints = positions_, .targets = targets});
+  ASSERT_EQ(report.status, FrameStatus::missing_depth);
+  EXPECT_EQ(report.targets[0].verdict, Verdict::hidden) << report.targets[0].reason;
+  EXPECT_EQ(report.targets[0].judgement->occluded, 1.0);
+  EXPECT_FALSE(report.targets[0].judgement->hidden_by_other);
+  EXPECT_EQ(report.targets[0].estimate, penumbra::Outcome::refused_verdict);
+  for (const std::size_t i : {1U, 2U, 3U}) {
+    EXPECT_EQ(report.targets[i].verdict, Verdict::unknown) << i;
+    EXPECT_EQ(report.targets[i].reason, "missing_depth: no depth image");
+    EXPECT_EQ(report.targets[i].judgement->clear + report.targets[i].judgement->front, 0.0);
+    EXPECT_FALSE(report.targets[i].point);
+  }
+  EXPECT_EQ(report.targets[4].verdict, Verdict::hidden);
+}
+
 class TargetsWithoutALink : public testing::Test {
  protected:
   Robot robot = Robot::parse(
