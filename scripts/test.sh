@@ -94,8 +94,11 @@ check packages scripts/packages.sh --install "${groups[@]}" || exit
 
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
 tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
-everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON)
-sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF)
+everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON
+            -DPENUMBRA_WITH_AVX512=ON)
+# The sanitizers see AVX2 and less: the release's tests run every SIMD target.
+avx512=-DPENUMBRA_WITH_AVX512=OFF
+sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF "$avx512")
 benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 # UBSan's checks of every pointer take a third of the compilation; most of what they find ASan finds.
 undefined=bool,bounds,builtin,enum,float-cast-overflow,integer-divide-by-zero
@@ -139,6 +142,6 @@ if $full; then
 else
   # Where one thread of ours runs there is no race to find. FrameReader needs the apps' libraries.
   one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
-  check "build (tsan)" build tsan threaded_tests "${everything[@]}" -DPENUMBRA_WITH_SIMULATION=OFF &&
+  check "build (tsan)" build tsan threaded_tests "${everything[@]}" -DPENUMBRA_WITH_SIMULATION=OFF "$avx512" &&
     run_tests tsan -L threaded -E "$one_thread"
 fi
