@@ -15,7 +15,7 @@
 namespace penumbra::study {
 namespace {
 
-constexpr std::uint64_t seed = 20230206;
+constexpr std::uint64_t first_seed = 20230206;
 
 LabelRule rule_of(const Tolerance& tolerance, int width, int margin) {
   LabelRule rule;
@@ -119,7 +119,8 @@ struct Study {
     if (plotted)
       for (const NamedRule& rule : rules) curves.push_back({rule.name, {}, {}});
     for (int gap = 1; gap <= 10; ++gap) {
-      const auto seen = study_objects(frames, rules, named.kind, 0.01 * gap, placements, seed);
+      const auto seen =
+          study_objects(frames, rules, named.kind, 0.01 * gap, placements, first_seed);
       rows.push_back({std::to_string(gap)});
       for (std::size_t i = 0; i < rules.size(); ++i) {
         rows.back().push_back(number(seen[i].core, 1) + " (" + number(seen[i].band, 0) + ")");
@@ -140,7 +141,7 @@ struct Study {
     const test::ObjectKind kind = kinds().front().kind;
     std::vector<std::vector<Seen>> seen;
     for (const double gap : {0.02, 0.03, 0.05})
-      seen.push_back(study_objects(frames, rules, kind, gap, placements, seed));
+      seen.push_back(study_objects(frames, rules, kind, gap, placements, first_seed));
     std::vector<std::vector<std::string>> rows = {
         {"changed", "false front, mean", "worst frame", "front at 2 cm", "at 3 cm", "at 5 cm"}};
     for (std::size_t i = 0; i < rules.size(); ++i) {
@@ -180,8 +181,8 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
          int placements) {
   Study study{test::load_real_frames(recording), placements, {}, {}};
   std::ostringstream out;
-  out << "\nSeed " << seed << ", " << placements << " placements in each of " << study.frames.size()
-      << " frames for every figure about objects.\n\n"
+  out << "\nSeed " << first_seed << ", " << placements << " placements in each of "
+      << study.frames.size() << " frames for every figure about objects.\n\n"
       << study.untouched()
       << "\nPixels of the object labelled front, % (in brackets: of the 2-pixel band at its "
          "edge):\n";

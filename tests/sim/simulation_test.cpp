@@ -69,6 +69,7 @@ TEST_P(Scenes, SeveralAtOnceGiveTheSameBytes) {
   for (int i = 0; i < count; ++i) third_frame(i, alone[static_cast<std::size_t>(i)]);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(count);
     for (int i = 0; i < count; ++i)
       threads.emplace_back([&, i] { third_frame(i, together[static_cast<std::size_t>(i)]); });
   }

@@ -17,7 +17,7 @@ PoseEstimate seen_at(double seconds, double x) {
 }
 
 /// A tracker of a target at rest, seen in frames 0 to 9.
-PoseTracker settled(PoseTrackerConfig config = {}) {
+PoseTracker settled(const PoseTrackerConfig& config = {}) {
   PoseTracker tracker(config);
   for (int i = 0; i < 10; ++i) tracker.update(seen_at(i * frame, 0), Verdict::visible);
   return tracker;

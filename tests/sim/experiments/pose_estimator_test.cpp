@@ -58,9 +58,10 @@ Image<io::Rgb8> view_of(const Image<io::Rgb8>& print, const Eigen::Isometry3d& T
   for (int v = 0; v < 480; ++v)
     for (int u = 0; u < 640; ++u) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int i = 0; i < rays * rays; ++i)
-        sum += seen_at(print, T_object_camera, u + (i % rays + 0.5) / rays - 0.5,
-                       v + (i / rays + 0.5) / rays - 0.5);
+      for (int i = 0; i < rays; ++i)
+        for (int k = 0; k < rays; ++k)
+          sum += seen_at(print, T_object_camera, u + (k + 0.5) / rays - 0.5,
+                         v + (i + 0.5) / rays - 0.5);
       sum /= rays * rays;
       image(u, v) = {static_cast<std::uint8_t>(sum.x()), static_cast<std::uint8_t>(sum.y()),
                      static_cast<std::uint8_t>(sum.z())};
