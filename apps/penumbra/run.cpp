@@ -28,6 +28,7 @@
 namespace penumbra::app {
 namespace {
 
+constexpr int device_failed = 1;          // exit status
 constexpr std::size_t most_targets = 20;  // that are told of by a line each
 
 io::Recording open_recording(const RunArguments& arguments) {
@@ -184,6 +185,34 @@ struct ColorFaults {
   }
 };
 
+/// Notes the warnings that the renderer's choice gets while frames are judged.
+class RendererWatch {
+ public:
+  explicit RendererWatch(const Pipeline& pipeline)
+      : pipeline_(pipeline), seen_(pipeline.renderer_choice().warnings.size()) {}
+
+  void look(std::size_t index) {
+    const auto& warnings = pipeline_.renderer_choice().warnings;
+    for (; seen_ < warnings.size(); ++seen_)
+      notes_.push_back("frame " + std::to_string(index) + ": " + warnings[seen_]);
+  }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  const Pipeline& pipeline_;
+  std::size_t seen_;
+  std::vector<std::string> notes_;
+};
+
+/// What the frames gave rise to; `lost`: why later ones are not judged, if any.
+std::vector<std::string> notes_of_frames(const SequenceNotes& doubts, const RendererWatch& watch,
+                                         const std::string& lost) {
+  std::vector<std::string> lines = doubts.lines();
+  lines.insert(lines.end(), watch.notes().begin(), watch.notes().end());
+  if (!lost.empty()) lines.push_back(lost);
+  return lines;
+}
+
 std::string more_reasons(const Fault& fault) {
   if (fault.frames == fault.reasons.front().frames) return "";
   return " (other frames for other reasons, see the report)";
@@ -274,9 +303,11 @@ int execute(const RunArguments& arguments) {
   Statistics statistics;
   SequenceNotes doubts(pipeline.robot(), {.image = arguments.image});
   ColorFaults color;
-  {
+  RendererWatch watch(pipeline);
+  std::string lost;  // why later frames are not judged
+  io::FrameData data;
+  try {
     Progress progress(selected.size());
-    io::FrameData data;
     for (const std::size_t i : selected) {
       reader.read(i, arguments.saves.overlay, data);
       Frame frame = frame_of(data);
@@ -285,16 +316,23 @@ int execute(const RunArguments& arguments) {
       statistics.add(report);
       doubts.add(report, data.positions);
       color.add(data.color_message);
+      watch.look(report.index);
       writer.add(report);
       output.save(report, data, {frame.targets, pipeline.robot(), camera});
       progress.step();
     }
+  } catch (const DeviceError& error) {
+    if (statistics.frames() == 0) throw;
+    lost = "frame " + std::to_string(data.index) +
+           " and later ones are not judged: " + without_device(error);
   }
-  writer.finish(statistics, doubts.lines());
+  const std::vector<std::string> late_notes = notes_of_frames(doubts, watch, lost);
+  writer.finish(statistics, late_notes);
   unfinished.finish();
   tell_faults(statistics, color);
-  tell_notes(doubts.lines());
+  tell_notes(late_notes);
   tell_summary(statistics, output.report_file());
+  if (!lost.empty()) return device_failed;
   return statistics.usable_frames() > 0 ? 0 : 2;
 }
 

@@ -49,6 +49,10 @@ Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& 
   }
 }
 
+std::string without_device(const DeviceError& error) {
+  return std::string(error.what()) + "; run again, or with --renderer cpu";
+}
+
 void tell_notes(std::span<const std::string> notes) {
   for (const std::string& note : notes) std::cerr << "penumbra: note: " << note << '\n';
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
@@ -28,6 +29,9 @@ void print_table(const std::vector<std::vector<std::string>>& rows);
 [[nodiscard]] Pipeline make_pipeline(Robot robot, const Camera& camera,
                                      const PipelineConfig& config,
                                      const std::filesystem::path& camera_info);
+
+/// What the user may do about a graphics device that failed.
+[[nodiscard]] std::string without_device(const DeviceError& error);
 
 /// Prints on stderr, a line each.
 void tell_notes(std::span<const std::string> notes);

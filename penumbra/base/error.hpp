@@ -12,4 +12,11 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The graphics device failed. Nothing that it was to draw is to be trusted, and whoever threw this
+/// draws no more: make another one. The command line exits with status 1.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace penumbra

@@ -266,7 +266,7 @@ void Pipeline::State::refuse_camera_inside(std::span<const Eigen::Isometry3d> T_
 VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
   const StageTimer timer(report.timing.render);
   refuse_camera_inside(T_camera_link);
-  const VirtualDepthView rendered = chosen.renderer->render(T_camera_link);
+  const VirtualDepthView rendered = chosen.render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
 }
 

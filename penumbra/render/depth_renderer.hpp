@@ -72,13 +72,13 @@ class DepthRenderer {
 
   /// Begins a frame, for collect() to wait for; the caller may do other things meanwhile. The poses
   /// need only live during the call. Throws std::logic_error if max_pending() frames are pending or
-  /// the poses are not as many as the bodies, and std::runtime_error if the graphics device fails
-  /// or has failed: make a new renderer.
+  /// the poses are not as many as the bodies, and DeviceError if the graphics device fails or has
+  /// failed: make a new renderer.
   void submit(std::span<const Eigen::Isometry3d> T_camera_body);
 
   /// The oldest pending frame; frames come in the order of submission. The view of the n-th frame
   /// is valid until frame n + max_pending() is submitted or rendered. Throws std::logic_error if no
-  /// frame is pending, and std::runtime_error as submit() does: after one failure of the device no
+  /// frame is pending, and DeviceError as submit() does: after one failure of the device no
   /// pending frame is to be trusted, and none comes any more.
   [[nodiscard]] VirtualDepthView collect();
 

@@ -50,6 +50,19 @@ std::optional<int> candidate(const std::vector<GlDevice>& devices, int named) {
 
 }  // namespace
 
+VirtualDepthView ChosenRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {
+  try {
+    return renderer->render(T_camera_body);
+  } catch (const DeviceError& error) {
+    if (!spare) throw;
+    choice.backend = spare->info().backend;
+    choice.warnings.push_back(std::string(error.what()) + ": " +
+                              std::string(to_string(choice.backend)) + " draws from now on");
+  }
+  renderer = std::move(spare);
+  return renderer->render(T_camera_body);
+}
+
 ChosenRenderer make_fastest_renderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
                                      const RendererOptions& options) {
   auto cpu = make_depth_renderer(Backend::cpu, intrinsics, bodies, options);
@@ -67,7 +80,8 @@ ChosenRenderer make_fastest_renderer(const Intrinsics& intrinsics, std::span<con
     auto gl = make_depth_renderer(Backend::gl, intrinsics, bodies, gl_options);
     RendererChoice choice = race(*cpu, *gl, bodies);
     const bool gl_wins = choice.backend == Backend::gl;
-    return {std::move(choice), std::move(gl_wins ? gl : cpu)};
+    if (!gl_wins) return {std::move(choice), std::move(cpu)};
+    return {std::move(choice), std::move(gl), std::move(cpu)};
   } catch (const std::bad_alloc&) {
     return {without_gl("trying it takes more memory than this machine gives"), std::move(cpu)};
   } catch (const std::runtime_error& error) {

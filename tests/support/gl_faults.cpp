@@ -80,7 +80,7 @@ GLenum reset_status() {
 
 void expect_final(const std::runtime_error& error) {
   const std::string message = error.what();
-  EXPECT_NE(message.find(": make a new renderer"), std::string::npos) << message;
+  EXPECT_NE(message.find("; a new renderer is needed"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 

@@ -42,13 +42,13 @@ class GlLabeller {
   /// Starts a frame: the bodies at their poses, the sensor's image of the camera's size, both read
   /// before it returns, and boxes in which to count. Throws std::logic_error with max_pending
   /// frames not collected, more than max_boxes boxes, poses that are not as many as the bodies or
-  /// an image of another size, std::runtime_error where the device fails or has failed: make a new
+  /// an image of another size, DeviceError where the device fails or has failed: make a new
   /// one.
   void submit(std::span<const Eigen::Isometry3d> T_camera_body, const DepthView& measured,
               std::span<const gl::PixelRectangle> boxes = {});
 
   /// Waits for the oldest frame; valid until the max_pending-th submit() after its own. Throws
-  /// std::logic_error without a frame, std::runtime_error as submit() does.
+  /// std::logic_error without a frame, DeviceError as submit() does.
   [[nodiscard]] DeviceLabels collect();
 
   [[nodiscard]] const RendererInfo& info() const;

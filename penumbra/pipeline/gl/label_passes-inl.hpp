@@ -28,7 +28,7 @@ class LabelPasses {
   void start(std::size_t slot, unsigned depth, const PixelRectangle& seen,
              const DepthView& measured, std::span<const PixelRectangle> boxes);
 
-  /// Waits until the slot's labels are complete. Throws std::runtime_error where they never will
+  /// Waits until the slot's labels are complete. Throws DeviceError where they never will
   /// be.
   [[nodiscard]] DeviceLabels wait(std::size_t slot);
 

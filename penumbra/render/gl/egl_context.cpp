@@ -204,8 +204,8 @@ EglContext::Current::Current(const EglContext& context)
   if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_) != EGL_TRUE) {
     const std::string why = egl_error();
     if (previous_api_ != EGL_OPENGL_API) eglBindAPI(previous_api_);
-    throw std::runtime_error("OpenGL: the context cannot be used (" + why +
-                             "): another thread draws with it, or the device was lost");
+    throw DeviceError("OpenGL: the context cannot be used (" + why +
+                      "): another thread draws with it, or the device was lost");
   }
 }
 

@@ -28,7 +28,7 @@ class EglContext {
   /// the thread's own drawing is left alone, and a renderer may move between threads.
   class Current {
    public:
-    /// Throws std::runtime_error if the context was lost.
+    /// Throws DeviceError if the context was lost.
     explicit Current(const EglContext& context);
     ~Current();
     Current(const Current&) = delete;

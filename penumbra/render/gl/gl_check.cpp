@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <stdexcept>
 #include <utility>
 
 #include <epoxy/gl.h>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/render/gl/gl_check.hpp>
 
 namespace penumbra::gl {
@@ -49,16 +49,16 @@ std::string take_error() {
 
 void check_frame() {
   if (glGetGraphicsResetStatus() != GL_NO_ERROR) {
-    throw std::runtime_error("OpenGL: the graphics device was reset");
+    throw DeviceError("OpenGL: the graphics device was reset");
   }
   const std::string error = take_error();
-  if (!error.empty()) throw std::runtime_error("OpenGL: the frame failed with " + error);
+  if (!error.empty()) throw DeviceError("OpenGL: the frame failed with " + error);
 }
 
 void* make_fence() {
   void* const fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   if (fence == nullptr) {
-    throw std::runtime_error("OpenGL: the frame cannot be waited for (" + take_error() + ")");
+    throw DeviceError("OpenGL: the frame cannot be waited for (" + take_error() + ")");
   }
   glFlush();
   return fence;
@@ -72,7 +72,7 @@ void wait_for(void*& fence) {
   glDeleteSync(sync);
   check_frame();
   if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) {
-    throw std::runtime_error("OpenGL: a frame was not done in 60 s");
+    throw DeviceError("OpenGL: a frame was not done in 60 s");
   }
 }
 

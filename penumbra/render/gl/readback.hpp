@@ -25,7 +25,7 @@ class Readback {
   /// becomes 0.
   void start(std::size_t slot, const PixelRectangle& rectangle);
 
-  /// Waits until the slot's images are complete. Throws std::runtime_error where they never will
+  /// Waits until the slot's images are complete. Throws DeviceError where they never will
   /// be.
   [[nodiscard]] VirtualDepthView wait(std::size_t slot);
 
