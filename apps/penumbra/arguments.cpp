@@ -165,6 +165,8 @@ void add_render(CLI::App& app, RenderArguments& render) {
   add_path(app, "--robot", "the robot", "URDF", render.robot)->required();
   add_robot(app, render.options);
   add_path(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
+  app.add_flag("--rectified", render.rectified,
+               "the images are free of distortion already: take the camera's p, not its k and d");
   add_path(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",
            render.pose)
       ->required();

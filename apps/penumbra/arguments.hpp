@@ -56,6 +56,7 @@ struct RenderArguments {
   std::filesystem::path robot;
   RobotOptions options;
   std::filesystem::path camera_info;
+  bool rectified = false;  ///< the images are free of distortion: p of camera_info is the camera
   std::filesystem::path pose;
   std::string parent;
   std::vector<std::pair<std::string, double>> joints;  ///< name and value, as they were given

@@ -37,6 +37,8 @@ Examples:
 
 inline constexpr const char* render_examples = R"(
 Joints that are not given stand at rest (0, or no rotation); --json lists every position.
+Distortion in the camera_info bends the image as the lens does; for images that were rectified
+before, as recordings with camera.rectified, add --rectified.
 Planar joints take NAME/x, NAME/y, NAME/yaw, floating ones NAME/x, y, z, qx, qy, qz, qw.
 --repeat renders the same pose N times after a first one and labels each time the virtual depth
 image itself, as if the sensor saw nothing but the robot.

@@ -124,7 +124,7 @@ int execute(const RenderArguments& arguments) {
   Robot robot = Robot::load(arguments.robot, arguments.options);
   tell_notes(robot.notes());
   const std::vector<double> positions = positions_of(robot, arguments);
-  const Camera camera = io::read_camera_info(arguments.camera_info, false);
+  const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
   tell_choice(pipeline.renderer_choice());
   std::vector<std::string> notes = notes_of(pipeline);

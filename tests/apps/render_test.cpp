@@ -66,6 +66,23 @@ TEST_F(RenderTest, WritesOneVirtualDepthImage) {
   EXPECT_EQ(links(0, 0), 0);
 }
 
+TEST_F(RenderTest, RectifiedImagesAreOfTheCamerasP) {
+  const fs::path info = folder_.path() / "camera_info.yaml";
+  edit_file(info, "k: [60.0, 0.0, 31.3, 0.0, 60.0", "k: [40.0, 0.0, 31.3, 0.0, 40.0");
+  ASSERT_EQ(render({}).status, 0);
+  const std::string expected = read_file(folder_.path() / "vdi.npy");
+
+  // The same camera by its p alone, as the driver tells it of a lens with distortion.
+  edit_file(info, "k: [40.0, 0.0, 31.3, 0.0, 40.0", "k: [60.0, 0.0, 31.3, 0.0, 60.0");
+  edit_file(info, "p: [60.0, 0.0, 31.3, 0.0, 0.0, 60.0", "p: [40.0, 0.0, 31.3, 0.0, 0.0, 40.0");
+  edit_file(info, "d: [0.0", "d: [-0.2");
+  const Outcome outcome = render({"--rectified"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_file(folder_.path() / "vdi.npy"), expected);
+  ASSERT_EQ(render({}).status, 0);
+  EXPECT_NE(read_file(folder_.path() / "vdi.npy"), expected) << "k and d";
+}
+
 TEST_F(RenderTest, PrintsTimesAndPositionsAsJson) {
   const Outcome outcome = render({"--joint", "slide=0.25", "--repeat", "20", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
