@@ -3,6 +3,7 @@
 # Builds with warnings as errors, runs every test, then the sanitizers, the format and clang-tidy.
 #   scripts/test.sh         under 15 minutes on two cores
 #   scripts/test.sh --full  all tests under all sanitizers, long fuzzing and soaks, benchmarks
+# What the packages bring, and the data where its folder is, has to be there: no test skips for it.
 # The last line is "N passed, N failed[, N skipped]"; the exit status is 0 if none failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -11,7 +12,7 @@ case ${1:-} in
   "") ;;
   --full) full=true ;;
   *)
-    sed -n '3,6s/^# //p' "$0" >&2
+    sed -n '3,7s/^# //p' "$0" >&2
     exit 2
     ;;
 esac
@@ -91,6 +92,10 @@ check_tidy() {
 groups=(build sim test lint)
 ! $full || groups+=(bench)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
+
+require=opengl,simulation
+[[ ! -d ${PENUMBRA_DATA:-../shared/data} ]] || require+=,data
+export PENUMBRA_REQUIRE=${PENUMBRA_REQUIRE-$require}
 
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
 tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // --renderer and --gl-device: what is taken, what the report says of it, what is refused.
+#include "../support/required.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -20,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// The first OpenGL device that works.
-std::optional<std::size_t> working_device() {
+std::optional<std::size_t> find_device() {
   try {
     const auto devices = gl_devices();
     for (std::size_t i = 0; i < devices.size(); ++i)
@@ -30,6 +30,13 @@ std::optional<std::size_t> working_device() {
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+/// The first OpenGL device that works.
+std::optional<std::size_t> working_device() {
+  const auto device = find_device();
+  static_cast<void>(is_there(device.has_value(), "opengl"));
+  return device;
 }
 
 class RendererTest : public testing::Test {

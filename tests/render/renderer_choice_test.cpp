@@ -142,6 +142,7 @@ std::vector<GlDevice> devices_here(std::string& fault) {
     return gl_devices();
   } catch (const InputError& error) {
     fault = error.what();
+    static_cast<void>(is_there(false, "opengl"));
     return {};
   }
 }

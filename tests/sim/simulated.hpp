@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../support/required.hpp"
+
 #include <gtest/gtest.h>
 
 #include <sim/simulation.hpp>
 
 /// Skips the running test where the build has no simulation.
 #define PENUMBRA_REQUIRE_SIMULATION() \
-  if (penumbra::sim::Simulation::scenes().empty()) GTEST_SKIP() << "skipped: no MuJoCo"
+  if (!penumbra::test::has_simulation()) GTEST_SKIP() << "skipped: no MuJoCo"
 
 namespace penumbra::test {
+
+inline bool has_simulation() { return is_there(!sim::Simulation::scenes().empty(), "simulation"); }
 
 /// True depths, true joints.
 [[nodiscard]] inline sim::SimulationOptions without_noise(std::uint64_t seed) {

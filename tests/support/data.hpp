@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "required.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -14,9 +16,10 @@ inline std::filesystem::path data_folder() {
   return given != nullptr ? given : PENUMBRA_DATA_DEFAULT;
 }
 
+inline bool has_data() { return is_there(std::filesystem::is_directory(data_folder()), "data"); }
+
 }  // namespace penumbra::test
 
 /// Skips the running test where the data is absent.
-#define PENUMBRA_REQUIRE_DATA()                                      \
-  if (!std::filesystem::is_directory(penumbra::test::data_folder())) \
-  GTEST_SKIP() << "skipped: no data"
+#define PENUMBRA_REQUIRE_DATA() \
+  if (!penumbra::test::has_data()) GTEST_SKIP() << "skipped: no data"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "required.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -10,7 +12,8 @@
 
 namespace penumbra::test {
 
-/// Whether some device of gl_devices() can draw.
+/// Whether some device of gl_devices() can draw; where none does, the tests that ask are skipped or
+/// try less, unless OpenGL is_required().
 inline bool has_opengl() {
   static const bool answer = [] {
     try {
@@ -21,7 +24,7 @@ inline bool has_opengl() {
       return false;
     }
   }();
-  return answer;
+  return is_there(answer, "opengl");
 }
 
 /// Whether this machine can draw with the backend; if not, it is for want of OpenGL.
