@@ -3,9 +3,9 @@
 """Rewrites the tables of the performance pages, and draws their plots, from the benchmarks' JSON.
 
 performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json,
-RESULTS/targets.json, RESULTS/frames.json and every RESULTS/gl-*.json; replaces what stands between
-"<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md and PAGE/performance-gl.md;
-writes PAGE/performance.svg and PAGE/performance-gl.svg.
+RESULTS/targets.json, RESULTS/frames.json, RESULTS/run.txt and every RESULTS/gl-*.json; replaces
+what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md and
+PAGE/performance-gl.md; writes PAGE/performance.svg and PAGE/performance-gl.svg.
 """
 import json
 import math
@@ -162,6 +162,7 @@ def main():
     targets = json.loads((results / "targets.json").read_text())
     parts["targets"] = targets_table(targets)
     parts["frames"] = frames_table(json.loads((results / "frames.json").read_text()))
+    parts["run"] = ": ".join((results / "run.txt").read_text().splitlines()[:2]) + "."
     parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
     fill(page / "performance.md", parts)
     (page / "performance.svg").write_text(plot(
