@@ -26,6 +26,9 @@ class InputFile {
   /// Reads up to `count` bytes; fewer only at the file's end or after a fault of the device.
   std::size_t read(void* to, std::size_t count);
 
+  /// The same from any place; where read() goes on stays as it is.
+  std::size_t read_at(std::uint64_t offset, void* to, std::size_t count) const;
+
  private:
   int descriptor_ = -1;
   std::uint64_t size_ = 0;

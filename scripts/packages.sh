@@ -9,11 +9,12 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
-       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf)
+       libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
+       liblz4-dev libzstd-dev libsqlite3-dev)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
      libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libwebp-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
-      libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
+      libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri nodejs npm)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 
@@ -48,6 +49,8 @@ fi
 
 missing=()
 for package in "${packages[@]}"; do
+  # Node.js of other makers brings its npm along and refuses Debian's.
+  [[ $package != npm ]] || ! command -v npm >/dev/null || continue
   state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
   [[ $state == installed ]] || missing+=("$package")
 done

@@ -85,6 +85,7 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"ZLIB", "zlib1g-dev"},
                                                   {"PkgConfig", "pkgconf"},
                                                   {"meshoptimizer", "libmeshoptimizer-dev"},
+                                                  {"SQLite3", "libsqlite3-dev"},
                                                   {"OpenGL", "libegl-dev"}};
   std::set<std::string> listed;
   std::istringstream names(

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/bag/bag_file.hpp>
+#include <io/bag/bag_metadata.hpp>
+#include <io/bag/natural_order.hpp>
+
+namespace penumbra::io {
+namespace {
+
+// One file of a recording. It is open while its time has come.
+struct BagPart {
+  std::filesystem::path file;
+  std::int64_t start_time = 0;
+  std::unique_ptr<BagReader> reader;
+  BagMessage waiting;               // its next message
+  std::vector<std::size_t> topics;  // of the recording, by the file's own
+  std::size_t told_faults = 0;
+};
+
+class BagFolder final : public BagReader {
+ public:
+  explicit BagFolder(const std::filesystem::path& folder) {
+    std::string refusal;
+    for (const auto& file : files_of(folder)) look_into(file, refusal);
+    if (!any_read_) throw InputError(refusal);
+    std::stable_sort(parts_.begin(), parts_.end(), [](const BagPart& a, const BagPart& b) {
+      return a.start_time < b.start_time;
+    });
+  }
+
+  [[nodiscard]] std::span<const BagTopic> topics() const override { return topics_; }
+  [[nodiscard]] std::span<const std::string> faults() const override { return faults_; }
+
+  bool next(BagMessage& message) override {
+    if (current_ < parts_.size()) advance(parts_[current_]);
+    while (next_part_ < parts_.size() &&
+           (!earliest() || parts_[next_part_].start_time <= parts_[*earliest()].waiting.log_time))
+      reopen(parts_[next_part_++]);
+    const auto first = earliest();
+    current_ = first.value_or(parts_.size());
+    if (!first) return false;
+    const BagPart& part = parts_[current_];
+    message = part.waiting;
+    message.topic = part.topics[message.topic];
+    return true;
+  }
+
+ private:
+  std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
+    const auto metadata_file = folder / "metadata.yaml";
+    if (std::filesystem::exists(metadata_file)) {
+      metadata_ = read_bag_metadata(metadata_file);
+      return metadata_->files;
+    }
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (is_bag_file(entry.path())) files.push_back(entry.path());
+    if (files.empty())
+      throw InputError(folder.string() +
+                       ": holds no recording: neither metadata.yaml nor *.mcap "
+                       "nor *.db3");
+    std::sort(files.begin(), files.end(), natural_less);
+    faults_.push_back(metadata_file.string() +
+                      ": is missing (was the recorder killed?); all bags "
+                      "of the folder are read");
+    return files;
+  }
+
+  // Files are opened twice: once for what they hold, and again when their time has come, so that
+  // not all are held open.
+  void look_into(const std::filesystem::path& file, std::string& refusal) {
+    BagPart part{
+        .file = file, .start_time = 0, .reader = {}, .waiting = {}, .topics = {}, .told_faults = 0};
+    try {
+      part.reader = open_bag_file(file);
+    } catch (const InputError& error) {
+      if (refusal.empty()) refusal = error.what();
+      faults_.emplace_back(std::string(error.what()) + "; its part of the recording is left out");
+      return;
+    }
+    any_read_ = true;
+    const bool any = part.reader->next(part.waiting);
+    take_topics(part);
+    take_faults(part);
+    part.reader.reset();
+    part.start_time = part.waiting.log_time;
+    if (any) parts_.push_back(std::move(part));
+  }
+
+  void reopen(BagPart& part) {
+    try {
+      part.reader = open_bag_file(part.file);
+    } catch (const InputError& error) {
+      faults_.emplace_back(error.what());
+      return;
+    }
+    advance(part);
+  }
+
+  void advance(BagPart& part) {
+    if (!part.reader) return;
+    const bool any = part.reader->next(part.waiting);
+    take_faults(part);
+    if (part.reader->topics().size() > part.topics.size()) take_topics(part);
+    if (!any) part.reader.reset();
+  }
+
+  void take_topics(BagPart& part) {
+    const auto found = part.reader->topics();
+    for (std::size_t i = part.topics.size(); i < found.size(); ++i) {
+      BagTopic topic = found[i];
+      const auto count = std::exchange(topic.messages, std::nullopt);
+      auto known = std::find_if(topics_.begin(), topics_.end(), [&](BagTopic other) {
+        other.messages.reset();
+        return other == topic;
+      });
+      const bool first = known == topics_.end();
+      if (first) known = topics_.insert(known, std::move(topic));
+      count_messages(*known, count, first);
+      part.topics.push_back(static_cast<std::size_t>(known - topics_.begin()));
+    }
+  }
+
+  void count_messages(BagTopic& topic, const std::optional<std::uint64_t>& count, bool first) {
+    if (metadata_) {
+      const auto told = metadata_->messages.find({topic.name, topic.type});
+      if (told != metadata_->messages.end()) topic.messages = told->second;
+    } else if (first) {
+      topic.messages = count;
+    } else if (topic.messages && count) {
+      *topic.messages += *count;
+    } else {
+      topic.messages.reset();
+    }
+  }
+
+  void take_faults(BagPart& part) {
+    const auto found = part.reader->faults();
+    for (; part.told_faults < found.size(); ++part.told_faults)
+      faults_.push_back(found[part.told_faults]);
+  }
+
+  // Of the open files, the one whose message comes first.
+  [[nodiscard]] std::optional<std::size_t> earliest() const {
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < next_part_; ++i)
+      if (parts_[i].reader &&
+          (!first || parts_[i].waiting.log_time < parts_[*first].waiting.log_time))
+        first = i;
+    return first;
+  }
+
+  std::optional<BagMetadata> metadata_;
+  std::vector<BagTopic> topics_;
+  std::vector<std::string> faults_;
+  std::vector<BagPart> parts_;      // by start
+  std::size_t next_part_ = 0;       // not yet opened again
+  std::size_t current_ = SIZE_MAX;  // whose message was given last
+  bool any_read_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<BagReader> open_bag_folder(const std::filesystem::path& folder) {
+  return std::make_unique<BagFolder>(folder);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace penumbra::io::mcap {
+
+/// Bytes that are not set before they are written, in memory that is kept from use to use.
+class ByteBuffer {
+ public:
+  ByteBuffer() = default;
+  ByteBuffer(ByteBuffer&& other) noexcept
+      : memory_(std::move(other.memory_)),
+        capacity_(std::exchange(other.capacity_, 0)),
+        size_(std::exchange(other.size_, 0)) {}
+  ByteBuffer& operator=(ByteBuffer&& other) noexcept {
+    memory_ = std::move(other.memory_);
+    capacity_ = std::exchange(other.capacity_, 0);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
+  }
+  ~ByteBuffer() = default;
+
+  [[nodiscard]] std::byte* data() { return memory_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t capacity() const { return capacity_; }
+  [[nodiscard]] std::span<const std::byte> view() const { return {memory_.get(), size_}; }
+
+  /// Makes room for at least `count` bytes. The first size() stay as they are.
+  void reserve(std::size_t count) {
+    if (count <= capacity_) return;
+    if (size_ == 0) memory_.reset();  // never both at once
+    auto larger = std::make_unique_for_overwrite<std::byte[]>(count);
+    if (size_ > 0) std::copy_n(memory_.get(), size_, larger.get());
+    memory_ = std::move(larger);
+    capacity_ = count;
+  }
+
+  /// New bytes have no value yet.
+  void resize(std::size_t count) {
+    reserve(count);
+    size_ = count;
+  }
+
+ private:
+  std::unique_ptr<std::byte[]> memory_;
+  std::size_t capacity_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace penumbra::io::mcap

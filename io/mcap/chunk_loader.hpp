@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <io/disk_file.hpp>
+#include <io/mcap/compression.hpp>
+#include <io/mcap/file_layout.hpp>
+
+namespace penumbra::io::mcap {
+
+/// A chunk in memory, or a stretch of records outside of chunks.
+struct LoadedChunk {
+  struct Entry {
+    std::uint64_t log_time = 0;
+    std::uint64_t content = 0;  ///< where the message's content begins in `records`
+    std::uint64_t length = 0;   ///< of the content
+  };
+
+  ByteBuffer records;
+  std::vector<Entry> messages;  ///< by log time; those of one time as they stand in the file
+
+  [[nodiscard]] std::size_t footprint() const {
+    return records.capacity() + messages.capacity() * sizeof(Entry);
+  }
+};
+
+/// Reads chunks, decompresses and checks them.
+class ChunkLoader {
+ public:
+  /// The file must outlive this.
+  explicit ChunkLoader(const InputFile& file) : file_(&file) {}
+
+  /// Loads what stands at `place` and takes the schemas and channels there into `definitions`. A
+  /// chunk that is damaged gives no message, one with damaged records those before: a fault each.
+  void load(const MessagePlace& place, LoadedChunk& chunk, Definitions& definitions,
+            FaultLog& faults);
+
+ private:
+  [[nodiscard]] std::string load_records(const MessagePlace& place, ByteBuffer& records);
+  [[nodiscard]] bool read(std::uint64_t offset, std::uint64_t count, ByteBuffer& to) const;
+
+  const InputFile* file_;
+  Decompressor decompressor_;
+  ByteBuffer compressed_;
+};
+
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+
+#include <io/mcap/fault_log.hpp>
+#include <io/mcap/record_format.hpp>
+
+namespace penumbra::io::mcap {
+
+/// The schemas and channels that a file has told of so far.
+class Definitions {
+ public:
+  /// Takes in a schema's or channel's record that stands at `offset`, or in a chunk there. The
+  /// first of an id holds; another one of the same id is a fault.
+  void add(Opcode opcode, std::span<const std::byte> content, std::uint64_t offset,
+           FaultLog& faults);
+
+  [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
+  [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
+
+  /// Whether a channel is known, and its schema.
+  [[nodiscard]] bool complete(std::uint16_t channel) const;
+
+ private:
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, Channel> channels_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <io/mcap/crc32.hpp>
+#include <io/mcap/data_walk.hpp>
+#include <io/mcap/file_layout.hpp>
+#include <io/mcap/file_summary.hpp>
+
+namespace penumbra::io::mcap {
+namespace {
+
+constexpr std::size_t crc_step = std::size_t{1} << 20;
+
+// Where the records behind the header begin.
+std::uint64_t read_header(FileWindow& window, HeaderRecord& header, FaultLog& faults) {
+  const std::uint64_t at = magic_bytes.size();
+  const auto bytes = window.view(at, record_head_bytes);
+  if (bytes.size() == record_head_bytes) {
+    const RecordHead head = parse_head(bytes);
+    const std::uint64_t content_at = at + record_head_bytes;
+    if (head.opcode == Opcode::header && head.length <= window.file_size() - content_at &&
+        head.length <= max_record_bytes) {
+      auto read = parse_header(window.view(content_at, static_cast<std::size_t>(head.length)));
+      if (read) header = std::move(*read);
+      if (!read) faults.add(at, "the file's header is damaged; profile and library are not known");
+      return content_at + head.length;
+    }
+  }
+  faults.add(at, "the file has no header; profile and library are not known");
+  return at;
+}
+
+// What lies between indexed chunks is looked at: it may hold messages that no index tells of.
+void walk_beside(DataWalk& walk, FileSummary& summary, std::uint64_t begin, FileLayout& layout) {
+  for (ChunkIndexRecord& chunk : summary.chunks) {
+    walk.run(begin, chunk.offset);
+    MessagePlace& place = layout.places.emplace_back();
+    place.offset = chunk.offset;
+    place.length = chunk.length;
+    place.start_time = chunk.start_time;
+    place.channels_told = !chunk.channels.empty();
+    place.channels = std::move(chunk.channels);
+    begin = chunk.offset + chunk.length + chunk.message_index_length;
+  }
+  walk.run(begin, summary.start);
+}
+
+// Messages outside of chunks have no checksum but the whole data's.
+void check_data_crc(FileWindow& window, const FileLayout& layout, const DataWalk::End& end,
+                    FaultLog& faults) {
+  const bool any_loose = std::any_of(layout.places.begin(), layout.places.end(),
+                                     [](const MessagePlace& place) { return place.loose; });
+  if (!any_loose || end.crc == 0) return;
+  Crc32 crc;
+  for (std::uint64_t at = 0; at < end.offset;) {
+    const auto bytes = window.view(
+        at, static_cast<std::size_t>(std::min<std::uint64_t>(crc_step, end.offset - at)));
+    if (bytes.empty()) break;
+    crc.add(bytes);
+    at += bytes.size();
+  }
+  if (crc.value() != end.crc)
+    faults.add(end.offset,
+               "the data has another checksum than it should; messages outside of "
+               "chunks may be damaged");
+}
+
+}  // namespace
+
+FileLayout read_layout(const InputFile& file, FaultLog& faults) {
+  FileLayout layout;
+  FileWindow window(file);
+  const std::uint64_t begin = read_header(window, layout.header, faults);
+  const auto footer = read_footer(window);
+  auto summary = footer ? read_summary(window, *footer, begin, faults) : std::nullopt;
+
+  const bool has_summary = summary.has_value();
+  DataWalk walk(window, layout, faults);
+  if (summary) {
+    layout.definitions = std::move(summary->definitions);
+    layout.statistics = std::move(summary->statistics);
+    layout.summary_has_channels = !layout.definitions.channels().empty();
+    walk_beside(walk, *summary, begin, layout);
+  } else {
+    walk.run(begin, file.size());
+  }
+
+  if (walk.end())
+    check_data_crc(window, layout, *walk.end(), faults);
+  else if (!walk.damaged() && !has_summary)
+    faults.add(file.size(), "the data has no end (was the recorder killed?); all of it is read");
+  if (walk.end() && !footer)
+    faults.add(file.size(), "the file has no footer (was it cut?); it is read without its summary");
+  return layout;
+}
+
+}  // namespace penumbra::io::mcap

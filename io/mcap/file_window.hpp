@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <io/disk_file.hpp>
+#include <io/mcap/byte_buffer.hpp>
+
+namespace penumbra::io::mcap {
+
+/// A part of a file in memory, which moves to where it is looked at. Files are read, not mapped:
+/// one that is cut while it is read ends the reading, not the program.
+class FileWindow {
+ public:
+  /// The file must outlive this.
+  explicit FileWindow(const InputFile& file) : file_(&file) {}
+
+  [[nodiscard]] std::uint64_t file_size() const { return file_->size(); }
+
+  /// `count` bytes from `offset` on, fewer at the file's end; valid until the next call.
+  [[nodiscard]] std::span<const std::byte> view(std::uint64_t offset, std::size_t count);
+
+ private:
+  const InputFile* file_;
+  std::uint64_t start_ = 0;
+  ByteBuffer bytes_;
+};
+
+}  // namespace penumbra::io::mcap

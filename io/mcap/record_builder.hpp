@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include <io/mcap/byte_buffer.hpp>
+#include <io/mcap/record_format.hpp>
+
+namespace penumbra::io::mcap {
+
+/// Puts records together, one behind another: begin(), its fields in order, end().
+class RecordBuilder {
+ public:
+  [[nodiscard]] std::span<const std::byte> view() const { return bytes_.view(); }
+  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+  void clear() { bytes_.resize(0); }
+
+  void bytes(std::span<const std::byte> value) {
+    const std::size_t at = bytes_.size();
+    const std::size_t size = at + value.size();
+    if (size > bytes_.capacity()) bytes_.reserve(2 * size);
+    bytes_.resize(size);
+    if (!value.empty()) std::memcpy(bytes_.data() + at, value.data(), value.size());
+  }
+
+  template <typename T>
+  void number(T value) {
+    static_assert(std::is_unsigned_v<T>);
+    bytes(std::as_bytes(std::span(&value, 1)));
+  }
+
+  /// Texts must be shorter than 4 GB.
+  void text(std::string_view value) {
+    number(static_cast<std::uint32_t>(value.size()));
+    bytes(std::as_bytes(std::span(value)));
+  }
+
+  void begin(Opcode opcode) {
+    number(static_cast<std::uint8_t>(opcode));
+    record_ = begin_counted<std::uint64_t>();
+  }
+  void end() { end_counted<std::uint64_t>(record_); }
+
+  /// Opens something that stands behind the number of its bytes; answers what closes it.
+  template <typename T>
+  [[nodiscard]] std::size_t begin_counted() {
+    number(T{0});
+    return bytes_.size();
+  }
+  template <typename T>
+  void end_counted(std::size_t start) {
+    const T count = static_cast<T>(bytes_.size() - start);
+    std::memcpy(bytes_.data() + start - sizeof count, &count, sizeof count);
+  }
+
+ private:
+  ByteBuffer bytes_;
+  std::size_t record_ = 0;
+};
+
+// Each appends one record.
+void put_schema(RecordBuilder& to, const Schema& schema);
+void put_channel(RecordBuilder& to, const Channel& channel);
+void put_statistics(RecordBuilder& to, const Statistics& statistics);
+/// Of the chunk's own head, records_offset apart.
+void put_chunk_head(RecordBuilder& to, const ChunkHead& head);
+
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are cut or damaged anywhere: what is read is right, what is not read is told, and
+// memory stays in proportion.
+#include "../support/allocations.hpp"
+#include "../support/random.hpp"
+#include "mcap_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <io/mcap/file_layout.hpp>
+
+namespace penumbra::io::mcap {
+namespace {
+
+using test::Told;
+using test::ToldFile;
+
+// Files here have a few thousand bytes: nothing may ask for more memory than the readers' blocks.
+constexpr std::size_t large_memory = std::size_t{2} << 20;
+
+class McapDamage : public testing::TestWithParam<Compression> {
+ protected:
+  McapDamage() {
+    std::mt19937_64 random = test::seeded_random(71);
+    for (std::uint32_t i = 0; i < 24; ++i)
+      messages_.push_back({"/topic" + std::to_string(i % 3), "p/msg/A", i,
+                           static_cast<std::int64_t>(100 + 10 * i - random() % 30), i,
+                           std::string(random() % 80, static_cast<char>('a' + random() % 3))});
+    test::write_mcap(file_, {GetParam(), 500, "ros2"}, messages_);
+    whole_ = test::read_bytes(file_);
+  }
+
+  ToldFile read(const std::string& bytes) {
+    folder_.write("a.mcap", bytes);
+    const test::MemoryShortage none(large_memory, 0);
+    ToldFile all;
+    test::only_input_errors([&] { all = test::read_mcap(file_); });
+    return all;
+  }
+
+  // Every message is one that was written, and none comes twice.
+  void expect_genuine(const ToldFile& all, std::size_t at) {
+    std::vector<Told> expected = messages_, found = all.messages;
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    ASSERT_TRUE(std::includes(expected.begin(), expected.end(), found.begin(), found.end())) << at;
+    if (all.faults.empty()) {
+      ASSERT_EQ(all.messages, test::by_time(messages_)) << at;
+    }
+  }
+
+  // Each byte in turn; a chunk's kind becomes that of each record that is passed over.
+  void damage_every_byte(const std::string& bytes) {
+    for (std::size_t at = test::mcap_file::magic.size(); at < bytes.size(); ++at) {
+      for (const int flip : {0x01, 0x04, 0x09, 0x0a, 0x0f, 0x80, 0xff}) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ flip);
+        ASSERT_NO_FATAL_FAILURE(expect_genuine(read(damaged), at)) << flip;
+      }
+    }
+  }
+
+  test::TempFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "a.mcap";
+  std::vector<Told> messages_;
+  std::string whole_;
+};
+
+TEST_P(McapDamage, EveryTruncationKeepsTheChunksBefore) {
+  InputFile input;
+  input.open(file_).require();
+  FaultLog faults;
+  std::vector<std::pair<std::size_t, std::size_t>> whole_at;  // bytes of the file, messages in them
+  std::size_t messages = 0;
+  for (const MessagePlace& place : read_layout(input, faults).places) {
+    const std::size_t end = place.offset + place.length;
+    messages = read(whole_.substr(0, end)).messages.size();
+    whole_at.emplace_back(end, messages);
+  }
+  ASSERT_GT(whole_at.size(), 3U);
+  ASSERT_EQ(messages, messages_.size());
+  for (std::size_t length = 0; length < whole_.size(); ++length) {
+    const ToldFile all = read(whole_.substr(0, length));
+    if (length < test::mcap_file::magic.size()) {
+      ASSERT_TRUE(all.messages.empty());  // it was refused
+      continue;
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_genuine(all, length));
+    std::size_t expected = 0;
+    for (const auto& [end, count] : whole_at)
+      if (end <= length) expected = count;
+    ASSERT_EQ(all.messages.size(), expected) << length;
+    ASSERT_FALSE(all.faults.empty()) << length;
+  }
+}
+
+TEST_P(McapDamage, DamagedBytesNeverGiveOtherMessages) { damage_every_byte(whole_); }
+
+TEST_P(McapDamage, DamagedBytesNeverGiveOtherMessagesWithoutASummary) {
+  const std::size_t data_end = whole_.rfind(std::string("\x0f\x04\0\0\0\0\0\0\0", 9));
+  ASSERT_NE(data_end, std::string::npos);
+  damage_every_byte(whole_.substr(0, data_end) + test::mcap_file::data_end() +
+                    test::mcap_file::footer());
+}
+
+// One damaged chunk costs its own messages and no others.
+TEST_P(McapDamage, ADamagedChunkIsOneFault) {
+  InputFile input;
+  input.open(file_).require();
+  FaultLog faults;
+  const FileLayout layout = read_layout(input, faults);
+  for (const MessagePlace& place : layout.places) {
+    std::string damaged = whole_;
+    damaged[place.offset + place.length - 1] =
+        static_cast<char>(damaged[place.offset + place.length - 1] ^ 0x40);
+    const ToldFile all = read(damaged);
+    ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
+    EXPECT_EQ(all.fault_offsets[0], place.offset);
+    EXPECT_HAS(all.faults[0], "its messages are left out");
+    EXPECT_LT(all.messages.size(), messages_.size());
+    EXPECT_GT(all.messages.size(), messages_.size() / 2);
+  }
+}
+
+TEST_P(McapDamage, SurvivesMuchRandomDamage) {
+  std::mt19937_64 random = test::seeded_random(72);
+  const int rounds = test::full() ? 100'000 : 2000;
+  for (int i = 0; i < rounds; ++i) {
+    std::string damaged = whole_;
+    for (std::size_t n = 0; n < 1 + random() % 8; ++n) {
+      const std::size_t at = random() % damaged.size();
+      switch (random() % 4) {
+        case 0:
+          damaged[at] = static_cast<char>(random());
+          break;
+        case 1:  // a length or an offset
+          damaged.replace(at, 8, test::mcap_file::u64(random() >> random() % 64));
+          break;
+        case 2:
+          damaged.erase(at, random() % 40);
+          break;
+        default:
+          damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 200));
+      }
+    }
+    const ToldFile all = read(damaged);
+    ASSERT_LE(all.messages.size(), 40 * messages_.size()) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, McapDamage,
+                         testing::Values(Compression::none, Compression::lz4, Compression::zstd),
+                         test::compression_name);
+
+// What a file claims costs nothing.
+TEST(McapClaims, TakeNoMemory) {
+  using namespace test::mcap_file;
+  test::TempFolder folder;
+  const std::string huge = u64(~0ULL >> 1), huge32 = u32(~0ULL);
+  const std::string head = magic + header();
+  std::vector<std::string> files;
+  for (const int opcode : {1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 15, 16, 200})
+    files.push_back(head + static_cast<char>(opcode) + huge + std::string(100, 'a') + footer());
+  for (const std::string& compression : {std::string("lz4"), std::string("zstd"), std::string()})
+    for (const std::uint64_t size : {std::uint64_t{60} << 20, ~std::uint64_t{0}})
+      files.push_back(file(compressed_chunk(compression, size, std::string(50, '\0'))));
+  for (const int opcode : {3, 4, 8, 11})
+    for (std::size_t before = 0; before < 60; ++before)
+      files.push_back(file("", record(opcode, std::string(before, '\1') + huge32 + huge)));
+  files.push_back(magic + record(1, huge32 + huge));
+  for (const std::string& bytes : files) {
+    const auto path = folder.write("a.mcap", bytes);
+    const test::MemoryShortage none(large_memory, 0);
+    const ToldFile all = test::read_mcap(path);
+    EXPECT_TRUE(all.messages.empty());
+    EXPECT_EQ(none.asked(), 0U);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/data.hpp"
+#include "../support/random.hpp"
+#include "mcap_files.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <io/mcap/chunk_merger.hpp>
+#include <io/mcap/crc32.hpp>
+
+namespace penumbra::io::mcap {
+namespace {
+
+using namespace test::mcap_file;
+using test::Told;
+using test::ToldFile;
+
+Told hand_made(const std::string& topic, std::int64_t time, const std::string& data = "data") {
+  return {topic, "p/msg/A", static_cast<std::uint32_t>(time), time, time, data};
+}
+
+class McapReader : public testing::Test {
+ protected:
+  ToldFile read(const std::string& bytes) {
+    return test::read_mcap(folder_.write("a.mcap", bytes));
+  }
+
+  test::TempFolder folder_;
+  const std::string definitions_ = schema(1, "p/msg/A") + channel(0, 1, "/a") + channel(7, 1, "/b");
+};
+
+TEST(McapCrc, IsZlibsInPiecesOfAnySize) {
+  std::mt19937_64 random = test::seeded_random(51);
+  std::string bytes(5000, '\0');
+  for (char& c : bytes) c = static_cast<char>(random());
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t from = random() % 100, size = random() % (bytes.size() - 100);
+    const std::string part = bytes.substr(from, size);
+    Crc32 crc;
+    for (std::size_t at = 0; at < size;) {
+      const std::size_t step = std::min<std::size_t>(random() % 70, size - at);
+      crc.add(test::as_bytes(part).subspan(at, step));
+      at += step;
+    }
+    ASSERT_EQ(crc.value(), test::mcap_file::crc(part)) << from << " " << size;
+  }
+}
+
+TEST_F(McapReader, ReadsTheSmallestFiles) {
+  const ToldFile empty = read(file(""));
+  EXPECT_TRUE(empty.messages.empty());
+  EXPECT_TRUE(empty.faults.empty()) << empty.faults[0];
+  EXPECT_TRUE(
+      read(magic + header() + footer()).faults.empty());  // the specification's "empty file"
+  const ToldFile one = read(file(channel(3, 0, "/x") + message(3, 5)));
+  ASSERT_EQ(one.messages.size(), 1U);
+  EXPECT_EQ(one.messages[0], (Told{"/x", "-", 5, 5, 5, "data"}));
+  EXPECT_TRUE(one.faults.empty());
+}
+
+TEST_F(McapReader, TellsWhatTheFileTells) {
+  folder_.write("a.mcap", file(definitions_ + message(0, 5)));
+  const Reader reader(folder_.path() / "a.mcap");
+  EXPECT_EQ(reader.profile(), "ros2");
+  EXPECT_EQ(reader.library(), "by hand");
+  EXPECT_EQ(reader.schemas().at(1), (Schema{1, "p/msg/A", "ros2msg", "int32 a\n"}));
+  EXPECT_EQ(reader.channels().at(7), (Channel{7, 1, "/b", "cdr", {}}));
+  EXPECT_FALSE(reader.statistics());
+}
+
+TEST_F(McapReader, MergesWithoutAnyIndexByTime) {
+  const std::vector<Told> expected = {hand_made("/b", 1), hand_made("/a", 2), hand_made("/a", 3),
+                                      hand_made("/b", 3), hand_made("/b", 4), hand_made("/a", 9)};
+  const std::string late = chunk(3, 9, definitions_ + message(0, 9) + message(0, 3));
+  const std::string early = chunk(1, 4, message(7, 3) + message(7, 1) + message(7, 4));
+  const ToldFile all = read(file(late + early + message(0, 2)));
+  EXPECT_EQ(all.messages, expected);
+  EXPECT_TRUE(all.faults.empty());
+}
+
+TEST_F(McapReader, FindsWhatTheIndexPassesOver) {
+  const std::string first = chunk(5, 5, definitions_ + message(0, 5));
+  const std::string second = chunk(6, 6, message(7, 6));
+  const std::string loose = message(0, 4);
+  const std::uint64_t at = data_start();
+  const std::string index = chunk_index(6, 6, at + first.size() + loose.size(), second.size());
+  const ToldFile all = read(file(first + loose + second, definitions_ + index));
+  const std::vector<Told> expected = {hand_made("/a", 4), hand_made("/a", 5), hand_made("/b", 6)};
+  EXPECT_EQ(all.messages, expected);
+  EXPECT_TRUE(all.faults.empty());
+}
+
+TEST_F(McapReader, KnowsEveryChannelFromTheStart) {
+  folder_.write("a.mcap",
+                file(chunk(5, 5, schema(1, "p/msg/A") + channel(0, 1, "/a") + message(0, 5)) +
+                     chunk(6, 6, channel(7, 1, "/b") + message(7, 6))));
+  EXPECT_EQ(Reader(folder_.path() / "a.mcap").channels().size(), 2U);
+}
+
+TEST_F(McapReader, SaysWhenAnIndexLies) {
+  const std::string only = chunk(5, 9, definitions_ + message(0, 9) + message(0, 5));
+  const std::uint64_t at = data_start();
+  const auto with = [&](const std::string& index) {
+    return read(file(only, definitions_ + index));
+  };
+
+  // What the index passes over is found, so that no message is missing.
+  const ToldFile elsewhere = with(chunk_index(5, 9, at + 1, only.size() - 1));
+  ASSERT_FALSE(elsewhere.faults.empty());
+  EXPECT_HAS(elsewhere.faults.back(), "there is no chunk of");
+
+  const ToldFile twice =
+      with(chunk_index(5, 9, at, only.size()) + chunk_index(5, 9, at, only.size()));
+  EXPECT_EQ(twice.messages.size(), 2U);
+  ASSERT_EQ(twice.faults.size(), 1U);
+  EXPECT_HAS(twice.faults[0], "chunks that overlap");
+  EXPECT_HAS(with(chunk_index(5, 9, 1ULL << 63, only.size())).faults[0], "outside of the data");
+  EXPECT_HAS(with(chunk_index(5, 9, at, ~0ULL)).faults[0], "outside of the data");
+
+  const std::string second = chunk(7, 7, message(7, 7));
+  const ToldFile late =
+      read(file(only + second, definitions_ + chunk_index(8, 9, at, only.size()) +
+                                   chunk_index(7, 7, at + only.size(), second.size())));
+  ASSERT_EQ(late.messages.size(), 3U);
+  ASSERT_EQ(late.faults.size(), 1U);
+  EXPECT_HAS(late.faults[0], "they come late");
+}
+
+TEST_F(McapReader, NamesEveryOtherFault) {
+  const auto fault = [&](const std::string& data) {
+    const ToldFile all = read(file(data));
+    EXPECT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
+    return all.faults.empty() ? std::string() : all.faults[0];
+  };
+  EXPECT_HAS(fault(message(9, 1) + message(9, 2)), "messages of channel 9, of which the file does");
+  EXPECT_HAS(fault(schema(0, "x")), "a schema has the id 0");
+  EXPECT_HAS(fault(schema(1, "x") + schema(1, "x") + schema(1, "y")),
+             "schema 1 is not what it was");
+  EXPECT_HAS(fault(record(0x04, "xy")), "a channel's record is damaged");
+  EXPECT_HAS(fault(channel(0, 0, "/a") + message(0, 1ULL << 63)), "behind the year 2262");
+  EXPECT_HAS(fault(channel(0, 0, "/a") + record(0x05, "short")), "shorter than its head");
+  EXPECT_HAS(fault(chunk(0, 0, definitions_ + data_end())), "records that no chunk may hold");
+  EXPECT_HAS(fault(chunk(0, 0, definitions_ + std::string(20, '\0'))), "damaged at byte");
+  EXPECT_HAS(fault(compressed_chunk("brotli", 4, "abcd")), "is compressed as 'brotli'");
+  EXPECT_HAS(fault(compressed_chunk("zstd", 4, "abcd")), "cannot be decompressed as zstd");
+  EXPECT_HAS(fault(compressed_chunk("lz4", 4, "abcd")), "cannot be decompressed as lz4");
+  EXPECT_HAS(fault(compressed_chunk("lz4", 1ULL << 40, "abcd")), "claims to decompress from 4 to");
+  EXPECT_HAS(fault(compressed_chunk("", 5, "abcd")), "tells of two sizes");
+  EXPECT_HAS(read(file(std::string(30, '\0') + message(0, 1))).faults[0], "no record begins here");
+}
+
+TEST_F(McapReader, TrustsNoLooseMessageWhoseChecksumIsWrong) {
+  const std::string start = magic + header() + channel(0, 0, "/a") + message(0, 1);
+  EXPECT_TRUE(read(start + data_end(crc(start)) + footer()).faults.empty());
+  const ToldFile wrong = read(start + data_end(crc(start) + 1) + footer());
+  ASSERT_EQ(wrong.faults.size(), 1U);
+  EXPECT_EQ(wrong.fault_offsets[0], start.size());
+  EXPECT_HAS(wrong.faults[0], "another checksum");
+}
+
+TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
+  const std::string first = chunk(1, 1, definitions_ + message(0, 1));
+  const std::string second = chunk(2, 2, message(0, 2));
+  const std::string third = chunk(3, 3, message(7, 3));
+  std::string bytes = magic + header() + first + second + third + data_end() + footer();
+  const std::size_t at = data_start() + first.size();
+  bytes.replace(at + 1, 8, u64(1ULL << 60));
+  const ToldFile all = read(bytes);
+  ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
+  EXPECT_EQ(all.fault_offsets[0], at);
+  EXPECT_HAS(all.faults[0], std::to_string(second.size()) + " bytes are left out");
+  EXPECT_EQ(all.messages, (std::vector<Told>{hand_made("/a", 1), hand_made("/b", 3)}));
+}
+
+TEST_F(McapReader, RefusesWhatIsNoMcap) {
+  const auto refusal = [&](const std::string& bytes) {
+    return test::input_error([&] { read(bytes); });
+  };
+  const std::string name = (folder_.path() / "a.mcap").string();
+  EXPECT_EQ(refusal(""), name + ": is not an MCAP file");
+  EXPECT_EQ(refusal("#ROSBAG V2.0\n"), name + ": is not an MCAP file");
+  EXPECT_EQ(refusal("\x89MCAP1\r\n"), name + ": is MCAP of another version; version 0 is read");
+  EXPECT_HAS(test::input_error([&] { Reader reader(folder_.path() / "none.mcap"); }), "none.mcap");
+  EXPECT_HAS(test::input_error([&] { Reader reader(folder_.path()); }), "is not a regular file");
+}
+
+// However little may be held, the messages and their order stay.
+TEST_F(McapReader, HoldsNoMoreThanAsked) {
+  std::mt19937_64 random = test::seeded_random(52);
+  std::vector<Told> messages;
+  for (std::uint32_t i = 0; i < 2000; ++i)
+    messages.push_back({"/t" + std::to_string(i % 5), "p/msg/A", i,
+                        static_cast<std::int64_t>(random() % 1000), 7,
+                        std::string(random() % 300, static_cast<char>(i))});
+  const auto path = folder_.path() / "a.mcap";
+  test::write_mcap(path, {.compression = Compression::lz4, .chunk_size = 10'000, .profile = ""},
+                   messages);
+  const auto expected = test::by_time(messages);
+  for (const std::size_t held : {std::size_t{1}, std::size_t{60'000}, std::size_t{1} << 30}) {
+    InputFile input;
+    input.open(path).require();
+    FaultLog faults;
+    FileLayout layout = read_layout(input, faults);
+    ASSERT_GT(layout.places.size(), 30U);
+    ChunkMerger merger(input, layout, faults, held);
+    std::size_t i = 0;
+    for (; const auto item = merger.next(); ++i)
+      ASSERT_EQ(item->head.sequence, expected[i].sequence) << i << " of those held " << held;
+    EXPECT_EQ(i, expected.size());
+    EXPECT_TRUE(faults.all().empty());
+  }
+}
+
+TEST_F(McapReader, SaysWhenMessagesAreMissing) {
+  const std::string only = chunk(5, 5, definitions_ + message(0, 5));
+  const std::string counts = record(
+      0x0b, u64(2) + u16(1) + u32(2) + u32(0) + u32(0) + u32(1) + u64(5) + u64(5) + text(""));
+  const ToldFile all = read(file(only, definitions_ + counts));
+  ASSERT_EQ(all.faults.size(), 1U);
+  EXPECT_EQ(all.faults[0], "the file counts 2 messages, and 1 were found");
+}
+
+// The recording that the reference library wrote: 100 joint states a second, ten images.
+TEST(McapReference, ReadsTheRealRecording) {
+  PENUMBRA_REQUIRE_DATA();
+  const ToldFile all = test::read_mcap(test::data_folder() / "xarm7_realsense" / "xarm7.mcap");
+  EXPECT_TRUE(all.faults.empty()) << all.faults[0];
+  std::map<std::string, int> counts;
+  for (const Told& message : all.messages) ++counts[message.topic];
+  EXPECT_EQ(counts["/robot_description"], 1);
+  EXPECT_EQ(counts["/tf_static"], 1);
+  EXPECT_EQ(counts["/camera/aligned_depth_to_color/image_raw"], 10);
+  EXPECT_GT(counts["/joint_states"], 900);
+  EXPECT_TRUE(std::is_sorted(all.messages.begin(), all.messages.end(),
+                             [](const Told& a, const Told& b) { return a.log_time < b.log_time; }));
+}
+
+}  // namespace
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Against the reference library of MCAP, which is written in TypeScript: the scripts of
+// tests/mcap_reference with packages of npm.
+#include "../support/data.hpp"
+#include "../support/random.hpp"
+#include "mcap_files.hpp"
+#include "node_scripts.hpp"
+
+#include <iomanip>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <io/mcap/crc32.hpp>
+
+namespace penumbra::io::mcap {
+namespace {
+
+using test::Told;
+
+// As the scripts' common.mjs.
+std::string line(const Told& message) {
+  std::ostringstream out;
+  out << message.topic << ' ' << message.schema << ' ' << message.sequence << ' '
+      << message.log_time << ' ' << message.publish_time << ' ' << message.data.size() << ' '
+      << std::hex << std::setw(8) << std::setfill('0') << crc32(test::as_bytes(message.data));
+  return out.str();
+}
+
+std::string lines(const std::vector<Told>& messages) {
+  std::string all;
+  for (const Told& message : messages) all += line(message) + "\n";
+  return all;
+}
+
+TEST(McapReference, EveryFileOfTheReferenceIsRead) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  test::TempFolder folder;
+  const auto made = test::run_script("generate.mjs", folder.path().string());
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const std::string expected = test::read_bytes(folder.path() / "messages.txt");
+  ASSERT_EQ(std::count(expected.begin(), expected.end(), '\n'), 12);
+  std::map<std::string, int> kinds;
+  int wrong = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().extension() != ".mcap") continue;
+    const std::string name = entry.path().stem().string();
+    ++kinds[name.substr(0, name.find('_'))];
+    const auto all = test::read_mcap(entry.path());
+    EXPECT_EQ(lines(all.messages), expected) << name;
+    EXPECT_TRUE(all.faults.empty()) << name << ": " << all.faults[0];
+    Reader reader(entry.path());
+    EXPECT_EQ(reader.channels().size(), 3U) << name;
+    EXPECT_EQ(reader.schemas().size(), 2U) << name;
+    if (testing::Test::HasFailure() && ++wrong == 10) break;
+  }
+  EXPECT_EQ(kinds["writer"], 4096);
+  EXPECT_EQ(kinds["builder"], 4096);
+}
+
+TEST(McapReference, ReadsEveryFileOfOurs) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  test::TempFolder folder;
+  std::mt19937_64 random = test::seeded_random(81);
+  std::string files, expected;
+  for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
+    for (const std::size_t chunk_size : {std::size_t{1}, std::size_t{3000}, std::size_t{1} << 20}) {
+      for (const std::size_t count : {0, 1, 200}) {
+        std::vector<Told> messages;
+        for (std::uint32_t i = 0; i < count; ++i) {
+          const std::string number = std::to_string(random() % 3);
+          messages.push_back({"/t" + number, number == "0" ? "-" : "p/msg/T" + number, i,
+                              static_cast<std::int64_t>(random() % 100), 1'700'000'000'000'000'000,
+                              std::string(random() % 400, static_cast<char>(random() % 3))});
+        }
+        const auto path =
+            folder.path() / (std::string(to_string(compression)) + "_" +
+                             std::to_string(chunk_size) + "_" + std::to_string(count) + ".mcap");
+        test::write_mcap(path, {compression, chunk_size, "ros2"}, messages);
+        files += "'" + path.string() + "' ";
+        expected += "# ros2\n" + lines(test::by_time(messages));
+      }
+    }
+  }
+  const auto read = test::run_script("read_back.mjs", files);
+  ASSERT_EQ(read.status, 0) << read.errors;
+  EXPECT_EQ(read.output, expected);
+}
+
+TEST(McapReference, ReadsTheRealRecordingAlike) {
+  PENUMBRA_REQUIRE_DATA();
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  const auto file = test::data_folder() / "xarm7_realsense" / "xarm7.mcap";
+  const auto read = test::run_script("read_back.mjs", "'" + file.string() + "'");
+  ASSERT_EQ(read.status, 0) << read.errors;
+  EXPECT_EQ("# ros2\n" + lines(test::read_mcap(file).messages), read.output);
+}
+
+// The oracle can tell: it refuses a damaged file.
+TEST(McapReference, RefusesDamage) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  test::TempFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  test::write_mcap(path, {.compression = Compression::none, .chunk_size = 1000, .profile = ""},
+                   {{"/a", "-", 1, 2, 3, std::string(100, 'x')}});
+  std::string bytes = test::read_bytes(path);
+  bytes[bytes.find("xxx")] = 'y';
+  folder.write("a.mcap", bytes);
+  EXPECT_NE(test::run_script("read_back.mjs", "'" + path.string() + "'").status, 0);
+}
+
+}  // namespace
+}  // namespace penumbra::io::mcap

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scripts of tests/mcap_reference, run by Node.js in a folder of the build tree.
+#pragma once
+
+#include "files.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace penumbra::test {
+
+struct ScriptResult {
+  int status = -1;
+  std::string output;
+  std::string errors;
+};
+
+inline std::filesystem::path node_folder() { return PENUMBRA_NODE_FOLDER; }
+
+/// Puts the scripts and npm's packages, of the versions of the lock file, into node_folder(). Tests
+/// run at the same time: the first one installs, the others wait. Whether they are there.
+inline bool node_scripts_are_there() {
+  namespace fs = std::filesystem;
+  const fs::path source = fs::path(PENUMBRA_SOURCE_DIR) / "tests" / "mcap_reference";
+  fs::create_directories(node_folder());
+  const int lock = ::open((node_folder() / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  if (lock < 0 || ::flock(lock, LOCK_EX) != 0) return false;
+  for (const auto& entry : fs::directory_iterator(source))
+    if (entry.is_regular_file())
+      fs::copy_file(entry.path(), node_folder() / entry.path().filename(),
+                    fs::copy_options::overwrite_existing);
+  const std::string wanted = read_bytes(source / "package-lock.json");
+  const fs::path mark = node_folder() / "installed.json";  // the lock file of what is there
+  if (!fs::exists(mark) || read_bytes(mark) != wanted) {
+    const std::string install =
+        "cd '" + node_folder().string() +
+        "' && timeout 120 npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1";
+    if (std::system(install.c_str()) == 0)
+      fs::copy_file(source / "package-lock.json", mark, fs::copy_options::overwrite_existing);
+  }
+  const bool there = fs::exists(mark) && read_bytes(mark) == wanted;
+  ::close(lock);
+  return there;
+}
+
+/// `arguments`: as a shell takes them.
+inline ScriptResult run_script(const std::string& script, const std::string& arguments) {
+  const TempFolder folder;
+  const auto output = folder.path() / "output", errors = folder.path() / "errors";
+  const std::string command = "node '" + (node_folder() / script).string() + "' " + arguments +
+                              " >'" + output.string() + "' 2>'" + errors.string() + "'";
+  const int status = std::system(command.c_str());
+  return {status, read_bytes(output), read_bytes(errors)};
+}
+
+}  // namespace penumbra::test
+
+/// Skips the running test where Node.js or its packages cannot be had.
+#define PENUMBRA_REQUIRE_NODE_SCRIPTS()                                               \
+  if (!penumbra::test::node_scripts_are_there())                                      \
+  GTEST_SKIP() << "skipped: no Node.js with npm, or no npm packages; see npm.log in " \
+               << penumbra::test::node_folder()
