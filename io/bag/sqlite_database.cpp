@@ -15,6 +15,8 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::string_view sqlite_magic{"SQLite format 3\0", 16};
+constexpr std::size_t page_size_at = 16;  // https://www.sqlite.org/fileformat.html, big-endian
+using FileStart = std::array<char, page_size_at + 2>;
 
 // A row costs some 40 steps of SQLite's virtual machine and has at least some 30 bytes. Only pages
 // that lead to themselves take more.
@@ -54,6 +56,18 @@ int count_down(void* left) {
   return steps == 0 || --steps == 0 ? 1 : 0;
 }
 
+// SQLite fills a page that is not whole with zeros, and messages there with them.
+void check_pages(const std::filesystem::path& file, std::uint64_t size, const FileStart& start) {
+  const auto high = static_cast<unsigned char>(start[page_size_at]);
+  const auto low = static_cast<unsigned char>(start[page_size_at + 1]);
+  const std::uint64_t page = high == 0 && low == 1 ? 65536 : 256ULL * high + low;
+  if (page == 0 || size % page == 0) return;
+  throw InputError(file.string() +
+                   ": is cut inside of a page; what stands before is readable after "
+                   "'truncate -s " +
+                   std::to_string(size - size % page) + "' of a copy");
+}
+
 bool answers(sqlite3* database, const char* query) {
   return sqlite3_exec(database, query, nullptr, nullptr, nullptr) == SQLITE_OK;
 }
@@ -66,13 +80,14 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file) : file_(file) 
   InputFile input;
   input.open(file).require();
   file_size_ = input.size();
-  std::array<char, sqlite_magic.size()> start{};
+  FileStart start{};
   if (input.read(start.data(), start.size()) != start.size() ||
-      std::string_view(start.data(), start.size()) != sqlite_magic)
+      !std::string_view(start.data(), start.size()).starts_with(sqlite_magic))
     throw InputError(file.string() + ": is not an SQLite database, as *.db3 bags are");
 
   const bool journal =
       size_of(with_suffix(file, "-wal")) + size_of(with_suffix(file, "-journal")) > 0;
+  if (!journal) check_pages(file, file_size_, start);
   if (open(!journal)) return;
   std::string first = failure();
   if (journal && open(true)) {

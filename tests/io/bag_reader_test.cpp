@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/data.hpp"
+#include "bag_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <io/bag/natural_order.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using test::BagContent;
+using test::Told;
+
+Told said(const std::string& topic, const std::string& type, std::int64_t time,
+          const std::string& data) {
+  return {topic, type, 0, time, time, data};
+}
+
+class Bags : public testing::Test {
+ protected:
+  // One topic in one file of a recording.
+  void mcap(const std::string& name, const std::vector<std::int64_t>& times,
+            const std::string& topic = "/a") {
+    std::vector<Told> messages;
+    for (const std::int64_t time : times) messages.push_back(said(topic, "p/msg/A", time, name));
+    test::write_mcap(path(name),
+                     {.compression = mcap::Compression::lz4, .chunk_size = 50, .profile = "ros2"},
+                     messages);
+  }
+  void metadata(const std::string& text) { folder_.write("metadata.yaml", text); }
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+    return folder_.path() / name;
+  }
+  std::string refusal(const std::filesystem::path& file) {
+    return test::input_error([&] { static_cast<void>(open_bag(file)); });
+  }
+  static std::string times(const BagContent& all) {
+    std::string text;
+    for (const Told& m : all.messages)
+      text += std::to_string(m.log_time) + m.data.substr(0, 1) + " ";
+    return text;
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(Bags, OneTopicHasManyPublishers) {
+  mcap::Writer writer(path("a.mcap"), {.compression = {}, .chunk_size = 100, .profile = "ros2"});
+  const auto schema = writer.add_schema("p/msg/A", "ros2msg", "int32 a\n");
+  const auto other = writer.add_schema("p/msg/B", "ros2idl", "struct B {};");
+  for (const char* node : {"x", "y"}) {
+    const auto channel = writer.add_channel("/a", "cdr", schema, {{"node", node}});
+    writer.write(channel, 5, 4, 0, test::as_bytes("0123"));
+  }
+  writer.add_channel("/a", "cdr", other);
+  writer.close();
+  const BagContent all = test::read_bag(path("a.mcap"));
+  ASSERT_EQ(all.topics.size(), 2U);
+  EXPECT_EQ(all.topics[0], (BagTopic{"/a", "p/msg/A", "int32 a\n", "cdr", 2}));
+  EXPECT_EQ(all.topics[1], (BagTopic{"/a", "p/msg/B", "", "cdr", 0}));
+  const Told expected{"/a", "p/msg/A", 0, 5, 4, "0123"};
+  EXPECT_EQ(all.messages, (std::vector<Told>{expected, expected}));
+  EXPECT_TRUE(all.faults.empty());
+}
+
+TEST_F(Bags, FaultsNameFileAndByte) {
+  mcap("a.mcap", {1, 2, 3});
+  const std::string bytes = test::read_bytes(path("a.mcap"));
+  folder_.write("a.mcap", bytes.substr(0, bytes.size() - 1));
+  const BagContent all = test::read_bag(path("a.mcap"));
+  EXPECT_EQ(all.messages.size(), 3U);
+  ASSERT_EQ(all.faults.size(), 1U);
+  EXPECT_EQ(all.faults[0], path("a.mcap").string() + ": byte " + std::to_string(bytes.size() - 1) +
+                               ": the file has no footer (was it cut?); it is read without its "
+                               "summary");
+}
+
+TEST_F(Bags, FilesOfARecordingAreOneBag) {
+  mcap("r_0.mcap", {1, 2, 7});
+  mcap("r_1.mcap", {5, 6, 9});
+  mcap("r_2.mcap", {20, 10}, "/b");
+  metadata(test::metadata_yaml("mcap", {"r_2.mcap", "r_0.mcap", "r_1.mcap"}));
+  const BagContent all = test::read_bag(folder_.path());
+  EXPECT_EQ(times(all), "1r 2r 5r 6r 7r 9r 10r 20r ");
+  EXPECT_EQ(all.messages[2].data, "r_1.mcap");
+  EXPECT_EQ(all.messages[6].topic, "/b");
+  EXPECT_EQ(all.topics.size(), 2U);
+  EXPECT_TRUE(all.faults.empty());
+}
+
+TEST_F(Bags, MetadataCountsMessages) {
+  mcap("r_0.mcap", {1});
+  const std::string topics =
+      "\n    - topic_metadata:\n        name: /a\n        type: p/msg/A\n"
+      "        serialization_format: cdr\n        offered_qos_profiles: \"- history: 3\\n  depth: "
+      "1\"\n"
+      "        type_description_hash: \"\"\n      message_count: 41";
+  metadata(test::metadata_yaml("mcap", {"r_0.mcap"}, topics) +
+           "  custom_data: ~\n  ros_distro: x\n");
+  EXPECT_EQ(test::read_bag(folder_.path()).topics[0].messages, 41U);
+}
+
+TEST_F(Bags, OldMetadataNamesTheFolderToo) {
+  mcap("r_0.mcap", {1});
+  metadata(test::metadata_yaml("mcap", {folder_.path().filename() / "r_0.mcap"}));
+  EXPECT_EQ(test::read_bag(folder_.path()).messages.size(), 1U);
+}
+
+TEST_F(Bags, ARecorderThatWasKilledLeavesNoMetadata) {
+  mcap("r_0.mcap", {1, 2});
+  mcap("r_10.mcap", {2, 3}, "/z");
+  mcap("r_2.mcap", {2, 4});
+  folder_.write("notes.txt", "x");
+  const BagContent all = test::read_bag(folder_.path());
+  EXPECT_EQ(times(all), "1r 2r 2r 2r 3r 4r ");
+  EXPECT_EQ(all.messages[2].data, "r_2.mcap");  // names are ordered as people count
+  EXPECT_EQ(all.messages[3].data, "r_10.mcap");
+  ASSERT_EQ(all.faults.size(), 1U);
+  EXPECT_HAS(all.faults[0], "metadata.yaml: is missing (was the recorder killed?)");
+}
+
+TEST_F(Bags, AMissingOrBrokenFileCostsItsPart) {
+  mcap("r_0.mcap", {1, 2});
+  folder_.write("r_1.mcap", "no bag");
+  metadata(test::metadata_yaml("mcap", {"r_0.mcap", "r_1.mcap", "r_2.mcap"}));
+  const BagContent all = test::read_bag(folder_.path());
+  EXPECT_EQ(all.messages.size(), 2U);
+  ASSERT_EQ(all.faults.size(), 2U);
+  EXPECT_EQ(all.faults[0], path("r_1.mcap").string() +
+                               ": is not an MCAP file; its part of the recording is left out");
+  EXPECT_HAS(all.faults[1], "r_2.mcap: cannot be read: No such file");
+  metadata(test::metadata_yaml("mcap", {"r_1.mcap", "r_2.mcap"}));
+  EXPECT_EQ(refusal(folder_.path()), path("r_1.mcap").string() + ": is not an MCAP file");
+}
+
+TEST_F(Bags, FaultsOfFilesComeOnce) {
+  mcap("r_0.mcap", {1, 2});
+  const std::string bytes = test::read_bytes(path("r_0.mcap"));
+  folder_.write("r_0.mcap", bytes.substr(0, bytes.size() - 1));
+  metadata(test::metadata_yaml("mcap", {"r_0.mcap"}));
+  EXPECT_EQ(test::read_bag(folder_.path()).faults.size(), 1U);
+}
+
+TEST_F(Bags, RefusesWhatItCannotRead) {
+  EXPECT_HAS(refusal(folder_.path()), "holds no recording: neither metadata.yaml nor *.mcap");
+  EXPECT_HAS(refusal(path("a.bag")), "a.bag: is no bag; *.mcap, *.db3 and folders");
+  EXPECT_HAS(refusal(path("a.db3.zstd")), "is compressed as a whole");
+  EXPECT_HAS(refusal(path("a.mcap")), "No such file");
+  metadata("rosbag2_bagfile_information:\n  version: 5\n");
+  EXPECT_HAS(refusal(folder_.path()), "key 'relative_file_paths' is missing");
+  metadata(test::metadata_yaml("sqlite3", {"a.db3.zstd"}, " []", "FILE"));
+  EXPECT_HAS(refusal(folder_.path()),
+             "metadata.yaml:11: rosbag2_bagfile_information."
+             "compression_mode: files that are compressed as a whole");
+  metadata(test::metadata_yaml("sqlite3", {"a.db3"}, " []", "MESSAGE"));
+  EXPECT_HAS(refusal(folder_.path()), "'MESSAGE' is not read; 'ros2 bag convert'");
+  metadata("rosbag2_bagfile_information:\n  relative_file_paths: []\n");
+  EXPECT_HAS(refusal(folder_.path()), "names no file");
+}
+
+TEST(NaturalOrder, CountsAsPeopleDo) {
+  const std::vector<std::string> rising = {"a",     "a_1",  "a_2", "a_10",
+                                           "a_10b", "b_01", "b_1", "b_2"};
+  for (std::size_t i = 0; i < rising.size(); ++i)
+    for (std::size_t k = 0; k < rising.size(); ++k)
+      EXPECT_EQ(natural_less(rising[i], rising[k]), i < k) << rising[i] << " " << rising[k];
+}
+
+TEST(RealBag, TellsItsTopics) {
+  PENUMBRA_REQUIRE_DATA();
+  const auto bag = open_bag(test::data_folder() / "xarm7_realsense" / "xarm7.mcap");
+  std::map<std::string, std::string> types;
+  for (const BagTopic& topic : bag->topics()) {
+    types[topic.name] = topic.type;
+    EXPECT_EQ(topic.encoding, "cdr");
+    EXPECT_FALSE(topic.definition.empty());
+    EXPECT_GT(topic.messages.value_or(0), 0U);
+  }
+  EXPECT_EQ(types.size(), 6U);
+  EXPECT_EQ(types["/joint_states"], "sensor_msgs/msg/JointState");
+}
+
+}  // namespace
+}  // namespace penumbra::io
