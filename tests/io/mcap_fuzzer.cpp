@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer on MCAP files: whatever the bytes, each message lies in memory that may be read, and
+// the file is read to its end.
+#include "memory_file.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/mcap/reader.hpp>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  const penumbra::test::MemoryFile file(bytes, count);
+  try {
+    penumbra::io::mcap::Reader reader(file.path());
+    unsigned sum = 0;
+    for (penumbra::io::mcap::Message message; reader.next(message);) {
+      if (!reader.channels().contains(message.channel) || message.log_time < 0) std::abort();
+      for (const std::byte b : message.data) sum += static_cast<unsigned>(b);
+    }
+    volatile unsigned kept = sum;
+    static_cast<void>(kept);
+  } catch (const penumbra::InputError&) {
+    return 0;
+  }
+  return 0;
+}

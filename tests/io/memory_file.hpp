@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace penumbra::test {
+
+/// A file without a disk, for readers that want a path.
+class MemoryFile {
+ public:
+  MemoryFile(const std::uint8_t* bytes, std::size_t count)
+      : descriptor_(::memfd_create("fuzz", 0)) {
+    if (descriptor_ < 0) std::abort();
+    for (std::size_t done = 0; done < count;) {
+      const ssize_t put = ::write(descriptor_, bytes + done, count - done);
+      if (put <= 0) std::abort();
+      done += static_cast<std::size_t>(put);
+    }
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+
+  [[nodiscard]] std::filesystem::path path() const {
+    return "/proc/self/fd/" + std::to_string(descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace penumbra::test
