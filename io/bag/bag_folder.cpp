@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <penumbra/base/error.hpp>
@@ -37,14 +38,16 @@ class BagFolder final : public BagReader {
   [[nodiscard]] std::span<const std::string> faults() const override { return faults_; }
 
   bool next(BagMessage& message) override {
-    if (current_ < parts_.size()) advance(parts_[current_]);
+    if (current_) advance(parts_[*current_]);
+    current_ = earliest();
     while (next_part_ < parts_.size() &&
-           (!earliest() || parts_[next_part_].start_time <= parts_[*earliest()].waiting.log_time))
+           (!current_ || parts_[next_part_].start_time <= parts_[*current_].waiting.log_time)) {
+      open_.push_back(next_part_);
       reopen(parts_[next_part_++]);
-    const auto first = earliest();
-    current_ = first.value_or(parts_.size());
-    if (!first) return false;
-    const BagPart& part = parts_[current_];
+      current_ = earliest();
+    }
+    if (!current_) return false;
+    const BagPart& part = parts_[*current_];
     message = part.waiting;
     message.topic = part.topics[message.topic];
     return true;
@@ -58,8 +61,11 @@ class BagFolder final : public BagReader {
       return metadata_->files;
     }
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (is_bag_file(entry.path())) files.push_back(entry.path());
+    std::error_code fault;
+    for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
+         entry.increment(fault))
+      if (is_bag_file(entry->path())) files.push_back(entry->path());
+    if (fault) throw InputError(folder.string() + ": cannot be read: " + fault.message());
     if (files.empty())
       throw InputError(folder.string() +
                        ": holds no recording: neither metadata.yaml nor *.mcap "
@@ -146,21 +152,21 @@ class BagFolder final : public BagReader {
   }
 
   // Of the open files, the one whose message comes first.
-  [[nodiscard]] std::optional<std::size_t> earliest() const {
+  [[nodiscard]] std::optional<std::size_t> earliest() {
+    std::erase_if(open_, [&](std::size_t i) { return parts_[i].reader == nullptr; });
     std::optional<std::size_t> first;
-    for (std::size_t i = 0; i < next_part_; ++i)
-      if (parts_[i].reader &&
-          (!first || parts_[i].waiting.log_time < parts_[*first].waiting.log_time))
-        first = i;
+    for (const std::size_t i : open_)
+      if (!first || parts_[i].waiting.log_time < parts_[*first].waiting.log_time) first = i;
     return first;
   }
 
   std::optional<BagMetadata> metadata_;
   std::vector<BagTopic> topics_;
   std::vector<std::string> faults_;
-  std::vector<BagPart> parts_;      // by start
-  std::size_t next_part_ = 0;       // not yet opened again
-  std::size_t current_ = SIZE_MAX;  // whose message was given last
+  std::vector<BagPart> parts_;          // by start
+  std::size_t next_part_ = 0;           // not yet opened again
+  std::vector<std::size_t> open_;       // indices of parts, rising
+  std::optional<std::size_t> current_;  // whose message was given last
   bool any_read_ = false;
 };
 

@@ -8,13 +8,14 @@
 #include <zstd_errors.h>
 
 #include <io/mcap/compression.hpp>
+#include <io/mcap/records.hpp>
 #include <io/printable.hpp>
 
 namespace penumbra::io::mcap {
 namespace {
 
 constexpr std::uint64_t unbacked_bytes = std::uint64_t{64} << 20;  // without regard to the input
-constexpr std::uint64_t most_ratio = 1000;
+constexpr std::uint64_t most_ratio = 64;                           // beyond
 
 // Room that the first attempt has: ordinary chunks shrink less.
 constexpr std::uint64_t first_bytes = std::uint64_t{64} << 10;
@@ -105,7 +106,7 @@ std::string_view to_string(Compression compression) {
 }
 
 std::uint64_t most_decompressed(std::uint64_t compressed) {
-  return std::max(unbacked_bytes, most_ratio * compressed);
+  return std::clamp(most_ratio * compressed, unbacked_bytes, max_record_bytes);
 }
 
 struct Decompressor::Contexts {

@@ -18,7 +18,7 @@ enum class Compression { none, lz4, zstd };
 [[nodiscard]] std::string_view to_string(Compression compression);
 
 /// Most bytes that `compressed` ones may become. Chunks of blank images shrink a thousandfold and
-/// more; beyond this the size is a bomb's.
+/// more, but have not more than 64 MB; beyond that, more than 64-fold is a bomb's.
 [[nodiscard]] std::uint64_t most_decompressed(std::uint64_t compressed);
 
 class Decompressor {

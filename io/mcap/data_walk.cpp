@@ -92,6 +92,8 @@ void DataWalk::pass_over(const RecordHead& head, std::uint64_t offset, const std
 }
 
 void DataWalk::take_definition(const RecordHead& head, std::uint64_t offset) {
+  if (head.length > max_definition_bytes)
+    return pass_over(head, offset, "a schema or channel is far too long");
   const auto content =
       window_->view(offset + record_head_bytes, static_cast<std::size_t>(head.length));
   layout_->definitions.add(head.opcode, content, offset, *faults_);

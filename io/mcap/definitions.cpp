@@ -8,9 +8,6 @@
 namespace penumbra::io::mcap {
 namespace {
 
-// Of all definitions of a file; ROS 2's have a few kilobytes each.
-constexpr std::uint64_t most_definition_bytes = std::uint64_t{64} << 20;
-
 // Whether the definition is new and fits.
 template <typename T>
 bool keep(std::map<std::uint16_t, T>& all, std::optional<T>& found, const std::string& kind,
@@ -34,9 +31,9 @@ bool keep(std::map<std::uint16_t, T>& all, std::optional<T>& found, const std::s
 
 void Definitions::add(Opcode opcode, std::span<const std::byte> content, std::uint64_t offset,
                       FaultLog& faults) {
-  if (bytes_ + content.size() > most_definition_bytes) {
+  if (bytes_ + content.size() > max_definition_bytes) {
     faults.add(offset, "schemas and channels have more than " +
-                           std::to_string(most_definition_bytes) + " bytes; the rest is left out");
+                           std::to_string(max_definition_bytes) + " bytes; the rest is left out");
     return;
   }
   bool kept = false;

@@ -19,7 +19,7 @@ std::uint64_t read_header(FileWindow& window, HeaderRecord& header, FaultLog& fa
     const RecordHead head = parse_head(bytes);
     const std::uint64_t content_at = at + record_head_bytes;
     if (head.opcode == Opcode::header && head.length <= window.file_size() - content_at &&
-        head.length <= max_record_bytes) {
+        head.length <= max_definition_bytes) {
       auto read = parse_header(window.view(content_at, static_cast<std::size_t>(head.length)));
       if (read) header = std::move(*read);
       if (!read) faults.add(at, "the file's header is damaged; profile and library are not known");

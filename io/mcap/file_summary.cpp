@@ -24,6 +24,11 @@ bool has_summary_crc(FileWindow& window, const FooterRecord& footer) {
   return crc.value() == footer.summary_crc;
 }
 
+bool is_needed(Opcode opcode) {
+  return opcode == Opcode::schema || opcode == Opcode::channel || opcode == Opcode::statistics ||
+         opcode == Opcode::chunk_index;  // attachments and metadata are not looked for
+}
+
 // Whether the record could be read.
 bool take(FileSummary& summary, const RecordHead& head, std::span<const std::byte> content,
           std::uint64_t offset, FaultLog& faults) {
@@ -41,7 +46,7 @@ bool take(FileSummary& summary, const RecordHead& head, std::span<const std::byt
       return index.has_value();
     }
     default:
-      return true;  // attachments and metadata are not looked for
+      return true;
   }
 }
 
@@ -52,10 +57,14 @@ bool take_all(FileWindow& window, FileSummary& summary, FaultLog& faults) {
     if (end - at < record_head_bytes || head_bytes.size() < record_head_bytes) return false;
     const RecordHead head = parse_head(head_bytes);
     const std::uint64_t content_at = at + record_head_bytes;
-    if (head.length > end - content_at || head.length > max_record_bytes) return false;
-    const auto content = window.view(content_at, static_cast<std::size_t>(head.length));
-    if (content.size() < head.length || !take(summary, head, content, at, faults)) return false;
+    if (head.length > end - content_at) return false;
     at = content_at + head.length;
+    if (!is_needed(head.opcode)) continue;
+    if (head.length > max_definition_bytes) return false;
+    const auto content = window.view(content_at, static_cast<std::size_t>(head.length));
+    const std::uint64_t record_at = content_at - record_head_bytes;
+    if (content.size() < head.length || !take(summary, head, content, record_at, faults))
+      return false;
   }
   return true;
 }

@@ -42,6 +42,10 @@ inline constexpr std::uint64_t footer_bytes = 20;        // of its content
 inline constexpr std::uint64_t end_bytes = record_head_bytes + footer_bytes + magic_bytes.size();
 inline constexpr std::uint64_t most_chunk_head_bytes = 72;  // with a name of 32 bytes
 
+/// Of all schemas and channels of a file; ROS 2's have a few kilobytes each. No other record that
+/// is taken into memory, but messages and chunks, may have more either.
+inline constexpr std::uint64_t max_definition_bytes = std::uint64_t{64} << 20;
+
 struct RecordHead {
   Opcode opcode{};
   std::uint64_t length = 0;  // of the content behind it

@@ -92,7 +92,7 @@ void Writer::State::finish_chunk() {
   auto stored = raw;
   if (options.compression != Compression::none) {
     compressor.compress(raw, compressed);
-    if (compressed.size() < raw.size()) {
+    if (compressed.size() < raw.size() && raw.size() <= most_decompressed(compressed.size())) {
       stored = compressed.view();
       head.compression = to_string(options.compression);
       head.records_size = stored.size();

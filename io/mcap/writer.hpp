@@ -23,7 +23,8 @@ struct WriterOptions {
 };
 
 /// Writes an MCAP file of chunks with message and chunk index, summary, statistics and checksums.
-/// The same calls give the same bytes. Chunks that do not shrink are stored as they are.
+/// The same calls give the same bytes. Chunks that do not shrink, and such of more than
+/// 64 MB that shrink more than 64-fold, are stored as they are.
 /// Whatever the system refuses (a full disk) throws InputError that names the file; the writer then
 /// refuses all further calls. Without close() the file ends behind its last whole chunk.
 class Writer {

@@ -152,6 +152,20 @@ INSTANTIATE_TEST_SUITE_P(All, McapDamage,
                          testing::Values(Compression::none, Compression::lz4, Compression::zstd),
                          test::compression_name);
 
+// A schema of 100 MB is none, though the file has the bytes.
+TEST(McapClaims, LongSchemasArePassedOver) {
+  using namespace test::mcap_file;
+  test::TempFolder folder;
+  const std::uint64_t length = 100'000'000;
+  const auto path = folder.write("a.mcap", magic + header() + '\x03' + u64(length));
+  std::filesystem::resize_file(path, data_start() + 9 + length);  // takes no room on the disk
+  const test::MemoryShortage none(large_memory, 0);
+  const ToldFile all = test::read_mcap(path);
+  ASSERT_EQ(all.faults.size(), 2U);
+  EXPECT_EQ(all.faults[0],
+            "a schema or channel is far too long; its 100000000 bytes are passed over");
+}
+
 // What a file claims costs nothing.
 TEST(McapClaims, TakeNoMemory) {
   using namespace test::mcap_file;

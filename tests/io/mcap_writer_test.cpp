@@ -60,6 +60,7 @@ TEST_P(McapWriter, KeepsMessagesOfEverySize) {
   }
   messages.push_back(
       {"/a", "-", 1, 99, 0, std::string(20'000'000, 'x')});  // shrinks a thousandfold
+  messages.push_back({"/a", "-", 1, 100, 0, std::string(70'000'000, 'x')});  // like a bomb
   test::write_mcap(file_, {GetParam(), 1 << 20, ""}, messages);
   const auto all = test::read_mcap(file_);
   EXPECT_TRUE(all.faults.empty()) << all.faults[0];
