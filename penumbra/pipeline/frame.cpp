@@ -19,13 +19,18 @@ std::string_view to_string(FrameStatus status) {
       return "bad_depth";
     case FrameStatus::missing_transform:
       return "missing_transform";
+    case FrameStatus::stale_transform:
+      return "stale_transform";
+    case FrameStatus::poses_disagree:
+      return "poses_disagree";
   }
   return "";
 }
 
 bool has_pose(FrameStatus status) {
   return status != FrameStatus::missing_joints && status != FrameStatus::stale_joints &&
-         status != FrameStatus::missing_transform;
+         status != FrameStatus::missing_transform && status != FrameStatus::stale_transform &&
+         status != FrameStatus::poses_disagree;
 }
 
 JointInput::JointInput(const JointAnswer& answer)

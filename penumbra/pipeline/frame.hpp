@@ -19,8 +19,8 @@
 namespace penumbra {
 
 /// Whether a frame can be relied on, and if not, why. The first that applies, in the order of
-/// `missing_joints`, `stale_joints`, `missing_transform`, `missing_depth`, `bad_depth`,
-/// `missing_link`.
+/// `missing_joints`, `stale_joints`, `missing_transform`, `stale_transform`, `poses_disagree`,
+/// `missing_depth`, `bad_depth`, `missing_link`.
 enum class FrameStatus {
   ok,
   missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
@@ -28,7 +28,10 @@ enum class FrameStatus {
   missing_link,       ///< drawn without a link whose mesh could not be read
   missing_depth,      ///< no depth image: every robot pixel is unknown
   bad_depth,          ///< a depth image that cannot be used: every robot pixel is unknown
-  missing_transform,  ///< the camera's pose is unknown, or impossible: inside of a link
+  missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
+                      ///< a link, no rigid transform
+  stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
+  poses_disagree,     ///< joint states and TF differ: the robot's pose is unknown
 };
 
 /// The status's name in report.json.
@@ -58,6 +61,11 @@ struct Frame {
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
   DepthView depth = {};                    ///< of the camera's size; empty: missing_depth
   JointInput joints = {};
+  /// Poses of the links, one for each, that are known otherwise than by joints (from TF): `joints`
+  /// then says their age alone. Empty: by joints. The root's is the identity.
+  std::span<const Eigen::Isometry3d> T_root_link = {};
+  /// The camera's pose in its parent link in this frame; nothing: the configuration's.
+  std::optional<Eigen::Isometry3d> T_parent_camera = {};
   std::span<const Target> targets = {};
 
   /// What the frame's source knows to be wrong with it, and one line that says so. What the

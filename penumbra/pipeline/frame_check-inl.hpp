@@ -20,15 +20,20 @@ class FrameCheck {
 
  private:
   FrameStatus check_source(const Frame& frame, std::string& message) const;
+  FrameStatus check_poses(const Frame& frame, std::string& message) const;
   FrameStatus check_joints(const JointInput& joints, std::string& message) const;
+  FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link,
+                          std::string& message) const;
   FrameStatus check_depth(const Frame& frame, std::string& message) const;
-  [[nodiscard]] std::string describe(std::span<const JointGap> gaps) const;
 
   const Robot& robot_;
   int width_;
   int height_;
   std::string missing_links_;
 };
+
+/// What is missing or stale, in one line.
+[[nodiscard]] std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps);
 
 /// Whether the frame's depth image can be compared.
 [[nodiscard]] inline bool has_depth(FrameStatus status) {

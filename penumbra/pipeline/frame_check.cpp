@@ -3,6 +3,7 @@
 #include <cmath>
 #include <variant>
 
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
 
 namespace penumbra {
@@ -27,7 +28,8 @@ bool is_rotation(std::span<const double> q) {
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 FrameStatus worse(FrameStatus a, FrameStatus b) {
   constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
-                                FrameStatus::missing_transform, FrameStatus::missing_depth,
+                                FrameStatus::missing_transform, FrameStatus::stale_transform,
+                                FrameStatus::poses_disagree,    FrameStatus::missing_depth,
                                 FrameStatus::bad_depth,         FrameStatus::missing_link};
   for (const FrameStatus status : order)
     if (a == status || b == status) return status;
@@ -46,12 +48,11 @@ FrameCheck::FrameCheck(const Robot& robot, int width, int height,
 FrameStatus FrameCheck::operator()(const Frame& frame, std::string& message) const {
   message.clear();
   const FrameStatus source = check_source(frame, message);
-  const FrameStatus joints =
-      has_pose(source) ? check_joints(frame.joints, message) : FrameStatus::ok;
+  const FrameStatus poses = has_pose(source) ? check_poses(frame, message) : FrameStatus::ok;
   const FrameStatus depth = has_depth(source) ? check_depth(frame, message) : FrameStatus::ok;
   const FrameStatus links = missing_links_.empty() ? FrameStatus::ok : FrameStatus::missing_link;
   if (!missing_links_.empty()) add_line(message, missing_links_);
-  return worse(worse(source, joints), worse(depth, links));
+  return worse(worse(source, poses), worse(depth, links));
 }
 
 FrameStatus FrameCheck::check_source(const Frame& frame, std::string& message) const {
@@ -61,9 +62,36 @@ FrameStatus FrameCheck::check_source(const Frame& frame, std::string& message) c
   return frame.source_status;
 }
 
+FrameStatus FrameCheck::check_poses(const Frame& frame, std::string& message) const {
+  const FrameStatus links = frame.T_root_link.empty() ? check_joints(frame.joints, message)
+                                                      : check_links(frame.T_root_link, message);
+  if (!frame.T_parent_camera || is_rigid(*frame.T_parent_camera)) return links;
+  add_line(message, "the camera's pose is no rigid transform");
+  return worse(links, FrameStatus::missing_transform);
+}
+
+FrameStatus FrameCheck::check_links(std::span<const Eigen::Isometry3d> T_root_link,
+                                    std::string& message) const {
+  const auto links = robot_.links();
+  if (T_root_link.size() != links.size()) {
+    add_line(message, std::to_string(T_root_link.size()) + " poses for " +
+                          std::to_string(links.size()) + " links");
+    return FrameStatus::missing_transform;
+  }
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const bool at_root = i > 0 || T_root_link[0].isApprox(Eigen::Isometry3d::Identity(), rounding);
+    if (is_rigid(T_root_link[i]) && at_root) continue;
+    add_line(message, "pose of link '" + links[i] + "' is no rigid transform" +
+                          (i > 0 ? "" : ", or not the identity though it is the root"));
+    return FrameStatus::missing_transform;
+  }
+  return FrameStatus::ok;
+}
+
 FrameStatus FrameCheck::check_joints(const JointInput& joints, std::string& message) const {
   if (joints.status != JointStatus::ok) {
-    add_line(message, describe(joints.gaps));
+    add_line(message, describe_gaps(robot_, joints.gaps));
     return joints.status == JointStatus::stale ? FrameStatus::stale_joints
                                                : FrameStatus::missing_joints;
   }
@@ -102,11 +130,11 @@ FrameStatus FrameCheck::check_depth(const Frame& frame, std::string& message) co
   return FrameStatus::bad_depth;
 }
 
-std::string FrameCheck::describe(std::span<const JointGap> gaps) const {
+std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps) {
   if (gaps.empty()) return "no joint positions";
   std::string text;
   for (const JointGap& gap : gaps) {
-    text += (text.empty() ? "" : ", ") + std::string("joint '") + robot_.variables()[gap.variable] +
+    text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
             "' ";
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
     if (gap.last_seen) text += " (last seen at " + std::to_string(*gap.last_seen) + " ns)";

@@ -13,6 +13,10 @@
 
 namespace penumbra {
 
+/// The link that a camera sits on; the root for an empty name. Throws InputError for what is no
+/// link.
+[[nodiscard]] std::size_t find_camera_parent(const Robot& robot, const std::string& name);
+
 /// Poses of a robot's links in the optical frame of a camera that sits on one of them.
 class LinkPoses {
  public:
@@ -24,9 +28,10 @@ class LinkPoses {
   /// farther than max_distance.
   LinkPoses(const Robot& robot, const PipelineConfig& config);
 
-  /// Computes T_camera_link of every link; nothing is at fault with the positions if it answers
-  /// nothing, else the index of a link that they put nowhere near.
-  std::optional<std::size_t> update(std::span<const double> positions);
+  /// Computes T_camera_link of every link by the frame's joints or poses, which FrameCheck found
+  /// ok; nothing is at fault with them if it answers nothing, else the index of a link that they
+  /// put nowhere near.
+  std::optional<std::size_t> update(const Frame& frame);
 
   [[nodiscard]] std::span<const Eigen::Isometry3d> T_camera_link() const { return T_camera_link_; }
   [[nodiscard]] std::span<const Eigen::Isometry3d> T_root_link() const { return T_root_link_; }

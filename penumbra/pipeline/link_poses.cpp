@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/link_poses-inl.hpp>
-#include <penumbra/pipeline/rigid-inl.hpp>
 
 namespace penumbra {
-namespace {
 
-constexpr double rotation_error = 1e-4;  // of any element of R^T R
-
-std::size_t find_parent(const Robot& robot, const std::string& name) {
+std::size_t find_camera_parent(const Robot& robot, const std::string& name) {
   if (name.empty()) return 0;
   if (const auto link = robot.find_link(name)) return *link;
   std::string known;
@@ -19,18 +17,9 @@ std::size_t find_parent(const Robot& robot, const std::string& name) {
                    "'; its links: " + known);
 }
 
-}  // namespace
-
-bool is_rigid(const Eigen::Isometry3d& T) {
-  const Eigen::Matrix3d R = T.linear();
-  const Eigen::Matrix3d error = R.transpose() * R - Eigen::Matrix3d::Identity();
-  return T.matrix().allFinite() && error.cwiseAbs().maxCoeff() <= rotation_error &&
-         R.determinant() > 0.0;
-}
-
 LinkPoses::LinkPoses(const Robot& robot, const PipelineConfig& config)
     : robot_(robot),
-      parent_(find_parent(robot, config.camera_parent)),
+      parent_(find_camera_parent(robot, config.camera_parent)),
       T_root_link_(robot.links().size()),
       T_camera_link_(robot.links().size()) {
   if (!is_rigid(config.T_parent_camera))
@@ -42,9 +31,14 @@ LinkPoses::LinkPoses(const Robot& robot, const PipelineConfig& config)
   T_camera_parent_ = config.T_parent_camera.inverse();
 }
 
-std::optional<std::size_t> LinkPoses::update(std::span<const double> positions) {
-  robot_.forward_kinematics(positions, T_root_link_);
-  const Eigen::Isometry3d T_camera_root = T_camera_parent_ * T_root_link_[parent_].inverse();
+std::optional<std::size_t> LinkPoses::update(const Frame& frame) {
+  if (frame.T_root_link.empty())
+    robot_.forward_kinematics(frame.joints.positions, T_root_link_);
+  else
+    std::copy(frame.T_root_link.begin(), frame.T_root_link.end(), T_root_link_.begin());
+  const Eigen::Isometry3d T_camera_parent =
+      frame.T_parent_camera ? frame.T_parent_camera->inverse() : T_camera_parent_;
+  const Eigen::Isometry3d T_camera_root = T_camera_parent * T_root_link_[parent_].inverse();
   T_root_camera_ = T_camera_root.inverse();
   for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
     T_camera_link_[i] = T_camera_root * T_root_link_[i];

@@ -100,6 +100,10 @@ std::unique_ptr<GlLabeller> labeller_of(const Camera& camera, const PipelineConf
                                       config.renderer);
 }
 
+bool by_joints_alone(const Frame& frame) {
+  return frame.T_root_link.empty() && !frame.T_parent_camera;
+}
+
 Camera pinhole(const Camera& camera, const Intrinsics& intrinsics) {
   return {.intrinsics = intrinsics,
           .distortion = {},
@@ -114,7 +118,7 @@ struct Pipeline::State {
 
   [[nodiscard]] TargetStage::Setup target_setup(const PipelineConfig& config) const;
   void begin(const Frame& frame);
-  std::optional<std::span<const Eigen::Isometry3d>> pose_links(std::span<const double> positions);
+  std::optional<std::span<const Eigen::Isometry3d>> pose_links(const Frame& frame);
   void refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
@@ -223,8 +227,10 @@ void Pipeline::State::label(const Frame& frame) {
   const FrameStatus status = check(frame, report.message);
   if (!has_pose(status)) return without_pose(status);
 
-  const auto T_camera_link = pose_links(frame.joints.positions);
-  if (!T_camera_link) return without_pose(FrameStatus::missing_joints);
+  const auto T_camera_link = pose_links(frame);
+  if (!T_camera_link)
+    return without_pose(by_joints_alone(frame) ? FrameStatus::missing_joints
+                                               : FrameStatus::missing_transform);
 
   const DepthView measured = has_depth(status) ? frame.depth : DepthView{};
   if (labeller) return finish(status, {}, label_on_device(*T_camera_link, measured));
@@ -246,13 +252,12 @@ void Pipeline::State::begin(const Frame& frame) {
   report.T_root_link = {};
 }
 
-std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(
-    std::span<const double> positions) {
+std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(const Frame& frame) {
   const StageTimer timer(report.timing.kinematics);
-  const auto lost = poses.update(positions);
+  const auto lost = poses.update(frame);
   if (!lost) return poses.T_camera_link();
-  report.message =
-      "joint positions put link '" + robot.links()[*lost] + "' more than 1000 km from the camera";
+  report.message = (by_joints_alone(frame) ? "joint positions put link '" : "poses put link '") +
+                   robot.links()[*lost] + "' more than 1000 km from the camera";
   return std::nullopt;
 }
 

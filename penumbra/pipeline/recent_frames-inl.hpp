@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/stamps-inl.hpp>
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/frame.hpp>
@@ -27,9 +28,6 @@ struct FramePoses {
 
   [[nodiscard]] bool known() const { return !T_root_link.empty(); }
 };
-
-/// Nanoseconds between two stamps, whatever they are.
-[[nodiscard]] std::uint64_t stamp_distance(std::int64_t a, std::int64_t b);
 
 /// One frame as targets are judged on it.
 struct JudgedFrame {

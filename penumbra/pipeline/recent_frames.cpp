@@ -42,11 +42,6 @@ ImageView<const T> copy_all(ImageView<const T> source, Image<T>& image) {
 
 }  // namespace
 
-std::uint64_t stamp_distance(std::int64_t a, std::int64_t b) {
-  const auto x = static_cast<std::uint64_t>(std::max(a, b));
-  return x - static_cast<std::uint64_t>(std::min(a, b));
-}
-
 RecentPoses::RecentPoses(std::size_t links) : links_(links), T_root_link_(links * frames) {}
 
 void RecentPoses::keep(std::int64_t stamp, const FramePoses& poses) {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <penumbra/pipeline/rigid-inl.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/target_record-inl.hpp>
 
 namespace penumbra {

@@ -7,7 +7,7 @@
 #include <Eigen/SVD>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/rigid-inl.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
 
 namespace penumbra {

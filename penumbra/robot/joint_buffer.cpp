@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps-inl.hpp>
 #include <penumbra/robot/joint_buffer.hpp>
 
 namespace penumbra {
 namespace {
 
-constexpr double kLongestTime = 1e9;     // seconds; far below the range of nanoseconds
 constexpr double kLargestValue = 1e9;    // as forward_kinematics has it
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
-
-std::int64_t nanoseconds(double seconds, const char* option) {
-  if (!(seconds >= 0.0 && seconds <= kLongestTime))
-    throw InputError(std::string("joint buffer: ") + option + " is " + std::to_string(seconds) +
-                     " s; expected a time from 0 to 1e9 s");
-  return std::llround(seconds * 1e9);
-}
-
-std::uint64_t distance(std::int64_t before, std::int64_t after) {
-  return static_cast<std::uint64_t>(after) - static_cast<std::uint64_t>(before);
-}
-
-double fraction(std::int64_t before, std::int64_t stamp, std::int64_t after) {
-  return static_cast<double>(distance(before, stamp)) /
-         static_cast<double>(distance(before, after));
-}
 
 double short_way(double from, double to) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -38,8 +21,8 @@ double short_way(double from, double to) {
 }  // namespace
 
 JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
-    : max_gap_(nanoseconds(options.max_gap, "max_gap")),
-      history_(nanoseconds(options.history, "history")),
+    : max_gap_(span_nanoseconds(options.max_gap, "joint buffer: max_gap")),
+      history_(span_nanoseconds(options.history, "joint buffer: history")),
       max_states_(options.max_states),
       tracks_(robot.variables().size()),
       kinds_(robot.variables().size(), Kind::linear) {
@@ -90,9 +73,8 @@ std::size_t JointBuffer::refuse_quaternions(std::int64_t stamp) {
 }
 
 void JointBuffer::prune() {
-  constexpr auto kFirst = std::numeric_limits<std::int64_t>::min();
-  const std::int64_t limit = *newest_ < kFirst + history_ ? kFirst : *newest_ - history_;
-  for (JointTrack& track : tracks_) track.prune(limit, max_states_);
+  const std::int64_t limit = stamp_after(*newest_, -history_);
+  for (auto& track : tracks_) track.prune(limit, max_states_);
 }
 
 void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
@@ -110,7 +92,7 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
 }
 
 bool JointBuffer::near(std::int64_t before, std::int64_t after) const {
-  return distance(before, after) <= static_cast<std::uint64_t>(max_gap_);
+  return stamp_distance(before, after) <= static_cast<std::uint64_t>(max_gap_);
 }
 
 bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
@@ -125,7 +107,7 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
   if (!near(a.stamp, b.stamp)) return false;
   const double way =
       kinds_[variable] == Kind::turning ? short_way(a.value, b.value) : b.value - a.value;
-  answer.positions[variable] += fraction(a.stamp, stamp, b.stamp) * way;
+  answer.positions[variable] += stamp_share(a.stamp, stamp, b.stamp) * way;
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -170,7 +152,7 @@ bool JointBuffer::interpolate_quaternion(std::size_t first, std::int64_t stamp,
   const auto [before, after] = *bracket;
   Eigen::Quaterniond q = quaternion(first, before)->normalized();
   if (before != after)
-    q = q.slerp(fraction(before, stamp, after), quaternion(first, after)->normalized());
+    q = q.slerp(stamp_share(before, stamp, after), quaternion(first, after)->normalized());
   for (std::size_t i = 0; i < 4; ++i)
     answer.positions[first + i] = q.coeffs()[static_cast<Eigen::Index>(i)];
   answer.age = std::max({answer.age, stamp - before, after - stamp});
@@ -200,8 +182,19 @@ std::optional<std::int64_t> JointBuffer::complete_until() const {
   return until;
 }
 
+std::optional<std::int64_t> JointBuffer::newest_of(std::span<const std::string> names) const {
+  std::optional<std::int64_t> newest;
+  for (const std::string& name : names) {
+    const auto at = index_.find(name);
+    if (at == index_.end() || tracks_[at->second].states().empty()) continue;
+    const std::int64_t stamp = tracks_[at->second].states().back().stamp;
+    newest = std::max(newest.value_or(stamp), stamp);
+  }
+  return newest;
+}
+
 void JointBuffer::clear() {
-  for (JointTrack& track : tracks_) track.clear();
+  for (auto& track : tracks_) track.clear();
   newest_.reset();
 }
 

@@ -12,8 +12,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/robot/joint_track.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/robot/stamped_track.hpp>
 
 namespace penumbra {
 
@@ -65,6 +65,9 @@ class JointBuffer {
   /// robot without variables.
   [[nodiscard]] std::optional<std::int64_t> complete_until() const;
 
+  /// Stamp of the newest state of any of the variables named.
+  [[nodiscard]] std::optional<std::int64_t> newest_of(std::span<const std::string> names) const;
+
   /// Forgets every state, as after a jump of the clock; the counts stay.
   void clear();
 
@@ -98,7 +101,7 @@ class JointBuffer {
   std::int64_t history_;  // nanoseconds
   std::size_t max_states_;
   std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
-  std::vector<JointTrack> tracks_;                         // of each variable
+  std::vector<StampedTrack<double>> tracks_;               // of each variable
   std::vector<Kind> kinds_;                                // of each variable
   std::vector<std::size_t> quaternions_;                   // first variable of each
   std::optional<std::int64_t> newest_;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace penumbra {
+
+/// Whether a transform is a finite rotation (to 1e-4, as for rotations in files) and translation.
+[[nodiscard]] inline bool is_rigid(const Eigen::Isometry3d& T) {
+  constexpr double rotation_error = 1e-4;  // of any element of R^T R
+  const Eigen::Matrix3d R = T.linear();
+  const Eigen::Matrix3d error = R.transpose() * R - Eigen::Matrix3d::Identity();
+  return T.matrix().allFinite() && error.cwiseAbs().maxCoeff() <= rotation_error &&
+         R.determinant() > 0.0;
+}
+
+}  // namespace penumbra

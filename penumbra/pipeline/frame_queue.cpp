@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/pipeline/frame_queue.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr std::uint64_t never_tried = std::numeric_limits<std::uint64_t>::max();
+
+}  // namespace
+
+std::string_view to_string(DropReason reason) {
+  switch (reason) {
+    case DropReason::superseded:
+      return "superseded";
+    case DropReason::late:
+      return "late";
+    case DropReason::overflow:
+      return "overflow";
+    case DropReason::clock_jump:
+      return "clock_jump";
+    case DropReason::no_stamp:
+      return "no_stamp";
+    case DropReason::no_pose:
+      return "no_pose";
+  }
+  return "";
+}
+
+Frame QueuedFrame::frame() const {
+  Frame frame;
+  frame.stamp = stamp;
+  frame.source_status = pose.status;
+  frame.source_message = pose.message;
+  if (pose.status != FrameStatus::ok) return frame;
+  if (pose.by_joints)
+    frame.joints = pose.joints;
+  else
+    frame.T_root_link = pose.T_root_link;
+  frame.joints.age = pose.age;
+  frame.T_parent_camera = pose.T_parent_camera;
+  return frame;
+}
+
+FrameQueue::FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options,
+                       OnDrop on_drop)
+    : history_(history),
+      options_(options),
+      time_offset_(span_nanoseconds(options.time_offset, "frame queue: time_offset", -1e9)),
+      max_wait_(span_nanoseconds(options.max_wait, "frame queue: max_wait")),
+      lookup_(robot, options.poses),
+      on_drop_(std::move(on_drop)),
+      epoch_(history.epoch()) {
+  if (options_.max_frames == 0)
+    throw InputError("frame queue: max_frames is 0; expected at least 1");
+}
+
+void FrameQueue::push(std::uint64_t key, std::int64_t stamp, std::int64_t now) {
+  follow(now);
+  ++counts_.pushed;
+  const Waiting frame{key, stamp, now, never_tried};
+  if (stamp <= 0) return drop(frame, DropReason::no_stamp);
+  if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
+  newest_ = std::max(newest_.value_or(stamp), stamp);
+  if (options_.policy == DropPolicy::every) {
+    if (waiting_.size() == options_.max_frames) return drop(frame, DropReason::overflow);
+    waiting_.push_back(frame);
+    return;
+  }
+  if (given_out_ && stamp <= *given_out_) return drop(frame, DropReason::late);
+  const auto later = [](std::int64_t wanted, const Waiting& other) { return wanted < other.stamp; };
+  waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), stamp, later), frame);
+  if (waiting_.size() <= options_.max_frames) return;
+  drop(waiting_.front(), DropReason::overflow);
+  waiting_.erase(waiting_.begin());
+}
+
+void FrameQueue::follow(std::int64_t now) {
+  now_ = now;
+  for (Waiting& frame : waiting_) frame.arrived = std::min(frame.arrived, now);
+  if (epoch_ == history_.epoch()) return;
+  epoch_ = history_.epoch();
+  newest_.reset();
+  given_out_.reset();
+  for (const Waiting& frame : waiting_) drop(frame, DropReason::clock_jump);
+  waiting_.clear();
+}
+
+void FrameQueue::drop(const Waiting& frame, DropReason reason) {
+  ++counts_.dropped[static_cast<std::size_t>(reason)];
+  if (on_drop_) on_drop_({frame.key, frame.stamp, reason});
+}
+
+bool FrameQueue::next(std::int64_t now, QueuedFrame& frame) {
+  follow(now);
+  const bool found =
+      options_.policy == DropPolicy::every ? next_of_every(frame) : next_newest(frame);
+  if (!found) return false;
+  ++counts_.given_out;
+  if (!has_pose(frame.pose.status)) ++counts_.without_pose;
+  given_out_ = std::max(given_out_.value_or(frame.stamp), frame.stamp);
+  return true;
+}
+
+bool FrameQueue::next_of_every(QueuedFrame& out) {
+  while (!waiting_.empty() && decide(waiting_.front(), out)) {
+    const Waiting frame = waiting_.front();
+    waiting_.erase(waiting_.begin());
+    if (has_pose(out.pose.status) || !options_.drop_without_pose) return true;
+    drop(frame, DropReason::no_pose);
+  }
+  return false;
+}
+
+bool FrameQueue::next_newest(QueuedFrame& out) {
+  for (std::size_t i = waiting_.size(); i-- > 0;) {
+    if (!decide(waiting_[i], out)) continue;
+    const auto place = waiting_.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!has_pose(out.pose.status) && options_.drop_without_pose) {
+      drop(*place, DropReason::no_pose);
+      waiting_.erase(place);
+      continue;
+    }
+    for (auto before = waiting_.begin(); before != place; ++before)
+      drop(*before, DropReason::superseded);
+    waiting_.erase(waiting_.begin(), place + 1);
+    return true;
+  }
+  return false;
+}
+
+bool FrameQueue::is_over(const Waiting& frame) const {
+  const bool full = options_.policy == DropPolicy::every && waiting_.size() == options_.max_frames;
+  return finished_ || full ||
+         stamp_distance(frame.arrived, now_) >= static_cast<std::uint64_t>(max_wait_);
+}
+
+bool FrameQueue::decide(Waiting& frame, QueuedFrame& out) {
+  const bool over = is_over(frame);
+  if (frame.revision == history_.revision() && !over) return false;
+  frame.revision = history_.revision();
+  out.pose_stamp = stamp_after(frame.stamp, time_offset_);
+  lookup_.at(history_, out.pose_stamp, out.pose);
+  const bool known = has_pose(out.pose.status) || out.pose.status == FrameStatus::poses_disagree;
+  if (!known && !over) return false;
+  out.key = frame.key;
+  out.stamp = frame.stamp;
+  out.waited = static_cast<std::int64_t>(std::min<std::uint64_t>(
+      stamp_distance(frame.arrived, now_), std::numeric_limits<std::int64_t>::max()));
+  return true;
+}
+
+std::optional<std::int64_t> FrameQueue::wake_at() const {
+  std::optional<std::int64_t> first;
+  for (const Waiting& frame : waiting_) {
+    const std::int64_t over = stamp_after(frame.arrived, max_wait_);
+    first = std::min(first.value_or(over), over);
+  }
+  return first;
+}
+
+FrameCounts FrameQueue::counts() const {
+  FrameCounts counts = counts_;
+  counts.waiting = waiting_.size();
+  return counts;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/pipeline/pose_history.hpp>
+
+namespace penumbra {
+
+PoseHistory::PoseHistory(const Robot& robot, const PoseHistoryOptions& options)
+    : joints_(robot, options.joints),
+      transforms_(options.transforms),
+      clock_jump_(span_nanoseconds(options.clock_jump, "pose history: clock_jump")) {
+  if (clock_jump_ == 0)
+    throw InputError("pose history: clock_jump is 0 s; expected more, as messages overtake others");
+}
+
+std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::string> names,
+                                    std::span<const double> positions) {
+  if (stamp <= 0) {
+    ++no_stamps_;
+    return 0;
+  }
+  if (const auto newest = joints_.newest_of(names)) note_stamp(stamp, *newest, "joint states");
+  ++revision_;
+  return joints_.insert(stamp, names, positions);
+}
+
+TransformInsert PoseHistory::add_transform(std::int64_t stamp, std::string_view parent,
+                                           std::string_view child,
+                                           const Eigen::Isometry3d& T_parent_child) {
+  if (const auto newest = transforms_.newest_of(child); newest && stamp > 0)
+    note_stamp(stamp, *newest, "transforms");
+  ++revision_;
+  return transforms_.insert(stamp, parent, child, T_parent_child);
+}
+
+TransformInsert PoseHistory::add_static_transform(std::string_view parent, std::string_view child,
+                                                  const Eigen::Isometry3d& T_parent_child) {
+  ++revision_;
+  return transforms_.insert_static(parent, child, T_parent_child);
+}
+
+bool PoseHistory::note_stamp(std::int64_t stamp, std::int64_t newest, std::string_view of) {
+  if (stamp >= newest || stamp_distance(stamp, newest) <= static_cast<std::uint64_t>(clock_jump_))
+    return false;
+  ++clock_jumps_;
+  last_jump_ = "the clock jumped back by " +
+               std::to_string(stamp_distance(stamp, newest) / 1'000'000) + " ms: stamp " +
+               std::to_string(stamp) + " ns of " + std::string(of) + " follows " +
+               std::to_string(newest) +
+               " ns; joint states, transforms and waiting frames are "
+               "dropped";
+  clear();
+  return true;
+}
+
+void PoseHistory::clear() {
+  joints_.clear();
+  transforms_.clear();
+  ++epoch_;
+  ++revision_;
+}
+
+}  // namespace penumbra

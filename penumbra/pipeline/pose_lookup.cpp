@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/frame_check-inl.hpp>
+#include <penumbra/pipeline/link_poses-inl.hpp>
+#include <penumbra/pipeline/pose_lookup.hpp>
+
+namespace penumbra {
+namespace {
+
+double distance_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const double turn =
+      Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
+  return std::max((a.translation() - b.translation()).norm(), Disagreement::lever * turn);
+}
+
+std::string disagreement_text(const std::string& link, double distance, double agreement) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "joint states and TF put link '" << link << "' " << 1e3 * distance
+       << " mm apart, more than " << 1e3 * agreement << " mm";
+  return text.str();
+}
+
+}  // namespace
+
+std::string_view to_string(PoseSource source) {
+  switch (source) {
+    case PoseSource::joints:
+      return "joints";
+    case PoseSource::transforms:
+      return "tf";
+    case PoseSource::both:
+      return "both";
+  }
+  return "";
+}
+
+PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
+    : robot_(robot),
+      options_(std::move(options)),
+      camera_parent_(find_camera_parent(robot, options_.camera_parent)),
+      T_root_link_(robot.links().size()) {
+  if (!(options_.agreement >= 0.0))
+    throw InputError("agreement of joint states and TF is " + std::to_string(options_.agreement) +
+                     " m; expected 0 or more");
+  for (const std::string& link : robot.links()) frames_.push_back(options_.frame_prefix + link);
+}
+
+void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) {
+  answer.status = FrameStatus::ok;
+  answer.message.clear();
+  answer.age = 0;
+  answer.T_parent_camera.reset();
+  answer.disagreement.reset();
+  const bool by_joints = options_.source != PoseSource::transforms;
+  const bool by_transforms = options_.source != PoseSource::joints;
+  answer.by_joints = by_joints;
+  if (by_joints) find_joints(history, stamp, answer);
+  if (by_transforms && has_pose(answer.status)) find_links(history.transforms(), stamp, answer);
+  if (!options_.camera_frame.empty() && has_pose(answer.status))
+    find_camera(history.transforms(), stamp, answer);
+  if (by_joints && by_transforms && has_pose(answer.status)) compare(answer);
+}
+
+void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
+                             PoseAnswer& answer) const {
+  history.joints().at(stamp, answer.joints);
+  answer.age = answer.joints.age;
+  if (answer.joints.status == JointStatus::ok) return;
+  answer.status = answer.joints.status == JointStatus::stale ? FrameStatus::stale_joints
+                                                             : FrameStatus::missing_joints;
+  answer.message = describe_gaps(robot_, answer.joints.gaps);
+}
+
+void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stamp,
+                            PoseAnswer& answer) {
+  answer.T_root_link.resize(frames_.size());
+  answer.T_root_link[0].setIdentity();
+  for (const Joint& joint : robot_.joints()) {
+    const Eigen::Isometry3d& T_root_parent = answer.T_root_link[joint.parent];
+    if (joint.type == JointType::fixed && !transforms.knows(frames_[joint.child])) {
+      answer.T_root_link[joint.child] = T_root_parent * joint.origin;
+      continue;
+    }
+    if (!find_transform(transforms, stamp, frames_[joint.parent], frames_[joint.child], answer))
+      return;
+    answer.T_root_link[joint.child] = T_root_parent * transform_.T_target_source;
+  }
+}
+
+void PoseLookup::find_camera(const TransformBuffer& transforms, std::int64_t stamp,
+                             PoseAnswer& answer) {
+  if (find_transform(transforms, stamp, frames_[camera_parent_], options_.camera_frame, answer))
+    answer.T_parent_camera = transform_.T_target_source;
+}
+
+bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t stamp,
+                                std::string_view target, std::string_view source,
+                                PoseAnswer& answer) {
+  transforms.at(stamp, target, source, transform_);
+  answer.age = std::max(answer.age, transform_.age);
+  if (transform_.status == TransformStatus::ok) return true;
+  answer.status = transform_.status == TransformStatus::stale ? FrameStatus::stale_transform
+                                                              : FrameStatus::missing_transform;
+  answer.message = transform_.message;
+  return false;
+}
+
+void PoseLookup::compare(PoseAnswer& answer) {
+  robot_.forward_kinematics(answer.joints.positions, T_root_link_);
+  Disagreement& most = answer.disagreement.emplace();
+  for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
+    if (!robot_.report()[i].drawn && i != camera_parent_) continue;
+    const double distance = distance_between(T_root_link_[i], answer.T_root_link[i]);
+    if (distance <= most.distance) continue;
+    most = {i, distance};
+  }
+  if (most.distance <= options_.agreement) return;
+  answer.status = FrameStatus::poses_disagree;
+  answer.message = disagreement_text(robot_.links()[most.link], most.distance, options_.agreement);
+}
+
+}  // namespace penumbra
