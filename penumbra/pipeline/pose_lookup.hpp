@@ -26,11 +26,11 @@ enum class PoseSource {
 
 struct PoseOptions {
   PoseSource source = PoseSource::joints;
-  std::string frame_prefix;   ///< before link names in TF, as robot_state_publisher's option
-  std::string camera_parent;  ///< link that the camera sits on; empty: the root
+  std::string frame_prefix = {};   ///< before link names in TF, as robot_state_publisher's option
+  std::string camera_parent = {};  ///< link that the camera sits on; empty: the root
   /// The camera's optical frame in TF, without the prefix. Empty: the camera's pose in its parent
   /// is the pipeline's own.
-  std::string camera_frame;
+  std::string camera_frame = {};
   double agreement = 0.005;  ///< of PoseSource::both: metres, see Disagreement
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <penumbra/robot/joint_buffer.hpp>
+#include <penumbra/robot/transform_buffer.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -46,6 +47,26 @@ TEST(NoAllocation, InTheJointBufferOnceItIsWarm) {
   for (int i = 0; i < 1000; ++i) step();
   EXPECT_EQ(allocations(), before);
   EXPECT_EQ(answer.status, JointStatus::ok);
+}
+
+TEST(NoAllocation, InTheTransformBufferOnceItIsWarm) {
+  TransformBuffer buffer({.max_gap = 1.0, .history = 1e-6});
+  const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const char* const frames[] = {"base_of_the_robot", "first_link_of_the_robot", "second_link",
+                                "third_link_of_the_robot", "camera_colour_optical_frame"};
+  buffer.insert_static(frames[0], frames[4], T);
+  TransformAnswer answer;
+  std::int64_t stamp = 10;
+  const auto step = [&] {
+    for (int i = 0; i < 3; ++i) buffer.insert(stamp, frames[i], frames[i + 1], T);
+    buffer.at(stamp - 1, frames[4], frames[3], answer);
+    stamp += 10;
+  };
+  for (int i = 0; i < 1000; ++i) step();
+  const std::size_t before = allocations();
+  for (int i = 0; i < 1000; ++i) step();
+  EXPECT_EQ(allocations(), before);
+  EXPECT_EQ(answer.status, TransformStatus::ok);
 }
 
 }  // namespace

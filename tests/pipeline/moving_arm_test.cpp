@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// An arm in motion, images that arrive 30 ms after their stamps: only the states of the stamp give
+// the right picture. Whoever takes the latest state is proven wrong on the same frames.
+#include "../support/random.hpp"
+#include "slab_scene.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/frame_queue.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t start = 1'700'000'000'000 * ms;
+constexpr int frames = 40;
+
+/// Up to 2 m/s: 60 mm in 30 ms, where labels tolerate 20 mm.
+double slide_at(std::int64_t stamp) {
+  return 0.4 * std::sin(5.0 * 1e-9 * static_cast<double>(stamp - start));
+}
+
+/// How many of the robot's pixels are not labelled as what they are: the robot itself.
+double wrong_share(const FrameReport& report) {
+  return static_cast<double>(report.pixels.front + report.pixels.beyond + report.pixels.unknown) /
+         static_cast<double>(report.pixels.robot.value());
+}
+
+/// What happens, by the time it does: joint states every 10 ms or so, images every 33 ms.
+struct Events {
+  std::multimap<std::int64_t, std::int64_t> joints;  ///< arrival -> stamp
+  std::multimap<std::int64_t, std::int64_t> images;
+};
+
+Events make_events(std::int64_t joint_delay, std::mt19937_64& random) {
+  Events events;
+  for (int i = -5; i < frames * 4; ++i) {
+    const std::int64_t stamp = start + i * 10 * ms + static_cast<std::int64_t>(random() % ms);
+    events.joints.emplace(stamp + joint_delay, stamp);
+  }
+  for (int i = 0; i < frames; ++i) {
+    const std::int64_t stamp = start + 5 * ms + i * 33 * ms;
+    events.images.emplace(stamp + 30 * ms, stamp);
+  }
+  return events;
+}
+
+class MovingArm : public testing::TestWithParam<PoseSource> {
+ protected:
+  void tell(std::int64_t stamp) {
+    latest_ = slide_at(stamp);
+    const std::string names[] = {"slide"};
+    const double positions[] = {latest_};
+    history_.add_joints(stamp, names, positions);
+    history_.add_transform(stamp, "base", "slab",
+                           Eigen::Translation3d(0, 0, 1 + latest_) * Eigen::Isometry3d::Identity());
+  }
+
+  const FrameReport& process(Frame frame, std::int64_t stamp) {
+    depth_ = scene_depth(camera_, slide_at(stamp));
+    frame.depth = depth_.view();
+    return pipeline_.process(frame);
+  }
+
+  void judge_queue(FrameQueue& queue, std::int64_t now) {
+    while (queue.next(now, queued_)) {
+      const FrameReport& report = process(queued_.frame(), queued_.stamp);
+      ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
+      EXPECT_EQ(report.stamp, queued_.stamp);
+      EXPECT_EQ(wrong_share(report), 0.0) << "frame " << judged_;
+      ++judged_;
+    }
+  }
+
+  void run(std::int64_t joint_delay) {
+    auto random = seeded_random(3);
+    const Events events = make_events(joint_delay, random);
+    FrameQueue queue(robot_, history_,
+                     {.policy = DropPolicy::every, .poses = {.source = GetParam()}});
+    auto image = events.images.begin();
+    for (const auto& [arrival, stamp] : events.joints) {
+      for (; image != events.images.end() && image->first <= arrival; ++image) {
+        queue.push(0, image->second, image->first);
+        judge_queue(queue, image->first);
+        judge_latest(image->second);
+      }
+      tell(stamp);
+      judge_queue(queue, arrival);
+    }
+    EXPECT_EQ(judged_, frames);
+  }
+
+  void judge_latest(std::int64_t stamp) {
+    const std::vector<double> positions = {latest_};
+    Frame frame;
+    frame.joints = positions;
+    const FrameReport& report = process(frame, stamp);
+    if (wrong_share(report) > 0.05) ++wrong_by_latest_;
+  }
+
+  Robot robot_ = slab_robot();
+  Camera camera_ = slab_camera();
+  Pipeline pipeline_{slab_robot(), camera_, plain_config()};
+  PoseHistory history_{robot_};
+  Image<float> depth_;
+  QueuedFrame queued_;
+  double latest_ = 0;
+  int judged_ = 0;
+  int wrong_by_latest_ = 0;
+};
+INSTANTIATE_TEST_SUITE_P(Sources, MovingArm,
+                         testing::Values(PoseSource::joints, PoseSource::transforms,
+                                         PoseSource::both),
+                         [](const auto& test) { return std::string(to_string(test.param)); });
+
+TEST_P(MovingArm, IsSeenWhereItWasAndTheLatestStateWouldFail) {
+  run(1 * ms);
+  EXPECT_GT(wrong_by_latest_, frames / 2) << "or this scene proves nothing";
+}
+
+TEST_P(MovingArm, IsSeenWhereItWasThoughStatesComeAfterTheImages) { run(80 * ms); }
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slab_scene.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pose_lookup.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+constexpr double rounding = 1e-12;  // metres
+
+Eigen::Isometry3d shift(double x, double y, double z) {
+  return Eigen::Translation3d(x, y, z) * Eigen::Isometry3d::Identity();
+}
+
+class PoseLookupTest : public testing::Test {
+ protected:
+  void add_joint(std::int64_t stamp, double slide) {
+    const std::string names[] = {"slide"};
+    const double positions[] = {slide};
+    history_.add_joints(stamp, names, positions);
+  }
+
+  /// As robot_state_publisher tells it.
+  void add_slab(std::int64_t stamp, double slide, const std::string& prefix = "") {
+    history_.add_transform(stamp, prefix + "base", prefix + "slab", shift(0, 0, 1 + slide));
+  }
+
+  const PoseAnswer& at(std::int64_t stamp, const PoseOptions& options) {
+    PoseLookup lookup(robot_, options);
+    lookup.at(history_, stamp, answer_);
+    EXPECT_EQ(answer_.message.empty(), answer_.status == FrameStatus::ok) << answer_.message;
+    return answer_;
+  }
+
+  void expect(FrameStatus status, const std::string& names) {
+    EXPECT_EQ(answer_.status, status);
+    EXPECT_NE(answer_.message.find(names), std::string::npos) << answer_.message;
+  }
+
+  Robot robot_ = slab_robot();
+  PoseHistory history_{robot_};
+  PoseAnswer answer_;
+};
+
+TEST_F(PoseLookupTest, ByJoints) {
+  at(5 * ms, {});
+  expect(FrameStatus::missing_joints, "'slide' was never seen");
+  add_joint(10 * ms, 0.1);
+  at(15 * ms, {});
+  expect(FrameStatus::stale_joints, "'slide'");
+  add_joint(20 * ms, 0.2);
+  EXPECT_EQ(at(15 * ms, {}).status, FrameStatus::ok);
+  EXPECT_NEAR(answer_.joints.positions[0], 0.15, rounding);
+  EXPECT_EQ(answer_.age, 5 * ms);
+  EXPECT_FALSE(answer_.T_parent_camera);
+}
+
+TEST_F(PoseLookupTest, ByTransforms) {
+  const PoseOptions options{.source = PoseSource::transforms};
+  add_joint(10 * ms, 0.1);
+  at(10 * ms, options);
+  expect(FrameStatus::missing_transform, "'slab'");
+  add_slab(10 * ms, 0.1);
+  EXPECT_EQ(at(10 * ms, options).status, FrameStatus::ok);
+  at(13 * ms, options);
+  expect(FrameStatus::stale_transform, "'slab' in 'base'");
+  add_slab(20 * ms, 0.2);
+  ASSERT_EQ(at(13 * ms, options).status, FrameStatus::ok);
+  EXPECT_EQ(answer_.age, 7 * ms);
+  ASSERT_EQ(answer_.T_root_link.size(), 3U);
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("slab")].isApprox(shift(0, 0, 1.13), rounding));
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(shift(0.5, 0.1, 1.5)))
+      << "a fixed joint that TF does not tell is the URDF's";
+  history_.add_static_transform("base", "plate", shift(0.6, 0.1, 1.5));
+  at(13 * ms, options);
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(shift(0.6, 0.1, 1.5)))
+      << "what it tells is what is";
+}
+
+TEST_F(PoseLookupTest, ByTransformsOfAPrefix) {
+  add_slab(10 * ms, 0.3, "left/");
+  at(10 * ms, {.source = PoseSource::transforms, .frame_prefix = "right/"});
+  expect(FrameStatus::missing_transform, "'right/slab'");
+  EXPECT_EQ(at(10 * ms, {.source = PoseSource::transforms, .frame_prefix = "left/"}).status,
+            FrameStatus::ok);
+}
+
+TEST_F(PoseLookupTest, ByBothWhereTheyAgree) {
+  const PoseOptions options{.source = PoseSource::both, .agreement = 0.005};
+  add_joint(10 * ms, 0.1);
+  at(10 * ms, options);
+  expect(FrameStatus::missing_transform, "'slab'");
+  add_slab(10 * ms, 0.1049);
+  ASSERT_EQ(at(10 * ms, options).status, FrameStatus::ok);
+  EXPECT_TRUE(answer_.by_joints);
+  EXPECT_NEAR(answer_.disagreement->distance, 0.0049, rounding);
+  EXPECT_EQ(robot_.links()[answer_.disagreement->link], "slab");
+  add_slab(10 * ms, 0.1062);
+  at(10 * ms, options);
+  expect(FrameStatus::poses_disagree, "'slab' 6.2 mm apart, more than 5 mm");
+}
+
+TEST_F(PoseLookupTest, ATurnDisagreesByItsArc) {
+  add_joint(10 * ms, 0.0);
+  Eigen::Isometry3d turned = shift(0, 0, 1);
+  turned.rotate(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY()));
+  history_.add_transform(10 * ms, "base", "slab", turned);
+  at(10 * ms, {.source = PoseSource::both, .agreement = 0.0051});
+  EXPECT_EQ(answer_.status, FrameStatus::ok);
+  EXPECT_NEAR(answer_.disagreement->distance, 0.01 * Disagreement::lever, 1e-9);
+  at(10 * ms, {.source = PoseSource::both, .agreement = 0.0049});
+  expect(FrameStatus::poses_disagree, "'slab'");
+}
+
+TEST_F(PoseLookupTest, OfTheCameraInTF) {
+  const PoseOptions options{.camera_parent = "slab", .camera_frame = "optical"};
+  add_joint(10 * ms, 0.0);
+  at(10 * ms, options);
+  expect(FrameStatus::missing_transform, "'optical'");
+  add_slab(10 * ms, 0.0);
+  history_.add_static_transform("slab", "housing", shift(0.1, 0, 0));
+  history_.add_static_transform("housing", "optical", shift(0, 0.2, 0));
+  ASSERT_EQ(at(10 * ms, options).status, FrameStatus::ok);
+  EXPECT_TRUE(answer_.T_parent_camera->isApprox(shift(0.1, 0.2, 0)));
+  add_joint(12 * ms, 0.0);
+  EXPECT_EQ(at(11 * ms, options).status, FrameStatus::ok) << "static frames have no age";
+  EXPECT_EQ(answer_.age, ms);
+
+  const PoseOptions at_root{.camera_parent = "", .camera_frame = "optical"};
+  at(11 * ms, at_root);
+  expect(FrameStatus::stale_transform, "'slab' in 'base'");
+  add_slab(12 * ms, 0.2);
+  ASSERT_EQ(at(11 * ms, at_root).status, FrameStatus::ok);
+  EXPECT_TRUE(answer_.T_parent_camera->isApprox(shift(0.1, 0.2, 1.1)));
+}
+
+TEST_F(PoseLookupTest, RefusesFaultyOptions) {
+  EXPECT_THROW(PoseLookup(robot_, {.camera_parent = "nowhere"}), InputError);
+  EXPECT_THROW(PoseLookup(robot_, {.agreement = -1.0}), InputError);
+  EXPECT_THROW(PoseLookup(robot_, {.agreement = std::nan("")}), InputError);
+  EXPECT_EQ(to_string(PoseSource::joints), "joints");
+  EXPECT_EQ(to_string(PoseSource::transforms), "tf");
+  EXPECT_EQ(to_string(PoseSource::both), "both");
+}
+
+class PoseHistoryTest : public PoseLookupTest {};
+
+TEST_F(PoseHistoryTest, StatesWithoutAStampAreRefused) {
+  add_joint(0, 0.1);
+  add_joint(-7, 0.1);
+  add_slab(0, 0.1);
+  EXPECT_EQ(history_.joint_states_without_stamp(), 2U);
+  EXPECT_EQ(history_.transforms().count(TransformInsert::no_stamp), 1U);
+  EXPECT_EQ(at(0, {}).status, FrameStatus::missing_joints);
+}
+
+TEST_F(PoseHistoryTest, AJumpOfTheClockForgetsWhatWasBefore) {
+  history_.add_static_transform("base", "optical", shift(1, 0, 0));
+  add_joint(5000 * ms, 0.5);
+  add_slab(5000 * ms, 0.5);
+  add_joint(4000 * ms, 0.4);
+  EXPECT_EQ(history_.clock_jumps(), 0U) << "late by a second";
+  EXPECT_EQ(history_.last_jump(), "");
+  const auto epoch = history_.epoch();
+  add_joint(4000 * ms - 1, 0.1);
+  EXPECT_EQ(history_.clock_jumps(), 1U);
+  EXPECT_NE(history_.epoch(), epoch);
+  EXPECT_NE(history_.last_jump().find("1000 ms"), std::string::npos) << history_.last_jump();
+  EXPECT_NE(history_.last_jump().find("joint states"), std::string::npos);
+  EXPECT_EQ(at(5000 * ms, {}).status, FrameStatus::stale_joints) << "not of the new time";
+  EXPECT_EQ(at(4000 * ms - 1, {}).status, FrameStatus::ok);
+  EXPECT_EQ(at(5000 * ms, {.source = PoseSource::transforms}).status,
+            FrameStatus::missing_transform);
+  EXPECT_TRUE(history_.transforms().knows("optical"));
+  add_slab(9000 * ms, 0.0);
+  EXPECT_EQ(history_.clock_jumps(), 1U);
+  add_slab(100 * ms, 0.0);
+  EXPECT_EQ(history_.clock_jumps(), 2U);
+  EXPECT_NE(history_.last_jump().find("transforms"), std::string::npos);
+}
+
+TEST_F(PoseHistoryTest, ClocksOfTwoPublishersMayDiffer) {
+  const Robot robot = Robot::parse(slab_urdf(R"(<link name="lid"/>
+    <joint name="hinge" type="continuous"><parent link="base"/><child link="lid"/></joint>)"),
+                                   ".");
+  PoseHistory history(robot);
+  const std::string slide[] = {"slide"}, hinge[] = {"hinge"};
+  const double zero[] = {0.0};
+  history.add_joints(9000 * ms, slide, zero);
+  history.add_joints(2000 * ms, hinge, zero);
+  history.add_transform(3000 * ms, "base", "slab", shift(0, 0, 0));
+  history.add_transform(1000 * ms, "base", "lid", shift(0, 0, 0));
+  EXPECT_EQ(history.clock_jumps(), 0U) << "each joint and frame has its own last stamp";
+  history.add_joints(900 * ms, hinge, zero);
+  EXPECT_EQ(history.clock_jumps(), 1U);
+}
+
+TEST_F(PoseHistoryTest, RefusesFaultyOptions) {
+  EXPECT_THROW(PoseHistory(robot_, {.clock_jump = 0.0}), InputError);
+  EXPECT_THROW(PoseHistory(robot_, {.clock_jump = -1.0}), InputError);
+  EXPECT_THROW(PoseHistory(robot_, {.transforms = {.max_depth = 0}}), InputError);
+}
+
+}  // namespace
+}  // namespace penumbra::test
