@@ -46,6 +46,8 @@ class DepthRegistration {
   DepthView warp(const DepthView& depth, const Eigen::Isometry3d& T_to_from);
 
  private:
+  static constexpr int block = 16;  // pixels that are worked on at a time
+
   struct Ray {
     float x, y;  // on the plane z = 1; NaN where the lens does not reach
   };
@@ -55,25 +57,49 @@ class DepthRegistration {
     float z = 0.0F;      // metres, in `to`
     float depth = 0.0F;  // metres, in `from`; 0: nothing is measured, or it lands nowhere
   };
+  /// Landings of a row of `from`, with a pixel that is nowhere before it, and some behind.
+  struct Row {
+    std::vector<float> u, v, z, depth;
+    void resize(std::size_t size);
+    [[nodiscard]] Landing operator[](std::size_t i) const { return {u[i], v[i], z[i], depth[i]}; }
+  };
   struct Box {
     int u0, u1, v0, v1;
   };
-  using Row = std::vector<Landing>;  // of the image, and a pixel that is nowhere on either side
+  struct Span {
+    float u0, u1, v0, v1;
+  };
+  /// Footprints of a block of pixels amid a surface; of others they mean nothing.
+  struct Footprints {
+    std::array<int, block> u0, u1, v0, v1;
+    std::array<int, block> amid;  // whether all neighbours are on the pixel's surface
+  };
 
-  [[nodiscard]] const Ray& ray(int u, int v) const { return rays_(u + 1, v + 1); }
-  [[nodiscard]] Landing land(const Ray& ray, float depth) const;
+  [[nodiscard]] Ray ray(int u, int v) const {
+    return {rays_x_(u + 1, v + 1), rays_y_(u + 1, v + 1)};
+  }
   template <typename T>
   void land_row(ImageView<const T> image, int v, Row& row) const;
+  void land_block(const float* depth, int u, int v, Row& row) const;
+  void bend_block(int u, Row& row) const;
+  void keep_landed(const float* depth, int u, Row& row) const;
+  [[nodiscard]] Landing land(const Ray& ray, float depth) const;
+  [[nodiscard]] Footprints footprints(int u) const;
+  [[nodiscard]] Box footprint_at_edge(int u, int v) const;
+  [[nodiscard]] Box box_of(const Span& span, const Landing& own) const;
   [[nodiscard]] Eigen::Vector2f half_way(const Landing& own, const Landing& other,
                                          const Ray& other_ray, float slope) const;
-  [[nodiscard]] Box footprint(int u, int v) const;
+  template <typename T>
+  void splat_row(int v, Image<T>& out) const;
   template <typename T>
   DepthView warp_into(Image<T>& out, ImageView<const T> depth);
 
   Camera from_;
   Camera to_;
-  Image<Ray> rays_;           // of the image and a pixel around it
-  Eigen::Matrix3f rotation_;  // T_to_from of this call
+  Image<float> rays_x_, rays_y_;    // of the image and a pixel around it
+  float slope_u_, slope_v_;         // of depth by depth, between neighbours of one surface
+  Eigen::Vector2f focal_, centre_;  // of `to`
+  Eigen::Matrix3f rotation_;        // T_to_from of this call
   Eigen::Vector3f translation_;
   std::array<Row, 3> rows_;  // above, this, below
   Image<std::uint16_t> millimetres_;

@@ -27,9 +27,12 @@ std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::str
 TransformInsert PoseHistory::add_transform(std::int64_t stamp, std::string_view parent,
                                            std::string_view child,
                                            const Eigen::Isometry3d& T_parent_child) {
-  if (const auto newest = transforms_.newest_of(child); newest && stamp > 0)
-    note_stamp(stamp, *newest, "transforms");
+  const auto newest = transforms_.newest_of(child);
   ++revision_;
+  const TransformInsert outcome = transforms_.insert(stamp, parent, child, T_parent_child);
+  // One that is refused, as of a second parent, says nothing of the clock.
+  if (outcome != TransformInsert::taken || !newest || !note_stamp(stamp, *newest, "transforms"))
+    return outcome;
   return transforms_.insert(stamp, parent, child, T_parent_child);
 }
 

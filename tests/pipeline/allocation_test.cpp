@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <tests/support/allocations.hpp>
 
+#include <penumbra/pipeline/frame_queue.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -60,6 +62,37 @@ TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
     ASSERT_EQ(report.status, FrameStatus::ok);
     if (i < warm_up) continue;
     ASSERT_EQ(after, before) << "frame " << i;
+  }
+}
+
+TEST(QueueAllocations, NothingIsAllocatedForAFrame) {
+  const Robot robot = slab_robot();
+  PoseHistory history(robot, {.joints = {.history = 0.1}, .transforms = {.history = 0.1}});
+  history.add_static_transform("base", "a_camera_with_a_long_name", Eigen::Isometry3d::Identity());
+  FrameQueue queue(
+      robot, history,
+      {.poses = {.source = PoseSource::both, .camera_frame = "a_camera_with_a_long_name"}},
+      [](const DroppedFrame&) {});
+  QueuedFrame queued;
+  const std::vector<std::string> names{"slide"};
+  for (int i = 1; i < 400; ++i) {
+    const std::int64_t stamp = std::int64_t{10'000'000} * i;
+    const std::vector<double> positions{0.001 * i};
+    const Eigen::Isometry3d T(Eigen::Translation3d(0, 0, 1 + positions[0]));
+    const std::size_t before = allocations();
+    history.add_joints(stamp, names, positions);
+    history.add_transform(stamp, "base", "slab", T);
+    queue.push(1, stamp - 5'000'000, stamp);
+    queue.push(2, stamp - 3'000'000, stamp);
+    const bool given = queue.next(stamp, queued);
+    const std::size_t after = allocations();
+    if (i > 1) {
+      ASSERT_TRUE(given);
+      ASSERT_EQ(queued.pose.status, FrameStatus::ok) << queued.pose.message;
+    }
+    if (i > 100) {
+      ASSERT_EQ(after, before) << "frame " << i;
+    }
   }
 }
 
