@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -45,14 +46,35 @@ struct PngFault {
 // libpng warns of what does not touch the pixels.
 void on_warning(png_structp, png_const_charp) {}
 
+// A file in memory, read as one on the disk is.
+class InputMemory {
+ public:
+  explicit InputMemory(std::span<const std::byte> bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  std::size_t read(void* to, std::size_t count) {
+    const std::size_t done = std::min(count, rest_.size());
+    std::copy_n(rest_.begin(), done, static_cast<std::byte*>(to));
+    rest_ = rest_.subspan(done);
+    return done;
+  }
+
+ private:
+  std::span<const std::byte> rest_;
+  std::uint64_t size_;
+};
+
+template <typename Input>
 void read_bytes(png_structp png, png_bytep to, std::size_t count) {
-  if (static_cast<InputFile*>(png_get_io_ptr(png))->read(to, count) != count)
+  if (static_cast<Input*>(png_get_io_ptr(png))->read(to, count) != count)
     png_error(png, "ends too early");
 }
 
-class Decoder {
+class PngDecoder {
  public:
-  explicit Decoder(InputFile& input)
+  template <typename Input>
+  explicit PngDecoder(Input& input)
       : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault_, on_error, on_warning)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     if (info_ == nullptr) {
@@ -61,11 +83,11 @@ class Decoder {
     }
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_chunk_malloc_max(png_, max_chunk_bytes);
-    png_set_read_fn(png_, &input, read_bytes);
+    png_set_read_fn(png_, &input, read_bytes<Input>);
   }
-  Decoder(const Decoder&) = delete;
-  Decoder& operator=(const Decoder&) = delete;
-  ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
+  ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
   // Each answers what is wrong, or nothing.
   std::string read_header() {
@@ -145,29 +167,45 @@ class Decoder {
   png_infop info_;
 };
 
-template <typename T>
-FileResult read_image(const std::filesystem::path& file, Image<T>& image,
-                      std::optional<ImageSize> wanted) {
+// Answers what is wrong, or nothing.
+template <typename T, typename Input>
+std::string decode_image(Input& input, Image<T>& image, std::optional<ImageSize> wanted) {
   constexpr bool as_rgb = std::is_same_v<T, Rgb8>;
-  InputFile input;
-  if (FileResult opened = input.open(file); !opened.ok()) return opened;
-  Decoder decoder(input);
+  PngDecoder decoder(input);
   std::string fault = decoder.read_header();
   if (fault.empty() && !as_rgb) fault = decoder.check_grey(8 * static_cast<int>(sizeof(T)));
   if (fault.empty()) fault = decoder.check_size(input.size(), wanted);
-  if (!fault.empty()) return FileResult::bad(file, fault);
+  if (!fault.empty()) return fault;
 
   const ImageSize size = decoder.size();
   if (image.width() != size.width || image.height() != size.height)
     image = Image<T>(size.width, size.height);
-  fault = decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
-                            static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
+  return decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
+                           static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
+}
+
+template <typename T>
+FileResult read_image(const std::filesystem::path& file, Image<T>& image,
+                      std::optional<ImageSize> wanted) {
+  InputFile input;
+  if (FileResult opened = input.open(file); !opened.ok()) return opened;
+  const std::string fault = decode_image(input, image, wanted);
   return fault.empty() ? FileResult{} : FileResult::bad(file, fault);
 }
 
+template <typename T>
+std::optional<std::string> read_image(std::span<const std::byte> bytes, Image<T>& image,
+                                      std::optional<ImageSize> wanted) {
+  InputMemory input(bytes);
+  std::string fault = decode_image(input, image, wanted);
+  if (fault.empty()) return std::nullopt;
+  return fault;
+}
+
 void append_bytes(png_structp png, png_bytep from, std::size_t count) {
-  auto* bytes = static_cast<std::vector<png_byte>*>(png_get_io_ptr(png));
-  bytes->insert(bytes->end(), from, from + count);
+  auto* bytes = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+  const auto* first = reinterpret_cast<const std::byte*>(from);
+  bytes->insert(bytes->end(), first, first + count);
 }
 
 void flush_nothing(png_structp) {}
@@ -180,11 +218,12 @@ struct Encoding {
   int filter;
 };
 
+// Puts the file into `bytes`, in place of what is there. Answers what is wrong, or nothing.
 template <typename T>
-void write_image(const std::filesystem::path& file, ImageView<const T> image,
-                 const Encoding& encoding) {
+std::string encode_image(ImageView<const T> image, const Encoding& encoding,
+                         std::vector<std::byte>& bytes) {
   PngFault fault;
-  std::vector<png_byte> bytes;
+  bytes.clear();
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info == nullptr) {
@@ -205,7 +244,17 @@ void write_image(const std::filesystem::path& file, ImageView<const T> image,
     png_write_end(png, nullptr);
   });
   png_destroy_write_struct(&png, &info);
-  if (!done) throw InputError(file.string() + ": cannot be encoded: " + fault.text.data());
+  return done ? std::string() : std::string("cannot be encoded: ") + fault.text.data();
+}
+
+constexpr Encoding colour_encoding{PNG_COLOR_TYPE_RGB, 8, PNG_FILTER_SUB};
+
+template <typename T>
+void write_image(const std::filesystem::path& file, ImageView<const T> image,
+                 const Encoding& encoding) {
+  std::vector<std::byte> bytes;
+  if (const std::string fault = encode_image(image, encoding, bytes); !fault.empty())
+    throw InputError(file.string() + ": " + fault);
   OutputFile output(file);
   output.write(bytes.data(), bytes.size());
   output.close();
@@ -237,7 +286,22 @@ void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t>
 }
 
 void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image) {
-  write_image(file, image, {PNG_COLOR_TYPE_RGB, 8, PNG_FILTER_SUB});
+  write_image(file, image, colour_encoding);
+}
+
+std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<std::uint16_t>& image,
+                                      std::optional<ImageSize> wanted) {
+  return read_image(bytes, image, wanted);
+}
+
+std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<Rgb8>& image,
+                                      std::optional<ImageSize> wanted) {
+  return read_image(bytes, image, wanted);
+}
+
+void encode_png(ImageView<const Rgb8> image, std::vector<std::byte>& bytes) {
+  if (const std::string fault = encode_image(image, colour_encoding, bytes); !fault.empty())
+    throw InputError("PNG: " + fault);
 }
 
 }  // namespace penumbra::io

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <penumbra/base/image.hpp>
 
@@ -37,5 +41,16 @@ struct Rgb8 {
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image);
 void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t> image);
 void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image);
+
+/// The same of files in memory. Answers what is wrong, or nothing.
+[[nodiscard]] std::optional<std::string> decode_png(std::span<const std::byte> bytes,
+                                                    Image<std::uint16_t>& image,
+                                                    std::optional<ImageSize> wanted = {});
+[[nodiscard]] std::optional<std::string> decode_png(std::span<const std::byte> bytes,
+                                                    Image<Rgb8>& image,
+                                                    std::optional<ImageSize> wanted = {});
+
+/// Puts the file in place of what `bytes` holds.
+void encode_png(ImageView<const Rgb8> image, std::vector<std::byte>& bytes);
 
 }  // namespace penumbra::io

@@ -10,11 +10,11 @@ set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
-       liblz4-dev libzstd-dev libsqlite3-dev)
+       libjpeg62-turbo-dev liblz4-dev libzstd-dev libsqlite3-dev)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
      libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libwebp-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
-      libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri nodejs npm)
+      libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev nodejs npm)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 

@@ -49,6 +49,8 @@ const std::vector<Library>& libraries() {
                                         {"epoxy/gl.h", "penumbra/pipeline/gl", 1},
                                         {"yaml-cpp/", "io", 2},
                                         {"png.h", "io", 1},
+                                        {"jpeglib.h", "io", 1},
+                                        {"jerror.h", "io", 1},
                                         {"nlohmann/", "io", 2},
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <io/ros/cdr_reader.hpp>
+
+namespace penumbra::io {
+
+/// Writes what CdrReader reads, in the byte order that is asked for.
+class CdrWriter {
+ public:
+  /// Begins a payload in `bytes`, in place of what is there.
+  explicit CdrWriter(std::vector<std::byte>& bytes, std::endian order = std::endian::little)
+      : bytes_(bytes), swaps_(order != std::endian::native) {
+    bytes_.assign(CdrReader::header_bytes, std::byte{0});
+    bytes_[1] = static_cast<std::byte>(order == std::endian::little ? 1 : 0);
+  }
+
+  template <typename T>
+  void write(T value) {
+    align(sizeof(T));
+    if (swaps_) value = byte_swapped(value);
+    append(&value, sizeof(T));
+  }
+
+  /// `count` numbers. Without any there is no alignment either.
+  template <typename T>
+  void write_array(const T* from, std::size_t count) {
+    if (count == 0) return;
+    align(sizeof(T));
+    if (!swaps_) return append(from, count * sizeof(T));
+    for (std::size_t i = 0; i < count; ++i) write(from[i]);
+  }
+
+  void write_bool(bool value) { write(static_cast<std::uint8_t>(value ? 1 : 0)); }
+
+  void write_string(std::string_view text) {
+    write_count(text.size() + 1);
+    append(text.data(), text.size());
+    bytes_.push_back(std::byte{0});
+  }
+
+  /// Throws std::length_error for more than CDR can count.
+  void write_count(std::size_t count) {
+    if (count > std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("CDR counts up to 2^32 - 1");
+    write(static_cast<std::uint32_t>(count));
+  }
+
+ private:
+  void align(std::size_t alignment) {
+    const std::size_t at = bytes_.size() - CdrReader::header_bytes;
+    bytes_.resize(bytes_.size() + (alignment - at % alignment) % alignment);
+  }
+
+  void append(const void* from, std::size_t count) {
+    const auto* first = static_cast<const std::byte*>(from);
+    bytes_.insert(bytes_.end(), first, first + count);
+  }
+
+  std::vector<std::byte>& bytes_;
+  bool swaps_;
+};
+
+}  // namespace penumbra::io

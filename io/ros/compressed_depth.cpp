@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <io/numbers.hpp>
+#include <io/ros/cdr_reader.hpp>
+#include <io/ros/compressed_depth-inl.hpp>
+#include <io/ros/image_limits-inl.hpp>
+#include <io/ros/rvl.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::string_view transport = "compressedDepth";
+
+// As compressed_depth_image_transport writes it: little-endian numbers.
+constexpr std::size_t parameter_bytes = 12;
+constexpr std::uint32_t inverse_depth = 0;
+struct DepthParameters {
+  std::uint32_t format;
+  float quant_a;
+  float quant_b;
+};
+
+// Rows and columns before RVL's data. Zeros pack so well that any size may be true of few bytes:
+// depth cameras have less than this many pixels.
+constexpr std::size_t rvl_size_bytes = 8;
+constexpr std::uint64_t most_rvl_pixels = std::uint64_t{1} << 24U;
+
+template <typename T>
+T little_endian(std::span<const std::byte> bytes, std::size_t at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return std::endian::native == std::endian::little ? value : byte_swapped(value);
+}
+
+std::optional<std::string> unpack_rvl(std::span<const std::byte> bytes,
+                                      Image<std::uint16_t>& image) {
+  if (bytes.size() < rvl_size_bytes) return "ends before its RVL data";
+  const auto width = little_endian<std::uint32_t>(bytes, 0);
+  const auto height = little_endian<std::uint32_t>(bytes, 4);
+  if (auto fault = check_image_size(width, height)) return fault;
+  if (std::uint64_t{width} * height > most_rvl_pixels)
+    return "has " + std::to_string(width) + " x " + std::to_string(height) +
+           " pixels in RVL; at most " + std::to_string(most_rvl_pixels) + " are possible";
+  resize_image(image, static_cast<int>(width), static_cast<int>(height));
+  auto fault = decode_rvl(bytes.subspan(rvl_size_bytes), std::span(image.data(), image.size()));
+  if (fault) fault->insert(0, "is damaged: ");
+  return fault;
+}
+
+// "ENCODING; compressedDepth CODEC"; without a codec it is PNG.
+struct DepthFormat {
+  std::string_view encoding;
+  std::string_view codec;
+};
+
+DepthFormat parse_format(std::string_view format) {
+  const std::size_t at = format.find(transport);
+  std::string_view encoding = trimmed(format.substr(0, at));
+  if (encoding.ends_with(';')) encoding = trimmed(encoding.substr(0, encoding.size() - 1));
+  const std::string_view codec = trimmed(format.substr(at + transport.size()));
+  return {encoding, codec.empty() ? "png" : codec};
+}
+
+void dequantise(const Image<std::uint16_t>& quantised, float a, float b, Image<float>& metres) {
+  resize_image(metres, quantised.width(), quantised.height());
+  for (std::size_t i = 0; i < metres.size(); ++i) {
+    const std::uint16_t q = quantised.data()[i];
+    metres.data()[i] =
+        q == 0 ? std::numeric_limits<float>::quiet_NaN() : a / (static_cast<float>(q) - b);
+  }
+}
+
+}  // namespace
+
+bool is_compressed_depth(const CompressedImageMessage& message) {
+  return message.format.find(transport) != std::string::npos;
+}
+
+std::optional<std::string> decode_compressed_depth(const CompressedImageMessage& message,
+                                                   DecodedDepth& depth) {
+  const DepthFormat format = parse_format(message.format);
+  const bool is_float = format.encoding == "32FC1";
+  if ((!is_float && format.encoding != "16UC1") || (format.codec != "png" && format.codec != "rvl"))
+    return "has format '" + message.format +
+           "'; '16UC1; compressedDepth' or '32FC1; compressedDepth', png or rvl, is wanted";
+  if (message.data.size() < parameter_bytes) return "ends before its data";
+  const auto packed = message.data.subspan(parameter_bytes);
+  auto fault = format.codec == "rvl" ? unpack_rvl(packed, depth.millimetres)
+                                     : decode_png(packed, depth.millimetres);
+  if (fault) return fault;
+  if (!is_float) {
+    depth.view = std::as_const(depth.millimetres).view();
+    return std::nullopt;
+  }
+  const DepthParameters parameters{little_endian<std::uint32_t>(message.data, 0),
+                                   little_endian<float>(message.data, 4),
+                                   little_endian<float>(message.data, 8)};
+  if (parameters.format != inverse_depth || !(parameters.quant_a > 0) ||
+      !std::isfinite(parameters.quant_a) || !std::isfinite(parameters.quant_b))
+    return "has no parameters by which 32FC1 was quantised";
+  dequantise(depth.millimetres, parameters.quant_a, parameters.quant_b, depth.metres);
+  depth.view = std::as_const(depth.metres).view();
+  return std::nullopt;
+}
+
+std::optional<std::string> decode_depth_png(std::span<const std::byte> png, DecodedDepth& depth) {
+  if (auto fault = decode_png(png, depth.millimetres)) return fault;
+  depth.view = std::as_const(depth.millimetres).view();
+  return std::nullopt;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+#include <io/ros/cdr_reader.hpp>
+#include <io/ros/colour_conversion-inl.hpp>
+#include <io/ros/compressed_depth-inl.hpp>
+#include <io/ros/image_codec.hpp>
+#include <io/ros/image_limits-inl.hpp>
+#include <io/ros/jpeg.hpp>
+
+namespace penumbra::io {
+namespace {
+
+// What is wrong with the sizes of a message, or nothing.
+std::optional<std::string> check_layout(const ImageMessage& message, std::size_t pixel_bytes) {
+  if (auto fault = check_image_size(message.width, message.height)) return fault;
+  const std::uint64_t row = std::uint64_t{message.width} * pixel_bytes;
+  const std::uint64_t all = std::uint64_t{message.step} * message.height;
+  if (message.step >= row && message.data.size() == all) return std::nullopt;
+  return "of " + std::to_string(message.width) + " x " + std::to_string(message.height) + " " +
+         message.encoding + " has steps of " + std::to_string(message.step) + " bytes and " +
+         std::to_string(message.data.size()) + " bytes; steps of " + std::to_string(row) +
+         " or more are wanted, one for each row";
+}
+
+bool is_swapped(const ImageMessage& message) {
+  return (message.is_bigendian != 0) != (std::endian::native == std::endian::big);
+}
+
+template <typename T>
+void copy_rows(const ImageMessage& message, Image<T>& image) {
+  resize_image(image, static_cast<int>(message.width), static_cast<int>(message.height));
+  const bool swapped = is_swapped(message);
+  for (int v = 0; v < image.height(); ++v) {
+    T* row = image.view().row(v);
+    std::memcpy(row, message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
+                message.width * sizeof(T));
+    if (swapped) std::transform(row, row + message.width, row, byte_swapped<T>);
+  }
+}
+
+// The pixels as they lie, if they can be used so.
+template <typename T>
+std::optional<ImageView<const T>> view_in_place(const ImageMessage& message) {
+  const bool aligned = reinterpret_cast<std::uintptr_t>(message.data.data()) % alignof(T) == 0;
+  if (is_swapped(message) || !aligned || message.step % sizeof(T) != 0) return std::nullopt;
+  return ImageView<const T>{reinterpret_cast<const T*>(message.data.data()),
+                            static_cast<int>(message.width), static_cast<int>(message.height),
+                            static_cast<std::ptrdiff_t>(message.step / sizeof(T))};
+}
+
+template <typename T>
+std::optional<std::string> take_depth(const ImageMessage& message, Image<T>& buffer,
+                                      DepthView& view) {
+  if (auto fault = check_layout(message, sizeof(T))) return fault;
+  if (const auto in_place = view_in_place<T>(message)) {
+    view = *in_place;
+  } else {
+    copy_rows(message, buffer);
+    view = std::as_const(buffer).view();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> of_image(std::string_view what, std::optional<std::string> fault) {
+  if (fault) fault->insert(0, std::string(what) + " ");
+  return fault;
+}
+
+bool begins_with(std::span<const std::byte> bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() &&
+         std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+
+}  // namespace
+
+std::optional<std::string> decode_depth(const ImageMessage& message, DecodedDepth& depth) {
+  depth.view = {};
+  if (message.encoding == "16UC1" || message.encoding == "mono16")
+    return of_image("depth image", take_depth(message, depth.millimetres, depth.view));
+  if (message.encoding == "32FC1")
+    return of_image("depth image", take_depth(message, depth.metres, depth.view));
+  return "depth image has encoding '" + message.encoding + "'; 16UC1, mono16 or 32FC1 is wanted";
+}
+
+std::optional<std::string> decode_depth(const CompressedImageMessage& message,
+                                        DecodedDepth& depth) {
+  depth.view = {};
+  return of_image("depth image", is_compressed_depth(message)
+                                     ? decode_compressed_depth(message, depth)
+                                     : decode_depth_png(message.data, depth));
+}
+
+std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8>& image) {
+  const ColourFormat* format = find_colour_format(message.encoding);
+  if (format == nullptr)
+    return "colour image has encoding '" + message.encoding +
+           "'; rgb8, bgr8, rgba8, bgra8, mono8, yuv422 or yuv422_yuy2 is wanted";
+  if (auto fault = check_layout(message, format->pixel_bytes))
+    return of_image("colour image", fault);
+  if (format->in_pairs && message.width % 2 != 0)
+    return "colour image of " + message.encoding + " has an odd width of " +
+           std::to_string(message.width);
+  resize_image(image, static_cast<int>(message.width), static_cast<int>(message.height));
+  for (int v = 0; v < image.height(); ++v)
+    format->convert(message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
+                    image.view().row(v), message.width);
+  return std::nullopt;
+}
+
+std::optional<std::string> decode_colour(const CompressedImageMessage& message,
+                                         Image<Rgb8>& image) {
+  if (begins_with(message.data, "\x89PNG"))
+    return of_image("colour image", decode_png(message.data, image));
+  if (begins_with(message.data, "\xff\xd8\xff"))
+    return of_image("colour image", decode_jpeg(message.data, image));
+  return "colour image of format '" + message.format + "' is neither PNG nor JPEG";
+}
+
+template <typename T>
+ImageMessage image_message(const MessageHeader& header, std::string_view encoding,
+                           ImageView<const T> image) {
+  if (image.stride != image.width || image.empty())
+    throw std::logic_error("image_message needs an image whose rows lie without gaps");
+  ImageMessage message{.header = header, .encoding = std::string(encoding)};
+  message.width = static_cast<std::uint32_t>(image.width);
+  message.height = static_cast<std::uint32_t>(image.height);
+  message.is_bigendian = std::endian::native == std::endian::big ? 1 : 0;
+  message.step = message.width * static_cast<std::uint32_t>(sizeof(T));
+  message.data = std::as_bytes(std::span(
+      image.data, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)));
+  return message;
+}
+
+template ImageMessage image_message(const MessageHeader&, std::string_view,
+                                    ImageView<const std::uint8_t>);
+template ImageMessage image_message(const MessageHeader&, std::string_view,
+                                    ImageView<const std::uint16_t>);
+template ImageMessage image_message(const MessageHeader&, std::string_view, ImageView<const float>);
+template ImageMessage image_message(const MessageHeader&, std::string_view, ImageView<const Rgb8>);
+
+CompressedImageMessage png_message(const MessageHeader& header, ImageView<const Rgb8> image,
+                                   std::vector<std::byte>& png) {
+  encode_png(image, png);
+  return {.header = header, .format = "png", .data = png};
+}
+
+}  // namespace penumbra::io

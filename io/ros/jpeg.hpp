@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::io {
+
+/// Reads a JPEG file in memory, grey or colour, into `image`, whose buffer is kept where the size
+/// stays. Answers what is wrong (damaged data too, which libjpeg would fill with grey), or nothing;
+/// after a fault the image is unspecified. Allocates no more than the file can hold.
+[[nodiscard]] std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes,
+                                                     Image<Rgb8>& image);
+
+}  // namespace penumbra::io

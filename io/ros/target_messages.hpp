@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include <penumbra/pipeline/frame.hpp>
+
+#include <io/ros/messages.hpp>
+
+namespace penumbra::io {
+
+/// What a report says of its targets. `camera_frame`: the optical frame of its images;
+/// `root_frame`: the robot's root link. A report without a stamp has 0.
+[[nodiscard]] TargetsMessage targets_message(const FrameReport& report,
+                                             std::string_view camera_frame,
+                                             std::string_view root_frame);
+
+}  // namespace penumbra::io

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damaged payloads and images: faults or other values, never a crash, a hang or large memory.
+#include "../support/allocations.hpp"
+#include "../support/random.hpp"
+#include "../support/sanitized.hpp"
+#include "files.hpp"
+#include "jpeg_file.hpp"
+#include "ros_images.hpp"
+#include "ros_samples.hpp"
+
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include <io/ros/image_codec.hpp>
+#include <io/ros/message_definition.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Of one piece: images of at most 2^24 depths (RVL, where few bytes may be of any image).
+constexpr std::size_t large_memory = std::size_t{64} << 20;
+
+Bytes damaged(const Bytes& whole, std::mt19937_64& random) {
+  Bytes bytes = whole;
+  if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 1));
+  for (std::size_t n = 1 + random() % 6; n > 0 && !bytes.empty(); --n) {
+    std::byte& byte = bytes[random() % bytes.size()];
+    switch (random() % 4) {
+      case 0:
+        byte = std::byte{0xff};
+        break;
+      case 1:
+        byte ^= static_cast<std::byte>(1U << random() % 8);
+        break;
+      case 2:
+        byte = std::byte{0};
+        break;
+      default:
+        byte = static_cast<std::byte>(random());
+    }
+  }
+  return bytes;
+}
+
+template <typename Call>
+void fuzz(const Bytes& whole, int rounds, std::mt19937_64& random, const Call& call) {
+  for (int i = 0; i < rounds; ++i) {
+    const test::ExactCopy copy(damaged(whole, random));
+    const std::optional<std::string> fault = call(copy.bytes());
+    ASSERT_EQ(fault.value_or("").find('\n'), std::string::npos) << *fault;
+  }
+}
+
+void fuzz_messages(int rounds, std::uint64_t seed) {
+  std::mt19937_64 random = test::seeded_random(seed);
+  const test::MemoryShortage shortage(large_memory, 0);
+  test::for_each_sample([&](const auto& message) {
+    using M = std::decay_t<decltype(message)>;
+    const Decoder<M> decoder;
+    M out;
+    for (const std::endian order : {std::endian::little, std::endian::big})
+      fuzz(test::encoded(message, order), rounds, random,
+           [&](auto bytes) { return decoder.decode(bytes, out); });
+  });
+  Detection2DArrayMessage flat;
+  fuzz(test::detection_2d_payload(), rounds, random,
+       [&, d = Decoder<Detection2DArrayMessage>()](auto b) { return d.decode(b, flat); });
+  Detection3DArrayMessage solid;
+  fuzz(test::detection_3d_payload(), rounds, random,
+       [&, d = Decoder<Detection3DArrayMessage>()](auto b) { return d.decode(b, solid); });
+  EXPECT_EQ(shortage.asked(), 0U);
+}
+
+// Bytes of any kind, read by a definition of every kind that is stepped over.
+void fuzz_skipping(int rounds, std::uint64_t seed) {
+  std::mt19937_64 random = test::seeded_random(seed);
+  const Decoder<StringMessage> decoder(
+      "std_msgs/msg/String",
+      "Empty[] empties\nPair[<=900] pairs\nstring[] words\nbool[3] flags\nPair[40000000] many\n"
+      "float64[] numbers\nstring data\n"
+      "===\nMSG: std_msgs/Empty\n===\nMSG: std_msgs/Pair\nint16[] a\nEmpty[7] b\n");
+  const Decoder<StringMessage> small("std_msgs/msg/String",
+                                     "Empty[] empties\nstring[] words\nPair[] pairs\nstring data\n"
+                                     "===\nMSG: std_msgs/Empty\n"
+                                     "===\nMSG: std_msgs/Pair\nint16[] a\nEmpty[7] b\n");
+  StringMessage out;
+  for (int i = 0; i < rounds; ++i) {
+    Bytes bytes(random() % 4000);
+    // Small numbers, so that counts are believed.
+    for (std::byte& byte : bytes)
+      byte = random() % 4 == 0 ? static_cast<std::byte>(random() % 12) : std::byte{0};
+    if (bytes.size() >= 4) bytes[0] = bytes[1] = std::byte{0};
+    const test::ExactCopy copy(bytes);
+    static_cast<void>(decoder.decode(copy.bytes(), out));
+    static_cast<void>(small.decode(copy.bytes(), out));
+  }
+}
+
+Bytes colour_png() {
+  Image<Rgb8> image(24, 16);
+  for (std::size_t i = 0; i < image.size(); ++i)
+    image.data()[i] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 7), 9};
+  Bytes png;
+  encode_png(std::as_const(image).view(), png);
+  return png;
+}
+
+void fuzz_images(int rounds, std::uint64_t seed) {
+  std::mt19937_64 random = test::seeded_random(seed);
+  const test::MemoryShortage shortage(large_memory, 0);
+  DecodedDepth depth;
+  const auto image = test::depth_image(24, 16, random);
+  for (const bool rvl : {false, true})
+    for (const char* encoding : {"16UC1", "32FC1"}) {
+      const std::string format =
+          std::string(encoding) + "; compressedDepth " + (rvl ? "rvl" : "png");
+      fuzz(test::compressed_depth(image, rvl, 100, 1), rounds, random, [&](auto bytes) {
+        return decode_depth(CompressedImageMessage{.format = format, .data = bytes}, depth);
+      });
+    }
+  Image<Rgb8> colours;
+  Image<Rgb8> small(24, 16, Rgb8{90, 120, 30});
+  for (const Bytes& file : {test::jpeg_of(small, false), test::jpeg_of(small, true), colour_png()})
+    fuzz(file, rounds, random, [&](auto bytes) {
+      return decode_colour(CompressedImageMessage{.format = "any", .data = bytes}, colours);
+    });
+  EXPECT_EQ(shortage.asked(), 0U);
+}
+
+TEST(RosFuzz, Messages) { fuzz_messages(test::samples(1500), 11); }
+TEST(RosFuzz, FieldsThatAreSteppedOver) { fuzz_skipping(test::samples(5000), 12); }
+TEST(RosFuzz, Images) { fuzz_images(test::samples(1000), 13); }
+
+// Minutes: one seed after the other.
+TEST(RosFuzzFull, EverythingForAMinuteEach) {
+  if (!test::full()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  const auto for_a_minute = [](const auto& call) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    for (std::uint64_t seed = 1000; std::chrono::steady_clock::now() < end; ++seed) call(seed);
+  };
+  for_a_minute([](std::uint64_t seed) { fuzz_messages(2000, seed); });
+  for_a_minute([](std::uint64_t seed) { fuzz_skipping(20'000, seed); });
+  for_a_minute([](std::uint64_t seed) { fuzz_images(2000, seed); });
+}
+
+}  // namespace
+}  // namespace penumbra::io

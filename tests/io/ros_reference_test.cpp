@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our definitions and payloads, read by Foxglove's library, and its definitions against ours. Needs
+// node and npm, and npm's packages once.
+#include "files.hpp"
+#include "ros_samples.hpp"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <io/ros/message_definition.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using Json = nlohmann::json;
+using test::encoded;
+
+constexpr const char* reference = PENUMBRA_ROS_REFERENCE_DIR;
+
+bool run(const std::string& command) { return std::system(command.c_str()) == 0; }
+
+// Whether the packages are there or could be had; several tests may ask at once.
+bool install_packages() {
+  const std::string folder = reference, source = PENUMBRA_SOURCE_DIR "/tests/ros_reference/";
+  const std::string steps = "cp " + source + "* " + folder +
+                            " && { [ -d node_modules/@foxglove/rosmsg2-serialization ] ||"
+                            " npm ci --ignore-scripts --no-audit --no-fund --fetch-timeout=20000"
+                            " --fetch-retries=1; }";
+  std::filesystem::create_directories(folder);
+  return run("cd " + folder + " && command -v node npm flock > /dev/null && flock lock sh -c '" +
+             steps + "' > npm.log 2>&1");
+}
+
+#define PENUMBRA_REQUIRE_NPM() \
+  if (!install_packages()) GTEST_SKIP() << "skipped: no node, or its packages cannot be had"
+
+Json answer(const std::string& task, const std::filesystem::path& folder) {
+  const std::string out = (folder / "answer.json").string();
+  EXPECT_TRUE(run("node " + std::string(reference) + "/reference.mjs " + task + " " +
+                  (folder / "list").string() + " > " + out));
+  return Json::parse(test::read_bytes(out));
+}
+
+struct Exchange {
+  test::TempFolder folder;
+  std::string list;
+  int files = 0;
+
+  void add(const std::string& type, const std::vector<std::byte>& payload) {
+    const std::string name = std::to_string(files++);
+    const auto definition = folder.write(name + ".msg", definition_of(type));
+    const auto* first = reinterpret_cast<const char*>(payload.data());
+    const auto file = folder.write(name + ".cdr", {first, payload.size()});
+    list += type + " " + definition.string() + " " + file.string() + "\n";
+  }
+
+  Json decoded() {
+    folder.write("list", list);
+    return answer("decode", folder.path());
+  }
+};
+
+Json header_json() {
+  return {{"stamp", {{"sec", 1'699'999'999}, {"nanosec", 987'654'321}}},
+          {"frame_id", "camera/optical"}};
+}
+
+Json pose_json(const Eigen::Isometry3d& pose, const char* at, const char* turned) {
+  const Eigen::Vector3d t = pose.translation();
+  const Eigen::Quaterniond q(pose.linear());
+  return {{at, {{"x", t.x()}, {"y", t.y()}, {"z", t.z()}}},
+          {turned, {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}}};
+}
+
+const Json bytes_json = {1, 2, 250, 0, 7};
+
+Json target_json(const char* name) {
+  return {{"name", name},
+          {"has_stamp", false},
+          {"stamp", {{"sec", 0}, {"nanosec", 0}}},
+          {"verdict", 0},
+          {"reason", "joint states are stale"},
+          {"judged", false},
+          {"covered", "0"},
+          {"inside", "0"},
+          {"occluded_fraction", "NaN"},
+          {"front_fraction", "NaN"},
+          {"clear_fraction", "NaN"},
+          {"unknown_fraction", "NaN"},
+          {"hidden_by_other_fraction", "NaN"},
+          {"blame", Json::array()},
+          {"point", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
+          {"point_pixels", "0"},
+          {"point_spread", "NaN"},
+          {"source", 0},
+          {"age", "Infinity"},
+          {"pose",
+           {{"position", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
+            {"orientation", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}, {"w", "NaN"}}}}},
+          {"sigma", "NaN"},
+          {"estimate", 0}};
+}
+
+Json targets_json() {
+  Json part = target_json("part");
+  part.update({{"has_stamp", true},
+               {"stamp", {{"sec", 5}, {"nanosec", 1}}},
+               {"verdict", 2},
+               {"reason", ""},
+               {"judged", true},
+               {"covered", "5000000000"},
+               {"inside", "120"},
+               {"occluded_fraction", 0.25},
+               {"front_fraction", 0.5},
+               {"clear_fraction", 0.125},
+               {"unknown_fraction", 0.125},
+               {"blame",
+                {{{"link", "wrist_3"}, {"fraction", 0.2}}, {{"link", "tool"}, {"fraction", 0.05}}}},
+               {"point", {{"x", 1}, {"y", 2}, {"z", 3}}},
+               {"point_pixels", "77"},
+               {"point_spread", 0.003},
+               {"source", 2},
+               {"age", 0.5},
+               {"sigma", 0.01},
+               {"estimate", 3}});
+  part["pose"]["position"] = {{"x", 4}, {"y", 5}, {"z", 6}};
+  return {{"header", header_json()},
+          {"root_frame", "base_link"},
+          {"status", "stale_joints"},
+          {"message", "elbow: 0.3 s old"},
+          {"targets", {part, target_json("wrist")}}};
+}
+
+Json camera_json() {
+  const auto info = test::sample<CameraInfoMessage>();
+  return {{"header", header_json()},
+          {"height", 480},
+          {"width", 640},
+          {"distortion_model", "plumb_bob"},
+          {"d", info.d},
+          {"k", info.k},
+          {"r", info.r},
+          {"p", info.p},
+          {"binning_x", 2},
+          {"binning_y", 4},
+          {"roi",
+           {{"x_offset", 1}, {"y_offset", 2}, {"height", 3}, {"width", 4}, {"do_rectify", true}}}};
+}
+
+Json tf_json() {
+  const Json second = {{"stamp", {{"sec", -1}, {"nanosec", 999'999'999}}}, {"frame_id", "a"}};
+  return {{"transforms",
+           {{{"header", header_json()},
+             {"child_frame_id", "tool"},
+             {"transform", pose_json(test::sample_pose(), "translation", "rotation")}},
+            {{"header", second},
+             {"child_frame_id", ""},
+             {"transform", pose_json(test::sample_pose().inverse(), "translation", "rotation")}}}}};
+}
+
+Json diagnostics_json() {
+  return {
+      {"header", header_json()},
+      {"status",
+       {{{"level", 1},
+         {"name", "camera"},
+         {"message", "late"},
+         {"hardware_id", "d435"},
+         {"values", {{{"key", "age_ms"}, {"value", "35.5"}}, {{"key", "drops"}, {"value", "3"}}}}},
+        {{"level", 3},
+         {"name", "joints"},
+         {"message", "none"},
+         {"hardware_id", ""},
+         {"values", Json::array()}}}}};
+}
+
+Json keypoints_json() {
+  return {{"header", header_json()},
+          {"keypoints",
+           {{{"name", "left/wrist"}, {"u", 12.5}, {"v", -3}, {"score", 0.75}, {"depth", 1.25}},
+            {{"name", "nose"}, {"u", 0}, {"v", 0}, {"score", 0}, {"depth", "NaN"}}}}};
+}
+
+Json cloud_json() {
+  return {{"header", header_json()},
+          {"height", 1},
+          {"width", 1},
+          {"fields",
+           {{{"name", "x"}, {"offset", 0}, {"datatype", 7}, {"count", 1}},
+            {{"name", "intensity"}, {"offset", 4}, {"datatype", 2}, {"count", 1}}}},
+          {"is_bigendian", false},
+          {"point_step", 5},
+          {"row_step", 5},
+          {"data", bytes_json},
+          {"is_dense", true}};
+}
+
+// In the order of for_each_sample.
+std::vector<Json> wanted_messages() {
+  return {{{"header", header_json()},
+           {"height", 1},
+           {"width", 5},
+           {"encoding", "mono8"},
+           {"is_bigendian", 0},
+           {"step", 5},
+           {"data", bytes_json}},
+          {{"header", header_json()}, {"format", "png"}, {"data", bytes_json}},
+          camera_json(),
+          {{"header", header_json()},
+           {"name", {"elbow", "", "shoulder_pan"}},
+           {"position", {0.5, -1.25, 3}},
+           {"velocity", Json::array()},
+           {"effort", {7, 8}}},
+          tf_json(),
+          {{"data", "<robot name=\"r\"/>"}},
+          {{"header", header_json()},
+           {"pose", pose_json(test::sample_pose(), "position", "orientation")}},
+          cloud_json(),
+          diagnostics_json(),
+          keypoints_json(),
+          targets_json()};
+}
+
+TEST(RosReference, ReadsWhatWeWrite) {
+  PENUMBRA_REQUIRE_NPM();
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    Exchange exchange;
+    test::for_each_sample([&](const auto& message) {
+      exchange.add(message_type<std::decay_t<decltype(message)>>(), encoded(message, order));
+    });
+    const Json read = exchange.decoded();
+    const auto wanted = wanted_messages();
+    ASSERT_EQ(read.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(read[i], wanted[i]);
+  }
+}
+
+// Detections are put together by hand in our tests: here by a definition, by someone else.
+TEST(RosReference, ReadsDetections) {
+  PENUMBRA_REQUIRE_NPM();
+  Exchange exchange;
+  exchange.add("vision_msgs/msg/Detection2DArray", test::detection_2d_payload());
+  exchange.add("vision_msgs/msg/Detection3DArray", test::detection_3d_payload());
+  const Json read = exchange.decoded();
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0]["detections"][0]["bbox"]["center"]["position"]["x"], 320.5);
+  EXPECT_EQ(read[0]["detections"][0]["results"][1]["hypothesis"]["class_id"], "person");
+  EXPECT_EQ(read[1]["detections"][0]["bbox"]["size"]["z"], 0.3);
+  EXPECT_EQ(read[1]["detections"][0]["id"], "box");
+}
+
+Json fields_json(const TypeDefinition& type) {
+  Json fields = Json::array();
+  for (const ConstantDefinition& constant : type.constants)
+    fields.push_back({constant.name, constant.type_name == "byte" ? "uint8" : constant.type_name,
+                      "constant", constant.value_text});
+  for (const FieldDefinition& field : type.fields) {
+    std::string name = field.type_name == "byte" ? "uint8" : field.type_name;
+    if (name == "builtin_interfaces/Time") name = "time";
+    const std::string shape = field.arity == Arity::one ? ""
+                              : field.arity == Arity::array
+                                  ? "[" + std::to_string(field.count) + "]"
+                                  : "[]";
+    fields.push_back({field.name, name, shape, ""});
+  }
+  return fields;
+}
+
+// But for vision_msgs and our own, which it does not have.
+TEST(RosReference, HasTheSameDefinitions) {
+  PENUMBRA_REQUIRE_NPM();
+  const test::TempFolder folder;
+  const Json theirs = answer("definitions", folder.path());
+  std::size_t compared = 0;
+  test::for_each_sample([&](const auto& message) {
+    const std::string type = message_type<std::decay_t<decltype(message)>>();
+    const MessageDefinition definition(type, definition_of(type));
+    for (const TypeDefinition& one : definition.types()) {
+      if (!theirs.contains(one.name)) continue;
+      EXPECT_EQ(fields_json(one), theirs[one.name]) << one.name;
+      ++compared;
+    }
+  });
+  EXPECT_GT(compared, 20U);
+}
+
+}  // namespace
+}  // namespace penumbra::io

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <io/ros/message_decoder.hpp>
+#include <io/ros/message_encoder.hpp>
+#include <io/ros/messages.hpp>
+
+// One message of each type that is written, with odd lengths, so that alignment matters.
+namespace penumbra::test {
+
+constexpr std::array<std::byte, 5> sample_bytes = {std::byte{1}, std::byte{2}, std::byte{250},
+                                                   std::byte{0}, std::byte{7}};
+
+inline io::MessageHeader sample_header() { return {1'699'999'999'987'654'321, "camera/optical"}; }
+
+inline Eigen::Isometry3d sample_pose() {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()));
+  pose.translation() = Eigen::Vector3d(0.25, -1.5, 3.125);
+  return pose;
+}
+
+template <typename M>
+M sample();
+
+template <>
+inline io::ImageMessage sample() {
+  return {.header = sample_header(),
+          .height = 1,
+          .width = 5,
+          .encoding = "mono8",
+          .step = 5,
+          .data = sample_bytes};
+}
+
+template <>
+inline io::CompressedImageMessage sample() {
+  return {.header = sample_header(), .format = "png", .data = sample_bytes};
+}
+
+template <>
+inline io::CameraInfoMessage sample() {
+  io::CameraInfoMessage info{.header = sample_header(), .height = 480, .width = 640};
+  info.distortion_model = "plumb_bob";
+  info.d = {0.1, -0.2, 0.001, 0.002, 0.05};
+  for (std::size_t i = 0; i < info.k.size(); ++i) info.k[i] = 1.5 * static_cast<double>(i);
+  for (std::size_t i = 0; i < info.r.size(); ++i) info.r[i] = 100.0 - static_cast<double>(i);
+  for (std::size_t i = 0; i < info.p.size(); ++i) info.p[i] = 0.25 + static_cast<double>(i);
+  info.binning_x = 2;
+  info.binning_y = 4;
+  info.roi = {1, 2, 3, 4, true};
+  return info;
+}
+
+template <>
+inline io::JointStateMessage sample() {
+  return {.header = sample_header(),
+          .names = {"elbow", "", "shoulder_pan"},
+          .positions = {0.5, -1.25, 3},
+          .velocities = {},
+          .efforts = {7, 8}};
+}
+
+template <>
+inline io::TfMessage sample() {
+  return {{{sample_header(), "tool", sample_pose()}, {{-1, "a"}, "", sample_pose().inverse()}}};
+}
+
+template <>
+inline io::StringMessage sample() {
+  return {"<robot name=\"r\"/>"};
+}
+
+template <>
+inline io::PoseStampedMessage sample() {
+  return {sample_header(), sample_pose()};
+}
+
+template <>
+inline io::PointCloud2Message sample() {
+  io::PointCloud2Message cloud{.header = sample_header(), .height = 1, .width = 1};
+  cloud.fields = {{"x", 0, io::PointFieldMessage::float32, 1}, {"intensity", 4, 2, 1}};
+  cloud.point_step = 5;
+  cloud.row_step = 5;
+  cloud.data = sample_bytes;
+  cloud.is_dense = true;
+  return cloud;
+}
+
+template <>
+inline io::DiagnosticArrayMessage sample() {
+  using Status = io::DiagnosticStatusMessage;
+  return {sample_header(),
+          {{Status::warn, "camera", "late", "d435", {{"age_ms", "35.5"}, {"drops", "3"}}},
+           {Status::stale, "joints", "none", "", {}}}};
+}
+
+template <>
+inline io::KeypointsMessage sample() {
+  return {sample_header(), {{"left/wrist", 12.5, -3, 0.75, 1.25}, {"nose", 0, 0, 0, NAN}}};
+}
+
+template <>
+inline io::TargetsMessage sample() {
+  io::TargetMessage target{.name = "part"};
+  target.has_stamp = true;
+  target.stamp = 5'000'000'001;
+  target.verdict = io::TargetMessage::partial;
+  target.judged = true;
+  target.covered = 5'000'000'000;
+  target.inside = 120;
+  target.occluded_fraction = 0.25;
+  target.front_fraction = 0.5;
+  target.clear_fraction = 0.125;
+  target.unknown_fraction = 0.125;
+  target.blame = {{"wrist_3", 0.2}, {"tool", 0.05}};
+  target.point = {1, 2, 3};
+  target.point_pixels = 77;
+  target.point_spread = 0.003;
+  target.source = io::TargetMessage::predicted;
+  target.age = 0.5;
+  target.pose.position = {4, 5, 6};
+  target.sigma = 0.01;
+  target.estimate = io::TargetMessage::refused_gate;
+  io::TargetMessage unknown{.name = "wrist", .reason = "joint states are stale"};
+  unknown.age = INFINITY;
+  return {sample_header(), "base_link", "stale_joints", "elbow: 0.3 s old", {target, unknown}};
+}
+
+/// Calls `call` with a sample of each type that is written.
+template <typename F>
+void for_each_sample(const F& call) {
+  call(sample<io::ImageMessage>());
+  call(sample<io::CompressedImageMessage>());
+  call(sample<io::CameraInfoMessage>());
+  call(sample<io::JointStateMessage>());
+  call(sample<io::TfMessage>());
+  call(sample<io::StringMessage>());
+  call(sample<io::PoseStampedMessage>());
+  call(sample<io::PointCloud2Message>());
+  call(sample<io::DiagnosticArrayMessage>());
+  call(sample<io::KeypointsMessage>());
+  call(sample<io::TargetsMessage>());
+}
+
+template <typename M>
+std::vector<std::byte> encoded(const M& message, std::endian order = std::endian::little) {
+  std::vector<std::byte> payload;
+  io::encode(message, payload, order);
+  return payload;
+}
+
+/// A copy that ends where its memory ends, so that sanitizers see each byte read past it.
+struct ExactCopy {
+  explicit ExactCopy(std::span<const std::byte> from)
+      : size(from.size()), memory(new std::byte[from.size()]) {
+    std::copy(from.begin(), from.end(), memory.get());
+  }
+  [[nodiscard]] std::span<std::byte> bytes() const { return {memory.get(), size}; }
+
+  std::size_t size;
+  std::unique_ptr<std::byte[]> memory;
+};
+
+/// Payloads of messages that are read but not written, put together by hand: one detection each.
+std::vector<std::byte> detection_2d_payload();
+std::vector<std::byte> detection_3d_payload();
+
+}  // namespace penumbra::test
