@@ -78,8 +78,8 @@ TEST(Measures, CountWrongPosesThatWereAccepted) {
 }
 
 TEST(Bootstrap, OfAMeanHasTheWidthThatTheNormalDistributionSays) {
-  std::vector<double> errors;
-  for (int i = 0; i < 100; ++i) errors.push_back(0.001 * i);
+  std::vector<double> errors(100);
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = 0.001 * static_cast<double>(i);
   const auto runs = runs_of(errors);
   Measure mean;
   mean.value = [](std::span<const Watched> some) -> std::optional<double> {
