@@ -89,7 +89,7 @@ std::size_t most_hidden(const SeedRun& run) {
   return best[best.size() / 2];
 }
 
-constexpr Look raw{"raw", red, true, false}, ours{"handled", green, false, true};
+constexpr Look raw_look{"raw", red, true, false}, handled_look{"handled", green, false, true};
 
 }  // namespace
 
@@ -132,9 +132,9 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
 Image<io::Rgb8> KeyFrames::draw(const SeedRun& run, std::size_t i) const {
   Image<io::Rgb8> image = images_.at(i);
   const std::vector<MethodRun>& methods = run.lanes.front().methods;
-  draw_target(methods.back().samples[i], ours, image);
-  draw_target(methods.front().samples[i], raw, image);
-  for (const auto& [look, v] : {std::pair(raw, 18), {ours, 40}}) {
+  draw_target(methods.back().samples[i], handled_look, image);
+  draw_target(methods.front().samples[i], raw_look, image);
+  for (const auto& [look, v] : {std::pair(raw_look, 18), {handled_look, 40}}) {
     draw_line({10, v}, {66, v}, look, image);
     write_on(look.name, 78, v - 8, look.color, image);
   }

@@ -123,15 +123,16 @@ TEST_F(Collada, ReadsAsAssimpDoes) {
   const std::string uv =
       "<input semantic=\"TEXCOORD\" source=\"#p\" offset=\"0\" set=\"0\"/>"
       "<input semantic=\"VERTEX\" source=\"#v\" offset=\"1\"/>";
-  for (const std::string& primitive :
-       {"<triangles count=\"2\">" + uv + "<p>3 0 2 2 1 1 0 0 1 1 0 3</p></triangles>",
-        "<polylist count=\"3\">" + vertex_input +
-            "<vcount>3 2 4</vcount><p>0 2 1 0 1 0 1 2 3</p></polylist>",
-        "<polygons count=\"2\">" + vertex_input + "<p>0 2 1</p><p>0 1 3</p></polygons>",
-        "<tristrips count=\"2\">" + vertex_input + "<p>0 1 2 3 0</p><p>3 2 1</p></tristrips>",
-        "<lines count=\"1\">" + vertex_input + "<p>0 1</p></lines><triangles count=\"0\">" +
-            vertex_input + "</triangles><triangles count=\"1\">" + vertex_input +
-            "<p>0 1 2</p></triangles>"})
+  const std::vector<std::string> primitives{
+      "<triangles count=\"2\">" + uv + "<p>3 0 2 2 1 1 0 0 1 1 0 3</p></triangles>",
+      "<polylist count=\"3\">" + vertex_input +
+          "<vcount>3 2 4</vcount><p>0 2 1 0 1 0 1 2 3</p></polylist>",
+      "<polygons count=\"2\">" + vertex_input + "<p>0 2 1</p><p>0 1 3</p></polygons>",
+      "<tristrips count=\"2\">" + vertex_input + "<p>0 1 2 3 0</p><p>3 2 1</p></tristrips>",
+      "<lines count=\"1\">" + vertex_input + "<p>0 1</p></lines><triangles count=\"0\">" +
+          vertex_input + "</triangles><triangles count=\"1\">" + vertex_input +
+          "<p>0 1 2</p></triangles>"};
+  for (const std::string& primitive : primitives)
     expect_as_assimp(folder_.write("p.dae", with_primitive(primitive)));
 }
 
@@ -190,10 +191,12 @@ TEST_F(Collada, CountsOfPrimitivesMustFit) {
     refuse("<polylist count=\"1\">" + vertex_input + "<vcount>" + sizes +
                "</vcount><p>0 1 2</p></polylist>",
            "do not agree");
-  for (const std::string name : {"polygons", "tristrips", "trifans"}) {
-    refuse("<" + name + " count=\"1\">" + vertex_input + "</" + name + ">", "promises 1 <p>");
-    refuse("<" + name + " count=\"2\">" + vertex_input + "<p>0 1 2</p></" + name + ">",
-           "promises 2 <p>");
+  const auto element = [&](const std::string& name, const char* count, const char* indices) {
+    return "<" + name + " count=\"" + count + "\">" + vertex_input + indices + "</" + name + ">";
+  };
+  for (const char* name : {"polygons", "tristrips", "trifans"}) {
+    refuse(element(name, "1", ""), "promises 1 <p>");
+    refuse(element(name, "2", "<p>0 1 2</p>"), "promises 2 <p>");
   }
   refuse("<polygons count=\"1\">" + vertex_input + "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>",
          "hole");

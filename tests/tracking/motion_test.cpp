@@ -133,7 +133,7 @@ TEST(PoseMotion, StillAveragesAndIsHeld) {
   const Vector6d noise = sigmas(config.position_sigma, 0);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const auto pose = follow(config, [&](double) {
-    const auto seen = moved(truth, noise.cwiseProduct(normal<6>(random)));
+    auto seen = moved(truth, noise.cwiseProduct(normal<6>(random)));
     sum += seen.translation();
     return seen;
   });
