@@ -7,8 +7,8 @@ namespace {
 
 // Up to version 3 the paths begin with the recording's folder.
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) {
-  const std::filesystem::path beside = folder / name;
-  const std::filesystem::path above = folder.parent_path() / name;
+  std::filesystem::path beside = folder / name;
+  std::filesystem::path above = folder.parent_path() / name;
   std::error_code ignored;
   if (!std::filesystem::exists(beside, ignored) && std::filesystem::exists(above, ignored))
     return above;

@@ -76,7 +76,7 @@ void ChunkLoader::load(const MessagePlace& place, LoadedChunk& chunk, Definition
 }
 
 std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& records) {
-  const std::string cut = "a chunk cannot be read to its end (was the file cut meanwhile?)";
+  constexpr const char* cut = "a chunk cannot be read to its end (was the file cut meanwhile?)";
   if (place.length > max_record_bytes + record_head_bytes && !place.loose)
     return "a chunk claims " + std::to_string(place.length) + " bytes, more than any may have";
   if (place.loose) return read(place.offset, place.length, records) ? "" : cut;

@@ -32,7 +32,8 @@ bool is_message_index(ByteCursor cursor, std::uint64_t length) {
 bool is_attachment(ByteCursor cursor, std::uint64_t length) {
   const std::size_t whole = cursor.rest().size();
   cursor.bytes(2 * sizeof(std::uint64_t));  // times
-  const bool named = take_name(cursor) && take_name(cursor);
+  bool named = take_name(cursor);
+  named = take_name(cursor) && named;  // its media type
   const auto data = cursor.number<std::uint64_t>();
   const std::uint64_t head = whole - cursor.rest().size();
   constexpr std::uint64_t crc = sizeof(std::uint32_t);
