@@ -2,6 +2,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
+#include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
 
@@ -25,10 +26,10 @@ std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path) {
   return open_bag_file(path);
 }
 
-std::string definition_or_built_in(std::string_view /*type*/, std::string_view encoding,
+std::string definition_or_built_in(std::string_view type, std::string_view encoding,
                                    std::string_view text) {
   if (encoding == "ros2msg" && !text.empty()) return std::string(text);
-  return {};
+  return std::string(definition_of(type));
 }
 
 }  // namespace penumbra::io

@@ -66,12 +66,14 @@ TEST_F(SqliteBags, TakeDefinitionsFromTheFile) {
   database.make_tables(true);
   database.topic(1, "/a", "p/msg/A");
   database.topic(2, "/b", "p/msg/B");
+  database.topic(3, "/c", "sensor_msgs/msg/JointState");
   database.run(
       "INSERT INTO message_definitions VALUES(1, 'p/msg/A', 'ros2msg', 'int32 a', ''),"
       "(2, 'p/msg/B', 'ros2idl', 'struct', '')");
   const BagContent all = test::read_bag(file_);
   EXPECT_EQ(all.topics.at(0).definition, "int32 a");
   EXPECT_EQ(all.topics.at(1).definition, "");
+  EXPECT_HAS(all.topics.at(2).definition, "float64[] position");  // built in
   EXPECT_TRUE(all.messages.empty());
 }
 
