@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/argument_values.hpp>
@@ -28,6 +30,20 @@ ImageSpace to_image(const std::string& name) {
   if (name == "raw") return ImageSpace::raw;
   if (name == "rectified") return ImageSpace::rectified;
   refuse_option("--image", name, "raw or rectified");
+}
+
+PoseSource to_poses(const std::string& name) {
+  for (const PoseSource source : {PoseSource::joints, PoseSource::transforms, PoseSource::both})
+    if (name == to_string(source)) return source;
+  refuse_option("--poses", name, "one of joints, tf, both");
+}
+
+double to_time_offset(const std::string& text) {
+  constexpr double most = 10.0;
+  const auto seconds = io::parse_number<double>(text);
+  if (!seconds || !(std::abs(*seconds) <= most))
+    refuse_option("--time-offset", text, "a number of seconds from -10 to 10");
+  return *seconds;
 }
 
 bool to_paper(const std::string& name) {

@@ -18,6 +18,8 @@ namespace penumbra::app {
 [[nodiscard]] std::optional<Backend> to_backend(const std::string& name);
 [[nodiscard]] Geometry to_geometry(const std::string& name);
 [[nodiscard]] ImageSpace to_image(const std::string& name);
+[[nodiscard]] PoseSource to_poses(const std::string& name);
+[[nodiscard]] double to_time_offset(const std::string& text);  ///< seconds
 [[nodiscard]] bool to_paper(const std::string& name);
 [[nodiscard]] Tolerance to_tolerance(const std::string& text);
 [[nodiscard]] int to_count(const std::string& option, const std::string& text, int least, int most);

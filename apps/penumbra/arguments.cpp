@@ -28,14 +28,15 @@ CLI::Option* add_option(CLI::App& app, const std::string& names, const std::stri
 
 /// The same for an option that may be given several times.
 template <typename Take>
-void add_list(CLI::App& app, const std::string& names, const std::string& help,
-              const std::string& value, Take take) {
-  app.add_option_function<std::vector<std::string>>(
-         names,
-         [take](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) take(text);
-         },
-         help)
+CLI::Option* add_list(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, Take take) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          names,
+          [take](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) take(text);
+          },
+          help)
       ->type_name(value)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -84,14 +85,13 @@ void add_robot(CLI::App& app, RobotOptions& options) {
 
 /// Options of versions to come are told apart from mistyped ones; --help does not show them.
 void add_unbuilt(CLI::App& app) {
-  for (const char* const name : {"--report", "--time-offset"})
-    app.add_option_function<std::vector<std::string>>(
-           name,
-           [name](const std::vector<std::string>&) {
-             throw InputError(std::string(name) + " is not built into this version; leave it out");
-           })
-        ->group("")
-        ->expected(0, 1);
+  app.add_option_function<std::vector<std::string>>(
+         "--report",
+         [](const std::vector<std::string>&) {
+           throw InputError("--report is not built into this version; leave it out");
+         })
+      ->group("")
+      ->expected(0, 1);
 }
 
 /// Options that the chosen renderer would not heed are refused.
@@ -123,9 +123,82 @@ void check_gl_labels(const RunArguments& run) {
         "leave --gl-labels out, or say --targets none");
 }
 
+/// Adds an option for bags whose text `take` reads.
+template <typename Take>
+void add_bag_option(CLI::App& app, BagArguments& bag, const std::string& name,
+                    const std::string& help, const std::string& value, Take take) {
+  const auto take_text = [&bag, name, value, take](const std::string& text) {
+    if (text.empty()) refuse_option(name, text, "a " + value);
+    bag.given = name;
+    take(text);
+  };
+  add_option(app, name, help, value, take_text)->group("Of bags");
+}
+
+template <typename T>
+void add_bag_text(CLI::App& app, BagArguments& bag, const std::string& name,
+                  const std::string& help, const std::string& value, T& to) {
+  add_bag_option(app, bag, name, help, value, [&to](const std::string& text) { to = text; });
+}
+
+template <typename Take>
+void add_bag_list(CLI::App& app, BagArguments& bag, const std::string& name,
+                  const std::string& help, const std::string& value, Take take) {
+  add_list(app, name, help, value, [&bag, name, take](const std::string& text) {
+    bag.given = name;
+    take(text);
+  })->group("Of bags");
+}
+
+void add_bag(CLI::App& app, BagArguments& bag) {
+  add_bag_text(app, bag, "--depth-topic", "depth images; default: the only ones called depth",
+               "TOPIC", bag.depth_topic);
+  add_bag_text(app, bag, "--camera-info-topic", "default: beside the depth images", "TOPIC",
+               bag.camera_info_topic);
+  add_bag_text(app, bag, "--color-topic",
+               "judge in this camera's image: depth is brought there by tf, if it is another's",
+               "TOPIC", bag.color_topic);
+  add_bag_list(app, bag, "--joint-topic",
+               "default: /joint_states, or the only one; may be given several times", "TOPIC",
+               [&](const std::string& text) { bag.joint_topics.push_back(text); });
+  add_bag_option(app, bag, "--poses",
+                 "where links are: joints, tf, or both, which must agree; default: joints, else tf",
+                 "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
+  add_bag_text(app, bag, "--robot", "the robot, in place of the bag's robot_description", "URDF",
+               bag.robot);
+  add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
+               "NAME=DIR", [&](const std::string& text) {
+                 const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
+                 bag.packages[name] = folder;
+               });
+  add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
+               "FRAME", bag.camera_frame);
+  add_bag_text(app, bag, "--parent",
+               "link that the camera sits on; default: the first above its frame in tf", "LINK",
+               bag.parent);
+  add_bag_text(app, bag, "--pose",
+               "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
+               bag.pose);
+  add_bag_option(app, bag, "--time-offset",
+                 "added to the images' stamps before poses are looked up; default 0", "S",
+                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
+  app.add_flag_callback(
+         "--rectified",
+         [&bag] {
+           bag.rectified = true;
+           bag.given = "--rectified";
+         },
+         "the images are free of distortion already, as those called image_rect... are")
+      ->group("Of bags");
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  add_path(app, "INPUT", "a recording folder or its recording.yaml", "", run.input)->required();
+  add_path(app, "INPUT",
+           "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
+           "folder with metadata.yaml",
+           "", run.input)
+      ->required();
   add_path(app, "-o,--output", "folder for the results; made if need be", "OUT", run.output)
       ->required();
   add_renderer(app, run.renderer);
@@ -157,6 +230,7 @@ void add_run(CLI::App& app, RunArguments& run) {
   app.add_flag(
       "--gl-labels", run.gl_labels,
       "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay");
+  add_bag(app, run.bag);
   add_unbuilt(app);
 }
 

@@ -12,6 +12,7 @@
 
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <sim/experiments/experiment.hpp>
@@ -34,6 +35,21 @@ struct RendererArguments {
   RendererOptions options;
 };
 
+/// What is said of a bag on the command line. Topics are found by type and name where not given.
+struct BagArguments {
+  std::optional<std::string> depth_topic, camera_info_topic, color_topic;
+  std::vector<std::string> joint_topics;
+  std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
+  std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
+  std::map<std::string, std::filesystem::path> packages;
+  std::optional<std::string> camera_frame;    ///< in place of the images' frame_id
+  std::optional<std::string> parent;          ///< link that the camera sits on
+  std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
+  bool rectified = false;
+  double time_offset = 0.0;  ///< FrameQueueOptions::time_offset
+  std::string given;         ///< one of the options that were given; empty: none
+};
+
 struct RunArguments {
   std::filesystem::path input;
   std::filesystem::path output;
@@ -50,6 +66,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
   bool no_targets = false;                       ///< not the recording's either
   bool gl_labels = false;                        ///< PipelineConfig::labels_on_device
+  BagArguments bag;
 };
 
 struct RenderArguments {

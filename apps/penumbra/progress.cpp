@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -36,9 +37,12 @@ void Progress::step() {
 
 void Progress::draw(Clock::time_point now) const {
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const std::size_t filled = bar_width * done_ / total_;
-  std::cerr << "\r[" << std::string(filled, '#') << std::string(bar_width - filled, '.') << "] "
-            << done_ << '/' << total_ << " frames, "
+  std::cerr << '\r';
+  if (total_ > 0) {
+    const std::size_t filled = bar_width * std::min(done_, total_) / total_;
+    std::cerr << '[' << std::string(filled, '#') << std::string(bar_width - filled, '.') << "] ";
+  }
+  std::cerr << done_ << (total_ > 0 ? "/" + std::to_string(total_) : "") << " frames, "
             << fixed(seconds > 0.0 ? static_cast<double>(done_) / seconds : 0.0, 1) << "/s\033[K"
             << std::flush;
 }

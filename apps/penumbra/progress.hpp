@@ -9,8 +9,8 @@ namespace penumbra::app {
 /// A bar on stderr with frames done and rate; nothing where stderr is no terminal.
 class Progress {
  public:
-  explicit Progress(std::size_t total);
-  ~Progress();  ///< takes the bar away
+  explicit Progress(std::size_t total);  ///< 0: not known
+  ~Progress();                           ///< takes the bar away
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/run_input.hpp>
+#include <io/bag/bag_file.hpp>
+#include <io/names.hpp>
+#include <io/recording_source.hpp>
+
+namespace penumbra::app {
+namespace {
+
+bool is_bag(const std::filesystem::path& input) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(input, ignored))
+    return io::is_bag_file(input) || input.extension() == ".zstd";
+  return !std::filesystem::exists(input / "recording.yaml", ignored) &&
+         std::filesystem::exists(input / "metadata.yaml", ignored);
+}
+
+/// Which of the reader's frames are wanted; the range must lie inside the recording.
+std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameReader& reader) {
+  std::int64_t least = reader.index(0);
+  std::int64_t most = reader.index(0);
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    least = std::min(least, reader.index(i));
+    most = std::max(most, reader.index(i));
+  }
+  const std::int64_t first = range.first.value_or(least);
+  const std::int64_t end = range.end.value_or(most + 1);
+  std::vector<std::size_t> selected;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+    if (reader.index(i) >= first && reader.index(i) < end) selected.push_back(i);
+  if (selected.empty() || first < least || end > most + 1)
+    throw InputError("--frames " + std::to_string(first) + ":" + std::to_string(end) +
+                     ": the recording has the frames " + std::to_string(least) + " to " +
+                     std::to_string(most) + ", all of them " + std::to_string(least) + ":" +
+                     std::to_string(most + 1));
+  return selected;
+}
+
+void check_parent(const io::Recording& recording, const Robot& robot) {
+  const std::string& parent = recording.camera.parent;
+  if (robot.find_link(parent)) return;
+  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
+  throw InputError(recording.file.string() + ": camera.parent: '" + parent +
+                   "' is no link of the robot" + io::near_names(parent, known));
+}
+
+}  // namespace
+
+void add_robot_choices(const RunArguments& arguments, RobotOptions& options) {
+  if (arguments.geometry) options.geometry = *arguments.geometry;
+  options.geometry_fallback |= arguments.geometry_fallback;
+  options.allow_missing_meshes |= arguments.allow_missing_meshes;
+}
+
+RunInput open_recording_input(const RunArguments& arguments) {
+  if (!arguments.bag.given.empty())
+    throw InputError(arguments.bag.given + ": is for bags, and " + arguments.input.string() +
+                     " is a recording folder, which says this itself; leave it out");
+  io::Recording recording = io::Recording::open(arguments.input);
+  add_robot_choices(arguments, recording.robot);
+  Robot robot = Robot::load(recording.urdf, recording.robot);
+  io::FrameReader reader(recording, robot);
+  std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
+  check_parent(recording, robot);
+  const bool with_color = arguments.saves.overlay;
+  return {.robot_options = recording.robot,
+          .robot = std::move(robot),
+          .camera = recording.camera.camera,
+          .camera_info = recording.camera.info,
+          .config = recording.pipeline_config(),
+          .beyond = recording.camera.beyond,
+          .targets = recording.targets,
+          .frames = [reader = std::move(reader), selected = std::move(selected),
+                     with_color](const Robot&) -> std::unique_ptr<io::FrameSource> {
+            return std::make_unique<io::RecordingSource>(reader, selected, with_color);
+          }};
+}
+
+RunInput open_input(const RunArguments& arguments) {
+  return is_bag(arguments.input) ? open_bag_input(arguments) : open_recording_input(arguments);
+}
+
+}  // namespace penumbra::app

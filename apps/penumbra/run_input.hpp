@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <apps/penumbra/arguments.hpp>
+#include <io/frame_source.hpp>
+#include <io/recording.hpp>
+
+namespace penumbra::app {
+
+/// What `run` judges, whatever it comes from.
+struct RunInput {
+  RobotOptions robot_options;
+  Robot robot;
+  Camera camera;
+  std::filesystem::path camera_info;  ///< where faults of the camera are
+  PipelineConfig config;              ///< with what the input says: camera's pose, tolerance
+  std::optional<io::BeyondMeans> beyond;
+  std::optional<std::filesystem::path> targets;  ///< the input's own
+
+  /// Opens the frames; the robot must outlive them. To be called once.
+  std::function<std::unique_ptr<io::FrameSource>(const Robot&)> frames;
+};
+
+/// Opens a recording folder or a bag, and says on stdout what of a bag is taken. Throws InputError
+/// that names the file.
+[[nodiscard]] RunInput open_input(const RunArguments& arguments);
+
+/// The two of them.
+[[nodiscard]] RunInput open_recording_input(const RunArguments& arguments);
+[[nodiscard]] RunInput open_bag_input(const RunArguments& arguments);
+
+/// The command line's choices of what is drawn, on top of the input's.
+void add_robot_choices(const RunArguments& arguments, RobotOptions& options);
+
+}  // namespace penumbra::app

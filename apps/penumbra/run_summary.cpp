@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <span>
+#include <string>
+
+#include <apps/penumbra/run_summary.hpp>
+#include <apps/penumbra/text.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr std::size_t most_targets = 20;  // that are told of by a line each
+
+std::string more_reasons(const Fault& fault) {
+  if (fault.frames == fault.reasons.front().frames) return "";
+  return " (other frames for other reasons, see the report)";
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return whole == 0
+             ? "-"
+             : fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+
+/// A line for each target; of very many, for the first.
+void tell_targets(const Statistics& statistics) {
+  const auto& targets = statistics.targets();
+  for (const TargetStatistics& target :
+       std::span(targets).first(std::min(most_targets, targets.size())))
+    std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
+              << " frames visible, " << target.frames(Verdict::partial) << " partial, "
+              << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
+              << " unknown, " << target.frames(Verdict::out_of_view) << " out of view\n";
+  if (targets.size() > most_targets)
+    std::cout << "and " << targets.size() - most_targets << " more targets, see the report\n";
+}
+
+}  // namespace
+
+void tell_faults(const Statistics& statistics, const ColorFaults& color) {
+  const auto frames = [&](std::size_t n) {
+    return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
+  };
+  for (const Fault& fault : statistics.faults())
+    std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
+              << ", first in frame " << fault.reasons.front().first << ": "
+              << fault.reasons.front().message << more_reasons(fault) << '\n';
+  std::size_t told = 0;
+  for (const TargetStatistics& target : statistics.targets())
+    if (target.frames(Verdict::unknown) > 0 && ++told <= most_targets)
+      std::cerr << "penumbra: target '" << target.name << "' unknown in "
+                << frames(target.frames(Verdict::unknown)) << ", first in frame "
+                << target.first_unknown << ": " << target.reason << '\n';
+  if (told > most_targets)
+    std::cerr << "penumbra: " << told - most_targets << " more targets unknown in some frames\n";
+  if (color.frames > 0)
+    std::cerr << "penumbra: no colour in the overlay of " << frames(color.frames)
+              << ", first: " << color.first << '\n';
+}
+
+void tell_summary(const Statistics& statistics, const std::filesystem::path& report) {
+  const PixelCounts& pixels = statistics.pixels();
+  const std::size_t robot = pixels.robot.value_or(0);
+  const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
+  std::cout << statistics.frames() << " frames, " << statistics.bad_frames() << " bad; of " << robot
+            << " robot pixels " << percent(pixels.front, robot) << " front, "
+            << percent(pixels.occluded, robot) << " occluded, " << percent(unknown, robot)
+            << " unknown, " << percent(pixels.beyond, robot) << " beyond";
+  if (pixels.uncovered > 0) std::cout << "; besides " << pixels.uncovered << " uncovered pixels";
+  std::cout << '\n';
+  tell_targets(statistics);
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (const auto q = statistics.timing(i))
+      std::cout << stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
+                << fixed(q->p99, 3) << " ms, max " << fixed(q->max, 3) << " ms\n";
+  std::cout << "report: " << report.string() << '\n';
+}
+
+}  // namespace penumbra::app

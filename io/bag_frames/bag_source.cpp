@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <type_traits>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/bag_frames/bag_source.hpp>
+#include <io/printable.hpp>
+
+namespace penumbra::io {
+namespace {
+
+/// How long images wait for their pose, in seconds of recording: at 10 joint states a second, three
+/// of which were lost, and 0.1 s of transport.
+constexpr double longest_wait = 0.5;
+constexpr std::int64_t longest_color_wait = 200'000'000;  // nanoseconds
+constexpr std::size_t most_ready = 32;                    // frames that wait for their color
+
+FrameQueueOptions queue_options(const BagSourceOptions& options) {
+  return {.policy = DropPolicy::every,
+          .time_offset = options.time_offset,
+          .max_wait = longest_wait,
+          .poses = options.poses};
+}
+
+std::string why_dropped(DropReason reason) {
+  switch (reason) {
+    case DropReason::no_stamp:
+      return "the depth image's stamp is 0: it is not known when it was taken";
+    case DropReason::clock_jump:
+      return "the clock jumped back while the depth image waited for its pose";
+    default:
+      return "too many depth images waited for their poses";
+  }
+}
+
+/// All but the stamp.
+bool is_same(const CameraInfoMessage& a, const CameraInfoMessage& b) {
+  return a.header.frame_id == b.header.frame_id && a.height == b.height && a.width == b.width &&
+         a.distortion_model == b.distortion_model && a.d == b.d && a.k == b.k && a.r == b.r &&
+         a.p == b.p && a.binning_x == b.binning_x && a.binning_y == b.binning_y &&
+         a.roi.x_offset == b.roi.x_offset && a.roi.y_offset == b.roi.y_offset &&
+         a.roi.height == b.roi.height && a.roi.width == b.roi.width &&
+         a.roi.do_rectify == b.roi.do_rectify;
+}
+
+void join(std::string& message, const std::string& more) {
+  if (!more.empty()) message += (message.empty() ? "" : "; ") + more;
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+}  // namespace
+
+BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSourceOptions options)
+    : options_(std::move(options)),
+      inbox_(bag),
+      history_(robot),
+      queue_(robot, history_, queue_options(options_),
+             [this](const DroppedFrame& frame) { dropped_.push_back(frame); }),
+      colors_(options_.camera) {
+  if (options_.depth_camera) registration_.emplace(*options_.depth_camera, options_.camera);
+  check_range();
+  // Fixed frames hold before they are told, too. Of one that is told several times, what was told
+  // first holds until it is told anew.
+  std::set<std::string> known;
+  for (const TransformMessage& t : options_.scene.static_transforms)
+    if (known.insert(t.child_frame_id).second)
+      history_.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
+}
+
+void BagSource::check_range() {
+  const auto count = options_.topics.depth.messages;
+  if (!count) return;
+  const auto most = static_cast<std::int64_t>(*count);
+  const std::int64_t first = options_.first.value_or(0);
+  const std::int64_t end = options_.end.value_or(most);
+  if (first >= end || end > most)
+    throw InputError("--frames " + std::to_string(first) + ":" + std::to_string(end) +
+                     ": the bag has the frames 0 to " + std::to_string(most - 1) +
+                     ", all of them 0:" + std::to_string(most));
+  size_ = static_cast<std::size_t>(end - first);
+}
+
+bool BagSource::next(FrameData& data, Frame& frame) {
+  while (ready_.empty() || !is_presentable()) {
+    if (ended_ && ready_.empty()) {
+      if (given_ > 0) return false;
+      throw InputError(inbox_.name() + ": none of its " + std::to_string(images_) +
+                       " depth images is wanted; mend --frames");
+    }
+    read_message();
+  }
+  current_ = std::move(ready_.front());
+  ready_.pop_front();
+  ++given_;
+  present(data, frame);
+  return true;
+}
+
+void BagSource::read_message() {
+  const bool past_end = options_.end && static_cast<std::int64_t>(images_) >= *options_.end;
+  BagMessage message;
+  if ((past_end && waiting_.empty()) || !inbox_.next(message)) {
+    ended_ = true;
+    queue_.finish();
+  } else {
+    now_ = message.log_time;
+    take(message);
+  }
+  collect();
+}
+
+void BagSource::take(const BagMessage& message) {
+  const BagTopic& topic = inbox_.topic_of(message);
+  const auto is = [&](const TopicUse& use) {
+    return topic.name == use.name && topic.type == use.type;
+  };
+  const BagTopics& topics = options_.topics;
+  const bool is_plain = topic.type == message_type<ImageMessage>();
+  if (is(topics.depth))
+    return is_plain ? take_depth<ImageMessage>(message)
+                    : take_depth<CompressedImageMessage>(message);
+  if (is(topics.camera_info)) return take_info(message, *options_.scene.camera_info);
+  if (topics.color_info && is(*topics.color_info))
+    return take_info(message, *options_.scene.color_info);
+  if (topics.color && options_.with_color && is(*topics.color))
+    return is_plain ? take_color<ImageMessage>(message)
+                    : take_color<CompressedImageMessage>(message);
+  for (const TopicUse& use : topics.joints)
+    if (is(use)) return take_joints(message);
+  for (const TopicUse& use : topics.transforms)
+    if (is(use)) return take_transforms(message, use.name.ends_with("static"));
+}
+
+template <typename M>
+void BagSource::take_depth(const BagMessage& message) {
+  const std::uint64_t index = images_++;
+  const auto number = static_cast<std::int64_t>(index);
+  if (number < options_.first.value_or(0) ||
+      number >= options_.end.value_or(std::numeric_limits<std::int64_t>::max()))
+    return;
+  M image;
+  Waiting waiting;
+  std::string fault;
+  if (!inbox_.decode(message, image, &fault)) {
+    waiting.fault = fault;
+    return give_unposed(index, std::move(waiting), "the depth image's message cannot be read");
+  }
+  waiting.payload.assign(message.data.begin(), message.data.end());
+  waiting.message = message;
+  waiting.message.data = waiting.payload;
+  waiting.stamp = image.header.stamp;
+  if (frame_name(image.header.frame_id) != frame_name(*options_.scene.depth_frame))
+    waiting.fault = "the depth image is of the frame '" + printable(image.header.frame_id) +
+                    "', the first one of '" + printable(*options_.scene.depth_frame) + "'";
+  waiting_.emplace(index, std::move(waiting));
+  queue_.push(index, image.header.stamp, now_);
+}
+
+void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& first) {
+  CameraInfoMessage info;
+  if (!inbox_.decode(message, info)) return;
+  const bool differs = !is_same(info, first);
+  const bool before = !camera_changes_.empty() && camera_changes_.back().differs;
+  if (differs == before) return;
+  if (differs)
+    inbox_.add_fault(inbox_.topic_of(message).name, message.log_time,
+                     "it is another camera than at first");
+  camera_changes_.push_back({info.header.stamp, differs});
+}
+
+bool BagSource::camera_differs(std::int64_t stamp) const {
+  bool differs = false;
+  for (const CameraChange& change : camera_changes_)
+    if (change.stamp <= stamp) differs = change.differs;
+  return differs;
+}
+
+void BagSource::take_joints(const BagMessage& message) {
+  JointStateMessage state;
+  if (inbox_.decode(message, state))
+    history_.add_joints(state.header.stamp, state.names, state.positions);
+}
+
+void BagSource::take_transforms(const BagMessage& message, bool is_static) {
+  TfMessage found;
+  if (!inbox_.decode(message, found)) return;
+  for (const TransformMessage& t : found.transforms) {
+    if (is_static)
+      history_.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
+    else
+      history_.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id, t.T_parent_child);
+  }
+}
+
+template <typename M>
+void BagSource::take_color(const BagMessage& message) {
+  if (M image; inbox_.decode(message, image)) colors_.add(image);
+}
+
+void BagSource::collect() {
+  const auto take_waiting = [this](std::uint64_t index) {
+    return std::move(waiting_.extract(index).mapped());
+  };
+  for (Ready ready; queue_.next(now_, ready.pose); ready = {}) {
+    ready.index = ready.pose.key;
+    ready.image = take_waiting(ready.index);
+    ready_.push_back(std::move(ready));
+  }
+  for (const DroppedFrame& frame : std::exchange(dropped_, {}))
+    give_unposed(frame.key, take_waiting(frame.key), why_dropped(frame.reason));
+}
+
+void BagSource::give_unposed(std::uint64_t index, Waiting image, const std::string& why) {
+  Ready ready;
+  ready.index = index;
+  ready.pose.stamp = image.stamp;
+  ready.pose.pose.status = options_.poses.source == PoseSource::transforms
+                               ? FrameStatus::missing_transform
+                               : FrameStatus::missing_joints;
+  ready.pose.pose.message = why;
+  ready.image = std::move(image);
+  ready_.push_back(std::move(ready));
+}
+
+bool BagSource::is_presentable() const {
+  const Waiting& image = ready_.front().image;
+  return !options_.with_color || !options_.topics.color || ended_ || image.payload.empty() ||
+         ready_.size() >= most_ready || colors_.reaches(image.stamp) ||
+         now_ > image.message.log_time + longest_color_wait;
+}
+
+void BagSource::present(FrameData& data, Frame& frame) {
+  const QueuedFrame& pose = current_.pose;
+  frame = pose.frame();
+  frame.index = static_cast<std::size_t>(current_.index);
+  if (pose.stamp <= 0) frame.stamp.reset();
+  data.index = static_cast<std::int64_t>(current_.index);
+  data.stamp = frame.stamp;
+  data.message = pose.pose.message;
+
+  DepthView depth;
+  std::string fault = decode(current_.image, depth);
+  if (fault.empty() && registration_ && has_pose(frame.source_status))
+    fault = bring_to_color(pose, depth);
+  if (fault.empty()) {
+    frame.depth = depth;
+  } else {
+    join(data.message, fault);
+    if (frame.source_status == FrameStatus::ok) frame.source_status = FrameStatus::bad_depth;
+  }
+  frame.source_message = data.message;
+  data.status = frame.source_status;
+  if (!options_.with_color) return;
+  show_color(pose.stamp, data);
+  std::visit(
+      [&](const auto& view) {
+        using T = std::remove_const_t<std::remove_pointer_t<decltype(view.data)>>;
+        Image<T> copy(view.empty() ? 0 : view.width, view.empty() ? 0 : view.height);
+        for (int v = 0; v < copy.height(); ++v)
+          std::copy_n(view.row(v), copy.width(), copy.view().row(v));
+        data.depth = std::move(copy);
+      },
+      frame.depth);
+}
+
+std::string BagSource::decode(const Waiting& image, DepthView& depth) {
+  if (!image.fault.empty()) return image.fault;
+  if (camera_differs(image.stamp)) return "camera_info is of another camera than at first";
+  const auto decode_as = [&](auto message) -> std::string {
+    if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
+    return decode_depth(message, decoded_).value_or(std::string());
+  };
+  const std::string fault = inbox_.topic_of(image.message).type == message_type<ImageMessage>()
+                                ? decode_as(ImageMessage())
+                                : decode_as(CompressedImageMessage());
+  if (!fault.empty()) {
+    inbox_.add_fault(options_.topics.depth.name, image.message.log_time, fault);
+    return fault;
+  }
+  depth = decoded_.view;
+  const Intrinsics& wanted =
+      (options_.depth_camera ? *options_.depth_camera : options_.camera).intrinsics;
+  const auto [width, height] =
+      std::visit([](const auto& view) { return std::pair(view.width, view.height); }, depth);
+  if (width == wanted.width() && height == wanted.height()) return {};
+  depth = {};
+  return "the depth image is " + size_text(width, height) + ", the camera " +
+         size_text(wanted.width(), wanted.height());
+}
+
+std::string BagSource::bring_to_color(const QueuedFrame& pose, DepthView& depth) {
+  history_.transforms().at(pose.pose_stamp, options_.camera.frame_id, *options_.scene.depth_frame,
+                           T_color_depth_);
+  if (T_color_depth_.status != TransformStatus::ok)
+    return "depth cannot be brought to the color camera: " + T_color_depth_.message;
+  depth = registration_->warp(depth, T_color_depth_.T_target_source);
+  return {};
+}
+
+void BagSource::show_color(std::int64_t stamp, FrameData& data) {
+  data.color_message.clear();
+  if (!options_.topics.color) {
+    data.color = {};
+    return;
+  }
+  data.color_message = colors_.find(stamp, data.color);
+  if (!data.color_message.empty()) data.color = {};
+  colors_.forget_before(stamp);
+}
+
+std::vector<std::string> BagSource::notes() const {
+  std::vector<std::string> lines = inbox_.notes();
+  const std::string& bag = inbox_.name();
+  if (history_.clock_jumps() > 0) lines.push_back(bag + ": " + history_.last_jump());
+  if (history_.joint_states_without_stamp() > 0)
+    lines.push_back(bag + ": " + std::to_string(history_.joint_states_without_stamp()) +
+                    " joint states without a stamp are not used");
+  if (history_.transforms().refused() > 0)
+    lines.push_back(bag +
+                    ": transforms are not used, the last: " + history_.transforms().last_refusal());
+  return lines;
+}
+
+}  // namespace penumbra::io

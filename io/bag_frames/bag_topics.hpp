@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <penumbra/pipeline/pose_lookup.hpp>
+
+#include <io/bag/bag_reader.hpp>
+
+namespace penumbra::io {
+
+/// What is wanted of a bag, and which topics the user names.
+struct TopicWishes {
+  std::optional<std::string> depth, camera_info, color;
+  std::vector<std::string> joints;
+  std::optional<PoseSource> poses;
+  bool with_color = false;        ///< for pictures; if `color` is named it is judged in, too
+  bool needs_description = true;  ///< the robot is in the bag
+  bool needs_transforms = true;   ///< the camera's pose is in the bag
+};
+
+/// A topic that is taken.
+struct TopicUse {
+  std::string role;  ///< "depth"
+  std::string name;
+  std::string type;
+  std::string why;
+  std::optional<std::uint64_t> messages = {};  ///< where the bag tells
+};
+
+/// Which topics of a bag say what.
+struct BagTopics {
+  PoseSource poses = PoseSource::joints;
+  TopicUse depth, camera_info;
+  std::optional<TopicUse> color;
+  std::optional<TopicUse> color_info;  ///< if depth images are brought to the color camera
+  std::vector<TopicUse> joints, transforms;
+  std::optional<TopicUse> description;
+
+  /// All of them, in the order in which they are told.
+  [[nodiscard]] std::vector<TopicUse> all() const;
+};
+
+/// Chooses by names and types; topics without messages are none. Throws InputError that names the
+/// bag, the candidates and the option that chooses, where there is none or more than one.
+[[nodiscard]] BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
+                                      const TopicWishes& wishes);
+
+/// A topic's name without what image_transport puts behind it: "/a/image" of "/a/image/compressed".
+[[nodiscard]] std::string image_base(const std::string& topic);
+
+/// Whether a topic is called as one of images without lens distortion is: its last part begins with
+/// "image_rect".
+[[nodiscard]] bool is_called_rectified(const std::string& topic);
+
+}  // namespace penumbra::io
