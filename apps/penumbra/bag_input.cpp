@@ -65,16 +65,10 @@ void check_link(const Robot& robot, const std::string& option, const std::string
                    io::near_names(link, known));
 }
 
-/// The first of the frames above `frame` that is a link, and the root if there is none but TF knows
-/// it.
+/// The first of the frames from `frame` upwards that is a link; empty: none.
 std::string link_above(const io::BagScene& scene, const Robot& robot, const std::string& frame) {
-  std::string at = frame;
-  for (std::size_t steps = 0; steps <= scene.parents.size(); ++steps) {
+  for (const std::string& at : scene.chain(frame))
     if (robot.find_link(at)) return at;
-    const auto up = scene.parents.find(at);
-    if (up == scene.parents.end()) break;
-    at = up->second;
-  }
   return {};
 }
 
@@ -109,9 +103,7 @@ Mount find_mount(const RunArguments& arguments, io::BagSceneReader& reader, cons
     parent = link_above(reader.scene(), robot, frame);
   // Beside the robot, below a frame that both hang from.
   const std::string& root = robot.links().front();
-  if (parent.empty() && reader.scene().parents.contains(frame) &&
-      reader.scene().parents.contains(root))
-    parent = root;
+  if (parent.empty() && reader.scene().connects(frame, root)) parent = root;
   if (parent.empty()) refuse_mount(arguments, reader.scene(), frame);
   return {frame, parent, Eigen::Isometry3d::Identity(), "tf"};
 }
@@ -170,6 +162,10 @@ RunInput open_bag_input(const RunArguments& arguments) {
   const Mount mount = find_mount(arguments, reader, robot, cameras.judged.frame_id);
   std::cout << "camera: frame '" << io::printable(cameras.judged.frame_id) << "' on link '"
             << mount.parent << "', by " << mount.told << '\n';
+  if (cameras.depth)
+    reader.read_until([&](const io::BagScene& scene) {
+      return scene.connects(cameras.judged.frame_id, cameras.depth->frame_id);
+    });
 
   io::BagSourceOptions source{.topics = reader.topics(),
                               .scene = reader.scene(),

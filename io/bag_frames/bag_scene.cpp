@@ -73,6 +73,18 @@ std::string BagSceneReader::lacking() const {
   return {};
 }
 
+std::vector<std::string> BagScene::chain(std::string_view frame) const {
+  std::vector<std::string> frames = {std::string(frame_name(frame))};
+  for (auto up = parents.find(frames.back());
+       up != parents.end() && frames.size() <= parents.size(); up = parents.find(frames.back()))
+    frames.push_back(up->second);
+  return frames;
+}
+
+bool BagScene::connects(std::string_view a, std::string_view b) const {
+  return chain(a).back() == chain(b).back();
+}
+
 std::string_view frame_name(std::string_view name) {
   return name.starts_with('/') ? name.substr(1) : name;
 }

@@ -21,6 +21,11 @@ struct BagScene {
   std::optional<CameraInfoMessage> camera_info, color_info;
   std::vector<TransformMessage> static_transforms;
   std::map<std::string, std::string, std::less<>> parents;  ///< of each frame in TF
+
+  /// The frame and those above it in TF, nearest first.
+  [[nodiscard]] std::vector<std::string> chain(std::string_view frame) const;
+  /// Whether TF knows a way from one frame to the other.
+  [[nodiscard]] bool connects(std::string_view a, std::string_view b) const;
 };
 
 /// Looks for the scene of a bag, before its frames are read.

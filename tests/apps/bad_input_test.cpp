@@ -204,7 +204,7 @@ std::vector<BadInput> bad_options() {
        {"--gl-labels", "--renderer", "gl", "--save", "vdi,labels"}},
       {"TargetsThatAreNotThere", nothing(), {"t.yaml"}, {"--targets", "t.yaml"}},
       {"ReportOfALaterVersion", nothing(), {"--report", "built"}, {"--report"}},
-      {"TimeOffsetOfALaterVersion", nothing(), {"--time-offset", "built"}, {"--time-offset=-0.1"}},
+      {"TimeOffsetOfAFolder", nothing(), {"--time-offset", "bags"}, {"--time-offset=-0.1"}},
       {"WidthTooLarge", nothing(), {"--front-min-width", "0 to 63"}, {"--front-min-width", "64"}},
       {"FramesPastTheEnd", nothing(), {"--frames", "0 to 2"}, {"--frames", "1:4"}},
       {"FramesNone", nothing(), {"--frames"}, {"--frames", "2:2"}},

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penumbra run` of bags, against the recording folders that they are of.
+#include "program.hpp"
+#include "tiny_bag.hpp"
+#include "tiny_recording.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+class BagTest : public testing::Test {
+ protected:
+  BagTest() {
+    write_tiny_recording(folder_.path());
+    bag_ = tiny_bag(folder_.path());
+  }
+
+  Outcome run(std::vector<std::string> options = {}, const std::string& name = "tiny.mcap") {
+    const fs::path file = folder_.path() / name;
+    if (name == "tiny.mcap") bag_.write_mcap(file);
+    options.insert(options.begin(), {"run", file, "-o", out(), "--save", saves_});
+    return penumbra(options);
+  }
+  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
+  [[nodiscard]] Json report() const { return Json::parse(read_file(out() / "report.json")); }
+  [[nodiscard]] std::string status(std::size_t frame) const {
+    return report()["frames"].at(frame)["status"];
+  }
+  [[nodiscard]] std::string message(std::size_t frame) const {
+    const Json said = report()["frames"].at(frame)["message"];
+    return said.is_null() ? "" : std::string(said);
+  }
+
+  /// Labels are those of the recording folder, to the last pixel.
+  void expect_recorded_labels(std::size_t first = 0, std::size_t end = 3) {
+    const fs::path wanted = folder_.path() / "wanted";
+    ASSERT_EQ(penumbra({"run", folder_.path(), "-o", wanted, "--save", "labels"}).status, 0);
+    for (std::size_t i = first; i < end; ++i) {
+      const std::string file = "labels/00000" + std::to_string(i) + ".png";
+      EXPECT_TRUE(read_file(out() / file) == read_file(wanted / file)) << file;
+    }
+  }
+
+  TemporaryFolder folder_;
+  TinyBag bag_;
+  std::string saves_ = "labels";
+};
+
+TEST_F(BagTest, GivesTheLabelsOfTheRecording) {
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  expect_recorded_labels();
+  const Json json = report();
+  ASSERT_EQ(json["frames"].size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(json["frames"][i]["index"], i);
+    EXPECT_EQ(json["frames"][i]["stamp_ns"], tiny_stamp(static_cast<int>(i)));
+    EXPECT_GT(json["frames"][i]["joint_age_ms"], 0.0) << "no state lies on a stamp";
+  }
+}
+
+TEST_F(BagTest, SaysWhichTopicsItTakes) {
+  const Outcome outcome = run();
+  for (const char* said : {"depth: /camera/depth/image_rect_raw (sensor_msgs/msg/Image), ",
+                           "camera_info: /camera/depth/camera_info (",
+                           "robot: /robot_description (std_msgs/msg/String), ",
+                           "joints: /joint_states (sensor_msgs/msg/JointState), ",
+                           "transforms: /tf_static (tf2_msgs/msg/TFMessage), ",
+                           "camera: frame 'optical' on link 'base', by tf"})
+    EXPECT_NE(outcome.out.find(said), std::string::npos) << said << " is not in " << outcome.out;
+  EXPECT_EQ(outcome.out.find("color"), std::string::npos) << "no colour is asked for";
+}
+
+TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
+  bag_.write_sqlite(folder_.path() / "tiny.db3");
+  ASSERT_EQ(run({}, "tiny.db3").status, 0);
+  expect_recorded_labels();
+
+  const fs::path folder = folder_.path() / "recorded";
+  fs::create_directory(folder);
+  bag_.write_mcap(folder / "a_0.mcap");
+  write_file(folder / "metadata.yaml",
+             "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n"
+             "  relative_file_paths:\n    - a_0.mcap\n  message_count: 1\n"
+             "  topics_with_message_count: []\n  compression_format: ''\n"
+             "  compression_mode: ''\n");
+  write_file(folder_.path() / "recorded" / "board.stl", board_stl());
+  const Outcome outcome = run({}, "recorded");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_recorded_labels();
+}
+
+TEST_F(BagTest, ShowsColorInOverlays) {
+  saves_ = "overlay";
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const std::string with_color = read_file(out() / "overlay" / "000002.png");
+
+  bag_.edit<io::CompressedImageMessage>("/camera/color/image_raw/compressed",
+                                        [](auto& image) { image.header.frame_id = "left"; });
+  const Outcome other = run();
+  EXPECT_EQ(other.status, 0);
+  EXPECT_NE(other.err.find("no colour in the overlay of 3 of 3 frames"), std::string::npos)
+      << other.err;
+  EXPECT_NE(read_file(out() / "overlay" / "000002.png"), with_color);
+}
+
+TEST_F(BagTest, TakesSomeFrames) {
+  ASSERT_EQ(run({"--frames", "1:2"}).status, 0);
+  const Json json = report();
+  ASSERT_EQ(json["frames"].size(), 1U);
+  EXPECT_EQ(json["frames"][0]["index"], 1);
+  expect_recorded_labels(1, 2);
+
+  const Outcome outcome = run({"--frames", "1:4"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("0 to 2"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
+  // What a camera says that stamps 0.4 s too early.
+  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw",
+                              [](auto& image) { image.header.stamp -= 400'000'000; });
+  ASSERT_EQ(run({"--time-offset", "0.4"}).status, 0);
+  expect_recorded_labels();
+  EXPECT_EQ(report()["frames"][0]["stamp_ns"], tiny_stamp(0) - 400'000'000);
+}
+
+TEST_F(BagTest, FramesWithoutPoseAreFrames) {
+  std::erase_if(bag_.messages, [](const auto& message) {
+    return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 500'000'000 &&
+           message.log_time < tiny_stamp(1) + 500'000'000;
+  });
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(1), "stale_joints");
+  EXPECT_EQ(status(2), "ok");
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+}
+
+TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
+  int image = 0;
+  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& depth) {
+    if (image == 0) depth.encoding = "13UC7";
+    if (image == 1) depth.header.stamp = 0;
+    if (image == 2) depth.header.frame_id = "elsewhere";
+    ++image;
+  });
+  for (auto& message : bag_.messages)
+    if (message.topic == "/joint_states") {
+      message.data.resize(20);
+      break;
+    }
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 2) << "no frame is usable";
+  EXPECT_EQ(status(0), "bad_depth");
+  EXPECT_NE(message(0).find("13UC7"), std::string::npos) << message(0);
+  EXPECT_EQ(status(1), "missing_joints");
+  EXPECT_NE(message(1).find("stamp is 0"), std::string::npos) << message(1);
+  EXPECT_EQ(status(2), "bad_depth");
+  EXPECT_NE(message(2).find("'elsewhere'"), std::string::npos) << message(2);
+  const std::string notes = report()["summary"]["notes"].dump();
+  EXPECT_NE(notes.find("1 messages of /joint_states cannot be used"), std::string::npos) << notes;
+  EXPECT_NE(outcome.err.find("1 messages of /joint_states"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BagTest, AnotherCamerasInfoIsNotTaken) {
+  int info = 0;
+  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
+    if (++info == 2) camera.k[0] = 61;
+  });
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(1), "bad_depth");
+  EXPECT_EQ(status(2), "ok");
+}
+
+TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
+  bag_.write_mcap(folder_.path() / "whole.mcap");
+  const std::string whole = read_file(folder_.path() / "whole.mcap");
+  write_file(folder_.path() / "cut.mcap", whole.substr(0, whole.size() * 7 / 10));
+  const Outcome outcome = run({}, "cut.mcap");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::size_t frames = report()["frames"].size();
+  EXPECT_GE(frames, 1U);
+  EXPECT_LT(frames, 3U);
+  EXPECT_NE(outcome.err.find("cut.mcap: byte "), std::string::npos) << outcome.err;
+  EXPECT_NE(report()["summary"]["notes"].dump().find("cut.mcap: byte "), std::string::npos);
+  expect_recorded_labels(0, 1);
+}
+
+TEST_F(BagTest, TakesPosesFromTransforms) {
+  for (std::int64_t stamp = tiny_stamp(0) - 130'000'000; stamp < tiny_stamp(3);
+       stamp += 100'000'000) {
+    const double seconds = static_cast<double>(stamp - tiny_stamp(0)) * 1e-9;
+    const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1 + 0.05 * seconds));
+    bag_.add("/tf", stamp, io::TfMessage{{{{stamp, "base"}, "board", pose}}});
+  }
+  for (const char* const poses : {"tf", "both", "joints"}) {
+    ASSERT_EQ(run({"--poses", poses}).status, 0) << poses;
+    expect_recorded_labels();
+  }
+  bag_.edit<io::TfMessage>(
+      "/tf", [](auto& tf) { tf.transforms[0].T_parent_child.translation().z() += 0.01; });
+  const Outcome outcome = run({"--poses", "both"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(status(1), "poses_disagree");
+  EXPECT_NE(outcome.err.find("poses_disagree in 3 of 3 frames"), std::string::npos) << outcome.err;
+
+  bag_.remove("/joint_states");
+  EXPECT_NE(run().out.find("poses: from tf"), std::string::npos);
+}
+
+TEST_F(BagTest, TheCommandLineFillsInWhatIsMissing) {
+  bag_.remove("/robot_description");
+  bag_.remove("/tf_static");
+  const Outcome outcome = run({"--robot", folder_.path() / "tiny.urdf", "--pose",
+                               folder_.path() / "camera_pose.csv", "--parent", "base"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_recorded_labels();
+}
+
+TEST_F(BagTest, OptionsChooseAmongTopics) {
+  bag_.copy("/camera/depth/image_rect_raw", "/other/depth/image");
+  bag_.copy("/camera/depth/camera_info", "/other/camera_info");
+  bag_.copy("/joint_states", "/second/joint_states");
+  bag_.rename("/joint_states", "/first/joint_states");
+  const Outcome outcome =
+      run({"--depth-topic", "/other/depth/image", "--camera-info-topic", "/other/camera_info",
+           "--joint-topic", "/first/joint_states", "--joint-topic", "/second/joint_states"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_recorded_labels();
+}
+
+/// Depth of a camera that sits where the color camera does, but for its frame's name.
+TEST_F(BagTest, DepthIsBroughtToTheColorCamera) {
+  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw",
+                              [](auto& image) { image.header.frame_id = "infrared"; });
+  bag_.copy("/camera/depth/camera_info", "/camera/color/camera_info");
+  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
+                                   [](auto& info) { info.header.frame_id = "infrared"; });
+  const std::vector<std::string> color = {"--color-topic", "/camera/color/image_raw/compressed"};
+  const Outcome without = run(color);
+  EXPECT_EQ(without.status, 2) << "tf does not say where one camera is from the other";
+  EXPECT_EQ(status(0), "bad_depth");
+  EXPECT_NE(message(0).find("infrared"), std::string::npos) << message(0);
+
+  bag_.add("/tf_static", tiny_stamp(2),
+           io::TfMessage{{{{0, "optical"}, "infrared", Eigen::Isometry3d::Identity()}}});
+  const Outcome outcome = run(color);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("camera: frame 'optical'"), std::string::npos) << outcome.out;
+  expect_recorded_labels();
+}
+
+/// A bag that is spoilt, and words that the one line on stderr must hold.
+struct BadBag {
+  const char* name;
+  std::function<void(TinyBag&)> spoil;
+  std::vector<std::string> words;
+  std::vector<std::string> options = {};
+};
+
+std::ostream& operator<<(std::ostream& out, const BadBag& bad) { return out << bad.name; }
+
+std::vector<BadBag> bad_bags() {
+  const auto without = [](const char* topic) {
+    return [topic](TinyBag& bag) { bag.remove(topic); };
+  };
+  const auto twice = [](const char* from, const char* to) {
+    return [from, to](TinyBag& bag) { bag.copy(from, to); };
+  };
+  const auto as_it_is = [](TinyBag&) {};
+  return {
+      {"NoDepth",
+       without("/camera/depth/image_rect_raw"),
+       {"no images are called depth", "/camera/color/image_raw/compressed", "--depth-topic"}},
+      {"TwoDepths",
+       twice("/camera/depth/image_rect_raw", "/second/depth/image_raw"),
+       {"/camera/depth/image_rect_raw, /second/depth/image_raw", "--depth-topic"}},
+      {"NoCameraInfo", without("/camera/depth/camera_info"), {"has no camera_info"}},
+      {"TwoCameraInfos",
+       [](TinyBag& bag) {
+         bag.rename("/camera/depth/camera_info", "/left/camera_info");
+         bag.copy("/left/camera_info", "/right/camera_info");
+       },
+       {"/left/camera_info, /right/camera_info", "--camera-info-topic"}},
+      {"CameraInfoOfAnotherFrame",
+       [](TinyBag& bag) {
+         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
+                                         [](auto& info) { info.header.frame_id = "left"; });
+       },
+       {"'left'", "'optical'", "--camera-info-topic"}},
+      {"CameraInfoWithoutFocalLength",
+       [](TinyBag& bag) {
+         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
+                                         [](auto& info) { info.p[0] = 0; });
+       },
+       {"/camera/depth/camera_info: p: "}},
+      {"NoRobot", without("/robot_description"), {"has no robot_description", "--robot"}},
+      {"RobotIsNoUrdf",
+       [](TinyBag& bag) {
+         bag.edit<io::StringMessage>("/robot_description",
+                                     [](auto& text) { text.data = "no robot"; });
+       },
+       {"robot_description"}},
+      {"NoJointsAndNoTf",
+       [](TinyBag& bag) {
+         bag.remove("/joint_states");
+         bag.remove("/tf_static");
+       },
+       {"neither joint states nor tf"}},
+      {"TwoJointStates",
+       [](TinyBag& bag) {
+         bag.rename("/joint_states", "/a/joint_states");
+         bag.copy("/a/joint_states", "/b/joint_states");
+       },
+       {"/a/joint_states, /b/joint_states", "--joint-topic"}},
+      {"NoTf", without("/tf_static"), {"has no tf", "--pose"}},
+      {"CameraNotInTf",
+       [](TinyBag& bag) {
+         bag.edit<io::TfMessage>("/tf_static", [](auto& tf) {
+           if (tf.transforms[0].child_frame_id == "optical")
+             tf.transforms[0].child_frame_id = "lens";
+         });
+       },
+       {"'optical'", "tf does not know", "--camera-frame"}},
+      {"OtherProfile",
+       [](TinyBag& bag) {
+         bag.encoding = "ros1";
+         bag.profile = "ros1";
+       },
+       {"no bag of ROS 2", "ros1", "cdr"}},
+      {"NoMessages", [](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"}},
+      {"TopicMissing", as_it_is, {"--depth-topic", "/nowhere"}, {"--depth-topic", "/nowhere"}},
+      {"TopicOfAnotherType",
+       as_it_is,
+       {"--depth-topic", "sensor_msgs/msg/JointState"},
+       {"--depth-topic", "/joint_states"}},
+      {"ParentIsNoLink", as_it_is, {"--parent", "bas"}, {"--parent", "bas"}},
+      {"PosesText", as_it_is, {"--poses"}, {"--poses", "latest"}},
+      {"TimeOffsetText", as_it_is, {"--time-offset"}, {"--time-offset", "soon"}},
+  };
+}
+
+class BadBagTest : public testing::TestWithParam<BadBag> {};
+
+TEST_P(BadBagTest, IsOneClearLineAndStatus2) {
+  const TemporaryFolder folder;
+  write_tiny_recording(folder.path());
+  TinyBag bag = tiny_bag(folder.path());
+  GetParam().spoil(bag);
+  bag.write_mcap(folder.path() / "tiny.mcap");
+  std::vector<std::string> arguments = {"run", folder.path() / "tiny.mcap", "-o",
+                                        folder.path() / "out"};
+  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
+  const Outcome outcome = penumbra(arguments);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  for (const std::string& word : GetParam().words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bags, BadBagTest, testing::ValuesIn(bad_bags()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(BadBagFile, IsOneClearLineAndStatus2) {
+  const TemporaryFolder folder;
+  write_tiny_recording(folder.path());
+  tiny_bag(folder.path()).write_mcap(folder.path() / "whole.mcap");
+  const std::string whole = read_file(folder.path() / "whole.mcap");
+  for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.mcap", ""),
+                                      {"empty.db3", ""},
+                                      {"head.mcap", whole.substr(0, 100)},
+                                      {"text.mcap", "a text of some length, but no bag"},
+                                      {"text.db3", "a text of some length, but no bag"}}) {
+    write_file(folder.path() / file, content);
+    const Outcome outcome = penumbra({"run", folder.path() / file, "-o", folder.path() / "out"});
+    EXPECT_EQ(outcome.status, 2) << file << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << file << outcome.err;
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
