@@ -79,7 +79,7 @@ std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& rec
   constexpr const char* cut = "a chunk cannot be read to its end (was the file cut meanwhile?)";
   if (place.length > max_record_bytes + record_head_bytes && !place.loose)
     return "a chunk claims " + std::to_string(place.length) + " bytes, more than any may have";
-  if (place.loose) return read(place.offset, place.length, records) ? "" : cut;
+  if (place.loose) return read(place.offset, place.length, records) ? std::string() : cut;
 
   std::array<std::byte, record_head_bytes + most_chunk_head_bytes> start{};
   const std::size_t got =

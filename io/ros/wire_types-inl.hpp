@@ -77,7 +77,7 @@ template <typename T>
 template <typename T>
 [[nodiscard]] std::string shape_text() {
   using S = Shape<T>;
-  const std::string name = wanted_type<typename S::Value>().name;
+  std::string name = wanted_type<typename S::Value>().name;
   if (S::arity == Arity::one) return name;
   return name + (S::arity == Arity::array ? "[" + std::to_string(S::count) + "]" : "[]");
 }

@@ -12,6 +12,9 @@
 namespace penumbra {
 namespace {
 
+/// Without a branch, so that loops over pixels become vectors.
+constexpr bool both(bool a, bool b) { return (static_cast<int>(a) & static_cast<int>(b)) != 0; }
+
 constexpr auto unreachable = std::numeric_limits<float>::quiet_NaN();
 
 /// Footprints of neighbours meet but for rounding, and where the image of a square is none.
@@ -130,7 +133,7 @@ void DepthRegistration::land_row(ImageView<const T> image, int v, Row& row) cons
     std::array<float, block> depth;
     for (std::size_t i = 0; i < block; ++i) {
       const float metres = metres_of(given[i]);
-      depth[i] = (metres >= near) & (metres <= far) ? metres : 0.0F;
+      depth[i] = both(metres >= near, metres <= far) ? metres : 0.0F;
     }
     land_block(depth.data(), u, v, row);
     if (!to_.distortion.is_none()) bend_block(u, row);
@@ -181,9 +184,9 @@ void DepthRegistration::keep_landed(const float* depth, int u, Row& row) const {
   for (std::size_t i = 0; i < block; ++i) {
     pixel_u[i] = focal_.x() * to_u[i] + centre_.x();
     pixel_v[i] = focal_.y() * to_v[i] + centre_.y();
-    const bool lands = (to_z[i] >= nearest_z) & (to_z[i] <= farthest_z) &
-                       (std::abs(pixel_u[i]) < farthest_pixel) &
-                       (std::abs(pixel_v[i]) < farthest_pixel);
+    const bool lands =
+        both(both(to_z[i] >= nearest_z, to_z[i] <= farthest_z),
+             both(std::abs(pixel_u[i]) < farthest_pixel, std::abs(pixel_v[i]) < farthest_pixel));
     kept[i] = lands ? depth[i] : 0.0F;
   }
   std::copy(pixel_u.begin(), pixel_u.end(), to_u);
@@ -252,8 +255,8 @@ DepthRegistration::Footprints DepthRegistration::footprints(int u) const {
     const float after = std::abs(depth[i + 1] - depth[i]);
     const float up = std::abs(above[i] - depth[i]);
     const float down = std::abs(below[i] - depth[i]);
-    out.amid[i] = (std::max(before, after) <= slope_u_ * depth[i]) &
-                  (std::max(up, down) <= slope_v_ * depth[i]);
+    out.amid[i] = both(std::max(before, after) <= slope_u_ * depth[i],
+                       std::max(up, down) <= slope_v_ * depth[i]);
   }
   return out;
 }
