@@ -65,26 +65,21 @@ TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& byt
 
 TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   const std::string ending = lower_ending(file);
-  const std::string bytes = read_bytes(file);
+  std::string bytes = read_bytes(file);
   check_is_mesh(bytes);
   if (ending == "stl") return mesh_formats::read_stl(bytes);
   if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending);
   if (ending == "dae") return mesh_formats::read_collada(bytes);
-  if (ending == "obj")
+  if (ending == "obj") {
     oddity = mesh_formats::check_obj(bytes);
-  else if (ending == "ply")
+    bytes = mesh_formats::surface_of_obj(bytes);
+  } else if (ending == "ply") {
     mesh_formats::check_ply(bytes);
-  else
+  } else {
     throw FormatError("'" + ending +
                       "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
+  }
   return mesh_formats::read_with_assimp(file, bytes, ending).mesh;
-}
-
-/// Messages hold pieces of files, which may hold line breaks.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return text;
 }
 
 void check_vertices(const TriangleMesh& mesh) {
@@ -122,7 +117,7 @@ TriangleMesh load_mesh(const std::filesystem::path& file, std::vector<std::strin
                       ": if it looks incomplete it is truncated; export or copy it again");
     return mesh;
   } catch (const FormatError& error) {
-    throw InputError("mesh " + file.string() + ": " + one_line(error.what()));
+    throw InputError("mesh " + file.string() + ": " + error.what());
   } catch (const std::bad_alloc&) {
     throw InputError("mesh " + file.string() + ": too large for the memory; simplify it");
   }

@@ -115,4 +115,20 @@ std::string check_obj(std::string_view bytes) {
   return has_end ? "" : "its last line has no end";
 }
 
+std::string surface_of_obj(std::string_view bytes) {
+  std::string surface;
+  surface.reserve(bytes.size());
+  for_each_line(bytes, [&](std::string_view line) {
+    std::string_view words = line;
+    const std::string_view keyword = take_word(words);
+    if (keyword == "v") surface.append(line).append("\n");
+    if (keyword != "f") return;
+    surface += 'f';
+    for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
+      surface.append(" ").append(word.substr(0, word.find('/')));
+    surface += '\n';
+  });
+  return surface;
+}
+
 }  // namespace penumbra::mesh_formats

@@ -259,6 +259,13 @@ TEST_F(MeshBadFile, ObjThatIsCutWhereVerticesLackFacesNeverPassesUnseen) {
   }
 }
 
+/// Assimp alone reads the OBJ as its own material file, and crashes on the anisotropy `a`.
+TEST_F(MeshBadFile, ObjWithoutItsMaterialFile) {
+  const std::string whole = test::obj();
+  ASSERT_NE(whole.find("mtllib nowhere.mtl"), std::string::npos);
+  EXPECT_EQ(notes_of(folder_.write("a.obj", whole + "a 1/1 2/1 4/1\naniso 1\nd 1\nNs 1\n")), "");
+}
+
 TEST_F(MeshBadFile, ObjOddities) {
   const std::string whole = test::obj();
   EXPECT_EQ(notes_of(folder_.write("l.obj", whole + "v 9 9 9\nv 9 9 8\nl 5 6\np 5\n")), "");

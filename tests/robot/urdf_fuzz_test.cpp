@@ -40,6 +40,15 @@ bool survives(const std::string& xml) {
   }
 }
 
+TEST(UrdfErrors, StandInOneLineWhateverTheFileHolds) {
+  try {
+    (void)parse("<robot name=\"r\"><link name=\"a\n\tb\"/><link name=\"a\n\tb\"/></robot>", {});
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string_view(error.what()).find_first_of("\n\r\t"), std::string_view::npos);
+  }
+}
+
 std::string mutated(Random& random, std::string xml) {
   for (std::size_t n = 1 + below(random, 4); n > 0 && !xml.empty(); --n) {
     const std::size_t at = below(random, xml.size());

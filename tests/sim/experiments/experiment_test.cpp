@@ -29,8 +29,10 @@ struct Results {
 };
 
 Results run(sim::ExperimentOptions options) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
-                                       (options.experiment + std::to_string(options.threads));
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) /
+      (test + options.experiment + std::to_string(options.threads));
   std::filesystem::remove_all(folder);
   options.output = folder;
   Results results;
