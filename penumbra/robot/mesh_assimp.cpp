@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,18 +24,25 @@ Eigen::Matrix4d matrix_of(const aiMatrix4x4& m) {
   return result;
 }
 
+/// What Assimp's steps and ours take for granted.
+void check_faces(const aiMesh& part) {
+  if (part.mNumFaces > 0 && (part.mNumVertices == 0 || part.mVertices == nullptr))
+    throw FormatError("mesh '" + std::string(part.mName.C_Str()).substr(0, 80) +
+                      "' has faces and no vertices; export the file again");
+  for (const aiFace& face : std::span(part.mFaces, part.mNumFaces))
+    for (const unsigned corner : std::span(face.mIndices, face.mNumIndices))
+      if (corner >= part.mNumVertices)
+        throw FormatError("a face names vertex " + std::to_string(corner) + " of " +
+                          std::to_string(part.mNumVertices) + "; export the file again");
+}
+
 void append_faces(const aiMesh& part, bool mirrored, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices < 3) continue;  // points and lines have no surface
     std::array<std::uint32_t, 3> t{};
-    for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices)
-        throw FormatError("a face names vertex " + std::to_string(face.mIndices[k]) + " of " +
-                          std::to_string(part.mNumVertices) + "; export the file again");
-      t[k] = first + face.mIndices[k];
-    }
+    for (unsigned k = 0; k < 3; ++k) t[k] = first + face.mIndices[k];
     if (mirrored) std::swap(t[1], t[2]);
     mesh.triangles.push_back(t);
   }
@@ -44,9 +53,6 @@ void append_faces(const aiMesh& part, bool mirrored, TriangleMesh& mesh) {
 
 void append(const aiMesh& part, const Eigen::Matrix4d& T_file_node, TriangleMesh& mesh) {
   if (part.mNumFaces == 0) return;
-  if (part.mNumVertices == 0 || part.mVertices == nullptr)
-    throw FormatError("mesh '" + std::string(part.mName.C_Str()).substr(0, 80) +
-                      "' has faces and no vertices; export the file again");
   append_faces(part, T_file_node.topLeftCorner<3, 3>().determinant() < 0.0, mesh);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
@@ -74,10 +80,12 @@ TriangleMesh flatten(const aiScene& scene) {
   return mesh;
 }
 
-/// Triangles of all parts; `polygons` is set where a part has faces of more corners.
+/// Triangles of all parts, which are checked; `polygons` is set where a part has faces of more
+/// corners.
 std::size_t count_triangles(const aiScene& scene, bool& polygons) {
   std::size_t count = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    check_faces(*scene.mMeshes[i]);
     for (unsigned j = 0; j < scene.mMeshes[i]->mNumFaces; ++j) {
       const unsigned corners = scene.mMeshes[i]->mFaces[j].mNumIndices;
       count += corners == 3 ? 1 : 0;

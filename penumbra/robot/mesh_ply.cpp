@@ -55,6 +55,8 @@ Property parse_property(std::string_view line) {
   }
   size_of(property.type);
   property.name = take_word(line);
+  if (property.name.empty() || !take_word(line).empty())
+    damaged("PLY: a property line is not of a type and a name");
   return property;
 }
 

@@ -259,6 +259,14 @@ TEST_F(MeshBadFile, ObjThatIsCutWhereVerticesLackFacesNeverPassesUnseen) {
   }
 }
 
+/// Assimp alone takes the vertices for shorter than they are, and crashes on faces of no vertex.
+TEST_F(MeshBadFile, PlyPropertyWithoutName) {
+  for (const auto& [name, bytes] : test::samples())
+    if (name.ends_with(".ply"))
+      for (const char* line : {"property float", "property float y y"})
+        expect_refused(name, replaced(bytes, "property float y", line), "a type and a name");
+}
+
 /// Assimp alone reads the OBJ as its own material file, and crashes on the anisotropy `a`.
 TEST_F(MeshBadFile, ObjWithoutItsMaterialFile) {
   const std::string whole = test::obj();
