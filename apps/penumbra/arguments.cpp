@@ -117,7 +117,7 @@ void check_gl_labels(const RunArguments& run) {
     throw InputError(
         "--gl-labels: vdi and links stay on the OpenGL device; --save labels and "
         "overlay, or leave --gl-labels out");
-  if (run.targets)
+  if (run.targets || !run.bag.target_topics.empty())
     throw InputError(
         "--gl-labels: targets cannot be judged on labels that are made on the device; "
         "leave --gl-labels out, or say --targets none");
@@ -161,6 +161,11 @@ void add_bag(CLI::App& app, BagArguments& bag) {
   add_bag_list(app, bag, "--joint-topic",
                "default: /joint_states, or the only one; may be given several times", "TOPIC",
                [&](const std::string& text) { bag.joint_topics.push_back(text); });
+  add_bag_list(
+      app, bag, "--target-topic",
+      "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
+      "several times",
+      "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
   add_bag_option(app, bag, "--poses",
                  "where links are: joints, tf, or both, which must agree; default: joints, else tf",
                  "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
@@ -190,6 +195,16 @@ void add_bag(CLI::App& app, BagArguments& bag) {
          },
          "the images are free of distortion already, as those called image_rect... are")
       ->group("Of bags");
+}
+
+/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
+void check_targets(const RunArguments& run) {
+  if (run.bag.target_topics.empty()) return;
+  if (run.targets || run.no_targets)
+    throw InputError("--target-topic: --targets is given too; leave one of them out");
+  if (run.image == ImageSpace::rectified)
+    throw InputError(
+        "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
@@ -382,6 +397,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   }
   check_renderer(run.renderer);
   check_gl_labels(run);
+  check_targets(run);
   check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;

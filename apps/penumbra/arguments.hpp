@@ -38,7 +38,7 @@ struct RendererArguments {
 /// What is said of a bag on the command line. Topics are found by type and name where not given.
 struct BagArguments {
   std::optional<std::string> depth_topic, camera_info_topic, color_topic;
-  std::vector<std::string> joint_topics;
+  std::vector<std::string> joint_topics, target_topics;
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
   std::map<std::string, std::filesystem::path> packages;

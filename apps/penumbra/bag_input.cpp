@@ -19,12 +19,15 @@
 namespace penumbra::app {
 namespace {
 
+constexpr double target_history = 0.5;  // seconds by which detectors may be late
+
 io::TopicWishes wishes_of(const RunArguments& arguments) {
   const BagArguments& bag = arguments.bag;
   return {.depth = bag.depth_topic,
           .camera_info = bag.camera_info_topic,
           .color = bag.color_topic,
           .joints = bag.joint_topics,
+          .targets = bag.target_topics,
           .poses = bag.poses,
           .with_color = arguments.saves.overlay,
           .needs_description = !bag.robot,
@@ -188,6 +191,7 @@ RunInput open_bag_input(const RunArguments& arguments) {
           .config = std::move(config),
           .beyond = {},
           .targets = {},
+          .target_history = arguments.bag.target_topics.empty() ? 0.0 : target_history,
           .frames = [source = std::move(source), input = arguments.input](
                         const Robot& loaded) -> std::unique_ptr<io::FrameSource> {
             return std::make_unique<io::BagSource>(input, loaded, source);

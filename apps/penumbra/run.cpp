@@ -96,7 +96,7 @@ io::UsedSettings settings_of(const RunArguments& arguments, const RunInput& inpu
           .image = arguments.image,
           .robot = input.robot_options,
           .targets = targets ? targets->file().string() : std::string(),
-          .target_history = targets ? targets->history() : 0.0};
+          .target_history = targets ? targets->history() : input.target_history};
 }
 
 /// Where a later frame's joints put the camera inside of a link, that frame is bad and the others
@@ -152,7 +152,8 @@ int execute(const RunArguments& arguments) {
   tell_notes(input.robot.notes());
   const Camera camera = camera_of_report(arguments, input.camera);
   auto targets = open_targets(arguments, input, camera);
-  Pipeline pipeline = make_pipeline(arguments, input, targets ? targets->history() : 0.0);
+  Pipeline pipeline =
+      make_pipeline(arguments, input, targets ? targets->history() : input.target_history);
   const auto source = input.frames(pipeline.robot());
   tell_choice(pipeline.renderer_choice());
   const std::vector<std::string> notes = notes_of(pipeline);

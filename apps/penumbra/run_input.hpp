@@ -25,6 +25,7 @@ struct RunInput {
   PipelineConfig config;              ///< with what the input says: camera's pose, tolerance
   std::optional<io::BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
+  double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
 
   /// Opens the frames; the robot must outlive them. To be called once.
   std::function<std::unique_ptr<io::FrameSource>(const Robot&)> frames;

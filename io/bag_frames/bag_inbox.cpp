@@ -38,5 +38,9 @@ template Decoder<CameraInfoMessage> BagInbox::make_decoder(const BagTopic&) cons
 template Decoder<JointStateMessage> BagInbox::make_decoder(const BagTopic&) const;
 template Decoder<TfMessage> BagInbox::make_decoder(const BagTopic&) const;
 template Decoder<StringMessage> BagInbox::make_decoder(const BagTopic&) const;
+template Decoder<Detection2DArrayMessage> BagInbox::make_decoder(const BagTopic&) const;
+template Decoder<Detection3DArrayMessage> BagInbox::make_decoder(const BagTopic&) const;
+template Decoder<KeypointsMessage> BagInbox::make_decoder(const BagTopic&) const;
+template Decoder<PoseStampedMessage> BagInbox::make_decoder(const BagTopic&) const;
 
 }  // namespace penumbra::io

@@ -71,7 +71,9 @@ class BagInbox {
   std::unique_ptr<BagReader> bag_;
   std::string name_;
   std::tuple<Decoders<ImageMessage>, Decoders<CompressedImageMessage>, Decoders<CameraInfoMessage>,
-             Decoders<JointStateMessage>, Decoders<TfMessage>, Decoders<StringMessage>>
+             Decoders<JointStateMessage>, Decoders<TfMessage>, Decoders<StringMessage>,
+             Decoders<Detection2DArrayMessage>, Decoders<Detection3DArrayMessage>,
+             Decoders<KeypointsMessage>, Decoders<PoseStampedMessage>>
       decoders_;
   std::map<std::string, Faults> faults_;
 };

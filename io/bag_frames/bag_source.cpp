@@ -63,7 +63,8 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
       history_(robot),
       queue_(robot, history_, queue_options(options_),
              [this](const DroppedFrame& frame) { dropped_.push_back(frame); }),
-      colors_(options_.camera) {
+      colors_(options_.camera),
+      targets_(robot, options_.camera.frame_id) {
   if (options_.depth_camera) registration_.emplace(*options_.depth_camera, options_.camera);
   check_range();
   // Fixed frames hold before they are told, too. Of one that is told several times, what was told
@@ -134,6 +135,8 @@ void BagSource::take(const BagMessage& message) {
                     : take_color<CompressedImageMessage>(message);
   for (const TopicUse& use : topics.joints)
     if (is(use)) return take_joints(message);
+  for (const TopicUse& use : topics.targets)
+    if (is(use)) return take_targets(message);
   for (const TopicUse& use : topics.transforms)
     if (is(use)) return take_transforms(message, use.name.ends_with("static"));
 }
@@ -199,6 +202,23 @@ void BagSource::take_transforms(const BagMessage& message, bool is_static) {
   }
 }
 
+void BagSource::take_targets(const BagMessage& message) {
+  const std::string& type = inbox_.topic_of(message).type;
+  if (type == message_type<Detection2DArrayMessage>())
+    take_targets_as<Detection2DArrayMessage>(message);
+  else if (type == message_type<Detection3DArrayMessage>())
+    take_targets_as<Detection3DArrayMessage>(message);
+  else if (type == message_type<KeypointsMessage>())
+    take_targets_as<KeypointsMessage>(message);
+  else
+    take_targets_as<PoseStampedMessage>(message);
+}
+
+template <typename M>
+void BagSource::take_targets_as(const BagMessage& message) {
+  if (M found; inbox_.decode(message, found)) targets_.add(inbox_.topic_of(message).name, found);
+}
+
 template <typename M>
 void BagSource::take_color(const BagMessage& message) {
   if (M image; inbox_.decode(message, image)) colors_.add(image);
@@ -240,6 +260,7 @@ void BagSource::present(FrameData& data, Frame& frame) {
   const QueuedFrame& pose = current_.pose;
   frame = pose.frame();
   frame.index = static_cast<std::size_t>(current_.index);
+  frame.targets = targets_.take();
   if (pose.stamp <= 0) frame.stamp.reset();
   data.index = static_cast<std::int64_t>(current_.index);
   data.stamp = frame.stamp;
@@ -277,9 +298,9 @@ std::string BagSource::decode(const Waiting& image, DepthView& depth) {
     if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
     return decode_depth(message, decoded_).value_or(std::string());
   };
-  const std::string fault = inbox_.topic_of(image.message).type == message_type<ImageMessage>()
-                                ? decode_as(ImageMessage())
-                                : decode_as(CompressedImageMessage());
+  std::string fault = inbox_.topic_of(image.message).type == message_type<ImageMessage>()
+                          ? decode_as(ImageMessage())
+                          : decode_as(CompressedImageMessage());
   if (!fault.empty()) {
     inbox_.add_fault(options_.topics.depth.name, image.message.log_time, fault);
     return fault;
@@ -325,6 +346,9 @@ std::vector<std::string> BagSource::notes() const {
   if (history_.transforms().refused() > 0)
     lines.push_back(bag +
                     ": transforms are not used, the last: " + history_.transforms().last_refusal());
+  if (targets_.waiting() > 0)
+    lines.push_back(bag + ": " + std::to_string(targets_.waiting()) +
+                    " targets came after the last frame and are not judged");
   return lines;
 }
 

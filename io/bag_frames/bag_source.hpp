@@ -22,6 +22,7 @@
 #include <io/bag_frames/bag_topics.hpp>
 #include <io/frame_source.hpp>
 #include <io/ros/image_codec.hpp>
+#include <io/ros/target_inbox.hpp>
 
 namespace penumbra::io {
 
@@ -39,7 +40,7 @@ struct BagSourceOptions {
 
 /// A bag's depth images, numbered from 0 as they were recorded, each with the robot's pose at its
 /// own stamp. Each image comes out: one whose pose or pixels are not known with the status that
-/// says so.
+/// says so. Targets come with the next frame after their messages.
 class BagSource final : public FrameSource {
  public:
   /// `robot` must outlive this. Throws InputError as open_bag and FrameQueue, and for frames that
@@ -78,6 +79,9 @@ class BagSource final : public FrameSource {
   void take_info(const BagMessage& message, const CameraInfoMessage& first);
   void take_joints(const BagMessage& message);
   void take_transforms(const BagMessage& message, bool is_static);
+  void take_targets(const BagMessage& message);
+  template <typename M>
+  void take_targets_as(const BagMessage& message);
   template <typename M>
   void take_color(const BagMessage& message);
   void collect();
@@ -96,6 +100,7 @@ class BagSource final : public FrameSource {
   FrameQueue queue_;
   std::optional<DepthRegistration> registration_;
   BagColors colors_;
+  TargetInbox targets_;
   std::map<std::uint64_t, Waiting> waiting_;  // by index
   std::deque<Ready> ready_;
   Ready current_;  // what the caller works on

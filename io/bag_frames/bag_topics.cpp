@@ -18,12 +18,16 @@ namespace {
 
 constexpr std::string_view image_type = "sensor_msgs/msg/Image";
 constexpr std::string_view compressed_type = "sensor_msgs/msg/CompressedImage";
+constexpr std::array image_types = {image_type, compressed_type};
 constexpr std::string_view info_type = "sensor_msgs/msg/CameraInfo";
 constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
 constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
 constexpr std::string_view text_type = "std_msgs/msg/String";
 
-using Types = std::initializer_list<std::string_view>;
+using Types = std::span<const std::string_view>;
+constexpr std::array<std::string_view, 4> target_types = {
+    "vision_msgs/msg/Detection2DArray", "vision_msgs/msg/Detection3DArray",
+    "penumbra_msgs/msg/Keypoints", "geometry_msgs/msg/PoseStamped"};
 
 bool holds(std::string_view name, std::initializer_list<std::string_view> words) {
   std::string lower(name);
@@ -41,10 +45,21 @@ int loss(const std::string& topic) {
   return topic == base + "/compressedDepth" ? 1 : 2;
 }
 
+std::string one_of(Types types) {
+  std::string names;
+  for (const std::string_view type : types) {
+    if (!names.empty()) names += " or ";
+    names += type;
+  }
+  return names;
+}
+
 std::string names_of(const std::vector<const BagTopic*>& topics) {
   std::string names;
-  for (const BagTopic* topic : topics)
-    names += (names.empty() ? "" : ", ") + printable(topic->name);
+  for (const BagTopic* topic : topics) {
+    if (!names.empty()) names += ", ";
+    names += printable(topic->name);
+  }
   return names;
 }
 
@@ -84,7 +99,7 @@ class Chooser {
     for (const BagTopic* topic : topics_)
       if (topic->name == name)
         refuse(option + ": " + name + " is of type " + printable(topic->type) + "; " +
-               std::string(*types.begin()) + " is wanted");
+               one_of(types) + " is wanted");
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
@@ -127,7 +142,7 @@ bool is_depth(const std::string& name) {
 }
 
 TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
-  const Types types = {image_type, compressed_type};
+  const Types types = image_types;
   if (wishes.depth) return chooser.named("depth", "--depth-topic", *wishes.depth, types);
   const auto candidates = chooser.of(types, is_depth);
   if (!candidates.empty())
@@ -143,17 +158,17 @@ const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
   const std::string base = image_base(image);
   const std::string wanted = base.substr(0, base.rfind('/') + 1) + "camera_info";
   const auto found =
-      chooser.of({info_type}, [&](const std::string& name) { return name == wanted; });
+      chooser.of(Types(&info_type, 1), [&](const std::string& name) { return name == wanted; });
   return found.empty() ? nullptr : found.front();
 }
 
 TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const std::string& depth) {
   const char* const option = "--camera-info-topic";
   if (wishes.camera_info)
-    return chooser.named("camera_info", option, *wishes.camera_info, {info_type});
+    return chooser.named("camera_info", option, *wishes.camera_info, Types(&info_type, 1));
   if (const BagTopic* beside = info_beside(chooser, depth))
     return Chooser::use("camera_info", *beside, "it stands beside the depth images");
-  const auto candidates = chooser.of({info_type});
+  const auto candidates = chooser.of(Types(&info_type, 1));
   if (candidates.size() == 1)
     return Chooser::use("camera_info", *candidates.front(), "the only one");
   if (candidates.empty())
@@ -163,7 +178,7 @@ TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const st
 }
 
 void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
-  const Types types = {image_type, compressed_type};
+  const Types types = image_types;
   if (wishes.color) {
     topics.color = chooser.named("color", "--color-topic", *wishes.color, types);
     const BagTopic* info = info_beside(chooser, topics.color->name);
@@ -185,8 +200,8 @@ void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& 
 std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
                               std::string_view type, const std::string& name,
                               const std::string& choice) {
-  const auto candidates =
-      chooser.of({type}, [&](const std::string& other) { return last_part(other) == name; });
+  const auto candidates = chooser.of(
+      Types(&type, 1), [&](const std::string& other) { return last_part(other) == name; });
   for (const BagTopic* topic : candidates)
     if (topic->name == "/" + name) return Chooser::use(role, *topic, "by its name");
   if (candidates.size() == 1) return Chooser::use(role, *candidates.front(), "by its name");
@@ -199,9 +214,9 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
 void choose_joints(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
   if (wishes.poses == PoseSource::transforms) return;
   for (const std::string& name : wishes.joints)
-    topics.joints.push_back(chooser.named("joints", "--joint-topic", name, {joints_type}));
+    topics.joints.push_back(chooser.named("joints", "--joint-topic", name, Types(&joints_type, 1)));
   if (!topics.joints.empty()) return;
-  const auto candidates = chooser.of({joints_type});
+  const auto candidates = chooser.of(Types(&joints_type, 1));
   for (const BagTopic* topic : candidates)
     if (topic->name == "/joint_states")
       topics.joints = {Chooser::use("joints", *topic, "by its name")};
@@ -241,7 +256,7 @@ std::vector<TopicUse> BagTopics::all() const {
   std::vector<TopicUse> uses = {depth, camera_info};
   for (const auto* one : {&color, &color_info, &description})
     if (*one) uses.push_back(**one);
-  for (const auto* several : {&joints, &transforms})
+  for (const auto* several : {&joints, &transforms, &targets})
     uses.insert(uses.end(), several->begin(), several->end());
   return uses;
 }
@@ -256,6 +271,8 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
   choose_joints(chooser, wishes, chosen);
   choose_transforms(chooser, chosen);
   chosen.poses = choose_poses(chooser, wishes, chosen);
+  for (const std::string& name : wishes.targets)
+    chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
   if (!wishes.needs_description) return chosen;
   chosen.description =
       usual(chooser, "robot", text_type, "robot_description", "give the URDF with --robot");

@@ -16,7 +16,7 @@ namespace penumbra::io {
 /// What is wanted of a bag, and which topics the user names.
 struct TopicWishes {
   std::optional<std::string> depth, camera_info, color;
-  std::vector<std::string> joints;
+  std::vector<std::string> joints, targets;
   std::optional<PoseSource> poses;
   bool with_color = false;        ///< for pictures; if `color` is named it is judged in, too
   bool needs_description = true;  ///< the robot is in the bag
@@ -38,7 +38,7 @@ struct BagTopics {
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth images are brought to the color camera
-  std::vector<TopicUse> joints, transforms;
+  std::vector<TopicUse> joints, transforms, targets;
   std::optional<TopicUse> description;
 
   /// All of them, in the order in which they are told.

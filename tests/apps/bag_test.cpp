@@ -6,12 +6,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <io/ros/cdr_writer.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -141,8 +144,8 @@ TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
 
 TEST_F(BagTest, FramesWithoutPoseAreFrames) {
   std::erase_if(bag_.messages, [](const auto& message) {
-    return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 500'000'000 &&
-           message.log_time < tiny_stamp(1) + 500'000'000;
+    return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 200'000'000 &&
+           message.log_time < tiny_stamp(1) + 200'000'000;
   });
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -208,7 +211,7 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
   for (std::int64_t stamp = tiny_stamp(0) - 130'000'000; stamp < tiny_stamp(3);
        stamp += 100'000'000) {
     const double seconds = static_cast<double>(stamp - tiny_stamp(0)) * 1e-9;
-    const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1 + 0.05 * seconds));
+    const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1 + tiny_speed * seconds));
     bag_.add("/tf", stamp, io::TfMessage{{{{stamp, "base"}, "board", pose}}});
   }
   for (const char* const poses : {"tf", "both", "joints"}) {
@@ -266,6 +269,72 @@ TEST_F(BagTest, DepthIsBroughtToTheColorCamera) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("camera: frame 'optical'"), std::string::npos) << outcome.out;
   expect_recorded_labels();
+}
+
+struct Square {
+  std::string id;
+  double u, v, size;  // pixels
+};
+
+/// vision_msgs/Detection2DArray, put together by the fields of its definition.
+std::vector<std::byte> detections_payload(const io::MessageHeader& header,
+                                          const std::vector<Square>& squares) {
+  std::vector<std::byte> payload;
+  io::CdrWriter writer(payload);
+  const auto write_header = [&] {
+    writer.write(static_cast<std::int32_t>(header.stamp / 1'000'000'000));
+    writer.write(static_cast<std::uint32_t>(header.stamp % 1'000'000'000));
+    writer.write_string(header.frame_id);
+  };
+  write_header();
+  writer.write_count(squares.size());
+  for (const Square& square : squares) {
+    write_header();
+    writer.write_count(0);  // hypotheses
+    for (const double value : {square.u, square.v, 0.0, square.size, square.size})
+      writer.write(value);
+    writer.write_string(square.id);
+  }
+  return payload;
+}
+
+/// A detector that answers after 0.3 s, when the next frame is there.
+TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
+  const std::int64_t stamp = tiny_stamp(1), arrival = tiny_stamp(1) + 300'000'000;
+  const io::MessageHeader header{stamp, "optical"};
+  // On the object before the board, on the board, on the wall.
+  bag_.messages.push_back(
+      {"/detections", "vision_msgs/msg/Detection2DArray", arrival,
+       detections_payload(header,
+                          {{"object", 28, 24, 6}, {"board", 22, 26, 3}, {"wall", 5, 5, 4}})});
+  bag_.add("/wrist", arrival, io::KeypointsMessage{header, {{"left", 28, 24, 0.9, 0.5}}});
+  bag_.add("/far", arrival, io::PoseStampedMessage{.header = {stamp, "map"}});
+  bag_.add(
+      "/goal", arrival,
+      io::PoseStampedMessage{{stamp, "base"}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2))});
+  std::vector<std::string> options;
+  for (const char* topic : {"/detections", "/wrist", "/goal", "/far"})
+    options.insert(options.end(), {"--target-topic", topic});
+  const Outcome outcome = run(options);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("targets: /wrist (penumbra_msgs/msg/Keypoints)"), std::string::npos);
+  const Json json = report();
+  EXPECT_TRUE(json["frames"][0]["targets"].empty());
+  EXPECT_TRUE(json["frames"][1]["targets"].empty());
+  std::map<std::string, std::string> verdicts;
+  for (const Json& target : json["frames"][2]["targets"]) {
+    verdicts[target["name"]] = target["verdict"];
+    if (target["name"] == "/far") {
+      EXPECT_NE(std::string(target["reason"]).find("'map' is neither"), std::string::npos);
+    }
+  }
+  EXPECT_EQ(verdicts, (std::map<std::string, std::string>{{"/detections/object", "unknown"},
+                                                          {"/detections/board", "hidden"},
+                                                          {"/detections/wall", "visible"},
+                                                          {"/wrist/left", "visible"},
+                                                          {"/goal", "hidden"},
+                                                          {"/far", "unknown"}}))
+      << "an object that a detector first sees beside the robot may be larger than what it sees";
 }
 
 /// A bag that is spoilt, and words that the one line on stderr must hold.
@@ -353,6 +422,10 @@ std::vector<BadBag> bad_bags() {
        {"--depth-topic", "sensor_msgs/msg/JointState"},
        {"--depth-topic", "/joint_states"}},
       {"ParentIsNoLink", as_it_is, {"--parent", "bas"}, {"--parent", "bas"}},
+      {"TargetsOfAnotherType",
+       as_it_is,
+       {"--target-topic", "vision_msgs/msg/Detection2DArray or "},
+       {"--target-topic", "/joint_states"}},
       {"PosesText", as_it_is, {"--poses"}, {"--poses", "latest"}},
       {"TimeOffsetText", as_it_is, {"--time-offset"}, {"--time-offset", "soon"}},
   };

@@ -55,7 +55,7 @@ void add_joints(TinyBag& bag) {
     bag.add("/joint_states", stamp + millisecond,
             io::JointStateMessage{.header = {stamp, ""},
                                   .names = {"other", "slide"},
-                                  .positions = {9.0, 0.05 * seconds}});
+                                  .positions = {9.0, tiny_speed * seconds}});
   }
 }
 

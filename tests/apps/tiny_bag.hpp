@@ -56,10 +56,13 @@ struct TinyBag {
 };
 
 /// Stamp of a frame of tiny_bag(), nanoseconds.
-constexpr std::int64_t tiny_stamp(int frame) { return 1'000'000'000LL * (100 + frame); }
+constexpr std::int64_t tiny_stamp(int frame) { return 100'000'000'000 + 400'000'000LL * frame; }
+
+/// Of its board, m/s.
+constexpr double tiny_speed = 0.125;
 
 /// What a camera and a robot would have said of write_tiny_recording(folder): the board slides
-/// evenly through the frames' positions, one second apart; joint states at 20 Hz, none of them on a
+/// evenly through the frames' positions, 0.4 s apart; joint states at 20 Hz, none of them on a
 /// frame's stamp; the camera on link "base" through two static transforms; images come 30 ms after
 /// their stamps. Depth: /camera/depth/image_rect_raw, color: /camera/color/image_raw/compressed,
 /// both of the frame "optical".

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <io/printable.hpp>
+#include <io/ros/target_inbox.hpp>
+
+namespace penumbra::io {
+namespace {
+
+std::string_view without_slash(std::string_view frame) {
+  return frame.starts_with('/') ? frame.substr(1) : frame;
+}
+
+/// The class that a detector holds for likeliest; empty: it names none.
+std::string best_class(std::span<const HypothesisMessage> results) {
+  const auto best = std::max_element(results.begin(), results.end(),
+                                     [](const HypothesisMessage& a, const HypothesisMessage& b) {
+                                       return a.hypothesis.score < b.hypothesis.score;
+                                     });
+  return best == results.end() ? std::string() : best->hypothesis.class_id;
+}
+
+Region region_of(const BoundingBox2D& box, std::vector<Eigen::Vector2d>& corners) {
+  const Eigen::Vector2d& centre = box.centre.position;
+  const Eigen::Vector2d half(box.size_x / 2, box.size_y / 2);
+  if (box.centre.theta == 0)
+    return PixelBox{centre.x() - half.x(), centre.y() - half.y(), box.size_x, box.size_y};
+  const Eigen::Rotation2Dd turn(box.centre.theta);
+  corners.clear();
+  for (const auto& [x, y] :
+       std::array<std::array<double, 2>, 4>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}})
+    corners.push_back(centre + turn * Eigen::Vector2d(x * half.x(), y * half.y()));
+  return PixelPolygon{corners};
+}
+
+}  // namespace
+
+TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame)
+    : robot_(robot), camera_frame_(camera_frame) {}
+
+TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& header) {
+  std::erase_if(told_, [&](const Told& other) { return other.name == name; });
+  Told& told = told_.emplace_back();
+  told.name = std::move(name);
+  told.image_frame = without_slash(header.frame_id);
+  told.target.stamp = header.stamp;
+  if (header.stamp <= 0) told.fault = "its message has no stamp";
+  if (told.image_frame.empty()) told.fault = "its message does not name its frame";
+  return told;
+}
+
+std::string TargetInbox::name_of(const std::string& topic, const std::string& id,
+                                 std::span<const HypothesisMessage> results,
+                                 std::span<const std::string> taken) const {
+  const std::string base = topic + "/" + (id.empty() ? best_class(results) : id);
+  std::string name = base;
+  for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
+    name = base + " " + std::to_string(i);
+  return name;
+}
+
+void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& message) {
+  std::vector<std::string> taken;
+  for (const Detection2DMessage& detection : message.detections) {
+    taken.push_back(name_of(topic, detection.id, detection.results, taken));
+    Told& one = told(taken.back(), message.header);
+    auto& shape = one.target.shape.emplace<RegionTarget>();
+    shape.region = region_of(detection.bbox, one.corners);
+    shape.extent = Extent::modal;
+  }
+}
+
+void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& message) {
+  std::vector<std::string> taken;
+  for (const Detection3DMessage& detection : message.detections) {
+    taken.push_back(name_of(topic, detection.id, detection.results, taken));
+    Told& one = told(taken.back(), message.header);
+    const LinkFrame frame = frame_of(one);
+    one.target.shape =
+        BoxTarget{.pose = detection.bbox.centre, .size = detection.bbox.size, .frame = frame};
+  }
+}
+
+void TargetInbox::add(const std::string& topic, const KeypointsMessage& message) {
+  std::vector<std::string> taken;
+  for (const KeypointMessage& keypoint : message.keypoints) {
+    taken.push_back(name_of(topic, keypoint.name, {}, taken));
+    Told& one = told(taken.back(), message.header);
+    KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};
+    if (keypoint.depth > 0) shape.expected_depth = keypoint.depth;
+    one.target.shape = shape;
+  }
+}
+
+void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
+  Told& one = told(topic, message.header);
+  const LinkFrame frame = frame_of(one);
+  one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
+}
+
+LinkFrame TargetInbox::frame_of(Told& told) const {
+  told.link_frame = std::exchange(told.image_frame, {});
+  if (told.link_frame.empty() || told.link_frame == without_slash(camera_frame_))
+    return std::nullopt;
+  if (!robot_.find_link(told.link_frame))
+    told.fault = "its frame '" + printable(told.link_frame) +
+                 "' is neither the camera's nor a link of the robot";
+  return told.link_frame;
+}
+
+std::span<const Target> TargetInbox::take() {
+  given_ = std::exchange(told_, {});
+  targets_.clear();
+  for (Told& told : given_) {
+    told.target.name = told.name;
+    // Of pixels alone; the camera's name is compared as it stands.
+    if (!told.image_frame.empty())
+      told.target.frame_id =
+          told.image_frame == without_slash(camera_frame_) ? camera_frame_ : told.image_frame;
+    told.target.fault = told.fault;
+    targets_.push_back(told.target);
+  }
+  return targets_;
+}
+
+}  // namespace penumbra::io
