@@ -197,6 +197,20 @@ void add_bag(CLI::App& app, BagArguments& bag) {
       ->group("Of bags");
 }
 
+/// A bag holds its topics, all of them, in the camera's own image.
+void check_output_bag(RunArguments& run) {
+  if (run.output.extension() != ".mcap") return;
+  const auto refuse = [](const std::string& option) {
+    throw InputError(option +
+                     ": a bag of results (-o *.mcap) always holds the same topics, of the " +
+                     "camera's images; leave it out, or give a folder with -o");
+  };
+  if (run.saves.vdi || run.saves.labels || run.saves.links || run.saves.overlay) refuse("--save");
+  if (run.gl_labels) refuse("--gl-labels");
+  if (run.image == ImageSpace::rectified) refuse("--image rectified");
+  run.saves.overlay = true;
+}
+
 /// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
 void check_targets(const RunArguments& run) {
   if (run.bag.target_topics.empty()) return;
@@ -214,7 +228,9 @@ void add_run(CLI::App& app, RunArguments& run) {
            "folder with metadata.yaml",
            "", run.input)
       ->required();
-  add_path(app, "-o,--output", "folder for the results; made if need be", "OUT", run.output)
+  add_path(app, "-o,--output",
+           "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
+           run.output)
       ->required();
   add_renderer(app, run.renderer);
   add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
@@ -398,6 +414,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   check_renderer(run.renderer);
   check_gl_labels(run);
   check_targets(run);
+  check_output_bag(run);
   check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;

@@ -28,10 +28,13 @@ links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.pn
 run left there is removed; images of such names without its report, or behind a link, are refused.
 Faulty frames are told on stderr and in the report; the others are judged.
 Of a bag the topics that are taken are printed; each image is judged with the pose at its own stamp.
+OUT.mcap is a bag of results: virtual depth, labels, mask, depth and points without the robot,
+targets, overlays.
 
 Examples:
   penumbra run recording/ -o out
   penumbra run bag.mcap -o out --package ur_description=/opt/ur_description
+  penumbra run bag.mcap -o results.mcap --target-topic /detections
   penumbra run recording/ -o out --save labels,overlay --frames 10:20
   penumbra run recording/ -o out --labels paper
   penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0

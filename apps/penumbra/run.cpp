@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -12,6 +13,7 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/former_results.hpp>
+#include <apps/penumbra/output_bag.hpp>
 #include <apps/penumbra/output_folder.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/run_input.hpp>
@@ -39,6 +41,24 @@ void check_output(const RunArguments& arguments) {
   if (std::filesystem::exists(output / "recording.yaml", error))
     throw InputError("--output: " + output.string() +
                      " is a recording (it has a recording.yaml); choose another folder");
+}
+
+/// Makes room for the results: takes away an earlier run's.
+void clear_output(const RunArguments& arguments) {
+  check_output(arguments);
+  if (is_output_bag(arguments.output))
+    remove_former_file("--output", arguments.output);
+  else
+    remove_former_run(arguments.output);
+}
+
+std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunInput& input,
+                                       const Pipeline& pipeline) {
+  if (!is_output_bag(arguments.output))
+    return std::make_unique<OutputFolder>(arguments.output, arguments.saves,
+                                          pipeline.rectification());
+  return std::make_unique<OutputBag>(arguments.output, input.camera,
+                                     pipeline.robot().links().front());
 }
 
 /// The command line's choice before the recording's before the default.
@@ -146,8 +166,7 @@ std::vector<std::string> notes_of_frames(const io::FrameSource& source, const Se
 }  // namespace
 
 int execute(const RunArguments& arguments) {
-  check_output(arguments);
-  remove_former_run(arguments.output);
+  clear_output(arguments);
   RunInput input = open_input(arguments);
   tell_notes(input.robot.notes());
   const Camera camera = camera_of_report(arguments, input.camera);
@@ -158,13 +177,10 @@ int execute(const RunArguments& arguments) {
   tell_choice(pipeline.renderer_choice());
   const std::vector<std::string> notes = notes_of(pipeline);
 
-  OutputFolder output(arguments.output, arguments.saves, pipeline.rectification());
-  UnfinishedRun unfinished(arguments.output);
-  io::ReportWriter writer(
-      output.report_file(),
-      {arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
-       settings_of(arguments, input, pipeline, targets), pipeline.robot().links(),
-       pipeline.missing_links(), notes});
+  const auto output = open_output(arguments, input, pipeline);
+  output->begin({arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
+                 settings_of(arguments, input, pipeline, targets), pipeline.robot().links(),
+                 pipeline.missing_links(), notes});
   Statistics statistics;
   SequenceNotes doubts(pipeline.robot(), {.image = arguments.image});
   ColorFaults color;
@@ -181,8 +197,7 @@ int execute(const RunArguments& arguments) {
       doubts.add(report, frame.joints.positions);
       color.add(data.color_message);
       watch.look(report.index);
-      writer.add(report);
-      output.save(report, data, {frame.targets, pipeline.robot(), camera});
+      output->save(report, data, {frame.targets, pipeline.robot(), camera});
       progress.step();
     }
   } catch (const DeviceError& error) {
@@ -190,12 +205,12 @@ int execute(const RunArguments& arguments) {
     lost = "frame " + std::to_string(data.index) +
            " and later ones are not judged: " + without_device(error);
   }
-  const std::vector<std::string> late_notes = notes_of_frames(*source, doubts, watch, lost);
-  writer.finish(statistics, late_notes);
-  unfinished.finish();
+  std::vector<std::string> late_notes = notes_of_frames(*source, doubts, watch, lost);
+  for (std::string& note : output->notes()) late_notes.push_back(std::move(note));
+  output->finish(statistics, late_notes);
   tell_faults(statistics, color);
   tell_notes(late_notes);
-  tell_summary(statistics, output.report_file());
+  tell_summary(statistics, output->where());
   if (!lost.empty()) return device_failed;
   return statistics.usable_frames() > 0 ? 0 : 2;
 }

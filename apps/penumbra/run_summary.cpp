@@ -59,7 +59,7 @@ void tell_faults(const Statistics& statistics, const ColorFaults& color) {
               << ", first: " << color.first << '\n';
 }
 
-void tell_summary(const Statistics& statistics, const std::filesystem::path& report) {
+void tell_summary(const Statistics& statistics, const std::string& where) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
   const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
@@ -74,7 +74,7 @@ void tell_summary(const Statistics& statistics, const std::filesystem::path& rep
     if (const auto q = statistics.timing(i))
       std::cout << stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
                 << fixed(q->p99, 3) << " ms, max " << fixed(q->max, 3) << " ms\n";
-  std::cout << "report: " << report.string() << '\n';
+  std::cout << where << '\n';
 }
 
 }  // namespace penumbra::app

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 
 #include <penumbra/pipeline/statistics.hpp>
@@ -24,7 +23,7 @@ struct ColorFaults {
 /// Prints what was wrong with frames, targets and overlays on stderr, a line for each kind.
 void tell_faults(const Statistics& statistics, const ColorFaults& color);
 
-/// Prints counts and times on stdout.
-void tell_summary(const Statistics& statistics, const std::filesystem::path& report);
+/// Prints counts and times on stdout, and where the results are.
+void tell_summary(const Statistics& statistics, const std::string& where);
 
 }  // namespace penumbra::app

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+
+#include <apps/penumbra/overlay_painter.hpp>
+#include <apps/penumbra/run_output.hpp>
+#include <io/mcap/writer.hpp>
+#include <io/ros/result_messages.hpp>
+
+namespace penumbra::app {
+
+/// A bag of results: topics /penumbra/..., each message with its image's stamp, by which it is
+/// recorded, too. Frames without a stamp have no place in it.
+class OutputBag final : public RunOutput {
+ public:
+  /// `camera`: of the judged images; `root`: the robot's root link. Throws InputError where the
+  /// file cannot be written.
+  OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
+  /// Removes a bag that is not finished.
+  ~OutputBag() override;
+
+  void begin(const io::ReportHead&) override {}
+  void save(const FrameReport& report, const io::FrameData& frame,
+            const ShownTargets& targets) override;
+  void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
+  [[nodiscard]] std::string where() const override { return "results: " + file_.string(); }
+
+ private:
+  struct Channel {
+    std::uint16_t id = 0;
+    std::uint32_t messages = 0;
+  };
+  template <typename M>
+  [[nodiscard]] Channel add_channel(const std::string& name);
+  template <typename M>
+  void write(Channel& channel, const M& message);
+
+  std::filesystem::path file_;
+  std::string root_;
+  io::mcap::Writer writer_;
+  io::ResultMessages results_;
+  OverlayPainter painter_{nullptr};
+  Channel virtual_depth_, labels_, mask_, filtered_depth_, overlay_, targets_, points_;
+  std::vector<std::byte> png_, payload_;
+  std::size_t without_stamp_ = 0;
+  bool finished_ = false;
+};
+
+/// Whether results go into a bag of that name.
+[[nodiscard]] bool is_output_bag(const std::filesystem::path& output);
+
+}  // namespace penumbra::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+#include <variant>
+
+#include <apps/penumbra/overlay_painter.hpp>
+#include <io/overlay.hpp>
+
+namespace penumbra::app {
+namespace {
+
+LabelView labels_of(const FrameReport& report) {
+  const PixelCounts& pixels = report.pixels;
+  const std::size_t all = static_cast<std::size_t>(report.labels.width) *
+                          static_cast<std::size_t>(report.labels.height);
+  const std::size_t labelled = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
+  return {report.labels,
+          {all - labelled - pixels.uncovered, pixels.front, pixels.occluded, pixels.unknown,
+           pixels.beyond},
+          nullptr};
+}
+
+}  // namespace
+
+ImageView<const io::Rgb8> OverlayPainter::draw(const FrameReport& report,
+                                               const io::FrameData& frame,
+                                               const ShownTargets& targets) {
+  io::OverlayInput input;
+  input.labels = labels_of(report);
+  input.uncovered = report.pixels.uncovered;
+  input.index = static_cast<std::int64_t>(report.index);
+  input.stamp = report.stamp;
+  input.message = report.message;
+  input.pose_known = has_pose(report.status);
+  if (!frame.color.empty()) {
+    input.color = seen(frame.color, color_);
+  } else {
+    std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); }, frame.depth);
+  }
+  io::draw_overlay(input, overlay_);
+  target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
+  return std::as_const(overlay_).view();
+}
+
+template <typename T>
+ImageView<const T> OverlayPainter::seen(const Image<T>& raw, Image<T>& rectified) {
+  if (rectification_ == nullptr || raw.empty()) return raw.view();
+  const Intrinsics& pinhole = rectification_->pinhole();
+  if (rectified.empty()) rectified = Image<T>(pinhole.width(), pinhole.height());
+  remap(rectification_->pinhole_to_raw(), raw.view(), T{}, rectified.view());
+  return std::as_const(rectified).view();
+}
+
+}  // namespace penumbra::app

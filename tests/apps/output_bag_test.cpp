@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bags of results, read back and held against what `run` writes into a folder.
+#include "program.hpp"
+#include "tiny_bag.hpp"
+#include "tiny_recording.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <io/bag/bag_reader.hpp>
+#include <io/npy.hpp>
+#include <io/png.hpp>
+#include <io/ros/image_codec.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputBagTest : public testing::Test {
+ protected:
+  OutputBagTest() {
+    write_tiny_recording(folder_.path());
+    bag_ = tiny_bag(folder_.path());
+  }
+
+  Outcome run(const std::string& output, std::vector<std::string> options = {}) {
+    bag_.write_mcap(folder_.path() / "tiny.mcap");
+    options.insert(options.begin(),
+                   {"run", folder_.path() / "tiny.mcap", "-o", folder_.path() / output});
+    return penumbra(options);
+  }
+
+  /// Calls `call` with each message of a topic and its number.
+  template <typename M, typename F>
+  void for_each(const std::string& topic, const F& call) {
+    const auto bag = io::open_bag(folder_.path() / "results.mcap");
+    std::size_t number = 0;
+    M decoded;
+    for (io::BagMessage message; bag->next(message);) {
+      const io::BagTopic& from = bag->topics()[message.topic];
+      if (from.name != topic) continue;
+      const io::Decoder<M> decoder(from.type, from.definition);
+      const auto fault = decoder.decode(message.data, decoded);
+      ASSERT_FALSE(fault) << *fault;
+      EXPECT_EQ(decoded.header.stamp, tiny_stamp(static_cast<int>(number)));
+      EXPECT_EQ(decoded.header.frame_id, "optical");
+      EXPECT_EQ(message.log_time, decoded.header.stamp);
+      call(decoded, number++);
+    }
+    EXPECT_EQ(number, 3U) << topic;
+    EXPECT_TRUE(bag->faults().empty());
+  }
+
+  template <typename T>
+  [[nodiscard]] Image<T> written(const char* kind, std::size_t number) const {
+    const std::string name = std::string(kind) + "/00000" + std::to_string(number);
+    Image<T> image;
+    if constexpr (std::is_same_v<T, float>)
+      io::read_npy(folder_.path() / "out" / (name + ".npy"), image).require();
+    else
+      io::read_png(folder_.path() / "out" / (name + ".png"), image).require();
+    return image;
+  }
+  [[nodiscard]] Image<std::uint16_t> depth(std::size_t number) const {
+    Image<std::uint16_t> image;
+    io::read_png(folder_.path() / ("depth_" + std::to_string(number) + ".png"), image).require();
+    return image;
+  }
+
+  template <typename T>
+  static void expect_image(const io::ImageMessage& message, const char* encoding,
+                           const Image<T>& wanted) {
+    EXPECT_EQ(message.encoding, encoding);
+    ASSERT_EQ(message.data.size(), wanted.size() * sizeof(T));
+    EXPECT_EQ(std::memcmp(message.data.data(), wanted.data(), message.data.size()), 0) << encoding;
+  }
+
+  TemporaryFolder folder_;
+  TinyBag bag_;
+};
+
+TEST_F(OutputBagTest, HoldsWhatAFolderHolds) {
+  ASSERT_EQ(run("out", {"--save", "labels,vdi,overlay"}).status, 0);
+  const Outcome outcome = run("results.mcap");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for_each<io::ImageMessage>("/penumbra/labels", [&](const auto& image, std::size_t i) {
+    expect_image(image, "8UC1", written<std::uint8_t>("labels", i));
+  });
+  for_each<io::ImageMessage>("/penumbra/vdi", [&](const auto& image, std::size_t i) {
+    expect_image(image, "32FC1", written<float>("vdi", i));
+  });
+  for_each<io::CompressedImageMessage>(
+      "/penumbra/overlay/compressed", [&](const auto& image, std::size_t i) {
+        const std::string png =
+            read_file(folder_.path() / "out" / ("overlay/00000" + std::to_string(i) + ".png"));
+        ASSERT_EQ(image.data.size(), png.size());
+        EXPECT_EQ(std::memcmp(image.data.data(), png.data(), png.size()), 0);
+      });
+  for_each<io::TargetsMessage>("/penumbra/targets", [](const auto& targets, std::size_t) {
+    EXPECT_EQ(targets.status, "ok");
+    EXPECT_EQ(targets.root_frame, "base");
+    EXPECT_TRUE(targets.targets.empty());
+  });
+}
+
+TEST_F(OutputBagTest, TrustsClearAndFrontAlone) {
+  ASSERT_EQ(run("out", {"--save", "labels"}).status, 0);
+  ASSERT_EQ(run("results.mcap").status, 0);
+  for_each<io::ImageMessage>("/penumbra/mask", [&](const auto& image, std::size_t i) {
+    Image<std::uint8_t> wanted = written<std::uint8_t>("labels", i);
+    for (std::size_t p = 0; p < wanted.size(); ++p)
+      wanted.data()[p] = wanted.data()[p] <= 1 ? 0 : 255;
+    expect_image(image, "mono8", wanted);
+  });
+  std::vector<std::size_t> measured;
+  for_each<io::ImageMessage>("/penumbra/filtered_depth", [&](const auto& image, std::size_t i) {
+    Image<std::uint16_t> wanted = depth(i);
+    const Image<std::uint8_t> labels = written<std::uint8_t>("labels", i);
+    measured.push_back(0);
+    for (std::size_t p = 0; p < wanted.size(); ++p) {
+      if (labels.data()[p] > 1) wanted.data()[p] = 0;
+      if (wanted.data()[p] > 0) ++measured.back();
+    }
+    expect_image(image, "16UC1", wanted);
+  });
+  for_each<io::PointCloud2Message>("/penumbra/points", [&](const auto& cloud, std::size_t i) {
+    EXPECT_EQ(cloud.width, measured.at(i));
+    ASSERT_EQ(cloud.data.size(), 12 * measured.at(i));
+    float first[3];
+    std::memcpy(first, cloud.data.data(), sizeof first);
+    // Pixel (0, 0) sees the wall: ((0 - cx) / fx, (0 - cy) / fy, 1) times 3 m.
+    constexpr float rounding = 1e-6F;
+    EXPECT_NEAR(first[0], -31.3F / 60 * 3, rounding);
+    EXPECT_NEAR(first[1], -23.7F / 60 * 3, rounding);
+    EXPECT_NEAR(first[2], 3, rounding);
+  });
+}
+
+TEST_F(OutputBagTest, FramesWithoutPoseHaveNoVirtualDepth) {
+  bag_.remove("/joint_states");
+  bag_.add("/joint_states", tiny_stamp(0), io::JointStateMessage{.header = {1, ""}});
+  const Outcome outcome = run("results.mcap");
+  EXPECT_EQ(outcome.status, 2) << "no frame is usable";
+  const auto bag = io::open_bag(folder_.path() / "results.mcap");
+  std::map<std::string, int> counts;
+  for (io::BagMessage message; bag->next(message);) ++counts[bag->topics()[message.topic].name];
+  EXPECT_EQ(counts["/penumbra/vdi"], 0);
+  EXPECT_EQ(counts["/penumbra/mask"], 3);
+  for_each<io::ImageMessage>("/penumbra/mask", [&](const auto& image, std::size_t) {
+    for (const std::byte pixel : image.data) ASSERT_EQ(pixel, std::byte{255});
+  });
+  for_each<io::TargetsMessage>("/penumbra/targets", [](const auto& targets, std::size_t) {
+    EXPECT_EQ(targets.status, "missing_joints");
+  });
+}
+
+TEST_F(OutputBagTest, RefusesWhatABagCannotHold) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--save", "labels"}, {"--image", "rectified"}}) {
+    const Outcome outcome = run("results.mcap", options);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(options[0]), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "results.mcap"));
+  }
+  const Outcome own = run("tiny.mcap");
+  EXPECT_EQ(own.status, 2) << "its own input";
+  EXPECT_TRUE(fs::exists(folder_.path() / "tiny.mcap"));
+}
+
+TEST_F(OutputBagTest, WhatIsNotFinishedIsTakenAway) {
+  write_file(folder_.path() / "results.mcap", "an earlier one");
+  bag_.edit<io::StringMessage>("/robot_description", [](auto& text) { text.data = "no robot"; });
+  EXPECT_EQ(run("results.mcap").status, 2);
+  EXPECT_FALSE(fs::exists(folder_.path() / "results.mcap"));
+}
+
+/// Frames of a folder without stamps have no place in time.
+TEST_F(OutputBagTest, TellsOfFramesWithoutStamps) {
+  const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "results.mcap"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("3 frames have no stamp"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace penumbra::test
