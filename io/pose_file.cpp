@@ -16,7 +16,7 @@ namespace {
 constexpr double max_rotation_error = 1e-4;  // per element; files with few digits are off by less
 constexpr double max_distance = 1e6;         // metres: float32 depths beyond would mean nothing
 constexpr std::uint64_t max_bytes = 1 << 16;
-constexpr std::string_view wanted = "four rows of four comma-separated numbers are wanted";
+constexpr std::string_view rows_wanted = "four rows of four comma-separated numbers are wanted";
 
 Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
   const std::string text = read_text(file, max_bytes);
@@ -25,22 +25,22 @@ Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
   int row = 0;
   for (; lines.next(); ++row) {
     const std::string place = file.string() + ":" + std::to_string(lines.line()) + ": ";
-    if (row == 4) throw InputError(place + "is a fifth row; " + std::string(wanted));
+    if (row == 4) throw InputError(place + "is a fifth row; " + std::string(rows_wanted));
     if (lines.cells().size() != 4)
       throw InputError(place + "has " + std::to_string(lines.cells().size()) + " cells; " +
-                       std::string(wanted));
+                       std::string(rows_wanted));
     for (int column = 0; column < 4; ++column) {
       const std::string_view cell = lines.cells()[static_cast<std::size_t>(column)];
       const auto value = parse_number<double>(cell);
       if (!value)
         throw InputError(place + "'" + std::string(cell) + "' is no finite number; " +
-                         std::string(wanted));
+                         std::string(rows_wanted));
       matrix(row, column) = *value;
     }
   }
   if (row != 4)
     throw InputError(file.string() + ": has " + std::to_string(row) + " rows; " +
-                     std::string(wanted));
+                     std::string(rows_wanted));
   return matrix;
 }
 

@@ -17,9 +17,10 @@ std::vector<std::string> BagInbox::notes() const {
   const auto damages = bag_->faults();
   std::vector<std::string> lines(damages.begin(), damages.end());
   for (const auto& [topic, faults] : faults_)
-    lines.push_back(name_ + ": " + std::to_string(faults.messages) + " messages of " +
-                    printable(topic) + " cannot be used, the first recorded at " +
-                    std::to_string(faults.first) + " ns: " + faults.what);
+    lines.push_back(name_ + ": " + std::to_string(faults.messages) +
+                    (faults.messages == 1 ? " message of " : " messages of ") + printable(topic) +
+                    " cannot be used, the first recorded at " + std::to_string(faults.first) +
+                    " ns: " + faults.what);
   return lines;
 }
 

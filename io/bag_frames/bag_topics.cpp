@@ -24,7 +24,7 @@ constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
 constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
 constexpr std::string_view text_type = "std_msgs/msg/String";
 
-using Types = std::span<const std::string_view>;
+using TopicTypes = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 4> target_types = {
     "vision_msgs/msg/Detection2DArray", "vision_msgs/msg/Detection3DArray",
     "penumbra_msgs/msg/Keypoints", "geometry_msgs/msg/PoseStamped"};
@@ -45,7 +45,7 @@ int loss(const std::string& topic) {
   return topic == base + "/compressedDepth" ? 1 : 2;
 }
 
-std::string one_of(Types types) {
+std::string one_of(TopicTypes types) {
   std::string names;
   for (const std::string_view type : types) {
     if (!names.empty()) names += " or ";
@@ -74,7 +74,7 @@ class Chooser {
 
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(bag_ + ": " + what); }
 
-  [[nodiscard]] std::vector<const BagTopic*> of(Types types) const {
+  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types) const {
     std::vector<const BagTopic*> found;
     for (const BagTopic* topic : topics_)
       if (std::find(types.begin(), types.end(), topic->type) != types.end()) found.push_back(topic);
@@ -82,7 +82,7 @@ class Chooser {
   }
 
   template <typename F>
-  [[nodiscard]] std::vector<const BagTopic*> of(Types types, const F& is_one) const {
+  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, const F& is_one) const {
     auto found = of(types);
     std::erase_if(found, [&](const BagTopic* topic) { return !is_one(topic->name); });
     return found;
@@ -90,16 +90,18 @@ class Chooser {
 
   /// The topic that an option names.
   [[nodiscard]] TopicUse named(const std::string& role, const std::string& option,
-                               const std::string& name, Types types) const {
+                               const std::string& name, TopicTypes types) const {
+    const std::string why = "as " + option + " says";
     std::vector<std::string_view> known;
     for (const BagTopic* topic : of(types)) {
-      if (topic->name == name) return use(role, *topic, "as " + option + " says");
+      if (topic->name == name) return use(role, *topic, why);
       known.push_back(topic->name);
     }
-    for (const BagTopic* topic : topics_)
-      if (topic->name == name)
-        refuse(option + ": " + name + " is of type " + printable(topic->type) + "; " +
-               one_of(types) + " is wanted");
+    const auto other = std::find_if(topics_.begin(), topics_.end(),
+                                    [&](const BagTopic* topic) { return topic->name == name; });
+    if (other != topics_.end())
+      refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; " +
+             one_of(types) + " is wanted");
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
@@ -142,7 +144,7 @@ bool is_depth(const std::string& name) {
 }
 
 TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
-  const Types types = image_types;
+  const TopicTypes types = image_types;
   if (wishes.depth) return chooser.named("depth", "--depth-topic", *wishes.depth, types);
   const auto candidates = chooser.of(types, is_depth);
   if (!candidates.empty())
@@ -157,18 +159,18 @@ TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
 const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
   const std::string base = image_base(image);
   const std::string wanted = base.substr(0, base.rfind('/') + 1) + "camera_info";
-  const auto found =
-      chooser.of(Types(&info_type, 1), [&](const std::string& name) { return name == wanted; });
+  const auto found = chooser.of(TopicTypes(&info_type, 1),
+                                [&](const std::string& name) { return name == wanted; });
   return found.empty() ? nullptr : found.front();
 }
 
 TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const std::string& depth) {
   const char* const option = "--camera-info-topic";
   if (wishes.camera_info)
-    return chooser.named("camera_info", option, *wishes.camera_info, Types(&info_type, 1));
+    return chooser.named("camera_info", option, *wishes.camera_info, TopicTypes(&info_type, 1));
   if (const BagTopic* beside = info_beside(chooser, depth))
     return Chooser::use("camera_info", *beside, "it stands beside the depth images");
-  const auto candidates = chooser.of(Types(&info_type, 1));
+  const auto candidates = chooser.of(TopicTypes(&info_type, 1));
   if (candidates.size() == 1)
     return Chooser::use("camera_info", *candidates.front(), "the only one");
   if (candidates.empty())
@@ -178,7 +180,7 @@ TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const st
 }
 
 void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
-  const Types types = image_types;
+  const TopicTypes types = image_types;
   if (wishes.color) {
     topics.color = chooser.named("color", "--color-topic", *wishes.color, types);
     const BagTopic* info = info_beside(chooser, topics.color->name);
@@ -201,7 +203,7 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
                               std::string_view type, const std::string& name,
                               const std::string& choice) {
   const auto candidates = chooser.of(
-      Types(&type, 1), [&](const std::string& other) { return last_part(other) == name; });
+      TopicTypes(&type, 1), [&](const std::string& other) { return last_part(other) == name; });
   for (const BagTopic* topic : candidates)
     if (topic->name == "/" + name) return Chooser::use(role, *topic, "by its name");
   if (candidates.size() == 1) return Chooser::use(role, *candidates.front(), "by its name");
@@ -214,9 +216,10 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
 void choose_joints(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
   if (wishes.poses == PoseSource::transforms) return;
   for (const std::string& name : wishes.joints)
-    topics.joints.push_back(chooser.named("joints", "--joint-topic", name, Types(&joints_type, 1)));
+    topics.joints.push_back(
+        chooser.named("joints", "--joint-topic", name, TopicTypes(&joints_type, 1)));
   if (!topics.joints.empty()) return;
-  const auto candidates = chooser.of(Types(&joints_type, 1));
+  const auto candidates = chooser.of(TopicTypes(&joints_type, 1));
   for (const BagTopic* topic : candidates)
     if (topic->name == "/joint_states")
       topics.joints = {Chooser::use("joints", *topic, "by its name")};

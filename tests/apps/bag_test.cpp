@@ -177,8 +177,8 @@ TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
   EXPECT_EQ(status(2), "bad_depth");
   EXPECT_NE(message(2).find("'elsewhere'"), std::string::npos) << message(2);
   const std::string notes = report()["summary"]["notes"].dump();
-  EXPECT_NE(notes.find("1 messages of /joint_states cannot be used"), std::string::npos) << notes;
-  EXPECT_NE(outcome.err.find("1 messages of /joint_states"), std::string::npos) << outcome.err;
+  EXPECT_NE(notes.find("1 message of /joint_states cannot be used"), std::string::npos) << notes;
+  EXPECT_NE(outcome.err.find("1 message of /joint_states"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BagTest, AnotherCamerasInfoIsNotTaken) {
