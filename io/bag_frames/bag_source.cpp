@@ -127,9 +127,10 @@ void BagSource::take(const BagMessage& message) {
   if (is(topics.depth))
     return is_plain ? take_depth<ImageMessage>(message)
                     : take_depth<CompressedImageMessage>(message);
-  if (is(topics.camera_info)) return take_info(message, *options_.scene.camera_info);
+  if (is(topics.camera_info))
+    return take_info(message, *options_.scene.camera_info, camera_changes_);
   if (topics.color_info && is(*topics.color_info))
-    return take_info(message, *options_.scene.color_info);
+    return take_info(message, *options_.scene.color_info, color_changes_);
   if (topics.color && options_.with_color && is(*topics.color))
     return is_plain ? take_color<ImageMessage>(message)
                     : take_color<CompressedImageMessage>(message);
@@ -166,23 +167,28 @@ void BagSource::take_depth(const BagMessage& message) {
   queue_.push(index, image.header.stamp, now_);
 }
 
-void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& first) {
+void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& first,
+                          std::vector<CameraChange>& changes) {
   CameraInfoMessage info;
   if (!inbox_.decode(message, info)) return;
   const bool differs = !is_same(info, first);
-  const bool before = !camera_changes_.empty() && camera_changes_.back().differs;
+  const bool before = !changes.empty() && changes.back().differs;
   if (differs == before) return;
   if (differs)
     inbox_.add_fault(inbox_.topic_of(message).name, message.log_time,
                      "it is another camera than at first");
-  camera_changes_.push_back({info.header.stamp, differs});
+  changes.push_back({info.header.stamp, differs});
 }
 
 bool BagSource::camera_differs(std::int64_t stamp) const {
-  bool differs = false;
-  for (const CameraChange& change : camera_changes_)
-    if (change.stamp <= stamp) differs = change.differs;
-  return differs;
+  bool any = false;
+  for (const auto* changes : {&camera_changes_, &color_changes_}) {
+    bool differs = false;
+    for (const CameraChange& change : *changes)
+      if (change.stamp <= stamp) differs = change.differs;
+    any |= differs;
+  }
+  return any;
 }
 
 void BagSource::take_joints(const BagMessage& message) {

@@ -76,7 +76,8 @@ class BagSource final : public FrameSource {
   void take(const BagMessage& message);
   template <typename M>
   void take_depth(const BagMessage& message);
-  void take_info(const BagMessage& message, const CameraInfoMessage& first);
+  void take_info(const BagMessage& message, const CameraInfoMessage& first,
+                 std::vector<CameraChange>& changes);
   void take_joints(const BagMessage& message);
   void take_transforms(const BagMessage& message, bool is_static);
   void take_targets(const BagMessage& message);
@@ -106,7 +107,7 @@ class BagSource final : public FrameSource {
   Ready current_;  // what the caller works on
   DecodedDepth decoded_;
   TransformAnswer T_color_depth_;
-  std::vector<CameraChange> camera_changes_;
+  std::vector<CameraChange> camera_changes_, color_changes_;
   std::optional<std::size_t> size_;
   std::uint64_t images_ = 0;  // read so far
   std::uint64_t given_ = 0;

@@ -269,6 +269,16 @@ TEST_F(BagTest, DepthIsBroughtToTheColorCamera) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("camera: frame 'optical'"), std::string::npos) << outcome.out;
   expect_recorded_labels();
+
+  // Of the two cameras one changes for the second image.
+  int info = 0;
+  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
+    if (++info == 2) camera.p[0] = 61;
+  });
+  ASSERT_EQ(run(color).status, 0);
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(1), "bad_depth");
+  EXPECT_EQ(status(2), "ok");
 }
 
 struct Square {
