@@ -145,8 +145,8 @@ fi
 if $full; then
   check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
 else
-  # Where one thread of ours runs there is no race to find. FrameReader needs the apps' libraries.
+  # Where one thread of ours runs there is no race to find.
   one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
-  check "build (tsan)" build tsan threaded_tests "${everything[@]}" -DPENUMBRA_WITH_SIMULATION=OFF "$avx512" &&
+  check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" &&
     run_tests tsan -L threaded -E "$one_thread"
 fi
