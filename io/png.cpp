@@ -160,7 +160,12 @@ class PngDecoder {
     }
   }
 
-  std::string damaged() const { return std::string("is a damaged PNG: ") + fault_.text.data(); }
+  std::string damaged() const {
+    const std::string said = fault_.text.data();
+    if (said == "Not a PNG file")  // libpng's words for another signature
+      return "is no PNG; convert it to one (colour: 8-bit, depth: 16-bit grey, millimetres)";
+    return "is a damaged PNG: " + said;
+  }
 
   PngFault fault_;
   png_structp png_;

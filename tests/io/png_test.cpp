@@ -174,6 +174,12 @@ TEST_F(Png, TellsMissingFromBad) {
   EXPECT_HAS(of_folder.message, "is not a regular file");
 }
 
+TEST_F(Png, NamesWhatIsWantedOfAnotherFormat) {
+  folder_.write("image.png", "\xff\xd8\xff\xe0 a JPEG's first bytes, named wrongly");
+  Image<std::uint16_t> read;
+  EXPECT_HAS(read_png(file_, read).message, "is no PNG; convert it");
+}
+
 TEST_F(Png, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
   Image<std::uint16_t> read;
