@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/options.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr int most_gl_devices = 1000;
+
+}  // namespace
+
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, std::filesystem::path& to) {
+  return add_option(app, names, help, value, [&to, names](const std::string& text) {
+    if (text.empty()) refuse_option(names, text, "a path");
+    to = text;
+  });
+}
+
+void add_renderer(CLI::App& app, RendererArguments& renderer) {
+  add_option(app, "--renderer",
+             "cpu (default), gl (OpenGL), reference, or auto: the faster of cpu and gl, measured",
+             "NAME", [&](const std::string& text) { renderer.backend = to_backend(text); });
+  add_option(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
+             [&](const std::string& text) {
+               renderer.options.gl_device = to_count("--gl-device", text, 0, most_gl_devices);
+             });
+  add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
+             [&](const std::string& text) {
+               renderer.options.threads =
+                   to_count("--threads", text, 1, RendererOptions::max_threads);
+             });
+}
+
+void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
+  app.add_flag("--allow-missing-meshes", allow_missing_meshes,
+               "go on without meshes that cannot be read; every result names the missing links");
+  app.add_flag("--geometry-fallback", geometry_fallback,
+               "draw links that have only the other geometry by that; inspect says which");
+}
+
+void check_renderer(const RendererArguments& renderer) {
+  const std::optional<Backend> backend = renderer.backend;
+  const int threads = renderer.options.threads, device = renderer.options.gl_device;
+  if (backend && backend != Backend::cpu && threads > 1)
+    throw InputError("--threads " + std::to_string(threads) + ": the " +
+                     std::string(to_string(*backend)) +
+                     " renderer uses one thread; leave --threads out, or choose --renderer cpu");
+  if (backend && backend != Backend::gl && device >= 0)
+    throw InputError("--gl-device " + std::to_string(device) + ": the " +
+                     std::string(to_string(*backend)) +
+                     " renderer uses no OpenGL; choose --renderer gl or auto");
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <apps/penumbra/argument_values.hpp>
+#include <apps/penumbra/arguments.hpp>
+#include <io/numbers.hpp>
+
+namespace penumbra::app {
+
+/// Adds an option that may be given once and whose text `take` reads.
+template <typename Take>
+CLI::Option* add_option(CLI::App& app, const std::string& names, const std::string& help,
+                        const std::string& value, Take take) {
+  return app.add_option_function<std::string>(names, take, help)->type_name(value)->expected(1);
+}
+
+/// The same for an option that may be given several times.
+template <typename Take>
+CLI::Option* add_list(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, Take take) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          names,
+          [take](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) take(text);
+          },
+          help)
+      ->type_name(value)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+template <typename T>
+void add_number(CLI::App& app, const std::string& names, const std::string& help,
+                const std::string& unit, T& to) {
+  const std::string wanted = std::is_floating_point_v<T> ? "a number" : "a whole number from 0";
+  add_option(app, names, help, unit, [&to, names, wanted](const std::string& text) {
+    const auto value = io::parse_number<T>(text);
+    if (!value) refuse_option(names, text, wanted);
+    to = *value;
+  });
+}
+
+/// A path that is not empty.
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, std::filesystem::path& to);
+
+/// Options that several commands have.
+void add_renderer(CLI::App& app, RendererArguments& renderer);
+void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
+
+/// Options that the chosen renderer would not heed are refused.
+void check_renderer(const RendererArguments& renderer);
+
+// The commands with options of many kinds.
+void add_run(CLI::App& app, RunArguments& run);
+void add_experiment(CLI::App& app, ExperimentArguments& experiment);
+void add_simulate(CLI::App& app, SimulateArguments& simulate);
+
+/// Refuses what does not go together, and fills in what follows from the rest.
+void check_run(RunArguments& run);
+
+}  // namespace penumbra::app
