@@ -50,6 +50,7 @@ void OutputBag::save(const FrameReport& report, const io::FrameData& frame,
     ++without_stamp_;
     return;
   }
+  if (!report.missing_links.empty()) missing_link_ = report.missing_links.front();
   results_.set(report, frame.depth_view());
   if (const auto virtual_depth = results_.virtual_depth()) write(virtual_depth_, *virtual_depth);
   write(labels_, results_.labels());
@@ -67,9 +68,14 @@ void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::st
 }
 
 std::vector<std::string> OutputBag::notes() const {
-  if (without_stamp_ == 0) return {};
-  return {file_.string() + ": " + std::to_string(without_stamp_) +
-          " frames have no stamp and are not in it"};
+  std::vector<std::string> lines;
+  if (without_stamp_ > 0)
+    lines.push_back(file_.string() + ": " + std::to_string(without_stamp_) +
+                    " frames have no stamp and are not in it");
+  if (!missing_link_.empty())
+    lines.push_back(file_.string() + ": its mask trusts nothing, and it holds no points: link '" +
+                    missing_link_ + "' is not drawn and may stand anywhere");
+  return lines;
 }
 
 bool is_output_bag(const std::filesystem::path& output) { return output.extension() == ".mcap"; }

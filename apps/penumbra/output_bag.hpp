@@ -51,6 +51,7 @@ class OutputBag final : public RunOutput {
   Channel virtual_depth_, labels_, mask_, filtered_depth_, overlay_, targets_, points_;
   std::vector<std::byte> png_, payload_;
   std::size_t without_stamp_ = 0;
+  std::string missing_link_;
   bool finished_ = false;
 };
 

@@ -16,8 +16,10 @@ namespace {
 /// How long images wait for their pose, in seconds of recording: at 10 joint states a second, three
 /// of which were lost, and 0.1 s of transport.
 constexpr double longest_wait = 0.5;
-constexpr std::int64_t longest_color_wait = 200'000'000;  // nanoseconds
-constexpr std::size_t most_ready = 32;                    // frames that wait for their color
+/// How long for the camera_info and the color image of their stamp: drivers send them together, but
+/// some send one camera_info for all. Nanoseconds of recording.
+constexpr std::int64_t longest_companion_wait = 200'000'000;
+constexpr std::size_t most_ready = 32;  // frames that wait for these
 
 FrameQueueOptions queue_options(const BagSourceOptions& options) {
   return {.policy = DropPolicy::every,
@@ -171,6 +173,8 @@ void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& fi
                           std::vector<CameraChange>& changes) {
   CameraInfoMessage info;
   if (!inbox_.decode(message, info)) return;
+  std::int64_t& newest = &changes == &camera_changes_ ? newest_camera_ : newest_color_;
+  newest = std::max(newest, info.header.stamp);
   const bool differs = !is_same(info, first);
   const bool before = !changes.empty() && changes.back().differs;
   if (differs == before) return;
@@ -257,9 +261,13 @@ void BagSource::give_unposed(std::uint64_t index, Waiting image, const std::stri
 
 bool BagSource::is_presentable() const {
   const Waiting& image = ready_.front().image;
-  return !options_.with_color || !options_.topics.color || ended_ || image.payload.empty() ||
-         ready_.size() >= most_ready || colors_.reaches(image.stamp) ||
-         now_ > image.message.log_time + longest_color_wait;
+  if (ended_ || image.payload.empty() || ready_.size() >= most_ready ||
+      now_ > image.message.log_time + longest_companion_wait)
+    return true;
+  const bool has_color =
+      !options_.with_color || !options_.topics.color || colors_.reaches(image.stamp);
+  const bool has_color_info = !options_.topics.color_info || newest_color_ >= image.stamp;
+  return newest_camera_ >= image.stamp && has_color && has_color_info;
 }
 
 void BagSource::present(FrameData& data, Frame& frame) {
@@ -355,6 +363,9 @@ std::vector<std::string> BagSource::notes() const {
   if (targets_.waiting() > 0)
     lines.push_back(bag + ": " + std::to_string(targets_.waiting()) +
                     " targets came after the last frame and are not judged");
+  if (targets_.replaced() > 0)
+    lines.push_back(bag + ": " + std::to_string(targets_.replaced()) +
+                    " targets are not judged: newer ones of their names came before a frame did");
   return lines;
 }
 

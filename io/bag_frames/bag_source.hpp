@@ -108,6 +108,7 @@ class BagSource final : public FrameSource {
   DecodedDepth decoded_;
   TransformAnswer T_color_depth_;
   std::vector<CameraChange> camera_changes_, color_changes_;
+  std::int64_t newest_camera_ = 0, newest_color_ = 0;  // stamps of camera_infos
   std::optional<std::size_t> size_;
   std::uint64_t images_ = 0;  // read so far
   std::uint64_t given_ = 0;

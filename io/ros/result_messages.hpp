@@ -15,7 +15,7 @@
 namespace penumbra::io {
 
 /// What is told of a frame on ROS's topics: in the camera's frame, with the image's stamp. A pixel
-/// is trusted if it is clear or front.
+/// is trusted if it is clear or front, and none where a link is not drawn: it may stand anywhere.
 class ResultMessages {
  public:
   /// `camera`: of the judged images as they come.

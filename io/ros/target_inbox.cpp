@@ -41,7 +41,7 @@ TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame)
     : robot_(robot), camera_frame_(camera_frame) {}
 
 TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& header) {
-  std::erase_if(told_, [&](const Told& other) { return other.name == name; });
+  replaced_ += std::erase_if(told_, [&](const Told& other) { return other.name == name; });
   Told& told = told_.emplace_back();
   told.name = std::move(name);
   told.image_frame = without_slash(header.frame_id);

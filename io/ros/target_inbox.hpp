@@ -36,6 +36,8 @@ class TargetInbox {
   [[nodiscard]] std::span<const Target> take();
 
   [[nodiscard]] std::size_t waiting() const { return told_.size(); }
+  /// How many were never given, as a newer one of their name came first.
+  [[nodiscard]] std::size_t replaced() const { return replaced_; }
 
  private:
   /// A target and what it refers to; stays where it is.
@@ -57,6 +59,7 @@ class TargetInbox {
   std::list<Told> told_;   // since the last call
   std::list<Told> given_;  // what targets_ refer to
   std::vector<Target> targets_;
+  std::size_t replaced_ = 0;
 };
 
 }  // namespace penumbra::io

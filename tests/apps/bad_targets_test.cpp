@@ -57,7 +57,7 @@ std::vector<BadTargets> bad_regions() {
   };
 }
 
-std::vector<BadTargets> bad_objects_and_settings() {
+std::vector<BadTargets> bad_objects() {
   const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
   return {
       {"KeypointOfRadiusZero", "keypoint: [5, 5]\n  radius: 0\n", {":4: targets[0].radius"}},
@@ -83,6 +83,12 @@ std::vector<BadTargets> bad_objects_and_settings() {
       {"KindUnknown", "circle: [1, 2, 3]\n", {":2: targets[0]", "box, polygon"}},
       {"KindsTwo", "box: [1, 2, 3, 4]\n  point: [0, 0, 1]\n", {"targets[0]", "point"}},
       {"NameTwice", "box: [1, 2, 3, 4]\n- name: a\n  box: [1, 2, 3, 4]\n", {":4: ", "'a'"}},
+  };
+}
+
+std::vector<BadTargets> bad_settings() {
+  const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
+  return {
       {"DepthNegative",
        "box: [1, 2, 3, 4]\n  expected_depth: -1\n",
        {":4: targets[0].expected_depth"}},
@@ -158,8 +164,8 @@ void expect_fault(const Outcome& outcome, const std::vector<std::string>& words)
 class BadTargetsTest : public TargetFaultsTest, public testing::WithParamInterface<BadTargets> {};
 const auto name_of = [](const auto& test) { return test.param.name; };
 INSTANTIATE_TEST_SUITE_P(Regions, BadTargetsTest, testing::ValuesIn(bad_regions()), name_of);
-INSTANTIATE_TEST_SUITE_P(Others, BadTargetsTest, testing::ValuesIn(bad_objects_and_settings()),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Objects, BadTargetsTest, testing::ValuesIn(bad_objects()), name_of);
+INSTANTIATE_TEST_SUITE_P(Settings, BadTargetsTest, testing::ValuesIn(bad_settings()), name_of);
 
 TEST_P(BadTargetsTest, IsToldInOneLine) {
   expect_fault(run("targets:\n- name: a\n  " + GetParam().text), GetParam().words);

@@ -5,7 +5,6 @@
 #include "tiny_recording.hpp"
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -193,6 +192,21 @@ TEST_F(BagTest, AnotherCamerasInfoIsNotTaken) {
   EXPECT_EQ(status(2), "ok");
 }
 
+/// Recorded 120 ms after the image, when the image's pose has long been known.
+TEST_F(BagTest, AnotherCamerasInfoIsNotTakenWhenItComesLate) {
+  int info = 0;
+  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
+    if (++info == 2) camera.k[0] = 61;
+  });
+  for (TinyBag::Message& message : bag_.messages)
+    if (message.topic == "/camera/depth/camera_info") message.log_time += 120'000'000;
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(1), "bad_depth");
+  EXPECT_EQ(status(2), "ok");
+}
+
 TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
   bag_.write_mcap(folder_.path() / "whole.mcap");
   const std::string whole = read_file(folder_.path() / "whole.mcap");
@@ -345,139 +359,6 @@ TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
                                                           {"/goal", "hidden"},
                                                           {"/far", "unknown"}}))
       << "an object that a detector first sees beside the robot may be larger than what it sees";
-}
-
-/// A bag that is spoilt, and words that the one line on stderr must hold.
-struct BadBag {
-  const char* name;
-  std::function<void(TinyBag&)> spoil;
-  std::vector<std::string> words;
-  std::vector<std::string> options = {};
-};
-
-std::ostream& operator<<(std::ostream& out, const BadBag& bad) { return out << bad.name; }
-
-std::vector<BadBag> bad_bags() {
-  const auto without = [](const char* topic) {
-    return [topic](TinyBag& bag) { bag.remove(topic); };
-  };
-  const auto twice = [](const char* from, const char* to) {
-    return [from, to](TinyBag& bag) { bag.copy(from, to); };
-  };
-  const auto as_it_is = [](TinyBag&) {};
-  return {
-      {"NoDepth",
-       without("/camera/depth/image_rect_raw"),
-       {"no images are called depth", "/camera/color/image_raw/compressed", "--depth-topic"}},
-      {"TwoDepths",
-       twice("/camera/depth/image_rect_raw", "/second/depth/image_raw"),
-       {"/camera/depth/image_rect_raw, /second/depth/image_raw", "--depth-topic"}},
-      {"NoCameraInfo", without("/camera/depth/camera_info"), {"has no camera_info"}},
-      {"TwoCameraInfos",
-       [](TinyBag& bag) {
-         bag.rename("/camera/depth/camera_info", "/left/camera_info");
-         bag.copy("/left/camera_info", "/right/camera_info");
-       },
-       {"/left/camera_info, /right/camera_info", "--camera-info-topic"}},
-      {"CameraInfoOfAnotherFrame",
-       [](TinyBag& bag) {
-         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
-                                         [](auto& info) { info.header.frame_id = "left"; });
-       },
-       {"'left'", "'optical'", "--camera-info-topic"}},
-      {"CameraInfoWithoutFocalLength",
-       [](TinyBag& bag) {
-         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
-                                         [](auto& info) { info.p[0] = 0; });
-       },
-       {"/camera/depth/camera_info: p: "}},
-      {"NoRobot", without("/robot_description"), {"has no robot_description", "--robot"}},
-      {"RobotIsNoUrdf",
-       [](TinyBag& bag) {
-         bag.edit<io::StringMessage>("/robot_description",
-                                     [](auto& text) { text.data = "no robot"; });
-       },
-       {"robot_description"}},
-      {"NoJointsAndNoTf",
-       [](TinyBag& bag) {
-         bag.remove("/joint_states");
-         bag.remove("/tf_static");
-       },
-       {"neither joint states nor tf"}},
-      {"TwoJointStates",
-       [](TinyBag& bag) {
-         bag.rename("/joint_states", "/a/joint_states");
-         bag.copy("/a/joint_states", "/b/joint_states");
-       },
-       {"/a/joint_states, /b/joint_states", "--joint-topic"}},
-      {"NoTf", without("/tf_static"), {"has no tf", "--pose"}},
-      {"CameraNotInTf",
-       [](TinyBag& bag) {
-         bag.edit<io::TfMessage>("/tf_static", [](auto& tf) {
-           if (tf.transforms[0].child_frame_id == "optical")
-             tf.transforms[0].child_frame_id = "lens";
-         });
-       },
-       {"'optical'", "tf does not know", "--camera-frame"}},
-      {"OtherProfile",
-       [](TinyBag& bag) {
-         bag.encoding = "ros1";
-         bag.profile = "ros1";
-       },
-       {"no bag of ROS 2", "ros1", "cdr"}},
-      {"NoMessages", [](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"}},
-      {"TopicMissing", as_it_is, {"--depth-topic", "/nowhere"}, {"--depth-topic", "/nowhere"}},
-      {"TopicOfAnotherType",
-       as_it_is,
-       {"--depth-topic", "sensor_msgs/msg/JointState"},
-       {"--depth-topic", "/joint_states"}},
-      {"ParentIsNoLink", as_it_is, {"--parent", "bas"}, {"--parent", "bas"}},
-      {"TargetsOfAnotherType",
-       as_it_is,
-       {"--target-topic", "vision_msgs/msg/Detection2DArray or "},
-       {"--target-topic", "/joint_states"}},
-      {"PosesText", as_it_is, {"--poses"}, {"--poses", "latest"}},
-      {"TimeOffsetText", as_it_is, {"--time-offset"}, {"--time-offset", "soon"}},
-  };
-}
-
-class BadBagTest : public testing::TestWithParam<BadBag> {};
-
-TEST_P(BadBagTest, IsOneClearLineAndStatus2) {
-  const TemporaryFolder folder;
-  write_tiny_recording(folder.path());
-  TinyBag bag = tiny_bag(folder.path());
-  GetParam().spoil(bag);
-  bag.write_mcap(folder.path() / "tiny.mcap");
-  std::vector<std::string> arguments = {"run", folder.path() / "tiny.mcap", "-o",
-                                        folder.path() / "out"};
-  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
-  const Outcome outcome = penumbra(arguments);
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  for (const std::string& word : GetParam().words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
-}
-
-INSTANTIATE_TEST_SUITE_P(Bags, BadBagTest, testing::ValuesIn(bad_bags()),
-                         [](const auto& test) { return test.param.name; });
-
-TEST(BadBagFile, IsOneClearLineAndStatus2) {
-  const TemporaryFolder folder;
-  write_tiny_recording(folder.path());
-  tiny_bag(folder.path()).write_mcap(folder.path() / "whole.mcap");
-  const std::string whole = read_file(folder.path() / "whole.mcap");
-  for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.mcap", ""),
-                                      {"empty.db3", ""},
-                                      {"head.mcap", whole.substr(0, 100)},
-                                      {"text.mcap", "a text of some length, but no bag"},
-                                      {"text.db3", "a text of some length, but no bag"}}) {
-    write_file(folder.path() / file, content);
-    const Outcome outcome = penumbra({"run", folder.path() / file, "-o", folder.path() / "out"});
-    EXPECT_EQ(outcome.status, 2) << file << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << file << outcome.err;
-    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
-  }
 }
 
 }  // namespace

@@ -162,6 +162,25 @@ TEST_F(OutputBagTest, FramesWithoutPoseHaveNoVirtualDepth) {
   });
 }
 
+TEST_F(OutputBagTest, WithoutALinkNothingIsTrusted) {
+  bag_.edit<io::StringMessage>("/robot_description", [](auto& text) {
+    const std::string end = "</robot>";
+    text.data.replace(
+        text.data.rfind(end), end.size(),
+        "<link name=\"hand\"><collision><geometry><mesh filename=\"file:///nowhere.stl\"/>"
+        "</geometry></collision></link><joint name=\"h\" type=\"fixed\"><parent link=\"base\"/>"
+        "<child link=\"hand\"/></joint></robot>");
+  });
+  const Outcome outcome = run("results.mcap", {"--allow-missing-meshes"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("trusts nothing"), std::string::npos) << outcome.err;
+  for_each<io::ImageMessage>("/penumbra/mask", [&](const auto& image, std::size_t) {
+    for (const std::byte pixel : image.data) ASSERT_EQ(pixel, std::byte{255});
+  });
+  for_each<io::PointCloud2Message>(
+      "/penumbra/points", [](const auto& cloud, std::size_t) { EXPECT_EQ(cloud.width, 0U); });
+}
+
 TEST_F(OutputBagTest, RefusesWhatABagCannotHold) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--save", "labels"}, {"--image", "rectified"}}) {

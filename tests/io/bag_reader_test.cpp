@@ -42,7 +42,7 @@ class Bags : public testing::Test {
     return text;
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Bags, OneTopicHasManyPublishers) {
