@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../support/temporary_folder.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,20 +25,6 @@ struct Outcome {
 /// An environment in which EGL finds no driver.
 inline const std::vector<std::string> no_egl_driver = {
     "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
-
-/// An empty folder of its own for the running test, gone with this.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& content);

@@ -20,7 +20,7 @@ class SqliteBags : public testing::Test {
     return all;
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a b?#%.db3";  // a name that a URI must spell
 };
 

@@ -65,7 +65,7 @@ class PoseFile : public testing::Test {
   std::string fault(const std::string& text) {
     return input_error([&] { static_cast<void>(read(text)); });
   }
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(PoseFile, ReadsRowMajor) {

@@ -32,7 +32,7 @@ TEST(FramePattern, RefusesEverythingElse) {
 
 TEST(FramePattern, FindsTheFilesThatExist) {
   using Indices = std::vector<std::int64_t>;
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name :
        {"d_0.png", "d_12.png", "d_7.png", "d_07.png", "d_-1.png", "d_+2.png", "d_.png", "d_8.npy",
         "dd_3.png", "d_4.png.part", "d_99999999999999999999.png", "n/000002.npy", "n/0000020.npy",

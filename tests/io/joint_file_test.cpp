@@ -27,7 +27,7 @@ class JointFile : public testing::Test {
   std::size_t variable(const std::string& name) { return robot_.find_variable(name).value(); }
 
   Robot robot_ = test::arm();
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {

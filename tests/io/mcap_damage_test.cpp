@@ -62,7 +62,7 @@ class McapDamage : public testing::TestWithParam<Compression> {
     }
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.mcap";
   std::vector<Told> messages_;
   std::string whole_;
@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(All, McapDamage,
 // A schema of 100 MB is none, though the file has the bytes.
 TEST(McapClaims, LongSchemasArePassedOver) {
   using namespace test::mcap_file;
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   const std::uint64_t length = 100'000'000;
   const auto path = folder.write("a.mcap", magic + header() + '\x03' + u64(length));
   std::filesystem::resize_file(path, data_start() + 9 + length);  // takes no room on the disk
@@ -171,7 +171,7 @@ TEST(McapClaims, LongSchemasArePassedOver) {
 // What a file claims costs nothing.
 TEST(McapClaims, TakeNoMemory) {
   using namespace test::mcap_file;
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   const std::string huge = u64(~0ULL >> 1), huge32 = u32(~0ULL);
   const std::string head = magic + header();
   std::vector<std::string> files;

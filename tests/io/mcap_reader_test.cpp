@@ -27,7 +27,7 @@ class McapReader : public testing::Test {
     return test::read_mcap(folder_.write("a.mcap", bytes));
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   const std::string definitions_ = schema(1, "p/msg/A") + channel(0, 1, "/a") + channel(7, 1, "/b");
 };
 

@@ -35,7 +35,7 @@ std::string lines(const std::vector<Told>& messages) {
 
 TEST(McapReference, EveryFileOfTheReferenceIsRead) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   const auto made = test::run_script("generate.mjs", folder.path().string());
   ASSERT_EQ(made.status, 0) << made.errors;
   const std::string expected = test::read_bytes(folder.path() / "messages.txt");
@@ -60,7 +60,7 @@ TEST(McapReference, EveryFileOfTheReferenceIsRead) {
 
 TEST(McapReference, ReadsEveryFileOfOurs) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   std::mt19937_64 random = test::seeded_random(81);
   std::string files, expected;
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
@@ -99,7 +99,7 @@ TEST(McapReference, ReadsTheRealRecordingAlike) {
 // The oracle can tell: it refuses a damaged file.
 TEST(McapReference, RefusesDamage) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   const auto path = folder.path() / "a.mcap";
   test::write_mcap(path, {.compression = Compression::none, .chunk_size = 1000, .profile = ""},
                    {{"/a", "-", 1, 2, 3, std::string(100, 'x')}});

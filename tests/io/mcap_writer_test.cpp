@@ -28,7 +28,7 @@ std::vector<Told> some_messages(std::uint64_t seed, std::uint32_t count, std::ui
 
 class McapWriter : public testing::TestWithParam<Compression> {
  protected:
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.mcap";
 };
 
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(All, McapWriter,
 
 class McapWriterFile : public testing::Test {
  protected:
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.mcap";
 };
 

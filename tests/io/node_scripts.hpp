@@ -50,7 +50,7 @@ inline bool node_scripts_are_there() {
 
 /// `arguments`: as a shell takes them.
 inline ScriptResult run_script(const std::string& script, const std::string& arguments) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto output = folder.path() / "output", errors = folder.path() / "errors";
   const std::string command = "node '" + (node_folder() / script).string() + "' " + arguments +
                               " >'" + output.string() + "' 2>'" + errors.string() + "'";

@@ -46,7 +46,7 @@ class Npy : public testing::Test {
     return read(npy(1, header, bytes_of(six))).message;
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "depth.npy";
   Image<float> image_;
 };

@@ -20,7 +20,7 @@ using test::mini_png::Format;
 
 class Png : public testing::Test {
  protected:
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "image.png";
 };
 
@@ -245,7 +245,7 @@ TEST_F(Png, FindsEveryFlippedBit) {
 // With right checksums the damage reaches the decoder: anything may come back, but no crash.
 void survive_damage_under_right_checksums(int rounds) {
   std::mt19937_64 random = test::seeded_random(6);
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto image = random_image<std::uint16_t>(16, 16, random);
   for (int i = 0; i < rounds; ++i) {
     const Format format{16, 16, 16, 0, i % 2 == 0};

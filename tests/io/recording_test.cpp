@@ -83,7 +83,7 @@ class RecordingFolder : public testing::Test {
     return text.replace(text.find(from), from.size(), to);
   }
 
-  test::TempFolder folder_;
+  test::TemporaryFolder folder_;
   Image<Rgb8> color_ = Image<Rgb8>(width, height, Rgb8{1, 2, 3});
 };
 

@@ -44,7 +44,7 @@ Json answer(const std::string& task, const std::filesystem::path& folder) {
 }
 
 struct Exchange {
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   std::string list;
   int files = 0;
 
@@ -90,6 +90,7 @@ Json target_json(const char* name) {
           {"clear_fraction", "NaN"},
           {"unknown_fraction", "NaN"},
           {"hidden_by_other_fraction", "NaN"},
+          {"seen_past_fraction", "NaN"},
           {"blame", Json::array()},
           {"point", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
           {"point_pixels", "0"},
@@ -271,7 +272,7 @@ Json fields_json(const TypeDefinition& type) {
 // But for vision_msgs and our own, which it does not have.
 TEST(RosReference, HasTheSameDefinitions) {
   PENUMBRA_REQUIRE_NPM();
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const Json theirs = answer("definitions", folder.path());
   std::size_t compared = 0;
   test::for_each_sample([&](const auto& message) {

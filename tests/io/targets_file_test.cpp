@@ -21,7 +21,7 @@ class TargetsFileTest : public testing::Test {
                                   .beyond_hides = true});
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
 };
 

@@ -110,7 +110,7 @@ TEST(Yaml, RefusesWhatItCannotBeSureOf) {
 }
 
 TEST(Yaml, BoundsItsWork) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_HAS(
       input_error([&] {
         static_cast<void>(YamlNode::read(folder.write("big.yaml", std::string(2000000, '#'))));

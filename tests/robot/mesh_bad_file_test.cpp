@@ -32,7 +32,7 @@ class MeshBadFile : public ::testing::Test {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_NE(message.find(';'), std::string::npos) << "no remedy: " << message;
   }
-  test::ScratchFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -287,7 +287,7 @@ TEST_F(MeshBadFile, ObjOddities) {
   expect_refused("b.obj", whole + "v 9 9 9", "1 of its 5 vertices are part of no face");
 }
 
-void flip_bytes(const test::ScratchFolder& folder, int trials, std::uint64_t seed) {
+void flip_bytes(const test::TemporaryFolder& folder, int trials, std::uint64_t seed) {
   auto random = test::seeded_random(seed);
   folder.write("a.bin", test::gltf_buffer());
   for (const auto& [name, bytes] : test::samples()) {
@@ -307,7 +307,7 @@ TEST_F(MeshBadFile, RandomDamageNeverCrashes) { flip_bytes(folder_, 300, 7); }
 
 TEST(MeshBadFileFull, RandomDamageNeverCrashes) {
   if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
-  flip_bytes(test::ScratchFolder(), 20000, 8);
+  flip_bytes(test::TemporaryFolder(), 20000, 8);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ class Collada : public ::testing::Test {
   void expect_refused(const std::string& what, const std::string& by, const std::string& why) {
     expect_refused(replaced(test::collada("", test::collada_node()), what, by), why);
   }
-  test::ScratchFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Collada, ReadsAsAssimpDoes) {

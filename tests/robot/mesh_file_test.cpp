@@ -45,7 +45,7 @@ class MeshFile : public ::testing::Test {
   TriangleMesh load_collada(const std::string& asset, const std::string& nodes) {
     return load("a.dae", test::collada(asset, nodes));
   }
-  test::ScratchFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(MeshFile, EveryFormatGivesTheSameSolid) {
@@ -204,7 +204,7 @@ void expect_loads(const std::filesystem::path& file, const TriangleMesh& grid) {
 TEST(MeshFileFull, FiveMillionTrianglesLoad) {
   if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   const TriangleMesh grid = large_grid();
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   expect_loads(folder.write("big.stl", test::binary_stl(grid)), grid);
   expect_loads(folder.write("big.dae", test::collada_of(grid)), grid);
 }

@@ -146,7 +146,7 @@ bool is_sound(const std::filesystem::path& file) {
 
 /// In a child: tries files until the last; `at` tells which one is tried.
 [[noreturn]] void run_child(int trials, std::uint64_t seed, volatile int* at) {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.write("a.bin", test::gltf_buffer());
   const std::vector<test::Sample> samples = fuzz_samples();
   bool sound = true;
@@ -186,7 +186,7 @@ void fuzz(int trials, std::uint64_t default_seed) {
 TEST(MeshFuzz, SwappedWordsAreReadOrRefused) { fuzz(1500, 11); }
 
 TEST(MeshFuzz, MutationsLeaveSomeFilesReadable) {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.write("a.bin", test::gltf_buffer());
   Random random = test::seeded_random(12);
   for (const auto& [name, bytes] : fuzz_samples()) {
