@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags of results, read back and held against what `run` writes into a folder.
+#include "../support/node_scripts.hpp"
 #include "program.hpp"
 #include "tiny_bag.hpp"
 #include "tiny_recording.hpp"
 
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <span>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <io/bag/bag_reader.hpp>
+#include <io/mcap/crc32.hpp>
 #include <io/npy.hpp>
 #include <io/png.hpp>
 #include <io/ros/image_codec.hpp>
@@ -109,6 +115,58 @@ TEST_F(OutputBagTest, HoldsWhatAFolderHolds) {
     EXPECT_EQ(targets.root_frame, "base");
     EXPECT_TRUE(targets.targets.empty());
   });
+}
+
+/// What decode.mjs says of an array of so many bytes.
+nlohmann::json array_of(std::span<const std::byte> bytes) {
+  char crc[9];
+  std::snprintf(crc, sizeof crc, "%08x", io::mcap::crc32(bytes));
+  return {{"length", bytes.size()}, {"crc", crc}};
+}
+
+TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  ASSERT_EQ(run("out", {"--save", "labels,vdi,overlay"}).status, 0);
+  ASSERT_EQ(run("results.mcap").status, 0);
+  const std::string file = (folder_.path() / "results.mcap").string();
+  const ScriptResult checked = run_script("read_back.mjs", file);
+  EXPECT_EQ(checked.status, 0) << checked.errors;
+  const ScriptResult decoded = run_script("decode.mjs", file);
+  ASSERT_EQ(decoded.status, 0) << decoded.errors;
+
+  std::map<std::string, std::size_t> numbers;
+  std::istringstream lines(decoded.output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto told = nlohmann::json::parse(line);
+    const std::string topic = told["topic"];
+    const std::size_t number = numbers[topic]++;
+    const auto& message = told["message"];
+    const std::int64_t stamp = tiny_stamp(static_cast<int>(number));
+    EXPECT_EQ(message["header"]["stamp"]["sec"], stamp / 1'000'000'000) << line;
+    EXPECT_EQ(message["header"]["stamp"]["nanosec"], stamp % 1'000'000'000) << line;
+    EXPECT_EQ(told["logTime"], std::to_string(stamp)) << line;
+    EXPECT_EQ(message["header"]["frame_id"], "optical") << line;
+    if (topic == "/penumbra/labels") {
+      const auto labels = written<std::uint8_t>("labels", number);
+      EXPECT_EQ(message["encoding"], "8UC1");
+      EXPECT_EQ(message["width"], labels.width());
+      EXPECT_EQ(message["height"], labels.height());
+      EXPECT_EQ(message["data"], array_of(std::as_bytes(std::span(labels.data(), labels.size()))));
+    } else if (topic == "/penumbra/vdi") {
+      const auto vdi = written<float>("vdi", number);
+      EXPECT_EQ(message["encoding"], "32FC1");
+      EXPECT_EQ(message["data"], array_of(std::as_bytes(std::span(vdi.data(), vdi.size()))));
+    } else if (topic == "/penumbra/points") {
+      EXPECT_EQ(told["type"], "sensor_msgs/msg/PointCloud2");
+      EXPECT_EQ(message["fields"][2]["name"], "z");
+      EXPECT_EQ(message["row_step"], message["width"].get<int>() * 12);
+    } else if (topic == "/penumbra/targets") {
+      EXPECT_EQ(message["status"], "ok");
+      EXPECT_EQ(message["root_frame"], "base");
+    }
+  }
+  EXPECT_EQ(numbers.size(), 7U);
+  for (const auto& [topic, count] : numbers) EXPECT_EQ(count, 3U) << topic;
 }
 
 TEST_F(OutputBagTest, TrustsClearAndFrontAlone) {

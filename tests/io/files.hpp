@@ -4,22 +4,13 @@
 #include "../support/temporary_folder.hpp"
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include <penumbra/base/error.hpp>
 
 namespace penumbra::test {
-
-inline std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Whether long tests are asked for.
 inline bool full() { return std::getenv("PENUMBRA_FULL") != nullptr; }

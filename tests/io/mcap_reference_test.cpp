@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against the reference library of MCAP, which is written in TypeScript: the scripts of
-// tests/mcap_reference with packages of npm.
+// tests/reference with packages of npm.
 #include "../support/data.hpp"
+#include "../support/node_scripts.hpp"
 #include "../support/random.hpp"
 #include "mcap_files.hpp"
-#include "node_scripts.hpp"
 
 #include <iomanip>
 #include <map>

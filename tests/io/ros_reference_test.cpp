@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our definitions and payloads, read by Foxglove's library, and its definitions against ours. Needs
-// node and npm, and npm's packages once.
+// Our definitions and payloads, read by Foxglove's library, and its definitions against ours.
+#include "../support/node_scripts.hpp"
 #include "files.hpp"
 #include "ros_samples.hpp"
-
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -17,30 +15,10 @@ namespace {
 using Json = nlohmann::json;
 using test::encoded;
 
-constexpr const char* reference = PENUMBRA_ROS_REFERENCE_DIR;
-
-bool run(const std::string& command) { return std::system(command.c_str()) == 0; }
-
-// Whether the packages are there or could be had; several tests may ask at once.
-bool install_packages() {
-  const std::string folder = reference, source = PENUMBRA_SOURCE_DIR "/tests/ros_reference/";
-  const std::string steps = "cp " + source + "* " + folder +
-                            " && { [ -d node_modules/@foxglove/rosmsg2-serialization ] ||"
-                            " npm ci --ignore-scripts --no-audit --no-fund --fetch-timeout=20000"
-                            " --fetch-retries=1; }";
-  std::filesystem::create_directories(folder);
-  return run("cd " + folder + " && command -v node npm flock > /dev/null && flock lock sh -c '" +
-             steps + "' > npm.log 2>&1");
-}
-
-#define PENUMBRA_REQUIRE_NPM() \
-  if (!install_packages()) GTEST_SKIP() << "skipped: no node, or its packages cannot be had"
-
-Json answer(const std::string& task, const std::filesystem::path& folder) {
-  const std::string out = (folder / "answer.json").string();
-  EXPECT_TRUE(run("node " + std::string(reference) + "/reference.mjs " + task + " " +
-                  (folder / "list").string() + " > " + out));
-  return Json::parse(test::read_bytes(out));
+Json answer(const std::string& arguments) {
+  const auto told = test::run_script("ros_messages.mjs", arguments);
+  EXPECT_EQ(told.status, 0) << told.errors;
+  return Json::parse(told.output);
 }
 
 struct Exchange {
@@ -56,10 +34,7 @@ struct Exchange {
     list += type + " " + definition.string() + " " + file.string() + "\n";
   }
 
-  Json decoded() {
-    folder.write("list", list);
-    return answer("decode", folder.path());
-  }
+  Json decoded() { return answer("decode " + folder.write("list", list).string()); }
 };
 
 Json header_json() {
@@ -225,7 +200,7 @@ std::vector<Json> wanted_messages() {
 }
 
 TEST(RosReference, ReadsWhatWeWrite) {
-  PENUMBRA_REQUIRE_NPM();
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     Exchange exchange;
     test::for_each_sample([&](const auto& message) {
@@ -240,7 +215,7 @@ TEST(RosReference, ReadsWhatWeWrite) {
 
 // Detections are put together by hand in our tests: here by a definition, by someone else.
 TEST(RosReference, ReadsDetections) {
-  PENUMBRA_REQUIRE_NPM();
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
   Exchange exchange;
   exchange.add("vision_msgs/msg/Detection2DArray", test::detection_2d_payload());
   exchange.add("vision_msgs/msg/Detection3DArray", test::detection_3d_payload());
@@ -271,9 +246,8 @@ Json fields_json(const TypeDefinition& type) {
 
 // But for vision_msgs and our own, which it does not have.
 TEST(RosReference, HasTheSameDefinitions) {
-  PENUMBRA_REQUIRE_NPM();
-  const test::TemporaryFolder folder;
-  const Json theirs = answer("definitions", folder.path());
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  const Json theirs = answer("definitions");
   std::size_t compared = 0;
   test::for_each_sample([&](const auto& message) {
     const std::string type = message_type<std::decay_t<decltype(message)>>();

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scripts of tests/mcap_reference, run by Node.js in a folder of the build tree.
+// The scripts of tests/reference, run by Node.js in a folder of the build tree.
 #pragma once
 
-#include "files.hpp"
+#include "temporary_folder.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -26,7 +27,7 @@ inline std::filesystem::path node_folder() { return PENUMBRA_NODE_FOLDER; }
 /// run at the same time: the first one installs, the others wait. Whether they are there.
 inline bool node_scripts_are_there() {
   namespace fs = std::filesystem;
-  const fs::path source = fs::path(PENUMBRA_SOURCE_DIR) / "tests" / "mcap_reference";
+  const fs::path source = fs::path(PENUMBRA_SOURCE_DIR) / "tests" / "reference";
   fs::create_directories(node_folder());
   const int lock = ::open((node_folder() / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (lock < 0 || ::flock(lock, LOCK_EX) != 0) return false;

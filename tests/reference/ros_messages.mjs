@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node reference.mjs decode LIST: LIST holds lines "TYPE DEFINITION_FILE PAYLOAD_FILE"; prints the
-// messages as a JSON array. node reference.mjs definitions: prints what others say that Humble's
+// node ros_messages.mjs decode LIST: LIST holds lines "TYPE DEFINITION_FILE PAYLOAD_FILE"; prints the
+// messages as a JSON array. node ros_messages.mjs definitions: prints what others say that Humble's
 // messages are.
 import { readFileSync } from "node:fs";
 import { parse } from "@foxglove/rosmsg";
