@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <string_view>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/dds/graph_log.hpp>
+#include <io/dds/graph_session.hpp>
+
+namespace penumbra::io {
+namespace {
+
+// Images of megabytes come as bursts of datagrams, which wait in the socket while others are read:
+// a default of 1 MiB loses some of them. The kernel cuts this to net.core.rmem_max.
+constexpr std::string_view our_settings =
+    R"(<CycloneDDS><Domain id="any"><Internal><SocketReceiveBufferSize max="16MiB"/></Internal></Domain></CycloneDDS>)";
+
+// Without multicast participants find each other by the ports of their numbers.
+constexpr std::string_view localhost_settings =
+    R"(<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>)"
+    R"(<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>)"
+    R"(<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers>)"
+    R"(</Discovery></Domain></CycloneDDS>)";
+
+// Shared memory would need a daemon, ends the process without it, and passes no bytes in CDR.
+constexpr std::string_view last_settings =
+    R"(<CycloneDDS><Domain id="any"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>)";
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// Settings in XML or names of files, with commas between; later ones override earlier ones.
+std::string all_settings() {
+  std::string all(our_settings);
+  if (environment("ROS_LOCALHOST_ONLY") == "1") all += "," + std::string(localhost_settings);
+  const std::string users = environment("CYCLONEDDS_URI");
+  if (!users.empty()) all += "," + users;
+  return all + "," + std::string(last_settings);
+}
+
+/// Why Cyclone DDS would not start, by the first line that it logged.
+[[noreturn]] void refuse_graph(int domain, const std::string& otherwise) {
+  const auto lines = take_logged_lines();
+  std::string message =
+      "DDS, domain " + std::to_string(domain) + ": " + (lines.empty() ? otherwise : lines.front());
+  if (!environment("CYCLONEDDS_URI").empty())
+    message += "; see CYCLONEDDS_URI, or unset it";
+  else
+    message += "; is there a network interface that is up (ROS_LOCALHOST_ONLY=1 needs none)?";
+  throw InputError(message);
+}
+
+}  // namespace
+
+class GraphDomain {
+ public:
+  static std::shared_ptr<GraphDomain> enter(int id) {
+    static std::mutex mutex;
+    static auto* const domains = new std::map<int, std::weak_ptr<GraphDomain>>;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<GraphDomain> domain = (*domains)[id].lock();
+    if (!domain) (*domains)[id] = domain = std::make_shared<GraphDomain>(id);
+    return domain;
+  }
+
+  explicit GraphDomain(int id) {
+    keep_logged_lines();
+    static_cast<void>(take_logged_lines());
+    entity_ = dds_create_domain(static_cast<dds_domainid_t>(id), all_settings().c_str());
+    if (entity_ < 0) refuse_graph(id, dds_strretcode(entity_));
+  }
+  ~GraphDomain() { dds_delete(entity_); }
+  GraphDomain(const GraphDomain&) = delete;
+  GraphDomain& operator=(const GraphDomain&) = delete;
+
+ private:
+  dds_entity_t entity_ = 0;
+};
+
+GraphSession::GraphSession(int domain) : domain_(GraphDomain::enter(domain)) {
+  participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
+  if (participant_ < 0) refuse_graph(domain, dds_strretcode(participant_));
+  waitset_ = dds_create_waitset(participant_);
+  waker_ = dds_create_guardcondition(participant_);
+  if (waitset_ < 0 || waker_ < 0 || dds_waitset_attach(waitset_, waker_, waker_) < 0) {
+    dds_delete(participant_);
+    refuse_graph(domain, "no memory for a waitset");
+  }
+}
+
+GraphSession::~GraphSession() { dds_delete(participant_); }
+
+dds_entity_t checked(dds_return_t result, const std::string& what) {
+  if (result < 0) throw InputError(what + ": DDS refuses it: " + dds_strretcode(result));
+  return result;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// A publisher or subscriber of ROS 2's graph on another vendor's DDS, for tests: messages are bytes
+// in CDR, of any type.
+//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS SIZE COUNT HZ  messages of pattern.hpp, once
+//   somebody
+//                                                             listens
+//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS               messages from stdin, each behind its
+//                                                             size in 4 bytes
+//   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS             messages to stdout, likewise
+//   fast_dds_peer DOMAIN count TOPIC TYPE QOS                 a line for each message of
+//   pattern.hpp
+// TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
+// latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone; net:N: on
+// the network. Ends with stdin, and pattern messages when all are acknowledged.
+#include "pattern.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using Bytes = std::vector<std::byte>;
+
+class BytesType final : public dds::TopicDataType {
+ public:
+  explicit BytesType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = 1024;  // grows
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const Bytes& bytes = *static_cast<Bytes*>(data);
+    if (payload->max_size < bytes.size()) return false;
+    std::memcpy(payload->data, bytes.data(), bytes.size());
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    payload->encapsulation = CDR_LE;
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    const auto* const from = reinterpret_cast<const std::byte*>(payload->data);
+    static_cast<Bytes*>(data)->assign(from, from + payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+struct Qos {
+  bool reliable = false, latched = false;
+  int depth = 5;
+};
+
+Qos to_qos(const std::string& text) {
+  Qos qos;
+  qos.reliable = text.find("reliable") != std::string::npos;
+  qos.latched = text.find("latched") != std::string::npos;
+  const std::size_t depth = text.find("depth=");
+  if (depth != std::string::npos) qos.depth = std::stoi(text.substr(depth + 6));
+  return qos;
+}
+
+template <typename EntityQos>
+EntityQos entity_qos(const Qos& qos) {
+  EntityQos made;
+  made.reliability().kind =
+      qos.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  made.durability().kind =
+      qos.latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  made.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  made.history().depth = qos.depth;
+  made.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  return made;
+}
+
+/// 127.0.0.1 alone, without multicast or shared memory.
+void stay_here(dds::DomainParticipantQos& qos) {
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  udp->sendBufferSize = udp->receiveBufferSize = 4 << 20;
+  udp->maxInitialPeersRange = 33;  // participants of Cyclone DDS's that it finds
+  qos.transport().user_transports.push_back(udp);
+  qos.transport().use_builtin_transports = false;
+  rtps::Locator_t here;
+  rtps::IPLocator::setIPv4(here, "127.0.0.1");
+  qos.wire_protocol().builtin.initialPeersList.push_back(here);
+  qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(here);
+}
+
+class Peer {
+ public:
+  Peer(std::string domain, const std::string& topic, const std::string& type) {
+    dds::DomainParticipantQos qos;
+    qos.name("fast_dds_peer");
+    if (domain.rfind("net:", 0) == 0)
+      domain = domain.substr(4);
+    else
+      stay_here(qos);
+    qos.wire_protocol().builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
+    qos.wire_protocol().builtin.discovery_config.leaseDuration = {3, 0};
+    qos.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
+    participant = dds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<std::uint32_t>(std::stoul(domain)), qos);
+    if (participant == nullptr) throw std::runtime_error("no participant");
+    dds::TypeSupport(new BytesType(type)).register_type(participant);
+    this->topic = participant->create_topic(topic, type, dds::TOPIC_QOS_DEFAULT);
+    if (this->topic == nullptr) throw std::runtime_error("no topic");
+  }
+  ~Peer() {
+    participant->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  dds::DomainParticipant* participant = nullptr;
+  dds::Topic* topic = nullptr;
+};
+
+bool stdin_ended() {
+  pollfd in{STDIN_FILENO, POLLIN, 0};
+  if (poll(&in, 1, 0) <= 0) return false;
+  char byte = 0;
+  return read(STDIN_FILENO, &byte, 1) <= 0;
+}
+
+struct Pattern {
+  std::size_t size;
+  std::uint32_t count;
+  double rate;
+};
+
+void say(const std::string& line) { std::cout << line << std::endl; }
+
+void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos& qos) {
+  using namespace std::chrono_literals;
+  dds::PublicationMatchedStatus matched;
+  while (!qos.latched &&
+         writer.get_publication_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
+         matched.current_count == 0) {
+    if (stdin_ended()) return;
+    std::this_thread::sleep_for(5ms);
+  }
+  say("matched");
+  std::this_thread::sleep_for(100ms);  // the other side may know of the match a little later
+  std::uint32_t refused = 0;
+  auto next = std::chrono::steady_clock::now();
+  for (std::uint32_t number = 0; number < pattern.count; ++number) {
+    auto message = penumbra::test::pattern_message(number, pattern.size);
+    if (!writer.write(&message)) ++refused;
+    next += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / pattern.rate));
+    std::this_thread::sleep_until(next);
+  }
+  if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
+  say("written " + std::to_string(pattern.count - refused));
+  while (!stdin_ended()) std::this_thread::sleep_for(20ms);
+}
+
+void publish_stdin(dds::DataWriter& writer) {
+  std::uint32_t size = 0;
+  while (std::fread(&size, sizeof(size), 1, stdin) == 1) {
+    Bytes message(size);
+    if (std::fread(message.data(), 1, size, stdin) != size) return;
+    if (!writer.write(&message)) std::cerr << "a message was refused\n";
+  }
+}
+
+template <typename Take>
+void read_until_stdin_ends(dds::DataReader& reader, Take take) {
+  Bytes message;
+  dds::SampleInfo info;
+  while (!stdin_ended()) {
+    reader.wait_for_unread_message({0, 20'000'000});
+    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
+      if (info.valid_data) take(message);
+  }
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string& mode = words[1];
+  const Qos qos = to_qos(words[4]);
+  Peer peer(words[0], words[2], words[3]);
+  if (mode == "publish") {
+    auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    auto* const writer =
+        publisher->create_datawriter(peer.topic, entity_qos<dds::DataWriterQos>(qos));
+    if (writer == nullptr) return 1;
+    say("ready");
+    if (words.size() == 8)
+      publish_pattern(*writer,
+                      {std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
+                       std::stod(words[7])},
+                      qos);
+    else
+      publish_stdin(*writer);
+    return 0;
+  }
+  auto* const subscriber = peer.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  auto* const reader =
+      subscriber->create_datareader(peer.topic, entity_qos<dds::DataReaderQos>(qos));
+  if (reader == nullptr) return 1;
+  if (mode == "count") {
+    say("ready");
+    read_until_stdin_ends(*reader, [](const Bytes& message) {
+      say(std::to_string(penumbra::test::pattern_number(message)) + " " +
+          std::to_string(message.size()));
+    });
+  } else {
+    read_until_stdin_ends(*reader, [](const Bytes& message) {
+      const auto size = static_cast<std::uint32_t>(message.size());
+      std::fwrite(&size, sizeof(size), 1, stdout);
+      std::fwrite(message.data(), 1, size, stdout);
+      std::fflush(stdout);
+    });
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const bool known = words.size() == 5 || (words.size() == 8 && words[1] == "publish");
+  if (!known) {
+    std::cerr << "fast_dds_peer DOMAIN publish|subscribe|count TOPIC TYPE QOS [SIZE COUNT HZ]\n";
+    return 2;
+  }
+  try {
+    return run(words);
+  } catch (const std::exception& error) {
+    std::cerr << "fast_dds_peer: " << error.what() << '\n';
+    return 1;
+  }
+}
