@@ -89,7 +89,7 @@ check_tidy() {
   return "$status"
 }
 
-groups=(build sim test lint)
+groups=(build ros sim test lint)
 ! $full || groups+=(bench)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 

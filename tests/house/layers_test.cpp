@@ -55,6 +55,7 @@ const std::vector<Library>& libraries() {
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
                                         {"sqlite3.h", "io/bag", 1},
+                                        {"dds/", "io/dds", 8},
                                         {"mujoco/", "sim", 1},
                                         {"nlohmann/", "sim", 1},
                                         {"opencv2/", "sim", 1},

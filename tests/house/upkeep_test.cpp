@@ -78,6 +78,8 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"PNG", "libpng-dev"},
                                                   {"JPEG", "libjpeg62-turbo-dev"},
                                                   {"fastcdr", "libfastcdr-dev"},
+                                                  {"fastrtps", "libfastrtps-dev"},
+                                                  {"CycloneDDS", "cyclonedds-dev"},
                                                   {"CLI11", "libcli11-dev"},
                                                   {"GTest", "libgtest-dev"},
                                                   {"nlohmann_json", "nlohmann-json3-dev"},
@@ -93,7 +95,7 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"OpenGL", "libegl-dev"}};
   std::set<std::string> listed;
   std::istringstream names(
-      output_of(PENUMBRA_SOURCE_DIR "/scripts/packages.sh build sim test bench lint"));
+      output_of(PENUMBRA_SOURCE_DIR "/scripts/packages.sh build ros sim test bench lint"));
   for (std::string name; names >> name;) listed.insert(name);
 
   const std::regex pattern(R"(^\s*find_package\(\s*([A-Za-z0-9_-]+))");
