@@ -51,8 +51,8 @@ std::vector<std::uint16_t> depth_image(int index) {
 
 const std::vector<std::vector<std::uint16_t>>& images() {
   static const std::vector<std::vector<std::uint16_t>> all = [] {
-    std::vector<std::vector<std::uint16_t>> made;
-    for (int i = 0; i < 8; ++i) made.push_back(depth_image(i));
+    std::vector<std::vector<std::uint16_t>> made(8);
+    for (std::size_t i = 0; i < made.size(); ++i) made[i] = depth_image(static_cast<int>(i));
     return made;
   }();
   return all;

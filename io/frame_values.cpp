@@ -114,6 +114,10 @@ ValueColumns columns_of(const ValueTables::Table& table, const ValueFormat& form
   }
   for (const std::string_view name : format.optional_columns)
     if (const auto column = table.find(name)) columns.numbers.push_back(*column);
+  const std::size_t more = columns.numbers.size() - format.columns.size();
+  if (more > 0 && more < format.optional_columns.size())
+    throw InputError(table.place(table.header_line) + "has some of the columns" +
+                     list_of(format.optional_columns) + "; give all of these or none");
   columns.stamp = table.find(stamp_column);
   columns.depth = table.find(depth_column);
   std::vector<std::string_view> known{"frame", "name", stamp_column, depth_column};

@@ -15,72 +15,12 @@
 #include <io/names.hpp>
 #include <io/png.hpp>
 #include <io/target_shapes.hpp>
+#include <io/target_values-inl.hpp>
 
 namespace penumbra::io {
 namespace {
 
-constexpr double quaternion_error = 0.01;  // of its length: rounding in a file, not a wrong value
-
 using MakeShape = std::function<TargetShape(const FrameValue&)>;
-
-ValueFormat fixed_format(std::vector<std::string_view> columns,
-                         std::vector<std::string_view> optional_columns = {}) {
-  const std::size_t least = columns.size(), most = least + optional_columns.size();
-  return {[=](const YamlNode& node) {
-            std::vector<double> numbers = node.numbers();
-            if (numbers.size() != least && numbers.size() != most) {
-              std::string wanted;
-              for (const std::string_view column : columns)
-                wanted += (wanted.empty() ? "" : ", ") + std::string(column);
-              node.fail("has " + std::to_string(numbers.size()) + " values; [" + wanted +
-                        "] is wanted");
-            }
-            return numbers;
-          },
-          std::move(columns), std::move(optional_columns)};
-}
-
-const ValueFormat& pose_format() {
-  static const ValueFormat format = fixed_format({"x", "y", "z", "qx", "qy", "qz", "qw"});
-  return format;
-}
-
-Eigen::Vector3d position_of(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
-
-Eigen::Isometry3d isometry_of(const std::vector<double>& n) {
-  Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
-  if (!(std::abs(q.norm() - 1.0) <= quaternion_error))
-    throw InputError("quaternion has the length " + std::to_string(q.norm()) +
-                     "; x, y, z, w of length 1 are wanted");
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = q.normalized().toRotationMatrix();
-  pose.translation() = position_of(n);
-  return pose;
-}
-
-double positive(const YamlNode& node) {
-  const double value = node.number();
-  if (value > 0.0) return value;
-  node.fail("is " + node.text() + "; a number above 0 is wanted");
-}
-
-LinkFrame link_of(const YamlNode& node, const Robot& robot) {
-  const YamlNode* link = node.find("link");
-  if (link == nullptr) return std::nullopt;
-  if (const auto index = robot.find_link(link->text())) return robot.links()[*index];
-  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
-  link->fail("'" + link->text() + "' is no link of the robot" + near_names(link->text(), known));
-}
-
-/// Runs `call`; what it throws stands at `place`.
-template <typename F>
-auto at_place(const std::string& place, const F& call) {
-  try {
-    return call();
-  } catch (const InputError& fault) {
-    throw InputError(place + fault.what());
-  }
-}
 
 /// What would make a region unknown in every frame is told at once.
 void check_shape(const TargetShape& shape, const Intrinsics& images) {
@@ -371,34 +311,6 @@ ShapeSource read_shape(const TargetReader& reader) {
   ShapeSource source = chosen->read(reader, reader.node.at(chosen->key));
   source.has_pose = chosen->has_pose;
   return source;
-}
-
-EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
-  node.allow_only({"pose", "point", "link"});
-  const YamlNode* pose = node.find("pose");
-  if ((pose == nullptr) == (node.find("point") == nullptr))
-    node.fail("one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z] is wanted");
-  const LinkFrame link = link_of(node, reader.context.robot);
-  const bool is_pose = pose != nullptr;
-  const auto make = [=](const FrameValue& value) {
-    TargetEstimate estimate{.stamp = value.stamp, .frame = link};
-    if (is_pose)
-      estimate.value = isometry_of(value.numbers);
-    else
-      estimate.value = position_of(value.numbers);
-    return estimate;
-  };
-  auto values = std::make_shared<FrameValues>(
-      is_pose ? reader.values(*pose, pose_format())
-              : reader.values(node.at("point"), fixed_format({"x", "y", "z"})));
-  values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
-  const auto of_frame = [=](std::int64_t index) -> std::optional<TargetEstimate> {
-    const FrameValue value = values->at(index);
-    if (!value.fault.empty() && value.place.empty()) return std::nullopt;
-    if (!value.fault.empty()) throw InputError(value.fault);
-    return at_place(value.place, [&] { return make(value); });
-  };
-  return {of_frame, is_pose};
 }
 
 }  // namespace penumbra::io

@@ -23,6 +23,7 @@ class Bags : public testing::Test {
   void mcap(const std::string& name, const std::vector<std::int64_t>& times,
             const std::string& topic = "/a") {
     std::vector<Told> messages;
+    messages.reserve(times.size());
     for (const std::int64_t time : times) messages.push_back(said(topic, "p/msg/A", time, name));
     test::write_mcap(path(name),
                      {.compression = mcap::Compression::lz4, .chunk_size = 50, .profile = "ros2"},

@@ -175,14 +175,16 @@ TEST(McapClaims, TakeNoMemory) {
   const std::string huge = u64(~0ULL >> 1), huge32 = u32(~0ULL);
   const std::string head = magic + header();
   std::vector<std::string> files;
+  const std::string rest = huge + std::string(100, 'a') + footer();
   for (const int opcode : {1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 15, 16, 200})
-    files.push_back(head + static_cast<char>(opcode) + huge + std::string(100, 'a') + footer());
+    files.push_back(std::string(head).append(1, static_cast<char>(opcode)).append(rest));
   for (const std::string& compression : {std::string("lz4"), std::string("zstd"), std::string()})
     for (const std::uint64_t size : {std::uint64_t{60} << 20, ~std::uint64_t{0}})
       files.push_back(file(compressed_chunk(compression, size, std::string(50, '\0'))));
   for (const int opcode : {3, 4, 8, 11})
     for (std::size_t before = 0; before < 60; ++before)
-      files.push_back(file("", record(opcode, std::string(before, '\1') + huge32 + huge)));
+      files.push_back(
+          file("", record(opcode, std::string(before, '\1').append(huge32).append(huge))));
   files.push_back(magic + record(1, huge32 + huge));
   for (const std::string& bytes : files) {
     const auto path = folder.write("a.mcap", bytes);

@@ -58,9 +58,11 @@ TEST_P(McapWriter, KeepsMessagesOfEverySize) {
     for (char& c : data) c = static_cast<char>(random());
     messages.push_back({"/a", "-", 1, static_cast<std::int64_t>(messages.size()), 0, data});
   }
-  messages.push_back(
-      {"/a", "-", 1, 99, 0, std::string(20'000'000, 'x')});  // shrinks a thousandfold
-  messages.push_back({"/a", "-", 1, 100, 0, std::string(70'000'000, 'x')});  // like a bomb
+  for (const std::size_t size : {20'000'000, 70'000'000}) {  // shrink a thousandfold, like a bomb
+    std::string data;
+    data.resize(size, 'x');
+    messages.push_back({"/a", "-", 1, static_cast<std::int64_t>(size), 0, data});
+  }
   test::write_mcap(file_, {GetParam(), 1 << 20, ""}, messages);
   const auto all = test::read_mcap(file_);
   EXPECT_TRUE(all.faults.empty()) << all.faults[0];

@@ -48,6 +48,36 @@ TEST_F(TargetsFileTest, GivesEachFrameItsValues) {
   EXPECT_TRUE(file.of_frame(3)[0].fault.empty());
 }
 
+TEST_F(TargetsFileTest, EstimatesSayHowSureTheyAre) {
+  folder_.write("e.csv",
+                "frame,x,y,z,qx,qy,qz,qw,position_sigma,orientation_sigma\n"
+                "0,1,2,3,0,0,0,1,0.002,0.05\n1,1,2,3,0,0,0,1,0,0.05\n");
+  const std::string head = "targets:\n- name: a\n  keypoint: [1, 2]\n  handling: ";
+  io::TargetsFile file = open(head + "pose\n  estimate: {pose: {csv: e.csv}}\n");
+  const auto& pose = file.of_frame(0)[0].estimate;
+  ASSERT_TRUE(pose && pose->covariance);
+  Matrix6d wanted = Matrix6d::Zero();
+  wanted.diagonal() << 4e-6, 4e-6, 4e-6, 2.5e-3, 2.5e-3, 2.5e-3;
+  EXPECT_TRUE(pose->covariance->isApprox(wanted)) << *pose->covariance;
+  EXPECT_HAS(file.of_frame(1)[0].fault, "e.csv:3: sigma of the estimate is 0");
+  EXPECT_FALSE(file.of_frame(1)[0].estimate) << "never one that is not sure";
+
+  io::TargetsFile plain = open(head + "point\n  estimate: {point: [1, 2, 3, 0.01]}\n");
+  EXPECT_DOUBLE_EQ((*plain.of_frame(0)[0].estimate->covariance)(1, 1), 1e-4);
+  io::TargetsFile without = open(head + "point\n  estimate: {point: [1, 2, 3]}\n");
+  EXPECT_FALSE(without.of_frame(0)[0].estimate->covariance);
+
+  folder_.write("half.csv", "frame,x,y,z,qx,qy,qz,qw,position_sigma\n");
+  EXPECT_HAS(input_error([&] {
+               static_cast<void>(open(head + "pose\n  estimate: {pose: {csv: half.csv}}\n"));
+             }),
+             "half.csv:1: has some of the columns");
+  EXPECT_HAS(input_error([&] {
+               static_cast<void>(open(head + "point\n  estimate: {point: [1, 2, 3, -1]}\n"));
+             }),
+             ":5: targets[0].estimate.point: sigma");
+}
+
 /// One for all frames, and one for each: a frame without a file has no target.
 TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
   Image<std::uint8_t> mask(64, 48);

@@ -43,7 +43,7 @@ class QueueTest : public testing::Test {
     return frame_.stamp / ms;
   }
 
-  void expect_dropped(std::vector<std::int64_t> stamps_ms, DropReason reason) {
+  void expect_dropped(const std::vector<std::int64_t>& stamps_ms, DropReason reason) {
     std::vector<std::int64_t> seen;
     for (const DroppedFrame& frame : dropped_) {
       EXPECT_EQ(frame.reason, reason);
