@@ -2,10 +2,13 @@
 // A type of DDS whose samples are bytes in CDR, whatever they mean.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 
@@ -15,9 +18,23 @@
 namespace penumbra::io {
 
 /// What became of the samples that arrived as a type.
-struct ArrivalCounts {
+class ArrivalCounts {
+ public:
+  using Writer = std::array<std::byte, 16>;  // its GUID
+
   std::atomic<std::uint64_t> received = 0;
   std::atomic<std::uint64_t> overwritten = 0;
+  std::atomic<std::uint64_t> lost = 0;
+
+  /// Of a sample in its order of arrival: those whose numbers lie between it and the one before are
+  /// lost.
+  void note_number(const Writer& writer, std::int64_t number);
+
+ private:
+  static constexpr std::size_t most_writers = 1000;
+
+  std::mutex mutex_;
+  std::map<Writer, std::int64_t> last_;
 };
 
 /// A new type of that DDS name for one topic entity, which then owns it. Samples that arrive as it

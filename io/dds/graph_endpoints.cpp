@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include <dds/dds.h>
-
 #include <io/dds/graph_endpoints.hpp>
 #include <io/dds/graph_names.hpp>
 #include <io/dds/graph_session.hpp>

@@ -74,9 +74,6 @@ class DdsSubscription final : public Subscription {
     dds_subscription_matched_status_t matched{};
     if (dds_get_subscription_matched_status(reader_, &matched) == DDS_RETCODE_OK)
       status.publishers = static_cast<int>(matched.current_count);
-    dds_sample_lost_status_t lost{};
-    if (dds_get_sample_lost_status(reader_, &lost) == DDS_RETCODE_OK)
-      status.lost = lost.total_count;
     dds_requested_incompatible_qos_status_t refused{};
     if (dds_get_requested_incompatible_qos_status(reader_, &refused) == DDS_RETCODE_OK &&
         refused.total_count > 0) {
@@ -86,6 +83,7 @@ class DdsSubscription final : public Subscription {
     status.taken = taken_;
     status.overwritten = counts_->overwritten;
     status.received = counts_->received;
+    status.lost = counts_->lost;
     return status;
   }
 

@@ -39,7 +39,8 @@ struct SubscriptionStatus {
   std::uint64_t received = 0;     ///< messages that arrived whole
   std::uint64_t taken = 0;        ///< of these, those that take() gave
   std::uint64_t overwritten = 0;  ///< of these, those that newer ones replaced before take()
-  /// Messages that DDS knows not to have arrived: with best effort, those between two that did.
+  /// Messages between two of a publisher that arrived, by its numbers: dropped on the way, or, with
+  /// QoS reliable, given up by a publisher that keeps too few for those who are behind.
   std::uint64_t lost = 0;
   std::uint64_t refused = 0;    ///< publishers that were met whose QoS does not fit
   std::string refused_because;  ///< the last one's policy: "reliability"; empty: none

@@ -2,8 +2,6 @@
 #include <array>
 #include <new>
 
-#include <dds/dds.h>
-
 #include <io/dds/qos.hpp>
 
 namespace penumbra::io {
