@@ -108,6 +108,10 @@ class DdsPublication final : public Publication {
     return dds_writecdr(writer_, make_cdr_sample(topic_.type(), data)) == DDS_RETCODE_OK;
   }
 
+  bool flush(std::chrono::nanoseconds at_most) override {
+    return dds_wait_for_acks(writer_, at_most.count()) == DDS_RETCODE_OK;
+  }
+
   [[nodiscard]] int subscribers() const override {
     dds_publication_matched_status_t matched{};
     dds_get_publication_matched_status(writer_, &matched);

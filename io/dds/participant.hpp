@@ -71,6 +71,9 @@ class Publication {
   /// are, or memory is short, and the message was not written, for nobody.
   [[nodiscard]] virtual bool write(std::span<const std::byte> data) = 0;
 
+  /// Waits until reliable subscribers have all that was written. False: not in that time.
+  virtual bool flush(std::chrono::nanoseconds at_most) = 0;
+
   /// Matched now, those of this participant included.
   [[nodiscard]] virtual int subscribers() const = 0;
 };

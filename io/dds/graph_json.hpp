@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <io/dds/participant.hpp>
+
+namespace penumbra::io {
+
+/// What `topics --json` prints; what discovery does not tell is null.
+[[nodiscard]] std::string graph_json(int domain, std::span<const GraphTopic> topics);
+
+}  // namespace penumbra::io
