@@ -7,6 +7,7 @@
 #include <penumbra/base/version.hpp>
 
 #include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/graph_options.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 
@@ -77,6 +78,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   DoctorArguments doctor;
   ExperimentArguments experiment;
   SimulateArguments simulate;
+  TopicsArguments topics;
+  PlayArguments play;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -95,6 +98,11 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* const simulate_app =
       app.add_subcommand("simulate", "record a simulated scene with its truth");
   add_simulate(*simulate_app, simulate);
+  CLI::App* const topics_app =
+      app.add_subcommand("topics", "list the live topics of ROS 2's graph");
+  add_topics(*topics_app, topics);
+  CLI::App* const play_app = app.add_subcommand("play", "publish a bag on ROS 2's graph");
+  add_play(*play_app, play);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -111,9 +119,11 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   if (doctor_app->parsed()) return doctor;
   if (experiment_app->parsed()) return experiment;
   if (simulate_app->parsed()) return simulate;
+  if (topics_app->parsed()) return topics;
+  if (play_app->parsed()) return play;
   throw InputError(
-      "a command is needed: run, render, inspect, doctor, simulate or experiment (penumbra --help "
-      "tells more)");
+      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics or play "
+      "(penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

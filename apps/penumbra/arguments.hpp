@@ -15,6 +15,7 @@
 #include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>
 
+#include <io/dds/participant.hpp>
 #include <sim/experiments/experiment.hpp>
 #include <sim/simulation.hpp>
 
@@ -90,6 +91,25 @@ struct InspectArguments {
   bool json = false;
 };
 
+struct TopicsArguments {
+  io::ParticipantOptions graph;
+  double wait = 2.0;  ///< seconds
+  bool json = false;
+};
+
+struct PlayArguments {
+  std::filesystem::path bag;
+  io::ParticipantOptions graph;
+  double rate = 1.0;
+  double start = 0.0;  ///< seconds after the first message
+  double delay = 1.0;  ///< seconds before it is published
+  bool loop = false;
+  std::vector<std::string> topics;   ///< empty: all
+  std::vector<std::string> latched;  ///< empty: by their names
+  std::map<std::string, std::string> remaps;
+  bool restamp = false;
+};
+
 struct DoctorArguments {
   bool json = false;
 };
@@ -103,8 +123,9 @@ struct SimulateArguments {
   sim::SimulationOptions options;
 };
 
-using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                             SimulateArguments, ExperimentArguments>;
+using Command =
+    std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                 SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

@@ -12,5 +12,7 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const DoctorArguments& arguments);
 [[nodiscard]] int execute(const ExperimentArguments& arguments);
 [[nodiscard]] int execute(const SimulateArguments& arguments);
+[[nodiscard]] int execute(const TopicsArguments& arguments);
+[[nodiscard]] int execute(const PlayArguments& arguments);
 
 }  // namespace penumbra::app

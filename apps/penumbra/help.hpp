@@ -16,6 +16,8 @@ Examples:
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
   penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
   penumbra simulate conveyor -o belt         record a simulated scene with its truth
+  penumbra topics                            list the live topics of ROS 2's graph
+  penumbra play bag.mcap                     publish a bag on ROS 2's graph
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault,
@@ -87,5 +89,24 @@ Examples:
   penumbra simulate conveyor -o belt
   penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
   penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
+
+inline constexpr const char* topics_examples = R"(
+Lists what others publish and subscribe to, with QoS; those whose QoS or type differ do not hear each
+other. Programs on other machines and those of ROS_DOMAIN_ID are found as ROS 2 finds them;
+ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
+
+Examples:
+  penumbra topics
+  penumbra topics --domain 7 --wait 5 --json)";
+
+inline constexpr const char* play_examples = R"(
+Publishes the bag's messages as they are, at the pace at which they were recorded, with QoS reliable.
+Ctrl-C ends it. Topics and what was not published are told.
+
+Examples:
+  penumbra play bag.mcap
+  penumbra play bag.mcap --loop --restamp
+  penumbra play bag.mcap --rate 0.5 --start 10 --topics /tf,/tf_static,/camera/depth/image_raw
+  penumbra play bag.mcap --remap /joint_states:=/arm/joint_states --domain 7)";
 
 }  // namespace penumbra::app

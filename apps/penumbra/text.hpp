@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -21,6 +23,10 @@ namespace penumbra::app {
 
 /// A value with `digits` after the point.
 [[nodiscard]] std::string fixed(double value, int digits);
+
+[[nodiscard]] inline std::chrono::nanoseconds to_duration(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+}
 
 /// Prints rows of equal length on stdout, columns aligned.
 void print_table(const std::vector<std::vector<std::string>>& rows);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <apps/penumbra/arguments.hpp>
+
+namespace penumbra::app {
+
+// Options of the commands that take part in ROS 2's graph.
+
+void add_domain(CLI::App& app, io::ParticipantOptions& graph);
+
+/// --remap FROM:=TO, from full name to full name, each once.
+void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps);
+
+/// A number of seconds from 0 to `most`.
+[[nodiscard]] double to_seconds(const std::string& option, const std::string& text, double most);
+
+void add_topics(CLI::App& app, TopicsArguments& topics);
+void add_play(CLI::App& app, PlayArguments& play);
+
+}  // namespace penumbra::app

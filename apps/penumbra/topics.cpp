@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/stop_signal.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/dds/graph_json.hpp>
+#include <io/dds/participant.hpp>
+
+namespace penumbra::app {
+namespace {
+
+std::string joined(const std::set<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : " | ") + word;
+  return all.empty() ? "-" : all;
+}
+
+std::string qos_of(const std::vector<io::GraphEndpoint>& endpoints) {
+  std::set<std::string> words;
+  for (const io::GraphEndpoint& endpoint : endpoints)
+    words.insert(std::string(endpoint.qos.reliable ? "reliable" : "best effort") +
+                 (endpoint.qos.latched ? ", latched" : ""));
+  return joined(words);
+}
+
+std::string hosts_of(const io::GraphTopic& topic) {
+  std::set<std::string> hosts;
+  for (const auto* const side : {&topic.publishers, &topic.subscribers})
+    for (const io::GraphEndpoint& endpoint : *side)
+      if (!endpoint.host.empty()) hosts.insert(endpoint.host);
+  return joined(hosts);
+}
+
+void print_topics(int domain, const std::vector<io::GraphTopic>& topics) {
+  if (topics.empty()) {
+    std::cout << "nobody publishes or subscribes on domain " << domain << '\n';
+    return;
+  }
+  std::vector<std::vector<std::string>> rows = {
+      {"TOPIC", "TYPE", "PUBLISHERS", "THEIR QOS", "SUBSCRIBERS", "THEIR QOS", "HOSTS"}};
+  for (const io::GraphTopic& topic : topics)
+    rows.push_back({topic.name, topic.type, std::to_string(topic.publishers.size()),
+                    qos_of(topic.publishers), std::to_string(topic.subscribers.size()),
+                    qos_of(topic.subscribers), hosts_of(topic)});
+  print_table(rows);
+}
+
+}  // namespace
+
+int execute(const TopicsArguments& arguments) {
+  StopSignal stop;
+  const auto graph = io::join_graph(arguments.graph);
+  static_cast<void>(stop.wait(to_duration(arguments.wait)));
+  const std::vector<io::GraphTopic> topics = graph->graph();
+  tell_notes(graph->take_complaints());
+  if (arguments.json)
+    std::cout << io::graph_json(graph->domain(), topics) << '\n';
+  else
+    print_topics(graph->domain(), topics);
+  return 0;
+}
+
+}  // namespace penumbra::app
