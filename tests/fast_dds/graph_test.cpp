@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 2's graph by itself: names, settings, messages within one process.
+#include "listening.hpp"
+#include "lone_domain.hpp"
+
+#include <cstdlib>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/dds/graph_names.hpp>
+#include <io/dds/receive_buffers.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr const char* image = "sensor_msgs/msg/Image";
+
+std::string refusal(const io::ParticipantOptions& options) {
+  try {
+    static_cast<void>(io::join_graph(options));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+// The names are those of REP-like conventions of ROS 2's "Topic and Service name mapping to DDS".
+TEST(GraphNames, AreThoseOfRos2) {
+  EXPECT_EQ(io::dds_topic("/camera/depth/image_raw"), "rt/camera/depth/image_raw");
+  EXPECT_EQ(io::dds_type("sensor_msgs/msg/Image"), "sensor_msgs::msg::dds_::Image_");
+  EXPECT_EQ(io::ros_topic("rt/tf"), "/tf");
+  EXPECT_EQ(io::ros_type("tf2_msgs::msg::dds_::TFMessage_"), "tf2_msgs/msg/TFMessage");
+  EXPECT_EQ(io::ros_topic("ros_discovery_info"), std::nullopt);
+  EXPECT_EQ(io::ros_topic("rq/add_two_intsRequest"), std::nullopt);
+  EXPECT_EQ(io::ros_type("sensor_msgs::msg::Image"), std::nullopt);
+}
+
+TEST(GraphNames, ThatAreNoneAreRefusedInBothDirections) {
+  for (const char* const name : {"", "/", "a", "a/b", "//a", "/a/", "/a//b", "/1", "/a/2b", "/a b",
+                                 "/a\n", "/{ns}/a", "/~/a"}) {
+    EXPECT_THROW(static_cast<void>(io::dds_topic(name)), InputError) << name;
+    EXPECT_EQ(io::ros_topic("rt" + std::string(name)), std::nullopt) << name;
+  }
+  for (const char* const type : {"", "Image", "sensor_msgs/Image", "sensor_msgs/msg/", "/msg/Image",
+                                 "a/b/C", "a/msg/C/d", "a/msg/C d"})
+    EXPECT_THROW(static_cast<void>(io::dds_type(type)), InputError) << type;
+  for (const char* const type : {"", "::", "a::msg::dds_::_x", "a::msg::dds_::", "a::msg::dds::C_",
+                                 "a::b::dds_::C_", "a::msg::dds_::C"})
+    EXPECT_EQ(io::ros_type(type), std::nullopt) << type;
+  EXPECT_EQ(io::ros_topic("rt/" + std::string(1'000'000, 'a')), "/" + std::string(1'000'000, 'a'));
+}
+
+TEST(GraphDomain, IsThatOfOptionsEnvironmentOrZero) {
+  unsetenv("ROS_DOMAIN_ID");
+  EXPECT_EQ(io::graph_domain({}), 0);
+  setenv("ROS_DOMAIN_ID", "42", 1);
+  EXPECT_EQ(io::graph_domain({}), 42);
+  EXPECT_EQ(io::graph_domain({.domain = 7}), 7);
+  for (const char* const bad : {"abc", "-1", "233", "1.5", "99999999999"}) {
+    setenv("ROS_DOMAIN_ID", bad, 1);
+    EXPECT_THROW(static_cast<void>(io::graph_domain({})), InputError) << bad;
+  }
+  unsetenv("ROS_DOMAIN_ID");
+  EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = 233})), InputError);
+  EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = -1})), InputError);
+}
+
+TEST(ReceiveBuffers, AdviceComesWhereTheKernelGivesLittle) {
+  constexpr std::uint64_t debian = 212'992;  // net.core.rmem_max as Debian has it
+  EXPECT_NE(io::receive_buffer_advice(debian).find("net.core.rmem_max"), std::string::npos);
+  EXPECT_EQ(io::receive_buffer_advice(16U << 20U), "");
+  EXPECT_EQ(io::receive_buffer_advice(std::nullopt), "");
+}
+
+TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
+  const LoneDomain domain;
+  for (const char* const bad :
+       {"nonsense", "<CycloneDDS><Domain><Foo>1</Foo></Domain></CycloneDDS>", "<CycloneDDS",
+        "file:///nonexistent.xml",
+        "<CycloneDDS><Domain><General><AllowMulticast>maybe</AllowMulticast></General></Domain>"
+        "</CycloneDDS>",
+        "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"wlan99\"/></Interfaces>"
+        "</General></Domain></CycloneDDS>"}) {
+    setenv("CYCLONEDDS_URI", bad, 1);
+    const std::string said = refusal({.domain = domain.id()});
+    EXPECT_NE(said.find("CYCLONEDDS_URI"), std::string::npos) << bad << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+  unsetenv("CYCLONEDDS_URI");
+  EXPECT_EQ(refusal({.domain = domain.id()}), "not refused");
+}
+
+TEST(Graph, PassesMessagesBetweenParticipantsOfOneProcess) {
+  const LoneDomain domain;
+  const auto one = io::join_graph({.domain = domain.id()});
+  const auto other = io::join_graph({.domain = domain.id()});
+  const auto heard = one->subscribe("/a", image, {.reliable = true, .depth = 100});
+  const auto said = other->advertise("/a", image, {.reliable = true, .depth = 100});
+  ASSERT_TRUE(eventually(*one, [&] { return said->subscribers() == 1; }));
+  constexpr std::uint32_t count = 50;
+  for (std::uint32_t i = 0; i < count; ++i) ASSERT_TRUE(said->write(pattern_message(i, 1000 + i)));
+  EXPECT_EQ(listen(*one, *heard, count), numbers_up_to(count));
+  EXPECT_TRUE(said->flush(dds_patience));
+  const auto status = heard->status();
+  EXPECT_EQ(status.publishers, 1);
+  EXPECT_EQ(status.taken, count);
+  EXPECT_EQ(status.overwritten, 0U);
+  EXPECT_EQ(status.lost, 0U);
+}
+
+TEST(Graph, AMessageOutlivesItsSubscriptionAndParticipant) {
+  const LoneDomain domain;
+  io::Sample sample;
+  {
+    const auto graph = io::join_graph({.domain = domain.id()});
+    const auto heard = graph->subscribe("/a", image, {.reliable = true});
+    const auto said = graph->advertise("/a", image, {.reliable = true});
+    ASSERT_TRUE(said->write(pattern_message(3, 5001)));
+    ASSERT_TRUE(eventually(*graph, [&] { return heard->take(sample); }));
+  }
+  EXPECT_EQ(pattern_number(sample.data), 3);
+}
+
+TEST(Graph, CountsWhatNewerMessagesReplaced) {
+  const LoneDomain domain;
+  const auto graph = io::join_graph({.domain = domain.id()});
+  const auto heard = graph->subscribe("/a", image, {.reliable = true, .depth = 3});
+  const auto said = graph->advertise("/a", image, {.reliable = true, .depth = 10});
+  for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(said->write(pattern_message(i, 64)));
+  EXPECT_EQ(listen(*graph, *heard, 3), (std::vector<std::int64_t>{7, 8, 9}));
+  const auto status = heard->status();
+  EXPECT_EQ(status.received, 10U);
+  EXPECT_EQ(status.taken, 3U);
+  EXPECT_EQ(status.overwritten, 7U);
+}
+
+TEST(Graph, WaitEndsWithMessagesAWakeOrTheTime) {
+  using namespace std::chrono_literals;
+  const LoneDomain domain;
+  const auto graph = io::join_graph({.domain = domain.id()});
+  const auto heard = graph->subscribe("/a", image, {});
+  EXPECT_FALSE(graph->wait(1ms));
+  graph->wake();
+  EXPECT_TRUE(graph->wait(20s));
+  EXPECT_FALSE(graph->wait(1ms));
+  std::thread other([&] {
+    std::this_thread::sleep_for(20ms);
+    graph->wake();
+  });
+  EXPECT_TRUE(graph->wait(20s));
+  other.join();
+  const auto said = graph->advertise("/a", image, {});
+  ASSERT_TRUE(said->write(pattern_message(0, 64)));
+  EXPECT_TRUE(graph->wait(20s));
+  EXPECT_EQ(take_numbers(*heard), numbers_up_to(1));
+  EXPECT_FALSE(graph->wait(1ms));
+}
+
+TEST(Graph, ListsTopicsOfBothSides) {
+  const LoneDomain domain;
+  const auto graph = io::join_graph({.domain = domain.id()});
+  const auto other = io::join_graph({.domain = domain.id()});
+  const auto heard = graph->subscribe("/a", image, {.reliable = true});
+  const auto said = other->advertise("/a", image, {.latched = true});
+  const auto same_name = other->advertise("/a", "std_msgs/msg/String", {.reliable = true});
+  ASSERT_TRUE(eventually(*graph, [&] { return graph->graph().size() == 2; }));
+  const auto topics = graph->graph();
+  EXPECT_EQ(topics[0].name, "/a");
+  EXPECT_EQ(topics[0].type, image);
+  ASSERT_EQ(topics[0].publishers.size(), 1U);
+  ASSERT_EQ(topics[0].subscribers.size(), 1U);
+  EXPECT_TRUE(topics[0].publishers[0].qos.latched);
+  EXPECT_FALSE(topics[0].publishers[0].qos.reliable);
+  EXPECT_FALSE(topics[0].publishers[0].own);
+  EXPECT_TRUE(topics[0].subscribers[0].own);
+  EXPECT_EQ(topics[1].type, "std_msgs/msg/String");
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 2's graph against Fast DDS, ROS 2's default middleware, in another process.
+#include "../support/sanitized.hpp"
+#include "listening.hpp"
+#include "lone_domain.hpp"
+#include "peer_process.hpp"
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* image = "sensor_msgs/msg/Image";
+constexpr const char* image_in_dds = "sensor_msgs::msg::dds_::Image_";
+constexpr std::size_t large = 1280 * 720 * 4 + 67;  // the last bytes fill no four
+
+class Vendors : public testing::Test {
+ protected:
+  /// "publish" or "subscribe" and more of Fast DDS on /a.
+  PeerProcess peer(const std::string& mode, const std::string& qos,
+                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {std::to_string(domain.id()), mode, "rt/a", image_in_dds, qos};
+    words.insert(words.end(), more.begin(), more.end());
+    return PeerProcess(words);
+  }
+
+  LoneDomain domain;
+  std::unique_ptr<io::Participant> graph = io::join_graph({.domain = domain.id()});
+};
+
+struct Case {
+  const char* name;
+  bool reliable;
+  std::size_t size;
+  std::uint32_t count;
+};
+
+class BothWays : public Vendors, public testing::WithParamInterface<Case> {
+ protected:
+  io::TopicQos qos() const { return {.reliable = GetParam().reliable, .depth = 50}; }
+  std::string peers_qos() const {
+    return std::string(GetParam().reliable ? "reliable" : "best_effort") + ",depth=50";
+  }
+};
+
+TEST_P(BothWays, FromFastDdsEveryByteArrives) {
+  const auto heard = graph->subscribe("/a", image, qos());
+  auto other = peer("publish", peers_qos(),
+                    {std::to_string(GetParam().size), std::to_string(GetParam().count), "30"});
+  EXPECT_EQ(listen(*graph, *heard, GetParam().count), numbers_up_to(GetParam().count));
+  const auto status = heard->status();
+  EXPECT_EQ(status.received, GetParam().count);
+  EXPECT_EQ(status.taken, GetParam().count);
+  EXPECT_EQ(status.lost, 0U);
+}
+
+TEST_P(BothWays, ToFastDdsEveryByteArrives) {
+  const auto said = graph->advertise("/a", image, qos());
+  auto other = peer("count", peers_qos());
+  ASSERT_TRUE(other.says("ready"));
+  ASSERT_TRUE(eventually(*graph, [&] { return said->subscribers() == 1; }));
+  std::this_thread::sleep_for(200ms);  // Fast DDS may know of the match a little later
+  for (std::uint32_t i = 0; i < GetParam().count; ++i) {
+    ASSERT_TRUE(said->write(pattern_message(i, GetParam().size)));
+    ASSERT_TRUE(other.says(std::to_string(i) + " " + std::to_string(GetParam().size)));
+  }
+  EXPECT_EQ(other.end(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, BothWays,
+                         testing::Values(Case{"reliable_smallest", true, 12, 20},
+                                         Case{"best_effort_smallest", false, 12, 20},
+                                         Case{"reliable_odd", true, 65'537, 20},
+                                         Case{"reliable_large", true, large, 15},
+                                         Case{"best_effort_large", false, large, 15}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
+  const auto said = graph->advertise("/a", image, {.reliable = true, .latched = true, .depth = 1});
+  for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(said->write(pattern_message(i, 100'000)));
+  auto late = peer("count", "reliable,latched,depth=1");
+  ASSERT_TRUE(late.says("ready"));
+  EXPECT_TRUE(late.says("2 100000"));
+}
+
+TEST_F(Vendors, ComingLateLatchedMessagesAreHad) {
+  auto early = peer("publish", "reliable,latched,depth=1", {"100000", "3", "1000"});
+  ASSERT_TRUE(early.says("ready"));
+  ASSERT_TRUE(early.says("matched"));
+  ASSERT_TRUE(early.says("written 3"));
+  const auto heard = graph->subscribe("/a", image, {.reliable = true, .latched = true, .depth = 1});
+  EXPECT_EQ(listen(*graph, *heard, 1), (std::vector<std::int64_t>{2}));
+}
+
+TEST_F(Vendors, QosThatDoesNotFitIsToldByPolicy) {
+  const auto heard = graph->subscribe("/a", image, {.reliable = true});
+  const auto latched = graph->subscribe("/a", image, {.latched = true});
+  auto other = peer("publish", "best_effort", {"100", "1000", "100"});
+  ASSERT_TRUE(eventually(
+      *graph, [&] { return heard->status().refused > 0 && latched->status().refused > 0; }));
+  EXPECT_EQ(heard->status().refused_because, "reliability");
+  EXPECT_EQ(latched->status().refused_because, "durability");
+  EXPECT_EQ(heard->status().publishers, 0);
+  EXPECT_EQ(heard->status().received, 0U);
+  const auto topics = graph->graph();
+  ASSERT_EQ(topics.size(), 1U);
+  ASSERT_EQ(topics[0].publishers.size(), 1U);
+  EXPECT_FALSE(topics[0].publishers[0].qos.reliable);
+  EXPECT_FALSE(topics[0].publishers[0].own);
+  EXPECT_NE(topics[0].publishers[0].host, "");
+}
+
+TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
+  const auto heard = graph->subscribe("/a", image, {.reliable = true, .depth = 100});
+  {
+    auto first = peer("publish", "reliable", {"1000", "1000000", "100"});
+    EXPECT_GE(listen(*graph, *heard, 10).size(), 10U);
+    first.kill();
+  }
+  // Its lease is 3 s.
+  EXPECT_TRUE(eventually(*graph, [&] {
+    static_cast<void>(take_numbers(*heard));
+    return heard->status().publishers == 0;
+  }));
+  auto second = peer("publish", "reliable", {"1000", "20", "100"});
+  EXPECT_EQ(listen(*graph, *heard, 20), numbers_up_to(20));
+}
+
+// A socket's buffer that is smaller than a message, which comes in datagrams of 64 KB.
+TEST(VendorsLoss, WhatIsDroppedOnTheWayIsCounted) {
+  if (sanitized) GTEST_SKIP() << "skipped: how much arrives is a matter of time";
+  const LoneDomain domain;
+  setenv(
+      "CYCLONEDDS_URI",
+      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"200kB\"/></Internal></Domain>"
+      "</CycloneDDS>",
+      1);
+  const auto graph = io::join_graph({.domain = domain.id()});
+  unsetenv("CYCLONEDDS_URI");
+  const auto heard = graph->subscribe("/a", image, {.depth = 1000});
+  PeerProcess other({std::to_string(domain.id()), "publish", "rt/a", image_in_dds, "best_effort",
+                     "600000", "200", "100"});
+  ASSERT_TRUE(other.says("ready"));
+  ASSERT_TRUE(other.says("matched"));
+  ASSERT_TRUE(other.says("written 200"));
+  const std::vector<std::int64_t> numbers = take_numbers(*heard);
+  ASSERT_FALSE(numbers.empty());
+  std::uint64_t gaps = 0;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    gaps += static_cast<std::uint64_t>(numbers[i] - numbers[i - 1] - 1);
+  std::cout << numbers.size() << " of 200 arrived, " << gaps << " lost between them\n";
+  EXPECT_GT(gaps, 0U);
+  EXPECT_EQ(heard->status().lost, gaps);
+  EXPECT_EQ(heard->status().received, numbers.size());
+}
+
+}  // namespace
+}  // namespace penumbra::test
