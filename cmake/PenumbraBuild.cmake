@@ -27,6 +27,6 @@ if(PENUMBRA_SANITIZE)
   target_compile_options(penumbra_flags INTERFACE -fsanitize=${PENUMBRA_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer
                          # GCC 12 warns falsely inside the standard library with sanitizers on.
-                         -Wno-maybe-uninitialized)
+                         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(penumbra_flags INTERFACE -fsanitize=${PENUMBRA_SANITIZE})
 endif()
