@@ -135,18 +135,21 @@ if $full; then
   fi
 fi
 if check "build (asan)" build asan all "${sanitizer_scope[@]}" "-DPENUMBRA_SANITIZE=address,$undefined"; then
-  # Threads are ThreadSanitizer's; more meshes of the same robots, and scenes through OpenGL beside
-  # its own tests, say no more.
+  # Threads are ThreadSanitizer's; more meshes of the same robots, scenes through OpenGL beside its
+  # own tests, and narrower vectors say no more.
   scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
   many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
+  many+='|cpu_SSE4|RenderersAreMadeAndDropped|RenderersMadeAndDropped|OffsetGrid.RealLinks'
   if $full; then many='^$'; fi
   run_tests asan -E "$many"
 fi
 if $full; then
   check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
 else
-  # Where one thread of ours runs there is no race to find.
-  one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree'
+  # Where one thread of ours runs there is no race to find; one robot's threads are like another's.
+  one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest|Isas[.]'
+  one_thread+='|GlEnvironment|GlFaults.LetARendererFail|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'
+  one_thread+='|RenderersAreMadeAndDropped|RenderersMadeAndDropped|RobotThreads'
   check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" &&
     run_tests tsan -L threaded -E "$one_thread"
 fi
