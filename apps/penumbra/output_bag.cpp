@@ -3,63 +3,38 @@
 #include <utility>
 
 #include <apps/penumbra/output_bag.hpp>
-#include <io/ros/image_codec.hpp>
-#include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
-#include <io/ros/message_encoder.hpp>
-#include <io/ros/target_messages.hpp>
 
 namespace penumbra::app {
 
 OutputBag::OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root)
-    : file_(file),
-      root_(std::move(root)),
-      writer_(file, {.profile = "ros2"}),
-      results_(camera),
-      virtual_depth_(add_channel<io::ImageMessage>("vdi")),
-      labels_(add_channel<io::ImageMessage>("labels")),
-      mask_(add_channel<io::ImageMessage>("mask")),
-      filtered_depth_(add_channel<io::ImageMessage>("filtered_depth")),
-      overlay_(add_channel<io::CompressedImageMessage>("overlay/compressed")),
-      targets_(add_channel<io::TargetsMessage>("targets")),
-      points_(add_channel<io::PointCloud2Message>("points")) {}
+    : file_(file), writer_(file, {.profile = "ros2"}), encoder_(camera, std::move(root)) {
+  for (const io::ResultTopic& topic : io::result_topics) {
+    const std::uint16_t schema = writer_.add_schema(std::string(topic.type), "ros2msg",
+                                                    std::string(io::definition_of(topic.type)));
+    channels_[static_cast<std::size_t>(topic.result)].id =
+        writer_.add_channel("/penumbra/" + std::string(topic.name), "cdr", schema);
+  }
+}
 
 OutputBag::~OutputBag() {
   std::error_code ignored;
   if (!finished_) std::filesystem::remove(file_, ignored);
 }
 
-template <typename M>
-OutputBag::Channel OutputBag::add_channel(const std::string& name) {
-  const std::string type = io::message_type<M>();
-  const std::uint16_t schema =
-      writer_.add_schema(type, "ros2msg", std::string(io::definition_of(type)));
-  return {writer_.add_channel("/penumbra/" + name, "cdr", schema)};
-}
-
-template <typename M>
-void OutputBag::write(Channel& channel, const M& message) {
-  io::encode(message, payload_);
-  const std::int64_t stamp = message.header.stamp;
-  writer_.write(channel.id, stamp, stamp, channel.messages++, payload_);
+void OutputBag::write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) {
+  Channel& channel = channels_[static_cast<std::size_t>(result)];
+  writer_.write(channel.id, stamp, stamp, channel.messages++, payload);
 }
 
 void OutputBag::save(const FrameReport& report, const io::FrameData& frame,
-                     const ShownTargets& targets) {
+                     const io::ShownTargets& targets) {
   if (!report.stamp) {
     ++without_stamp_;
     return;
   }
   if (!report.missing_links.empty()) missing_link_ = report.missing_links.front();
-  results_.set(report, frame.depth_view());
-  if (const auto virtual_depth = results_.virtual_depth()) write(virtual_depth_, *virtual_depth);
-  write(labels_, results_.labels());
-  write(mask_, results_.mask());
-  write(filtered_depth_, results_.filtered_depth());
-  write(points_, results_.points());
-  write(targets_, io::targets_message(report, results_.header().frame_id, root_));
-  const auto overlay = painter_.draw(report, frame, targets);
-  write(overlay_, io::png_message(results_.header(), overlay, png_));
+  encoder_.encode(report, {frame.depth_view(), frame.color.view()}, targets, *this);
 }
 
 void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::string> /*notes*/) {

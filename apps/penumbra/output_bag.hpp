@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,16 +10,15 @@
 
 #include <penumbra/camera/camera.hpp>
 
-#include <apps/penumbra/overlay_painter.hpp>
 #include <apps/penumbra/run_output.hpp>
 #include <io/mcap/writer.hpp>
-#include <io/ros/result_messages.hpp>
+#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
 
 /// A bag of results: topics /penumbra/..., each message with its image's stamp, by which it is
 /// recorded, too. Frames without a stamp have no place in it.
-class OutputBag final : public RunOutput {
+class OutputBag final : public RunOutput, private io::ResultSink {
  public:
   /// `camera`: of the judged images; `root`: the robot's root link. Throws InputError where the
   /// file cannot be written.
@@ -28,7 +28,7 @@ class OutputBag final : public RunOutput {
 
   void begin(const io::ReportHead&) override {}
   void save(const FrameReport& report, const io::FrameData& frame,
-            const ShownTargets& targets) override;
+            const io::ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
   [[nodiscard]] std::vector<std::string> notes() const override;
   [[nodiscard]] std::string where() const override { return "results: " + file_.string(); }
@@ -38,18 +38,13 @@ class OutputBag final : public RunOutput {
     std::uint16_t id = 0;
     std::uint32_t messages = 0;
   };
-  template <typename M>
-  [[nodiscard]] Channel add_channel(const std::string& name);
-  template <typename M>
-  void write(Channel& channel, const M& message);
+  [[nodiscard]] bool wants(io::Result) const override { return true; }
+  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
 
   std::filesystem::path file_;
-  std::string root_;
   io::mcap::Writer writer_;
-  io::ResultMessages results_;
-  OverlayPainter painter_{nullptr};
-  Channel virtual_depth_, labels_, mask_, filtered_depth_, overlay_, targets_, points_;
-  std::vector<std::byte> png_, payload_;
+  io::ResultEncoder encoder_;
+  std::array<Channel, io::result_topics.size()> channels_;  // by Result
   std::size_t without_stamp_ = 0;
   std::string missing_link_;
   bool finished_ = false;

@@ -47,7 +47,7 @@ void OutputFolder::finish(const Statistics& statistics, std::span<const std::str
 }
 
 void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
-                        const ShownTargets& targets) {
+                        const io::ShownTargets& targets) {
   report_->add(report);
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
@@ -57,7 +57,8 @@ void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
     io::write_png(file("links", index, ".png"), virtual_depth.links);
   if (saves_.labels) io::write_png(file("labels", index, ".png"), report.labels);
   if (saves_.overlay)
-    io::write_png(file("overlay", index, ".png"), painter_.draw(report, frame, targets));
+    io::write_png(file("overlay", index, ".png"),
+                  painter_.draw(report, {frame.depth_view(), frame.color.view()}, targets));
 }
 
 fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {

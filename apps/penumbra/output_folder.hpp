@@ -10,8 +10,8 @@
 
 #include <apps/penumbra/arguments.hpp>
 #include <apps/penumbra/former_results.hpp>
-#include <apps/penumbra/overlay_painter.hpp>
 #include <apps/penumbra/run_output.hpp>
+#include <io/overlay_painter.hpp>
 
 namespace penumbra::app {
 
@@ -32,7 +32,7 @@ class OutputFolder final : public RunOutput {
   /// Writes the frame's images. Where the robot's pose is unknown there is no VDI and no link
   /// image, and all labels are unknown. Throws InputError where writing fails.
   void save(const FrameReport& report, const io::FrameData& frame,
-            const ShownTargets& targets) override;
+            const io::ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
   [[nodiscard]] std::string where() const override { return "report: " + report_file().string(); }
 
@@ -43,7 +43,7 @@ class OutputFolder final : public RunOutput {
 
   std::filesystem::path folder_;
   Saves saves_;
-  OverlayPainter painter_;
+  io::OverlayPainter painter_;
   UnfinishedRun unfinished_;
   std::optional<io::ReportWriter> report_;
 };

@@ -13,6 +13,7 @@
 #include <apps/penumbra/arguments.hpp>
 #include <io/frame_source.hpp>
 #include <io/recording.hpp>
+#include <io/ros_frames/camera_mount.hpp>
 
 namespace penumbra::app {
 
@@ -38,6 +39,9 @@ struct RunInput {
 /// The two of them.
 [[nodiscard]] RunInput open_recording_input(const RunArguments& arguments);
 [[nodiscard]] RunInput open_bag_input(const RunArguments& arguments);
+
+/// What the options say of where the camera sits. Throws InputError of the pose's file.
+[[nodiscard]] io::MountWishes mount_wishes(const BagArguments& bag);
 
 /// The command line's choices of what is drawn, on top of the input's.
 void add_robot_choices(const RunArguments& arguments, RobotOptions& options);

@@ -7,20 +7,12 @@
 
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/statistics.hpp>
-#include <penumbra/pipeline/target.hpp>
-#include <penumbra/robot/robot.hpp>
 
 #include <io/frame_reader.hpp>
+#include <io/overlay_painter.hpp>
 #include <io/report_json.hpp>
 
 namespace penumbra::app {
-
-/// What overlays need to show a frame's targets.
-struct ShownTargets {
-  std::span<const Target> targets;
-  const Robot& robot;
-  const Camera& camera;  ///< of the report's images
-};
 
 /// Where results of `run` go. Members throw InputError where writing fails; what is not finished
 /// is taken away with this.
@@ -34,7 +26,7 @@ class RunOutput {
   /// To be called once, before frames.
   virtual void begin(const io::ReportHead& head) = 0;
   virtual void save(const FrameReport& report, const io::FrameData& frame,
-                    const ShownTargets& targets) = 0;
+                    const io::ShownTargets& targets) = 0;
   virtual void finish(const Statistics& statistics, std::span<const std::string> notes) = 0;
 
   /// What could not be written, a line each.

@@ -6,17 +6,10 @@
 
 namespace penumbra::io {
 
-void BagInbox::add_fault(const std::string& topic, std::int64_t log_time, const std::string& what) {
-  Faults& faults = faults_[topic];
-  if (faults.messages++ > 0) return;
-  faults.first = log_time;
-  faults.what = what;
-}
-
 std::vector<std::string> BagInbox::notes() const {
   const auto damages = bag_->faults();
   std::vector<std::string> lines(damages.begin(), damages.end());
-  for (const auto& [topic, faults] : faults_)
+  for (const auto& [topic, faults] : faults_.all())
     lines.push_back(name_ + ": " + std::to_string(faults.messages) +
                     (faults.messages == 1 ? " message of " : " messages of ") + printable(topic) +
                     " cannot be used, the first recorded at " + std::to_string(faults.first) +

@@ -15,6 +15,7 @@
 #include <io/bag/bag_reader.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/messages.hpp>
+#include <io/ros_frames/message_faults.hpp>
 
 namespace penumbra::io {
 
@@ -38,13 +39,15 @@ class BagInbox {
   bool decode(const BagMessage& message, M& decoded, std::string* fault = nullptr) {
     const auto what = decoder<M>(message.topic).decode(message.data, decoded);
     if (!what) return true;
-    add_fault(topic_of(message).name, message.log_time, *what);
+    faults_.add(topic_of(message).name, message.log_time, *what);
     if (fault != nullptr) *fault = *what;
     return false;
   }
 
   /// Counts a message of which `what` is wrong.
-  void add_fault(const std::string& topic, std::int64_t log_time, const std::string& what);
+  void add_fault(const std::string& topic, std::int64_t log_time, const std::string& what) {
+    faults_.add(topic, log_time, what);
+  }
 
   /// The bag's damages, and of each topic how many messages could not be used, one line each.
   [[nodiscard]] std::vector<std::string> notes() const;
@@ -62,12 +65,6 @@ class BagInbox {
   template <typename M>
   [[nodiscard]] Decoder<M> make_decoder(const BagTopic& topic) const;
 
-  struct Faults {
-    std::size_t messages = 0;
-    std::int64_t first = 0;  // log time
-    std::string what;
-  };
-
   std::unique_ptr<BagReader> bag_;
   std::string name_;
   std::tuple<Decoders<ImageMessage>, Decoders<CompressedImageMessage>, Decoders<CameraInfoMessage>,
@@ -75,7 +72,7 @@ class BagInbox {
              Decoders<Detection2DArrayMessage>, Decoders<Detection3DArrayMessage>,
              Decoders<KeypointsMessage>, Decoders<PoseStampedMessage>>
       decoders_;
-  std::map<std::string, Faults> faults_;
+  MessageFaults faults_;
 };
 
 }  // namespace penumbra::io

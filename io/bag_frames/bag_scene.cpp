@@ -59,8 +59,7 @@ void BagSceneReader::take_transforms(const BagMessage& message, bool is_static) 
   TfMessage found;
   if (!inbox_.decode(message, found)) return;
   for (TransformMessage& transform : found.transforms) {
-    scene_.parents.emplace(frame_name(transform.child_frame_id),
-                           frame_name(transform.header.frame_id));
+    scene_.frames.add(transform.header.frame_id, transform.child_frame_id);
     if (is_static) scene_.static_transforms.push_back(std::move(transform));
   }
 }
@@ -71,22 +70,6 @@ std::string BagSceneReader::lacking() const {
   if (!scene_.camera_info) return topics_.camera_info.name;
   if (topics_.color_info && !scene_.color_info) return topics_.color_info->name;
   return {};
-}
-
-std::vector<std::string> BagScene::chain(std::string_view frame) const {
-  std::vector<std::string> frames = {std::string(frame_name(frame))};
-  for (auto up = parents.find(frames.back());
-       up != parents.end() && frames.size() <= parents.size(); up = parents.find(frames.back()))
-    frames.push_back(up->second);
-  return frames;
-}
-
-bool BagScene::connects(std::string_view a, std::string_view b) const {
-  return chain(a).back() == chain(b).back();
-}
-
-std::string_view frame_name(std::string_view name) {
-  return name.starts_with('/') ? name.substr(1) : name;
 }
 
 }  // namespace penumbra::io

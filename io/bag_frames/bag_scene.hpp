@@ -3,14 +3,13 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <io/bag_frames/bag_inbox.hpp>
 #include <io/bag_frames/bag_topics.hpp>
+#include <io/ros_frames/frame_tree.hpp>
 
 namespace penumbra::io {
 
@@ -20,12 +19,7 @@ struct BagScene {
   std::optional<std::string> depth_frame;  ///< frame_id of the first depth image
   std::optional<CameraInfoMessage> camera_info, color_info;
   std::vector<TransformMessage> static_transforms;
-  std::map<std::string, std::string, std::less<>> parents;  ///< of each frame in TF
-
-  /// The frame and those above it in TF, nearest first.
-  [[nodiscard]] std::vector<std::string> chain(std::string_view frame) const;
-  /// Whether TF knows a way from one frame to the other.
-  [[nodiscard]] bool connects(std::string_view a, std::string_view b) const;
+  FrameTree frames;  ///< of TF
 };
 
 /// Looks for the scene of a bag, before its frames are read.
@@ -56,8 +50,5 @@ class BagSceneReader {
   BagTopics topics_;
   BagScene scene_;
 };
-
-/// A frame's name as TF compares it: without one leading "/".
-[[nodiscard]] std::string_view frame_name(std::string_view name);
 
 }  // namespace penumbra::io

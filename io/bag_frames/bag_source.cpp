@@ -9,6 +9,8 @@
 
 #include <io/bag_frames/bag_source.hpp>
 #include <io/printable.hpp>
+#include <io/ros_frames/judged_cameras.hpp>
+#include <io/ros_frames/pose_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -19,6 +21,7 @@ constexpr double longest_wait = 0.5;
 /// How long for the camera_info and the color image of their stamp: drivers send them together, but
 /// some send one camera_info for all. Nanoseconds of recording.
 constexpr std::int64_t longest_companion_wait = 200'000'000;
+constexpr std::size_t most_colors = 64;
 constexpr std::size_t most_ready = 32;  // frames that wait for these
 
 FrameQueueOptions queue_options(const BagSourceOptions& options) {
@@ -39,22 +42,8 @@ std::string why_dropped(DropReason reason) {
   }
 }
 
-/// All but the stamp.
-bool is_same(const CameraInfoMessage& a, const CameraInfoMessage& b) {
-  return a.header.frame_id == b.header.frame_id && a.height == b.height && a.width == b.width &&
-         a.distortion_model == b.distortion_model && a.d == b.d && a.k == b.k && a.r == b.r &&
-         a.p == b.p && a.binning_x == b.binning_x && a.binning_y == b.binning_y &&
-         a.roi.x_offset == b.roi.x_offset && a.roi.y_offset == b.roi.y_offset &&
-         a.roi.height == b.roi.height && a.roi.width == b.roi.width &&
-         a.roi.do_rectify == b.roi.do_rectify;
-}
-
 void join(std::string& message, const std::string& more) {
   if (!more.empty()) message += (message.empty() ? "" : "; ") + more;
-}
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
 }  // namespace
@@ -65,9 +54,9 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
       history_(robot),
       queue_(robot, history_, queue_options(options_),
              [this](const DroppedFrame& frame) { dropped_.push_back(frame); }),
-      colors_(options_.camera),
+      depth_(options_.camera, options_.depth_camera),
+      colors_(most_colors),
       targets_(robot, options_.camera.frame_id) {
-  if (options_.depth_camera) registration_.emplace(*options_.depth_camera, options_.camera);
   check_range();
   // Fixed frames hold before they are told, too. Of one that is told several times, what was told
   // first holds until it is told anew.
@@ -175,7 +164,7 @@ void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& fi
   if (!inbox_.decode(message, info)) return;
   std::int64_t& newest = &changes == &camera_changes_ ? newest_camera_ : newest_color_;
   newest = std::max(newest, info.header.stamp);
-  const bool differs = !is_same(info, first);
+  const bool differs = !is_same_camera(info, first);
   const bool before = !changes.empty() && changes.back().differs;
   if (differs == before) return;
   if (differs)
@@ -197,19 +186,12 @@ bool BagSource::camera_differs(std::int64_t stamp) const {
 
 void BagSource::take_joints(const BagMessage& message) {
   JointStateMessage state;
-  if (inbox_.decode(message, state))
-    history_.add_joints(state.header.stamp, state.names, state.positions);
+  if (inbox_.decode(message, state)) add_to_history(state, history_);
 }
 
 void BagSource::take_transforms(const BagMessage& message, bool is_static) {
   TfMessage found;
-  if (!inbox_.decode(message, found)) return;
-  for (const TransformMessage& t : found.transforms) {
-    if (is_static)
-      history_.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
-    else
-      history_.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id, t.T_parent_child);
-  }
+  if (inbox_.decode(message, found)) add_to_history(found, is_static, history_);
 }
 
 void BagSource::take_targets(const BagMessage& message) {
@@ -282,8 +264,11 @@ void BagSource::present(FrameData& data, Frame& frame) {
 
   DepthView depth;
   std::string fault = decode(current_.image, depth);
-  if (fault.empty() && registration_ && has_pose(frame.source_status))
-    fault = bring_to_color(pose, depth);
+  if (fault.empty() && depth_.is_of_other_camera() && has_pose(frame.source_status)) {
+    history_.transforms().at(pose.pose_stamp, options_.camera.frame_id, *options_.scene.depth_frame,
+                             T_color_depth_);
+    fault = depth_.bring(T_color_depth_, depth);
+  }
   if (fault.empty()) {
     frame.depth = depth;
   } else {
@@ -310,33 +295,14 @@ std::string BagSource::decode(const Waiting& image, DepthView& depth) {
   if (camera_differs(image.stamp)) return "camera_info is of another camera than at first";
   const auto decode_as = [&](auto message) -> std::string {
     if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
-    return decode_depth(message, decoded_).value_or(std::string());
+    return depth_.decode(message, depth);
   };
   std::string fault = inbox_.topic_of(image.message).type == message_type<ImageMessage>()
                           ? decode_as(ImageMessage())
                           : decode_as(CompressedImageMessage());
-  if (!fault.empty()) {
-    inbox_.add_fault(options_.topics.depth.name, image.message.log_time, fault);
-    return fault;
-  }
-  depth = decoded_.view;
-  const Intrinsics& wanted =
-      (options_.depth_camera ? *options_.depth_camera : options_.camera).intrinsics;
-  const auto [width, height] =
-      std::visit([](const auto& view) { return std::pair(view.width, view.height); }, depth);
-  if (width == wanted.width() && height == wanted.height()) return {};
-  depth = {};
-  return "the depth image is " + size_text(width, height) + ", the camera " +
-         size_text(wanted.width(), wanted.height());
-}
-
-std::string BagSource::bring_to_color(const QueuedFrame& pose, DepthView& depth) {
-  history_.transforms().at(pose.pose_stamp, options_.camera.frame_id, *options_.scene.depth_frame,
-                           T_color_depth_);
-  if (T_color_depth_.status != TransformStatus::ok)
-    return "depth cannot be brought to the color camera: " + T_color_depth_.message;
-  depth = registration_->warp(depth, T_color_depth_.T_target_source);
-  return {};
+  if (fault.empty()) return depth_.check_size(depth);
+  inbox_.add_fault(options_.topics.depth.name, image.message.log_time, fault);
+  return fault;
 }
 
 void BagSource::show_color(std::int64_t stamp, FrameData& data) {
@@ -345,7 +311,9 @@ void BagSource::show_color(std::int64_t stamp, FrameData& data) {
     data.color = {};
     return;
   }
-  data.color_message = colors_.find(stamp, data.color);
+  const ColorImage* const color = colors_.find(stamp);
+  data.color_message =
+      color == nullptr ? ColorImages::none_near : decode_color(*color, options_.camera, data.color);
   if (!data.color_message.empty()) data.color = {};
   colors_.forget_before(stamp);
 }
@@ -353,13 +321,7 @@ void BagSource::show_color(std::int64_t stamp, FrameData& data) {
 std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = inbox_.notes();
   const std::string& bag = inbox_.name();
-  if (history_.clock_jumps() > 0) lines.push_back(bag + ": " + history_.last_jump());
-  if (history_.joint_states_without_stamp() > 0)
-    lines.push_back(bag + ": " + std::to_string(history_.joint_states_without_stamp()) +
-                    " joint states without a stamp are not used");
-  if (history_.transforms().refused() > 0)
-    lines.push_back(bag +
-                    ": transforms are not used, the last: " + history_.transforms().last_refusal());
+  for (const std::string& refusal : refusals_of(history_)) lines.push_back(bag + ": " + refusal);
   if (targets_.waiting() > 0)
     lines.push_back(bag + ": " + std::to_string(targets_.waiting()) +
                     " targets came after the last frame and are not judged");

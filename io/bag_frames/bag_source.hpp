@@ -11,18 +11,17 @@
 #include <vector>
 
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/camera/registration.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pose_history.hpp>
 #include <penumbra/robot/robot.hpp>
 
-#include <io/bag_frames/bag_colors.hpp>
 #include <io/bag_frames/bag_inbox.hpp>
 #include <io/bag_frames/bag_scene.hpp>
 #include <io/bag_frames/bag_topics.hpp>
 #include <io/frame_source.hpp>
-#include <io/ros/image_codec.hpp>
 #include <io/ros/target_inbox.hpp>
+#include <io/ros_frames/color_images.hpp>
+#include <io/ros_frames/depth_input.hpp>
 
 namespace penumbra::io {
 
@@ -90,7 +89,6 @@ class BagSource final : public FrameSource {
   [[nodiscard]] bool is_presentable() const;
   void present(FrameData& data, Frame& frame);
   [[nodiscard]] std::string decode(const Waiting& image, DepthView& depth);
-  [[nodiscard]] std::string bring_to_color(const QueuedFrame& pose, DepthView& depth);
   void show_color(std::int64_t stamp, FrameData& data);
   [[nodiscard]] bool camera_differs(std::int64_t stamp) const;
 
@@ -99,13 +97,12 @@ class BagSource final : public FrameSource {
   PoseHistory history_;
   std::vector<DroppedFrame> dropped_;
   FrameQueue queue_;
-  std::optional<DepthRegistration> registration_;
-  BagColors colors_;
+  DepthInput depth_;
+  ColorImages colors_;
   TargetInbox targets_;
   std::map<std::uint64_t, Waiting> waiting_;  // by index
   std::deque<Ready> ready_;
   Ready current_;  // what the caller works on
-  DecodedDepth decoded_;
   TransformAnswer T_color_depth_;
   std::vector<CameraChange> camera_changes_, color_changes_;
   std::int64_t newest_camera_ = 0, newest_color_ = 0;  // stamps of camera_infos

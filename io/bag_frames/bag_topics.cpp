@@ -12,6 +12,7 @@
 #include <io/bag_frames/bag_topics.hpp>
 #include <io/names.hpp>
 #include <io/printable.hpp>
+#include <io/ros_frames/judged_cameras.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -282,17 +283,6 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
   if (!chosen.description)
     chooser.refuse("has no robot_description (std_msgs/msg/String); give the URDF with --robot");
   return chosen;
-}
-
-std::string image_base(const std::string& topic) {
-  for (const std::string_view ending : {"/compressedDepth", "/compressed"})
-    if (topic.size() > ending.size() && topic.ends_with(ending))
-      return topic.substr(0, topic.size() - ending.size());
-  return topic;
-}
-
-bool is_called_rectified(const std::string& topic) {
-  return last_part(image_base(topic)).starts_with("image_rect");
 }
 
 }  // namespace penumbra::io

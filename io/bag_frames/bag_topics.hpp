@@ -50,11 +50,4 @@ struct BagTopics {
 [[nodiscard]] BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
                                       const TopicWishes& wishes);
 
-/// A topic's name without what image_transport puts behind it: "/a/image" of "/a/image/compressed".
-[[nodiscard]] std::string image_base(const std::string& topic);
-
-/// Whether a topic is called as one of images without lens distortion is: its last part begins with
-/// "image_rect".
-[[nodiscard]] bool is_called_rectified(const std::string& topic);
-
 }  // namespace penumbra::io

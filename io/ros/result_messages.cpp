@@ -60,7 +60,6 @@ void ResultMessages::set(const FrameReport& report, const DepthView& depth) {
   const bool is_whole = report.missing_links.empty();
   for (std::size_t i = 0; i < labels_.size(); ++i)
     mask_.data()[i] = is_whole && is_trusted(labels_.data()[i]) ? 0 : 255;
-  points_.clear();
   in_metres_ = std::holds_alternative<ImageView<const float>>(depth);
   if (in_metres_)
     filter(std::get<ImageView<const float>>(depth), metres_,
@@ -75,8 +74,14 @@ void ResultMessages::filter(ImageView<const T> depth, Image<T>& filtered, T none
     for (int u = 0; u < filtered.width(); ++u) {
       const bool kept = !depth.empty() && mask_(u, v) == 0;
       filtered(u, v) = kept ? depth(u, v) : none;
-      if (kept) add_point(u, v, metres_of(depth(u, v)));
     }
+}
+
+template <typename T>
+void ResultMessages::add_points(const Image<T>& filtered) {
+  points_.clear();
+  for (int v = 0; v < filtered.height(); ++v)
+    for (int u = 0; u < filtered.width(); ++u) add_point(u, v, metres_of(filtered(u, v)));
 }
 
 void ResultMessages::add_point(int u, int v, float z) {
@@ -100,7 +105,11 @@ ImageMessage ResultMessages::filtered_depth() const {
                     : image_message(header_, "16UC1", millimetres_.view());
 }
 
-PointCloud2Message ResultMessages::points() const {
+PointCloud2Message ResultMessages::points() {
+  if (in_metres_)
+    add_points(metres_);
+  else
+    add_points(millimetres_);
   PointCloud2Message cloud{.header = header_, .height = 1};
   cloud.width = static_cast<std::uint32_t>(points_.size() / 3);
   cloud.fields = {

@@ -35,13 +35,15 @@ class ResultMessages {
   /// The depth image without what is not trusted: 0 of 16UC1, NaN of 32FC1.
   [[nodiscard]] ImageMessage filtered_depth() const;
   /// Its points, x y z in metres. None where the lens model does not reach.
-  [[nodiscard]] PointCloud2Message points() const;
+  [[nodiscard]] PointCloud2Message points();
 
   [[nodiscard]] const MessageHeader& header() const { return header_; }
 
  private:
   template <typename T>
   void filter(ImageView<const T> depth, Image<T>& filtered, T none);
+  template <typename T>
+  void add_points(const Image<T>& filtered);
   void add_point(int u, int v, float z);
 
   Image<float> rays_x_, rays_y_;

@@ -87,7 +87,9 @@ Robot Robot::parse(std::string_view xml, const fs::path& folder, const RobotOpti
 }
 
 Robot::Robot(std::unique_ptr<const Model> model) : model_(std::move(model)) {}
+Robot::Robot(const Robot&) = default;
 Robot::Robot(Robot&&) noexcept = default;
+Robot& Robot::operator=(const Robot&) = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 Robot::~Robot() = default;
 

@@ -76,7 +76,8 @@ struct Joint {
 /// the smallest rotation that takes -z to the normal.
 [[nodiscard]] Eigen::Matrix3d plane_axes(const Eigen::Vector3d& normal);
 
-/// A URDF's links, joints and geometry, ready to be posed. Immutable, cheap to move.
+/// A URDF's links, joints and geometry, ready to be posed. Immutable, and shared by its
+/// copies, which are cheap and may be used by several threads.
 class Robot {
  public:
   /// Reads a URDF and its meshes. Throws InputError naming file, line and element for anything that
@@ -88,7 +89,9 @@ class Robot {
   [[nodiscard]] static Robot parse(std::string_view xml, const std::filesystem::path& folder,
                                    const RobotOptions& options = {});
 
+  Robot(const Robot&);
   Robot(Robot&&) noexcept;
+  Robot& operator=(const Robot&);
   Robot& operator=(Robot&&) noexcept;
   ~Robot();
 
@@ -132,7 +135,7 @@ class Robot {
                                                  const std::filesystem::path& folder,
                                                  const RobotOptions& options);
   explicit Robot(std::unique_ptr<const Model> model);
-  std::unique_ptr<const Model> model_;
+  std::shared_ptr<const Model> model_;
 };
 
 }  // namespace penumbra

@@ -2,10 +2,10 @@
 #include <utility>
 #include <variant>
 
-#include <apps/penumbra/overlay_painter.hpp>
 #include <io/overlay.hpp>
+#include <io/overlay_painter.hpp>
 
-namespace penumbra::app {
+namespace penumbra::io {
 namespace {
 
 LabelView labels_of(const FrameReport& report) {
@@ -21,33 +21,33 @@ LabelView labels_of(const FrameReport& report) {
 
 }  // namespace
 
-ImageView<const io::Rgb8> OverlayPainter::draw(const FrameReport& report,
-                                               const io::FrameData& frame,
-                                               const ShownTargets& targets) {
-  io::OverlayInput input;
+ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const ShownImages& images,
+                                           const ShownTargets& targets) {
+  OverlayInput input;
   input.labels = labels_of(report);
   input.uncovered = report.pixels.uncovered;
   input.index = static_cast<std::int64_t>(report.index);
   input.stamp = report.stamp;
   input.message = report.message;
   input.pose_known = has_pose(report.status);
-  if (!frame.color.empty()) {
-    input.color = seen(frame.color, color_);
+  if (!images.color.empty()) {
+    input.color = seen(images.color, color_);
   } else {
-    std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); }, frame.depth);
+    std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); },
+               images.depth);
   }
-  io::draw_overlay(input, overlay_);
+  draw_overlay(input, overlay_);
   target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
   return std::as_const(overlay_).view();
 }
 
 template <typename T>
-ImageView<const T> OverlayPainter::seen(const Image<T>& raw, Image<T>& rectified) {
-  if (rectification_ == nullptr || raw.empty()) return raw.view();
+ImageView<const T> OverlayPainter::seen(ImageView<const T> raw, Image<T>& rectified) {
+  if (rectification_ == nullptr || raw.empty()) return raw;
   const Intrinsics& pinhole = rectification_->pinhole();
   if (rectified.empty()) rectified = Image<T>(pinhole.width(), pinhole.height());
-  remap(rectification_->pinhole_to_raw(), raw.view(), T{}, rectified.view());
+  remap(rectification_->pinhole_to_raw(), raw, T{}, rectified.view());
   return std::as_const(rectified).view();
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::io

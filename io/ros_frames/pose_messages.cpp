@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <io/ros_frames/pose_messages.hpp>
+
+namespace penumbra::io {
+
+void add_to_history(const JointStateMessage& message, PoseHistory& history) {
+  history.add_joints(message.header.stamp, message.names, message.positions);
+}
+
+void add_to_history(const TfMessage& message, bool is_static, PoseHistory& history) {
+  for (const TransformMessage& t : message.transforms) {
+    if (is_static)
+      history.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
+    else
+      history.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id, t.T_parent_child);
+  }
+}
+
+std::vector<std::string> refusals_of(const PoseHistory& history) {
+  std::vector<std::string> lines;
+  if (history.clock_jumps() > 0) lines.push_back(history.last_jump());
+  if (history.joint_states_without_stamp() > 0)
+    lines.push_back(std::to_string(history.joint_states_without_stamp()) +
+                    " joint states without a stamp are not used");
+  if (history.transforms().refused() > 0)
+    lines.push_back("transforms are not used, the last: " + history.transforms().last_refusal());
+  return lines;
+}
+
+}  // namespace penumbra::io
