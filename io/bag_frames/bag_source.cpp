@@ -213,7 +213,7 @@ void BagSource::take_targets_as(const BagMessage& message) {
 
 template <typename M>
 void BagSource::take_color(const BagMessage& message) {
-  if (M image; inbox_.decode(message, image)) colors_.add(image);
+  if (M image; inbox_.decode(message, image)) colors_.add(keep_image(image));
 }
 
 void BagSource::collect() {
@@ -311,7 +311,7 @@ void BagSource::show_color(std::int64_t stamp, FrameData& data) {
     data.color = {};
     return;
   }
-  const ColorImage* const color = colors_.find(stamp);
+  const KeptImage* const color = colors_.find(stamp);
   data.color_message =
       color == nullptr ? ColorImages::none_near : decode_color(*color, options_.camera, data.color);
   if (!data.color_message.empty()) data.color = {};

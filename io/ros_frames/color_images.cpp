@@ -13,7 +13,7 @@
 namespace penumbra::io {
 
 template <typename M>
-void ColorImages::add(const M& message, std::shared_ptr<const void> owner) {
+KeptImage keep_image(const M& message, std::shared_ptr<const void> owner) {
   M own = message;
   if (owner == nullptr) {
     auto pixels =
@@ -21,23 +21,28 @@ void ColorImages::add(const M& message, std::shared_ptr<const void> owner) {
     own.data = *pixels;
     owner = std::move(pixels);
   }
-  newest_ = std::max(newest_, own.header.stamp);
-  ColorImage& kept = images_.emplace_back();
+  KeptImage kept;
   kept.owner = std::move(owner);
   if constexpr (std::is_same_v<M, ImageMessage>)
     kept.image = std::move(own);
   else
     kept.compressed = std::move(own);
+  return kept;
+}
+
+template KeptImage keep_image(const ImageMessage&, std::shared_ptr<const void>);
+template KeptImage keep_image(const CompressedImageMessage&, std::shared_ptr<const void>);
+
+void ColorImages::add(KeptImage image) {
+  newest_ = std::max(newest_, image.header().stamp);
+  images_.push_back(std::move(image));
   if (images_.size() > most_images_) images_.pop_front();
 }
 
-template void ColorImages::add(const ImageMessage&, std::shared_ptr<const void>);
-template void ColorImages::add(const CompressedImageMessage&, std::shared_ptr<const void>);
-
-const ColorImage* ColorImages::find(std::int64_t stamp) const {
-  const ColorImage* nearest = nullptr;
+const KeptImage* ColorImages::find(std::int64_t stamp) const {
+  const KeptImage* nearest = nullptr;
   std::int64_t apart = most_apart;
-  for (const ColorImage& kept : images_) {
+  for (const KeptImage& kept : images_) {
     const std::int64_t distance = std::abs(kept.header().stamp - stamp);
     if (distance > apart) continue;
     apart = distance;
@@ -51,7 +56,7 @@ void ColorImages::forget_before(std::int64_t stamp) {
     images_.pop_front();
 }
 
-std::string decode_color(const ColorImage& color, const Camera& camera, Image<Rgb8>& image) {
+std::string decode_color(const KeptImage& color, const Camera& camera, Image<Rgb8>& image) {
   const std::string& frame = color.header().frame_id;
   if (frame_name(frame) != frame_name(camera.frame_id))
     return "the color image is of the frame '" + printable(frame) + "', the depth image of '" +

@@ -16,8 +16,8 @@
 
 namespace penumbra::io {
 
-/// A color image as it came, not decoded yet.
-struct ColorImage {
+/// An image as it came, whose pixels are not decoded yet.
+struct KeptImage {
   std::optional<ImageMessage> image;  ///< one of the two, which refers to what `owner` holds
   std::optional<CompressedImageMessage> compressed;
   std::shared_ptr<const void> owner;
@@ -27,8 +27,12 @@ struct ColorImage {
   }
 };
 
+/// `owner` keeps the message's pixels alive; null: they are copied.
+template <typename M>
+[[nodiscard]] KeptImage keep_image(const M& message, std::shared_ptr<const void> owner = nullptr);
+
 /// Draws an image if it is one of `camera`; answers why not, or nothing.
-[[nodiscard]] std::string decode_color(const ColorImage& color, const Camera& camera,
+[[nodiscard]] std::string decode_color(const KeptImage& color, const Camera& camera,
                                        Image<Rgb8>& image);
 
 /// Color images, kept until the depth images of their stamps are shown. They are for pictures
@@ -42,23 +46,20 @@ class ColorImages {
   /// `most_images`: that are kept at a time.
   explicit ColorImages(std::size_t most_images) : most_images_(most_images) {}
 
-  /// Keeps an image, of which `payload` is decoded when it is wanted. `owner` keeps its pixels
-  /// alive; null: they are copied.
-  template <typename M>
-  void add(const M& message, std::shared_ptr<const void> owner = nullptr);
+  void add(KeptImage image);
 
   /// Whether the one of `stamp`, or one after it, has come.
   [[nodiscard]] bool reaches(std::int64_t stamp) const { return newest_ >= stamp; }
 
   /// The image that is nearest to `stamp`; null: none is near.
-  [[nodiscard]] const ColorImage* find(std::int64_t stamp) const;
+  [[nodiscard]] const KeptImage* find(std::int64_t stamp) const;
 
   /// Forgets what is older than a frame of `stamp` needs.
   void forget_before(std::int64_t stamp);
 
  private:
   std::size_t most_images_;
-  std::deque<ColorImage> images_;  // as they came
+  std::deque<KeptImage> images_;  // as they came
   std::int64_t newest_ = 0;
 };
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <penumbra/pipeline/frame_queue.hpp>
+#include <penumbra/pipeline/pose_lookup.hpp>
+
+#include <io/live/live_job.hpp>
+#include <io/live/live_robot.hpp>
+#include <io/ros/messages.hpp>
+#include <io/ros_frames/camera_mount.hpp>
+#include <io/ros_frames/color_images.hpp>
+
+namespace penumbra::io {
+
+struct LiveCameraOptions {
+  std::string name = {};         ///< empty: the only camera
+  std::string depth_topic = {};  ///< topics: for messages
+  std::string info_topic = {};
+  std::string color_topic = {};       ///< empty: none
+  std::string color_info_topic = {};  ///< empty: depth is judged in its own image
+  MountWishes mount = {};
+  bool info_is_named = false;  ///< CameraEvidence
+  bool is_rectified = false;   ///< likewise
+  PoseSource poses = PoseSource::joints;
+  double time_offset = 0.0;    ///< FrameQueueOptions
+  double max_wait = 0.2;       ///< likewise
+  std::size_t max_frames = 8;  ///< likewise
+};
+
+/// Why an image was not judged.
+enum class LiveDrop {
+  superseded,  ///< as DropReason has it, and so the next five
+  late,
+  overflow,
+  clock_jump,
+  no_stamp,
+  no_pose,
+  unreadable,  ///< the message cannot be decoded
+  not_ready,   ///< there was no robot, or no camera_info yet
+  changed      ///< robot, camera_info or mount changed while it waited, or the image is from before
+};
+inline constexpr std::size_t live_drops = 9;
+[[nodiscard]] std::string_view to_string(LiveDrop reason);
+
+/// What became of the depth images: received = judged + failed + dropped + waiting + in work.
+struct LiveCounts {
+  std::size_t received = 0;
+  std::size_t judged = 0;  ///< and published
+  std::size_t failed = 0;  ///< nothing could be said of them
+  std::size_t waiting = 0;
+  std::size_t in_work = 0;
+  std::array<std::size_t, live_drops> dropped{};
+
+  [[nodiscard]] std::size_t of(LiveDrop reason) const {
+    return dropped[static_cast<std::size_t>(reason)];
+  }
+};
+
+/// The messages of one camera: keeps depth images until they can be judged, newest first. Knows no
+/// thread and no clock, as FrameQueue.
+class LiveCamera {
+ public:
+  /// Of drivers that send a camera_info with each image, how long an image waits for its own.
+  static constexpr std::int64_t companion_wait = 100'000'000;
+
+  /// `robot` must outlive this. Throws InputError for what FrameQueue would refuse.
+  LiveCamera(LiveCameraOptions options, const LiveRobot& robot);
+
+  void take_depth(KeptImage image, std::int64_t now);
+  /// For images that cannot be decoded.
+  void drop_unreadable();
+  void take_info(const CameraInfoMessage& info, std::int64_t now);
+  void take_color_info(const CameraInfoMessage& info);
+  void take_color(KeptImage image) { colors_.add(std::move(image)); }
+  template <typename M>
+  void take_targets(const std::string& topic, const M& message) {
+    if (setup_)
+      setup_->targets.add(topic, message);
+    else
+      ++targets_without_setup_;
+  }
+
+  /// To be called when the robot may have changed.
+  void follow_robot() { refresh(); }
+
+  /// The next image to be judged; false: none yet. `with_color`: a picture will be made of it.
+  bool next(std::int64_t now, bool with_color, LiveJob& job);
+  /// To be called once for each job.
+  void done(const LiveOutcome& outcome);
+  /// When next() has something even if nothing comes.
+  [[nodiscard]] std::optional<std::int64_t> wake_at() const;
+
+  [[nodiscard]] const LiveCameraOptions& options() const { return options_; }
+  [[nodiscard]] LiveCounts counts() const;
+  /// By what images are judged now; null: setup_fault() says why, or robot or camera are not known.
+  [[nodiscard]] const LiveSetup* setup() const { return setup_.get(); }
+  [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
+  [[nodiscard]] bool has_info() const { return info_.has_value(); }
+  [[nodiscard]] bool lacks_color_info() const {
+    return !options_.color_info_topic.empty() && !color_info_;
+  }
+  [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
+  [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
+  /// Stamp of the image that came last.
+  [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }
+  [[nodiscard]] std::size_t targets_without_setup() const { return targets_without_setup_; }
+
+ private:
+  struct Waiting {
+    KeptImage image;
+    std::int64_t arrived = 0;
+  };
+  /// What a setup is made of.
+  struct Basis {
+    const PosedRobot* robot = nullptr;
+    std::uint64_t frames = 0, cameras = 0;
+    std::string depth_frame;
+    bool operator==(const Basis&) const = default;
+  };
+
+  void refresh();
+  [[nodiscard]] std::shared_ptr<LiveSetup> make_setup();
+  [[nodiscard]] JudgedCameras find_cameras() const;
+  void drop_waiting(LiveDrop reason);
+  void drop(LiveDrop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; }
+  void admit(std::int64_t now);
+  [[nodiscard]] bool has_company(const Waiting& waiting, std::int64_t now);
+
+  LiveCameraOptions options_;
+  const LiveRobot& robot_;
+  std::shared_ptr<LiveSetup> setup_;
+  Basis basis_;  // of the setup, or of the last try to make one
+  std::string setup_fault_;
+  std::optional<CameraInfoMessage> info_, color_info_;
+  std::uint64_t cameras_revision_ = 0;
+  std::size_t camera_changes_ = 0;
+  std::int64_t valid_from_ = 0;   // images of earlier stamps are of another camera
+  std::int64_t newest_info_ = 0;  // stamp
+  bool infos_come_with_images_ = false;
+  std::string depth_frame_;
+  std::deque<std::int64_t> recent_stamps_;   // of depth images
+  std::deque<Waiting> arrived_;              // images that wait for their camera_info
+  std::map<std::uint64_t, Waiting> queued_;  // those in the setup's queue, by key
+  std::uint64_t next_key_ = 0;
+  ColorImages colors_;
+  LiveCounts counts_;
+  std::optional<std::int64_t> last_depth_;
+  std::int64_t last_stamp_ = 0;
+  std::size_t targets_without_setup_ = 0;
+};
+
+}  // namespace penumbra::io

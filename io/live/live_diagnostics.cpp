@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include <penumbra/pipeline/statistics.hpp>
+
+#include <io/live/live_diagnostics.hpp>
+#include <io/printable.hpp>
+#include <io/ros_frames/pose_messages.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using Status = DiagnosticStatusMessage;
+
+/// What comes more seldom has stopped, nanoseconds.
+constexpr std::int64_t silence = 1'000'000'000;
+
+std::string decimal(double value, const char* unit) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f%s", value, unit);
+  return text.data();
+}
+
+std::string seconds_since(std::int64_t then, std::int64_t now) {
+  return decimal(static_cast<double>(now - then) * 1e-9, " s");
+}
+
+/// Why nothing comes on a topic, as far as the transport knows; empty: it does not.
+std::string silence_of(const LiveLink& link, const LiveTopic& topic) {
+  const std::string name = printable(topic.name);
+  if (!link.other_type.empty())
+    return name + " is of type " + printable(link.other_type) + ", " + topic.type + " is wanted";
+  if (!link.is_open) return name + " is not subscribed to: nobody publishes it yet";
+  if (link.publishers > 0) return {};
+  if (!link.refused_because.empty())
+    return "the publisher of " + name + " offers another QoS (" + link.refused_because +
+           ") than is asked for" +
+           (link.refused_because == "reliability" ? "; leave --reliable out" : "");
+  return "no publisher of " + name;
+}
+
+/// The topics of a role, and of one camera where it has such.
+template <typename F>
+void for_each_topic(const LiveInbox& inbox, LiveRole role, std::size_t camera, const F& call) {
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    if (inbox.topics()[i].role == role && inbox.topics()[i].camera == camera) call(i);
+}
+
+std::string why_silent(const LiveInbox& inbox, LiveRole role, std::size_t camera,
+                       std::span<const LiveLink> links) {
+  std::string why;
+  for_each_topic(inbox, role, camera, [&](std::size_t i) {
+    const std::string one = silence_of(links[i], inbox.topics()[i]);
+    if (!one.empty()) why += (why.empty() ? "" : "; ") + one;
+    const MessageFaults& faults = inbox.faults();
+    const auto fault = faults.all().find(inbox.topics()[i].name);
+    if (one.empty() && fault != faults.all().end())
+      why += (why.empty() ? "" : "; ") + std::to_string(fault->second.messages) +
+             " messages cannot be read: " + fault->second.what;
+  });
+  return why.empty() ? "nothing comes from its publisher" : why;
+}
+
+std::string since(const std::optional<std::int64_t>& last, std::int64_t now) {
+  return last ? " for " + seconds_since(*last, now) : " yet";
+}
+
+void add(Status& status, const std::string& key, const std::string& value) {
+  status.values.push_back({key, value});
+}
+void add_count(Status& status, const std::string& key, std::size_t value) {
+  add(status, key, std::to_string(value));
+}
+void add_quantiles(Status& status, const std::string& key, const LatencyHistogram& times) {
+  if (const auto median = times.quantile(0.5))
+    add(status, key + " median", decimal(*median, " ms"));
+  if (const auto p99 = times.quantile(0.99)) add(status, key + " p99", decimal(*p99, " ms"));
+}
+
+void add_link(Status& status, const LiveTopic& topic, const LiveLink& link, double rate) {
+  std::string text = decimal(rate, " Hz") + ", " + std::to_string(link.publishers) + " publishers";
+  if (link.lost > 0) text += ", " + std::to_string(link.lost) + " lost";
+  if (link.overwritten > 0) text += ", " + std::to_string(link.overwritten) + " overwritten";
+  add(status, printable(topic.name), text);
+}
+
+void add_counts(Status& status, const LiveCounts& counts) {
+  add_count(status, "received", counts.received);
+  add_count(status, "judged", counts.judged);
+  add_count(status, "failed", counts.failed);
+  for (std::size_t i = 0; i < live_drops; ++i)
+    if (counts.dropped[i] > 0)
+      add_count(status, "dropped: " + std::string(to_string(static_cast<LiveDrop>(i))),
+                counts.dropped[i]);
+}
+
+void add_tally(Status& status, const LiveTally& tally) {
+  for (const auto& [name, frames] : tally.statuses) add_count(status, "frames " + name, frames);
+  add_quantiles(status, "stamp to published", tally.latency);
+  add_quantiles(status, "arrival to published", tally.processing);
+  if (tally.beyond_clock > 0) add_count(status, "stamps of another clock", tally.beyond_clock);
+  for (const Stage& stage : stages)
+    if (const auto& time = tally.last.timing.*stage.time)
+      add(status, "last " + std::string(stage.name), decimal(*time, " ms"));
+}
+
+bool is_of_robot(LiveRole role) {
+  return role == LiveRole::description || role == LiveRole::joints ||
+         role == LiveRole::transforms || role == LiveRole::static_transforms ||
+         role == LiveRole::targets;
+}
+
+std::string name_of(const LiveCamera& camera) {
+  const std::string& name = camera.options().name;
+  return "penumbra: camera" + (name.empty() ? "" : " " + name);
+}
+
+}  // namespace
+
+LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> links,
+                             std::int64_t now) {
+  const LiveRobot& robot = inbox.robot();
+  if (!robot.fault().empty()) return {Status::error, robot.fault()};
+  if (!robot.posed())
+    return {Status::stale,
+            "no robot_description yet: " + why_silent(inbox, LiveRole::description, 0, links)};
+  const bool by_joints = inbox.options().poses != PoseSource::transforms;
+  const auto& last = by_joints ? robot.last_joints() : robot.last_transforms();
+  if (!last || now - *last > silence)
+    return {Status::stale,
+            std::string(by_joints ? "no joint states" : "no tf") + since(last, now) + ": " +
+                why_silent(inbox, by_joints ? LiveRole::joints : LiveRole::transforms, 0, links)};
+  return {};
+}
+
+LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
+                              std::span<const LiveLink> links, std::int64_t now) {
+  const LiveCamera& camera = inbox.camera(number);
+  const LiveTally& tally = inbox.tally(number);
+  if (!camera.last_depth() || now - *camera.last_depth() > silence)
+    return {Status::stale, "no depth images" + since(camera.last_depth(), now) + ": " +
+                               why_silent(inbox, LiveRole::depth, number, links)};
+  if (!camera.has_info())
+    return {Status::error,
+            "no camera_info yet: " + why_silent(inbox, LiveRole::camera_info, number, links)};
+  if (camera.lacks_color_info())
+    return {Status::error, "no camera_info of the color images yet: " +
+                               why_silent(inbox, LiveRole::color_info, number, links)};
+  if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
+  if (!inbox.robot().posed()) {
+    const LiveTrouble robot = trouble_of_robot(inbox, links, now);
+    return {Status::error, "nothing can be judged: " + robot.why};
+  }
+  if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
+  if (!tally.last_published) return {Status::stale, "no image was judged yet"};
+  if (now - *tally.last_published > silence)
+    return {Status::error,
+            "nothing was published for " + seconds_since(*tally.last_published, now)};
+  if (tally.last.status == FrameStatus::ok) return {};
+  const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
+  return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
+}
+
+DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
+                                               std::span<const LiveLink> links,
+                                               const LiveMoment& moment) {
+  const double seconds = std::max(static_cast<double>(moment.now - before_) * 1e-9, 1e-3);
+  cameras_.resize(inbox.camera_count());
+  received_.resize(inbox.topics().size());
+  const auto rate_of = [&](std::size_t i) {
+    return static_cast<double>(inbox.received()[i] - received_[i]) / seconds;
+  };
+  DiagnosticArrayMessage array{.header = {moment.system_now, ""}, .status = {}};
+
+  Status& robot = array.status.emplace_back();
+  const LiveTrouble of_robot = trouble_of_robot(inbox, links, moment.now);
+  robot = {.level = of_robot.level, .name = "penumbra: robot", .message = of_robot.why};
+  if (const auto& posed = inbox.robot().posed()) {
+    if (robot.message.empty()) robot.message = posed->robot.name() + ", its pose is told";
+    for (const std::string& line : refusals_of(posed->history)) add(robot, "note", line);
+    for (const std::string& line : posed->robot.notes()) add(robot, "note", line);
+  }
+  add_count(robot, "robots told", inbox.robot().robots());
+  for (const auto& [topic, fault] : inbox.faults().all())
+    add(robot, "unreadable in " + printable(topic),
+        std::to_string(fault.messages) + ", the first: " + fault.what);
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    if (is_of_robot(inbox.topics()[i].role))
+      add_link(robot, inbox.topics()[i], links[i], rate_of(i));
+
+  for (std::size_t c = 0; c < inbox.camera_count(); ++c) {
+    const LiveCamera& camera = inbox.camera(c);
+    const LiveCounts counts = camera.counts();
+    const LiveTrouble trouble = trouble_of_camera(inbox, c, links, moment.now);
+    Status status{.level = trouble.level, .name = name_of(camera), .message = trouble.why};
+    const double rate = static_cast<double>(counts.judged - cameras_[c].judged) / seconds;
+    if (status.message.empty()) status.message = decimal(rate, " frames/s judged");
+    add(status, "judged per second", decimal(rate, ""));
+    if (camera.setup() != nullptr)
+      add(status, "camera on link",
+          camera.setup()->mount.parent + ", by " + camera.setup()->mount.told);
+    add_counts(status, counts);
+    add_tally(status, inbox.tally(c));
+    if (camera.camera_changes() > 0)
+      add_count(status, "camera_info changed", camera.camera_changes());
+    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+      if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == c)
+        add_link(status, inbox.topics()[i], links[i], rate_of(i));
+    array.status.push_back(std::move(status));
+    cameras_[c] = {counts.received, counts.judged};
+  }
+  received_.assign(inbox.received().begin(), inbox.received().end());
+  before_ = moment.now;
+  return array;
+}
+
+}  // namespace penumbra::io

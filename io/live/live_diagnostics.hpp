@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <io/live/live_inbox.hpp>
+#include <io/ros/messages.hpp>
+
+namespace penumbra::io {
+
+/// What the transport knows of a subscription.
+struct LiveLink {
+  bool is_open = false;  ///< it is subscribed to
+  int publishers = 0;
+  std::uint64_t lost = 0;         ///< by the transport
+  std::uint64_t overwritten = 0;  ///< by newer ones, before they were read
+  std::string refused_because;    ///< a publisher's QoS does not fit: the policy; empty: none
+  std::string other_type;  ///< the topic's messages are of this type, which is not the one wanted
+};
+
+/// When a report is made.
+struct LiveMoment {
+  std::int64_t now = 0;         ///< of the inbox's clock
+  std::int64_t system_now = 0;  ///< nanoseconds since 1970
+};
+
+/// Tells how it goes, for diagnostic_msgs: one status of the robot, and one of each camera, with
+/// rates since the last report and, where nothing is published, the reason.
+class LiveDiagnostics {
+ public:
+  explicit LiveDiagnostics(std::int64_t started) : started_(started), before_(started) {}
+
+  /// `links`: one for each of inbox.topics().
+  [[nodiscard]] DiagnosticArrayMessage report(const LiveInbox& inbox,
+                                              std::span<const LiveLink> links,
+                                              const LiveMoment& moment);
+
+ private:
+  struct Before {
+    std::size_t received = 0, judged = 0;
+  };
+
+  std::int64_t started_;
+  std::int64_t before_;  // when the last report was made
+  std::vector<Before> cameras_;
+  std::vector<std::size_t> received_;  // of each topic
+};
+
+/// Why a camera's results do not come, or cannot be trusted, in one line; empty: they do.
+struct LiveTrouble {
+  std::uint8_t level = DiagnosticStatusMessage::ok;
+  std::string why;
+};
+[[nodiscard]] LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> links,
+                                           std::int64_t now);
+[[nodiscard]] LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t camera,
+                                            std::span<const LiveLink> links, std::int64_t now);
+
+}  // namespace penumbra::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/frame_queue.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/robot/transform_buffer.hpp>
+
+#include <io/live/live_robot.hpp>
+#include <io/ros/target_inbox.hpp>
+#include <io/ros_frames/camera_mount.hpp>
+#include <io/ros_frames/color_images.hpp>
+#include <io/ros_frames/judged_cameras.hpp>
+
+namespace penumbra::io {
+
+/// By what a camera's images are judged, and the images that wait for it: another robot, another
+/// camera_info or another mount is another setup. What does not change may be read at any time, the
+/// rest as LiveInbox says.
+struct LiveSetup {
+  LiveSetup(std::shared_ptr<PosedRobot> of, JudgedCameras cameras_, CameraMount where,
+            const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
+      : posed(std::move(of)),
+        cameras(std::move(cameras_)),
+        mount(std::move(where)),
+        queue(posed->robot, posed->history, options, std::move(on_drop)),
+        targets(posed->robot, cameras.judged.frame_id) {}
+
+  const std::shared_ptr<PosedRobot> posed;
+  const JudgedCameras cameras;
+  const CameraMount mount;
+  FrameQueue queue;
+  TargetInbox targets;
+};
+
+/// A depth image whose turn it is.
+struct LiveJob {
+  std::shared_ptr<LiveSetup> setup;
+  KeptImage image;
+  std::int64_t arrived = 0;  ///< on the caller's clock
+  QueuedFrame pose;
+  TransformAnswer T_judged_depth;   ///< if the setup has a depth camera of its own
+  std::span<const Target> targets;  ///< valid until the setup's next job
+  std::optional<KeptImage> color;   ///< for the overlay
+};
+
+/// What became of it.
+struct LiveOutcome {
+  bool is_published = false;
+  std::string fault;  ///< why nothing could be said of the image; empty if it is published
+  FrameStatus status = FrameStatus::ok;
+  std::string message;  ///< one line for every status but ok
+  StageTimes timing;
+  std::int64_t stamp = 0;
+  std::int64_t arrived = 0;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <io/live/live_runner.hpp>
+
+namespace penumbra::io {
+namespace {
+
+template <typename Clock>
+std::int64_t nanoseconds_of() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+std::int64_t LiveRunner::steady_now() { return nanoseconds_of<std::chrono::steady_clock>(); }
+std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::system_clock>(); }
+
+LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
+                       std::vector<ResultSink*> sinks)
+    : inbox_(options) {
+  for (ResultSink* sink : sinks) {
+    CameraThread& camera = cameras_.emplace_back();
+    camera.sink = sink;
+    camera.worker = std::make_unique<LiveWorker>(config);
+  }
+}
+
+void LiveRunner::start() {
+  for (std::size_t i = 0; i < cameras_.size(); ++i)
+    cameras_[i].thread = std::thread([this, i] { work(i); });
+}
+
+void LiveRunner::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  for (CameraThread& camera : cameras_)
+    if (camera.thread.joinable()) camera.thread.join();
+}
+
+void LiveRunner::receive(std::size_t topic, const LiveMessage& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    inbox_.receive(topic, message, steady_now());
+  }
+  changed_.notify_all();
+}
+
+void LiveRunner::rethrow() {
+  const std::lock_guard lock(mutex_);
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+void LiveRunner::wait(std::size_t camera, std::unique_lock<std::mutex>& lock) {
+  const auto wake_at = inbox_.wake_at(camera);
+  if (!wake_at) return changed_.wait(lock);
+  const auto at_most = std::chrono::nanoseconds(std::max<std::int64_t>(*wake_at - steady_now(), 0));
+  changed_.wait_for(lock, at_most);
+}
+
+void LiveRunner::work(std::size_t camera) {
+  CameraThread& self = cameras_[camera];
+  LiveJob job;
+  std::unique_lock lock(mutex_);
+  try {
+    while (!stopping_) {
+      lock.unlock();
+      const bool with_color = self.sink->wants(Result::overlay);
+      lock.lock();
+      if (stopping_) break;
+      if (!inbox_.next(camera, steady_now(), with_color, job)) {
+        wait(camera, lock);
+        continue;
+      }
+      lock.unlock();
+      const LiveOutcome outcome = self.worker->judge(job, *self.sink);
+      const std::int64_t now = steady_now(), system = system_now();
+      job.image = {};
+      job.color.reset();
+      lock.lock();
+      inbox_.done(camera, outcome, now, system);
+    }
+  } catch (...) {
+    if (!lock.owns_lock()) lock.lock();
+    fault_ = std::current_exception();
+    has_failed_ = true;
+  }
+}
+
+}  // namespace penumbra::io

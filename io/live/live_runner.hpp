@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/live/live_inbox.hpp>
+#include <io/live/live_worker.hpp>
+
+namespace penumbra::io {
+
+/// Judges what comes on the graph: one thread for each camera, beside the one that receives.
+///
+/// One mutex guards the inbox: robot, poses, images that wait, counts. It is held while a message
+/// is taken and while a job is picked, never while one is worked on, so that nothing waits for
+/// rendering or for the network; only a new robot is made under it, when nothing can be judged
+/// anyway. A sink is written to by its camera's thread alone, without the mutex.
+class LiveRunner {
+ public:
+  /// `sinks`: one for each camera, which must outlive this. Throws as LiveInbox.
+  LiveRunner(const LiveOptions& options, const PipelineConfig& config,
+             std::vector<ResultSink*> sinks);
+  ~LiveRunner() { stop(); }
+  LiveRunner(const LiveRunner&) = delete;
+  LiveRunner& operator=(const LiveRunner&) = delete;
+
+  void start();
+  /// Ends the threads once they have judged what they are at. What waits is left.
+  void stop();
+
+  /// From any thread.
+  void receive(std::size_t topic, const LiveMessage& message);
+
+  /// Reads the inbox while nothing changes.
+  template <typename F>
+  auto with_inbox(const F& look) {
+    const std::lock_guard lock(mutex_);
+    return look(inbox_);
+  }
+
+  /// Nanoseconds of the clock that the inbox is told of, and since 1970.
+  [[nodiscard]] static std::int64_t steady_now();
+  [[nodiscard]] static std::int64_t system_now();
+
+  /// Whether a thread ended by an exception, which rethrow() throws.
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+  void rethrow();
+
+ private:
+  struct CameraThread {
+    ResultSink* sink = nullptr;
+    std::unique_ptr<LiveWorker> worker;
+    std::thread thread;
+  };
+  void work(std::size_t camera);
+  void wait(std::size_t camera, std::unique_lock<std::mutex>& lock);
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  LiveInbox inbox_;           // guarded by mutex_
+  bool stopping_ = false;     // likewise
+  std::exception_ptr fault_;  // likewise
+  std::atomic<bool> has_failed_ = false;
+  std::vector<CameraThread> cameras_;
+};
+
+}  // namespace penumbra::io
