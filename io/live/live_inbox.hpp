@@ -34,9 +34,9 @@ enum class LiveRole {
 struct LiveTopic {
   LiveRole role = LiveRole::depth;
   std::size_t camera = 0;  ///< for those of one camera
-  std::string name;
-  std::string type;      ///< empty: one of several, see LiveInbox::set_type
-  bool latched = false;  ///< told once, to who comes late, too
+  std::string name = {};
+  std::string type = {};  ///< empty: one of several, see LiveInbox::set_type
+  bool latched = false;   ///< told once, to who comes late, too
 };
 
 /// Names are those on the graph, with remapping and namespaces.

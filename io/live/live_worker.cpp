@@ -37,7 +37,9 @@ bool LiveWorker::follow(const std::shared_ptr<LiveSetup>& setup) {
 }
 
 LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
-  LiveOutcome outcome{.stamp = job.pose.stamp, .arrived = job.arrived};
+  LiveOutcome outcome;
+  outcome.stamp = job.pose.stamp;
+  outcome.arrived = job.arrived;
   if (!follow(job.setup)) {
     outcome.fault = fault_;
     return outcome;
