@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// A made-up robot and camera whose truth is in their stamps: a board that slides evenly before a
+// camera, and what both would say of it on ROS 2's topics.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/live/live_inbox.hpp>
+#include <io/live/live_worker.hpp>
+#include <io/ros/image_codec.hpp>
+#include <io/ros/message_encoder.hpp>
+
+namespace penumbra::test {
+
+inline constexpr std::int64_t milliseconds = 1'000'000;
+inline constexpr std::int64_t seconds = 1000 * milliseconds;
+inline constexpr int live_width = 64, live_height = 48;
+
+/// A board of 0.4 m x 0.2 m, its face `slide` metres beyond 0.95 m before the camera.
+inline constexpr const char* live_urdf = R"(<robot name="tiny">
+  <link name="base"/>
+  <link name="board">
+    <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision>
+  </link>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/><child link="board"/>
+    <origin xyz="0 0 1"/><axis xyz="1 0 0"/><limit lower="-9" upper="9" effort="1" velocity="1"/>
+  </joint>
+</robot>
+)";
+
+/// Where the board is at a stamp, metres: always on the move, 0.1 m and more in 0.1 s.
+inline double slide_at(std::int64_t stamp) {
+  const double s = static_cast<double>(stamp % (2 * seconds)) * 1e-9;  // 0 to 2
+  return s < 1.0 ? 0.6 * s - 0.3 : 0.9 - 0.6 * s;
+}
+
+inline io::CameraInfoMessage live_info(std::int64_t stamp, double focal = 60.0) {
+  io::CameraInfoMessage info{.header = {stamp, "optical"},
+                             .height = live_height,
+                             .width = live_width,
+                             .distortion_model = "plumb_bob",
+                             .d = {0, 0, 0, 0, 0}};
+  info.k = {focal, 0, 31.3, 0, focal, 23.7, 0, 0, 1};
+  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.p = {focal, 0, 31.3, 0, 0, focal, 23.7, 0, 0, 0, 1, 0};
+  return info;
+}
+
+template <typename M>
+std::vector<std::byte> encoded(const M& message) {
+  std::vector<std::byte> payload;
+  io::encode(message, payload);
+  return payload;
+}
+
+inline std::vector<std::byte> live_joints(std::int64_t stamp) {
+  return encoded(io::JointStateMessage{
+      .header = {stamp, ""}, .names = {"slide"}, .positions = {slide_at(stamp)}});
+}
+
+/// A wall at 3 m: every pixel of the board is then beyond, so that labels say where it was drawn.
+inline std::vector<std::byte> live_depth(std::int64_t stamp, const std::string& frame = "optical") {
+  static const Image<std::uint16_t> wall(live_width, live_height, 3000);
+  return encoded(io::image_message(io::MessageHeader{stamp, frame}, "16UC1", wall.view()));
+}
+
+/// Labels of the wall with the board where it is at a stamp.
+class LiveTruth {
+ public:
+  explicit LiveTruth(double focal = 60.0)
+      : pipeline_(Robot::parse(live_urdf, "/"), camera(focal), {.camera_parent = "base"}) {}
+
+  const FrameReport& judge(std::int64_t stamp) {
+    positions_ = {slide_at(stamp)};
+    Frame frame;
+    frame.stamp = stamp;
+    frame.depth = wall_.view();
+    frame.joints = positions_;
+    return pipeline_.process(frame);
+  }
+
+ private:
+  static Camera camera(double focal) {
+    return {.intrinsics = Intrinsics(live_width, live_height, focal, focal, 31.3, 23.7),
+            .distortion = {},
+            .range = {},
+            .frame_id = "optical"};
+  }
+  const Image<std::uint16_t> wall_{live_width, live_height, 3000};
+  std::vector<double> positions_;
+  Pipeline pipeline_;
+};
+
+/// Keeps what is published.
+class KeptResults final : public io::ResultSink {
+ public:
+  struct Told {
+    io::Result result;
+    std::int64_t stamp;
+    std::vector<std::byte> payload;
+  };
+  std::vector<Told> told;
+  std::map<io::Result, bool> wanted;  ///< all that are not named are
+
+  [[nodiscard]] bool wants(io::Result result) const override {
+    const auto found = wanted.find(result);
+    return found == wanted.end() || found->second;
+  }
+  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
+    told.push_back({result, stamp, {payload.begin(), payload.end()}});
+  }
+  [[nodiscard]] std::size_t count(io::Result result) const {
+    return static_cast<std::size_t>(std::count_if(
+        told.begin(), told.end(), [&](const Told& one) { return one.result == result; }));
+  }
+  /// The last one of a kind.
+  template <typename M>
+  M last(io::Result result) {
+    M message;
+    for (auto one = told.rbegin(); one != told.rend(); ++one) {
+      if (one->result != result) continue;
+      last_ = one->payload;
+      const auto fault = io::Decoder<M>().decode(last_, message);
+      EXPECT_FALSE(fault) << *fault;
+      return message;
+    }
+    ADD_FAILURE() << "nothing was told";
+    return message;
+  }
+
+ private:
+  std::vector<std::byte> last_;
+};
+
+/// An inbox and its worker, driven by hand.
+class LiveBench {
+ public:
+  explicit LiveBench(io::LiveOptions options = one_camera()) : inbox(options) {}
+
+  static io::LiveOptions one_camera() {
+    io::LiveOptions options;
+    options.cameras = {
+        {.depth_topic = "/camera/depth/image_rect_raw", .info_topic = "/camera/depth/camera_info"}};
+    return options;
+  }
+
+  void tell(const std::string& topic, std::span<const std::byte> payload) {
+    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+      if (inbox.topics()[i].name == topic) return inbox.receive(i, {payload, nullptr}, now);
+    FAIL() << topic;
+  }
+  void tell_robot(const std::string& urdf = live_urdf) {
+    tell("/robot_description", encoded(io::StringMessage{urdf}));
+  }
+  void tell_mount() { tell("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}})); }
+  void tell_joints(std::int64_t stamp) { tell("/joint_states", live_joints(stamp)); }
+  void tell_info(std::int64_t stamp, double focal = 60.0) {
+    tell("/camera/depth/camera_info", encoded(live_info(stamp, focal)));
+  }
+  void tell_depth(std::int64_t stamp) { tell("/camera/depth/image_rect_raw", live_depth(stamp)); }
+
+  /// Robot, camera and mount.
+  void tell_all() {
+    tell_robot();
+    tell_mount();
+    tell_info(0);
+  }
+
+  /// Judges what can be judged; answers how many.
+  std::size_t work() {
+    std::size_t judged = 0;
+    for (; inbox.next(0, now, false, job); ++judged)
+      inbox.done(0, worker.judge(job, results), now, now);
+    return judged;
+  }
+
+  [[nodiscard]] const io::LiveCounts counts() const { return inbox.camera(0).counts(); }
+
+  std::int64_t now = 1000 * seconds;
+  io::LiveInbox inbox;
+  io::LiveWorker worker{PipelineConfig{}};
+  io::LiveJob job;
+  KeptResults results;
+};
+
+/// Each published label image of `told` is the truth of its stamp, or says nothing. Answers how
+/// many say something.
+inline std::size_t expect_true_labels(const std::vector<KeptResults::Told>& told,
+                                      LiveTruth& truth) {
+  std::size_t known = 0;
+  for (const auto& one : told) {
+    if (one.result != io::Result::labels) continue;
+    io::ImageMessage image;
+    const auto fault = io::Decoder<io::ImageMessage>().decode(one.payload, image);
+    EXPECT_FALSE(fault) << *fault;
+    const bool says_nothing = std::all_of(
+        image.data.begin(), image.data.end(),
+        [](std::byte label) { return label == static_cast<std::byte>(Label::unknown); });
+    if (says_nothing) continue;
+    ++known;
+    const FrameReport& report = truth.judge(one.stamp);
+    EXPECT_EQ(std::memcmp(image.data.data(), report.labels.data, image.data.size()), 0)
+        << "wrong labels at " << one.stamp;
+  }
+  return known;
+}
+
+}  // namespace penumbra::test
