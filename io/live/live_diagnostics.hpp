@@ -17,10 +17,11 @@ namespace penumbra::io {
 struct LiveLink {
   bool is_open = false;  ///< it is subscribed to
   int publishers = 0;
-  std::uint64_t lost = 0;         ///< by the transport
-  std::uint64_t overwritten = 0;  ///< by newer ones, before they were read
-  std::string refused_because;    ///< a publisher's QoS does not fit: the policy; empty: none
-  std::string other_type;  ///< the topic's messages are of this type, which is not the one wanted
+  std::uint64_t lost = 0;            ///< by the transport
+  std::uint64_t overwritten = 0;     ///< by newer ones, before they were read
+  std::string refused_because = {};  ///< a publisher's QoS does not fit: the policy; empty: none
+  std::string other_type =
+      {};  ///< the topic's messages are of this type, which is not the one wanted
 };
 
 /// When a report is made.

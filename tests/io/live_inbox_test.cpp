@@ -48,7 +48,7 @@ TEST_F(LiveInboxTest, JudgesAnImageAtItsStamp) {
 }
 
 TEST_F(LiveInboxTest, AnotherPoseWouldShow) {
-  // The oracle of these tests: 20 ms make other labels.
+  // The oracle of these tests: 30 ms make other labels.
   const FrameReport& report = truth_.judge(start);
   const std::vector<std::uint8_t> labels(report.labels.data, report.labels.data + 64 * 48);
   const FrameReport& later = truth_.judge(start + 30 * milliseconds);
@@ -236,8 +236,9 @@ TEST_F(LiveInboxTest, TargetsComeWithTheNextImage) {
   for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
     if (bench.inbox.topics()[i].role == io::LiveRole::targets)
       bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+  bench.tell_depth(start - seconds);
   io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(0.6, 0.0, 2.9);
+  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 2.9);
   bench.tell("/wrist", encoded(pose));
   bench.tell_joints(start);
   bench.tell_depth(start);

@@ -3,10 +3,12 @@
 // camera, and what both would say of it on ROS 2's topics.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,23 +28,24 @@ inline constexpr std::int64_t milliseconds = 1'000'000;
 inline constexpr std::int64_t seconds = 1000 * milliseconds;
 inline constexpr int live_width = 64, live_height = 48;
 
-/// A board of 0.4 m x 0.2 m, its face `slide` metres beyond 0.95 m before the camera.
+/// A board of 0.4 m x 0.2 m that turns before the camera.
 inline constexpr const char* live_urdf = R"(<robot name="tiny">
   <link name="base"/>
   <link name="board">
     <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision>
   </link>
-  <joint name="slide" type="prismatic">
+  <joint name="spin" type="continuous">
     <parent link="base"/><child link="board"/>
-    <origin xyz="0 0 1"/><axis xyz="1 0 0"/><limit lower="-9" upper="9" effort="1" velocity="1"/>
+    <origin xyz="0 0 1"/><axis xyz="0 0 1"/>
   </joint>
 </robot>
 )";
 
-/// Where the board is at a stamp, metres: always on the move, 0.1 m and more in 0.1 s.
-inline double slide_at(std::int64_t stamp) {
-  const double s = static_cast<double>(stamp % (2 * seconds)) * 1e-9;  // 0 to 2
-  return s < 1.0 ? 0.6 * s - 0.3 : 0.9 - 0.6 * s;
+/// How far the board has turned at a stamp, radians: evenly, so that what lies between two states
+/// is known, and by a pixel at its rim in some 20 ms.
+inline double spin_at(std::int64_t stamp) {
+  constexpr double speed = 3.0;  // radians per second
+  return std::remainder(speed * 1e-9 * static_cast<double>(stamp), 2 * std::numbers::pi);
 }
 
 inline io::CameraInfoMessage live_info(std::int64_t stamp, double focal = 60.0) {
@@ -66,7 +69,7 @@ std::vector<std::byte> encoded(const M& message) {
 
 inline std::vector<std::byte> live_joints(std::int64_t stamp) {
   return encoded(io::JointStateMessage{
-      .header = {stamp, ""}, .names = {"slide"}, .positions = {slide_at(stamp)}});
+      .header = {stamp, ""}, .names = {"spin"}, .positions = {spin_at(stamp)}});
 }
 
 /// A wall at 3 m: every pixel of the board is then beyond, so that labels say where it was drawn.
@@ -79,10 +82,10 @@ inline std::vector<std::byte> live_depth(std::int64_t stamp, const std::string& 
 class LiveTruth {
  public:
   explicit LiveTruth(double focal = 60.0)
-      : pipeline_(Robot::parse(live_urdf, "/"), camera(focal), {.camera_parent = "base"}) {}
+      : pipeline_(Robot::parse(live_urdf, "/"), camera(focal)) {}
 
   const FrameReport& judge(std::int64_t stamp) {
-    positions_ = {slide_at(stamp)};
+    positions_ = {spin_at(stamp)};
     Frame frame;
     frame.stamp = stamp;
     frame.depth = wall_.view();
