@@ -80,6 +80,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   SimulateArguments simulate;
   TopicsArguments topics;
   PlayArguments play;
+  LiveArguments live;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -103,6 +104,9 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add_topics(*topics_app, topics);
   CLI::App* const play_app = app.add_subcommand("play", "publish a bag on ROS 2's graph");
   add_play(*play_app, play);
+  CLI::App* const live_app =
+      app.add_subcommand("live", "label ROS 2's live topics, and publish the results");
+  add_live(*live_app, live);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -112,6 +116,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
   }
   check_run(run);
+  check_live(live);
   check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;
@@ -121,9 +126,10 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   if (simulate_app->parsed()) return simulate;
   if (topics_app->parsed()) return topics;
   if (play_app->parsed()) return play;
+  if (live_app->parsed()) return live;
   throw InputError(
-      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics or play "
-      "(penumbra --help tells more)");
+      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics, play or "
+      "live (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

@@ -47,8 +47,9 @@ struct BagArguments {
   std::optional<std::string> parent;          ///< link that the camera sits on
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
-  double time_offset = 0.0;  ///< FrameQueueOptions::time_offset
-  std::string given;         ///< one of the options that were given; empty: none
+  double time_offset = 0.0;       ///< FrameQueueOptions::time_offset
+  std::string given;              ///< one of the options that were given; empty: none
+  std::string group = "Of bags";  ///< of these options in --help
 };
 
 struct RunArguments {
@@ -123,9 +124,27 @@ struct SimulateArguments {
   sim::SimulationOptions options;
 };
 
-using Command =
-    std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                 SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments>;
+struct LiveArguments {
+  /// A camera that is named on the command line.
+  struct NamedCamera {
+    std::string name, depth_topic;
+  };
+
+  RunArguments judging;  ///< its renderer, what is drawn, the rule of labels, its topics
+  io::ParticipantOptions graph;
+  std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name
+  std::string name_space;
+  std::vector<std::string> remaps;     ///< FROM:=TO
+  bool reliable = false;               ///< asked of images, joint states and tf
+  int queue = 8;                       ///< images that wait at a time, of each camera
+  std::optional<std::string> publish;  ///< names of results; nothing: all
+  std::optional<double> duration;      ///< seconds
+  std::optional<std::filesystem::path> summary;
+};
+
+using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                             SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments,
+                             LiveArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

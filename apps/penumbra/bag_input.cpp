@@ -18,8 +18,6 @@
 namespace penumbra::app {
 namespace {
 
-constexpr double bag_target_history = 0.5;  // seconds by which detectors may be late
-
 io::TopicWishes wishes_of(const RunArguments& arguments) {
   const BagArguments& bag = arguments.bag;
   return {.depth = bag.depth_topic,
@@ -145,7 +143,7 @@ RunInput open_bag_input(const RunArguments& arguments) {
           .config = std::move(config),
           .beyond = {},
           .targets = {},
-          .target_history = arguments.bag.target_topics.empty() ? 0.0 : bag_target_history,
+          .target_history = arguments.bag.target_topics.empty() ? 0.0 : topic_target_history,
           .frames = [source = std::move(source), input = arguments.input](
                         const Robot& loaded) -> std::unique_ptr<io::FrameSource> {
             return std::make_unique<io::BagSource>(input, loaded, source);

@@ -14,5 +14,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const SimulateArguments& arguments);
 [[nodiscard]] int execute(const TopicsArguments& arguments);
 [[nodiscard]] int execute(const PlayArguments& arguments);
+[[nodiscard]] int execute(const LiveArguments& arguments);
 
 }  // namespace penumbra::app

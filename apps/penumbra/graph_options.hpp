@@ -22,5 +22,9 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps);
 
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
+void add_live(CLI::App& app, LiveArguments& live);
+
+/// Refuses what does not go together.
+void check_live(const LiveArguments& live);
 
 }  // namespace penumbra::app

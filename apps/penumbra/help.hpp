@@ -17,6 +17,7 @@ Examples:
   penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
   penumbra simulate conveyor -o belt         record a simulated scene with its truth
   penumbra topics                            list the live topics of ROS 2's graph
+  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap                     publish a bag on ROS 2's graph
   penumbra run --help                        all options of one command
 
@@ -90,6 +91,20 @@ Examples:
   penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
   penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
 
+inline constexpr const char* live_examples = R"(
+Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2's graph, judges each
+image with the robot's pose at its own stamp, and publishes what a bag of results holds below
+/penumbra (with --camera below /penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets,
+overlay/compressed, each only while somebody listens; and /diagnostics, once a second, which says why
+nothing is published. What is not known is published as unknown. Ctrl-C and SIGTERM end it.
+ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
+
+Examples:
+  penumbra live --package ur_description=/opt/ur_description
+  penumbra live --depth-topic /camera/camera/depth/image_rect_raw --target-topic /detections
+  penumbra live --camera left=/left/depth/image_rect_raw --camera right=/right/depth/image_rect_raw
+  penumbra live --namespace cell --remap /tf:=/cell/tf --publish mask,targets --summary live.json)";
+
 inline constexpr const char* topics_examples = R"(
 Lists what others publish and subscribe to, with QoS; those whose QoS or type differ do not hear each
 other. Programs on other machines and those of ROS_DOMAIN_ID are found as ROS 2 finds them;
@@ -105,8 +120,11 @@ Ctrl-C ends it. Topics and what was not published are told.
 
 Examples:
   penumbra play bag.mcap
+  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --loop --restamp
+  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --rate 0.5 --start 10 --topics /tf,/tf_static,/camera/depth/image_raw
+  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --remap /joint_states:=/arm/joint_states --domain 7)";
 
 }  // namespace penumbra::app

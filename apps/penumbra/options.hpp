@@ -56,6 +56,11 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 void add_renderer(CLI::App& app, RendererArguments& renderer);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 
+/// By what frames are judged: renderer, geometry, tolerance, labels.
+void add_judging(CLI::App& app, RunArguments& run);
+/// Which topics are taken, and what they leave open.
+void add_bag(CLI::App& app, BagArguments& bag);
+
 /// Options that the chosen renderer would not heed are refused.
 void check_renderer(const RendererArguments& renderer);
 

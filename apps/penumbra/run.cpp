@@ -61,14 +61,6 @@ std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunI
                                      pipeline.robot().links().front());
 }
 
-/// The command line's choice before the recording's before the default.
-LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
-  LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
-  if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
-  if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
-  return rule;
-}
-
 /// The camera whose images the report is of.
 Camera camera_of_report(const RunArguments& arguments, const Camera& camera) {
   if (arguments.image == ImageSpace::raw || camera.distortion.is_none()) return camera;
@@ -164,6 +156,13 @@ std::vector<std::string> notes_of_frames(const io::FrameSource& source, const Se
 }
 
 }  // namespace
+
+LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
+  LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
+  if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
+  if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
+  return rule;
+}
 
 int execute(const RunArguments& arguments) {
   clear_output(arguments);

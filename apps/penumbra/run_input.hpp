@@ -43,6 +43,12 @@ struct RunInput {
 /// What the options say of where the camera sits. Throws InputError of the pose's file.
 [[nodiscard]] io::MountWishes mount_wishes(const BagArguments& bag);
 
+/// The command line's choice before the recording's before the default.
+[[nodiscard]] LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded);
+
+/// Detectors may be so late, seconds, whose targets come by topics.
+inline constexpr double topic_target_history = 0.5;
+
 /// The command line's choices of what is drawn, on top of the input's.
 void add_robot_choices(const RunArguments& arguments, RobotOptions& options);
 

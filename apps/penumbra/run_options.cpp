@@ -42,7 +42,7 @@ void add_bag_option(CLI::App& app, BagArguments& bag, const std::string& name,
     bag.given = name;
     take(text);
   };
-  add_option(app, name, help, value, take_text)->group("Of bags");
+  add_option(app, name, help, value, take_text)->group(bag.group);
 }
 
 template <typename T>
@@ -57,54 +57,7 @@ void add_bag_list(CLI::App& app, BagArguments& bag, const std::string& name,
   add_list(app, name, help, value, [&bag, name, take](const std::string& text) {
     bag.given = name;
     take(text);
-  })->group("Of bags");
-}
-
-void add_bag(CLI::App& app, BagArguments& bag) {
-  add_bag_text(app, bag, "--depth-topic", "depth images; default: the only ones called depth",
-               "TOPIC", bag.depth_topic);
-  add_bag_text(app, bag, "--camera-info-topic", "default: beside the depth images", "TOPIC",
-               bag.camera_info_topic);
-  add_bag_text(app, bag, "--color-topic",
-               "judge in this camera's image: depth is brought there by tf, if it is another's",
-               "TOPIC", bag.color_topic);
-  add_bag_list(app, bag, "--joint-topic",
-               "default: /joint_states, or the only one; may be given several times", "TOPIC",
-               [&](const std::string& text) { bag.joint_topics.push_back(text); });
-  add_bag_list(
-      app, bag, "--target-topic",
-      "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
-      "several times",
-      "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
-  add_bag_option(app, bag, "--poses",
-                 "where links are: joints, tf, or both, which must agree; default: joints, else tf",
-                 "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
-  add_bag_text(app, bag, "--robot", "the robot, in place of the bag's robot_description", "URDF",
-               bag.robot);
-  add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
-               "NAME=DIR", [&](const std::string& text) {
-                 const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
-                 bag.packages[name] = folder;
-               });
-  add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
-               "FRAME", bag.camera_frame);
-  add_bag_text(app, bag, "--parent",
-               "link that the camera sits on; default: the first above its frame in tf", "LINK",
-               bag.parent);
-  add_bag_text(app, bag, "--pose",
-               "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
-               bag.pose);
-  add_bag_option(app, bag, "--time-offset",
-                 "added to the images' stamps before poses are looked up; default 0", "S",
-                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
-  app.add_flag_callback(
-         "--rectified",
-         [&bag] {
-           bag.rectified = true;
-           bag.given = "--rectified";
-         },
-         "the images are free of distortion already, as those called image_rect... are")
-      ->group("Of bags");
+  })->group(bag.group);
 }
 
 /// A bag holds its topics, all of them, in the camera's own image.
@@ -133,17 +86,54 @@ void check_targets(const RunArguments& run) {
 
 }  // namespace
 
-void add_run(CLI::App& app, RunArguments& run) {
-  app.footer(run_examples);
-  add_path(app, "INPUT",
-           "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
-           "folder with metadata.yaml",
-           "", run.input)
-      ->required();
-  add_path(app, "-o,--output",
-           "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
-           run.output)
-      ->required();
+void add_bag(CLI::App& app, BagArguments& bag) {
+  add_bag_text(app, bag, "--depth-topic", "depth images; default: the only ones called depth",
+               "TOPIC", bag.depth_topic);
+  add_bag_text(app, bag, "--camera-info-topic", "default: beside the depth images", "TOPIC",
+               bag.camera_info_topic);
+  add_bag_text(app, bag, "--color-topic",
+               "judge in this camera's image: depth is brought there by tf, if it is another's",
+               "TOPIC", bag.color_topic);
+  add_bag_list(app, bag, "--joint-topic",
+               "default: /joint_states, or the only one; may be given several times", "TOPIC",
+               [&](const std::string& text) { bag.joint_topics.push_back(text); });
+  add_bag_list(
+      app, bag, "--target-topic",
+      "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
+      "several times",
+      "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
+  add_bag_option(app, bag, "--poses",
+                 "where links are: joints, tf, or both, which must agree; default: joints, else tf",
+                 "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
+  add_bag_text(app, bag, "--robot", "the robot, in place of the robot_description", "URDF",
+               bag.robot);
+  add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
+               "NAME=DIR", [&](const std::string& text) {
+                 const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
+                 bag.packages[name] = folder;
+               });
+  add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
+               "FRAME", bag.camera_frame);
+  add_bag_text(app, bag, "--parent",
+               "link that the camera sits on; default: the first above its frame in tf", "LINK",
+               bag.parent);
+  add_bag_text(app, bag, "--pose",
+               "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
+               bag.pose);
+  add_bag_option(app, bag, "--time-offset",
+                 "added to the images' stamps before poses are looked up; default 0", "S",
+                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
+  app.add_flag_callback(
+         "--rectified",
+         [&bag] {
+           bag.rectified = true;
+           bag.given = "--rectified";
+         },
+         "the images are free of distortion already, as those called image_rect... are")
+      ->group(bag.group);
+}
+
+void add_judging(CLI::App& app, RunArguments& run) {
   add_renderer(app, run.renderer);
   add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
              "NAME", [&](const std::string& text) { run.geometry = to_geometry(text); });
@@ -158,6 +148,20 @@ void add_run(CLI::App& app, RunArguments& run) {
              "full (default), or paper: constant 0.01 m, no clean-up, no beyond; --tolerance and "
              "--front-min-width override",
              "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
+}
+
+void add_run(CLI::App& app, RunArguments& run) {
+  app.footer(run_examples);
+  add_path(app, "INPUT",
+           "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
+           "folder with metadata.yaml",
+           "", run.input)
+      ->required();
+  add_path(app, "-o,--output",
+           "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
+           run.output)
+      ->required();
+  add_judging(app, run);
   add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
              [&](const std::string& text) { run.image = to_image(text); });
   add_option(app, "--frames", "the frames from A up to but without B", "A:B",

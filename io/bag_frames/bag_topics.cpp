@@ -118,8 +118,8 @@ class Chooser {
     if (of_base.size() == 1) return use(role, *of_base.begin()->second, why);
     candidates.clear();
     for (const auto& [base, topic] : of_base) candidates.push_back(topic);
-    refuse("several topics may be the " + role + " images: " + names_of(candidates) +
-           "; choose one with " + option);
+    throw AmbiguousTopics(bag_ + ": several topics may be the " + role +
+                          " images: " + names_of(candidates) + "; choose one with " + option);
   }
 
   [[nodiscard]] static TopicUse use(const std::string& role, const BagTopic& topic,
@@ -158,8 +158,7 @@ TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
 
 /// The camera_info that stands beside an image topic.
 const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
-  const std::string base = image_base(image);
-  const std::string wanted = base.substr(0, base.rfind('/') + 1) + "camera_info";
+  const std::string wanted = info_topic_beside(image);
   const auto found = chooser.of(TopicTypes(&info_type, 1),
                                 [&](const std::string& name) { return name == wanted; });
   return found.empty() ? nullptr : found.front();
@@ -265,13 +264,25 @@ std::vector<TopicUse> BagTopics::all() const {
   return uses;
 }
 
-BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
-                        const TopicWishes& wishes) {
-  const Chooser chooser(bag, topics);
+std::string info_topic_beside(const std::string& image_topic) {
+  const std::string base = image_base(image_topic);
+  return base.substr(0, base.rfind('/') + 1) + "camera_info";
+}
+
+BagTopics choose_camera_topics(const std::string& source, std::span<const BagTopic> topics,
+                               const TopicWishes& wishes) {
+  const Chooser chooser(source, topics);
   BagTopics chosen;
   chosen.depth = choose_depth(chooser, wishes);
   chosen.camera_info = choose_info(chooser, wishes, chosen.depth.name);
   choose_color(chooser, wishes, chosen);
+  return chosen;
+}
+
+BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
+                        const TopicWishes& wishes) {
+  BagTopics chosen = choose_camera_topics(bag, topics, wishes);
+  const Chooser chooser(bag, topics);
   choose_joints(chooser, wishes, chosen);
   choose_transforms(chooser, chosen);
   chosen.poses = choose_poses(chooser, wishes, chosen);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 
 #include <io/bag/bag_reader.hpp>
@@ -44,6 +45,19 @@ struct BagTopics {
   /// All of them, in the order in which they are told.
   [[nodiscard]] std::vector<TopicUse> all() const;
 };
+
+/// Several topics may be what is looked for, and none is named.
+class AmbiguousTopics : public InputError {
+  using InputError::InputError;
+};
+
+/// The topics of the camera alone, as choose_topics has them.
+[[nodiscard]] BagTopics choose_camera_topics(const std::string& source,
+                                             std::span<const BagTopic> topics,
+                                             const TopicWishes& wishes);
+
+/// The camera_info that is looked for beside an image topic.
+[[nodiscard]] std::string info_topic_beside(const std::string& image_topic);
 
 /// Chooses by names and types; topics without messages are none. Throws InputError that names the
 /// bag, the candidates and the option that chooses, where there is none or more than one.

@@ -238,7 +238,7 @@ TEST_F(LiveInboxTest, TargetsComeWithTheNextImage) {
       bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
   bench.tell_depth(start - seconds);
   io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 2.9);
+  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
   bench.tell("/wrist", encoded(pose));
   bench.tell_joints(start);
   bench.tell_depth(start);

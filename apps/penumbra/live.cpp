@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <sys/resource.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/live_graph.hpp>
+#include <apps/penumbra/run_input.hpp>
+#include <apps/penumbra/stop_signal.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/bag_frames/bag_topics.hpp>
+#include <io/dds/receive_buffers.hpp>
+#include <io/live/live_summary.hpp>
+#include <io/live/name_resolver.hpp>
+#include <io/printable.hpp>
+#include <io/ros/message_encoder.hpp>
+
+namespace penumbra::app {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto report_period = 1s;
+constexpr auto longest_receive = 100ms;
+constexpr auto discovery_step = 200ms;
+/// The graph has to stay the same so long before the camera is chosen, or none can be.
+constexpr auto settled_after = 1s, ambiguous_after = 3s;
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+io::NameResolver resolver_of(const LiveArguments& arguments) {
+  io::NameResolver names(arguments.name_space);
+  for (const std::string& rule : arguments.remaps) names.remap(rule);
+  return names;
+}
+
+bool is_published(const LiveArguments& arguments, const io::ResultTopic& topic) {
+  if (!arguments.publish) return true;
+  for (const std::string& name : split(*arguments.publish, ','))
+    if (topic.name.substr(0, topic.name.find('/')) == name) return true;
+  return false;
+}
+
+/// Publishes what is said of how it goes.
+class Diagnostics {
+ public:
+  explicit Diagnostics(io::Participant& graph)
+      : publication_(graph.advertise("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray",
+                                     {.reliable = true, .depth = 2})) {}
+
+  void tell(const io::DiagnosticArrayMessage& message) {
+    io::encode(message, payload_);
+    static_cast<void>(publication_->write(payload_));
+    std::string now;
+    for (const io::DiagnosticStatusMessage& status : message.status)
+      if (status.level != io::DiagnosticStatusMessage::ok)
+        now += (now.empty() ? "" : "; ") + status.name + ": " + status.message;
+    // A line for each new trouble; how long it lasts is no news.
+    std::string kind = now.substr(0, now.find_first_of("0123456789"));
+    if (kind == told_) return;
+    told_ = std::move(kind);
+    std::cerr << (now.empty() ? "penumbra: all is judged" : now) << '\n';
+  }
+
+  void tell_waiting(const std::string& why) {
+    io::DiagnosticArrayMessage message{.header = {io::LiveRunner::system_now(), ""}, .status = {}};
+    message.status.push_back({.level = io::DiagnosticStatusMessage::stale,
+                              .name = "penumbra: camera",
+                              .message = why,
+                              .hardware_id = {},
+                              .values = {}});
+    tell(message);
+  }
+
+ private:
+  std::unique_ptr<io::Publication> publication_;
+  std::vector<std::byte> payload_;
+  std::string told_;
+};
+
+/// What others than Penumbra publish.
+std::vector<io::BagTopic> published_topics(const io::Participant& graph) {
+  std::vector<io::BagTopic> topics;
+  for (const io::GraphTopic& topic : graph.graph())
+    if (!topic.publishers.empty() && topic.name.find("/penumbra/") == std::string::npos)
+      topics.push_back({.name = topic.name,
+                        .type = topic.type,
+                        .definition = {},
+                        .encoding = "cdr",
+                        .messages = {}});
+  return topics;
+}
+
+std::string names_of(const std::vector<io::BagTopic>& topics) {
+  std::string names;
+  for (const io::BagTopic& topic : topics) names += topic.name + " " + topic.type + "\n";
+  return names;
+}
+
+std::optional<std::string> resolved(const io::NameResolver& names,
+                                    const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  return names.resolve(*name);
+}
+
+io::TopicWishes wishes_of(const LiveArguments& arguments, const io::NameResolver& names) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::TopicWishes wishes;
+  wishes.depth = resolved(names, topics.depth_topic);
+  wishes.camera_info = resolved(names, topics.camera_info_topic);
+  wishes.color = resolved(names, topics.color_topic);
+  wishes.with_color = true;
+  return wishes;
+}
+
+/// What does not depend on which camera it is.
+io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::LiveCameraOptions options;
+  options.mount = mount_wishes(topics);
+  options.info_is_named = topics.camera_info_topic.has_value();
+  options.is_rectified = topics.rectified;
+  options.poses = topics.poses.value_or(PoseSource::joints);
+  options.time_offset = topics.time_offset;
+  options.max_frames = static_cast<std::size_t>(arguments.queue);
+  return options;
+}
+
+/// Cameras whose depth images are named: nothing has to be there yet.
+std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
+                                                 const io::NameResolver& names) {
+  const BagArguments& topics = arguments.judging.bag;
+  auto named = arguments.cameras;
+  if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
+  std::vector<io::LiveCameraOptions> cameras;
+  for (const auto& [name, topic] : named) {
+    io::LiveCameraOptions camera = camera_options(arguments);
+    camera.name = name;
+    camera.depth_topic = names.resolve(topic);
+    camera.info_topic = resolved(names, topics.camera_info_topic)
+                            .value_or(io::info_topic_beside(camera.depth_topic));
+    if (topics.color_topic) {
+      camera.color_topic = names.resolve(*topics.color_topic);
+      camera.color_info_topic = io::info_topic_beside(camera.color_topic);
+    }
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+/// Waits until the graph shows one camera. Nothing: it was stopped before.
+std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
+                                                 const io::NameResolver& names,
+                                                 const io::Participant& graph,
+                                                 Diagnostics& diagnostics, StopSignal& stop) {
+  std::string seen;
+  Clock::time_point since = Clock::now(), told = Clock::now();
+  const Clock::time_point begin = Clock::now();
+  while (!stop.wait(discovery_step)) {
+    if (arguments.duration && Clock::now() - begin > to_duration(*arguments.duration)) break;
+    const auto topics = published_topics(graph);
+    if (std::string now = names_of(topics); now != seen) {
+      seen = std::move(now);
+      since = Clock::now();
+    }
+    const auto settled = Clock::now() - since;
+    std::string why = "nobody publishes depth images yet";
+    try {
+      const io::BagTopics chosen =
+          io::choose_camera_topics("ROS 2's graph", topics, wishes_of(arguments, names));
+      if (settled >= settled_after) {
+        io::LiveCameraOptions camera = camera_options(arguments);
+        camera.depth_topic = chosen.depth.name;
+        camera.info_topic = chosen.camera_info.name;
+        if (chosen.color) camera.color_topic = chosen.color->name;
+        if (chosen.color_info) camera.color_info_topic = chosen.color_info->name;
+        return camera;
+      }
+    } catch (const io::AmbiguousTopics& error) {
+      if (settled >= ambiguous_after) throw;
+      why = error.what();
+    } catch (const InputError& error) {
+      if (!topics.empty()) why = error.what();
+    }
+    if (Clock::now() - told < report_period) continue;
+    told = Clock::now();
+    diagnostics.tell_waiting(why);
+  }
+  return std::nullopt;
+}
+
+io::LiveOptions options_of(const LiveArguments& arguments, const io::NameResolver& names) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::LiveOptions options;
+  options.robot.robot.packages = topics.packages;
+  add_robot_choices(arguments.judging, options.robot.robot);
+  options.robot.file = topics.robot;
+  options.poses = topics.poses.value_or(PoseSource::joints);
+  options.description_topic = names.resolve("robot_description");
+  options.transform_topic = names.resolve("/tf");
+  options.static_transform_topic = names.resolve("/tf_static");
+  options.joint_topics = {names.resolve("joint_states")};
+  if (!topics.joint_topics.empty()) options.joint_topics.clear();
+  for (const std::string& name : topics.joint_topics)
+    options.joint_topics.push_back(names.resolve(name));
+  for (const std::string& name : topics.target_topics)
+    options.target_topics.push_back(names.resolve(name));
+  return options;
+}
+
+PipelineConfig config_of(const LiveArguments& arguments) {
+  PipelineConfig config;
+  config.backend = arguments.judging.renderer.backend;
+  config.renderer = arguments.judging.renderer.options;
+  config.rule = rule_of(arguments.judging, config.rule);
+  if (!arguments.judging.bag.target_topics.empty()) config.target_history = topic_target_history;
+  return config;
+}
+
+/// A program on the graph: its cameras' results, what it receives, what it says of itself.
+class Live {
+ public:
+  Live(const LiveArguments& arguments, const io::NameResolver& names, io::Participant& graph,
+       const io::LiveOptions& options)
+      : arguments_(arguments) {
+    std::vector<io::ResultSink*> sinks;
+    for (const io::LiveCameraOptions& camera : options.cameras) {
+      const std::string below = "penumbra/" + (camera.name.empty() ? "" : camera.name + "/");
+      results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
+        return is_published(arguments, topic) ? names.resolve(below + std::string(topic.name))
+                                              : std::string();
+      }));
+      sinks.push_back(results_.back().get());
+    }
+    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), std::move(sinks));
+    subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
+  }
+
+  void run(io::Participant& graph, Diagnostics& diagnostics, StopSignal& stop) {
+    runner_->start();
+    std::atomic<bool> ends = false;
+    std::exception_ptr fault;
+    std::thread receiving([&] {
+      try {
+        while (!ends) subscriptions_->receive(longest_receive);
+      } catch (...) {
+        fault = std::current_exception();
+        ends = true;
+      }
+    });
+    report_until_end(diagnostics, stop, ends);
+    ends = true;
+    graph.wake();
+    receiving.join();
+    runner_->stop();
+    if (fault) std::rethrow_exception(fault);
+    runner_->rethrow();
+  }
+
+  /// After run().
+  [[nodiscard]] std::string summary() {
+    io::LiveRun run{.seconds = seconds(), .cpu_seconds = cpu_seconds() - cpu_at_start_};
+    for (const auto& results : results_) run.not_written += results->not_written();
+    const auto links = subscriptions_->links();
+    return runner_->with_inbox(
+        [&](const io::LiveInbox& inbox) { return io::live_summary_json(inbox, links, run); });
+  }
+
+ private:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  void report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
+    io::LiveDiagnostics words(io::LiveRunner::steady_now());
+    auto next = Clock::now();
+    for (bool stopped = false; !stopped && !ends && !runner_->has_failed();) {
+      if (arguments_.duration && seconds() >= *arguments_.duration) break;
+      const bool pictures = std::any_of(results_.begin(), results_.end(), [](const auto& results) {
+        return results->wants(io::Result::overlay);
+      });
+      subscriptions_->follow(pictures);
+      const auto links = subscriptions_->links();
+      diagnostics.tell(runner_->with_inbox([&](const io::LiveInbox& inbox) {
+        return words.report(inbox, links,
+                            {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
+      }));
+      next += report_period;
+      auto until = next;
+      if (arguments_.duration)
+        until = std::min(until, begin_ + std::chrono::duration_cast<Clock::duration>(
+                                             to_duration(*arguments_.duration)));
+      stopped = stop.wait_until(until);
+    }
+  }
+
+  const LiveArguments& arguments_;
+  Clock::time_point begin_ = Clock::now();
+  double cpu_at_start_ = cpu_seconds();
+  std::vector<std::unique_ptr<GraphResults>> results_;
+  std::unique_ptr<io::LiveRunner> runner_;
+  std::unique_ptr<LiveSubscriptions> subscriptions_;
+};
+
+void tell_topics(const io::LiveOptions& options, int domain) {
+  std::cout << "live on domain " << domain << ", until Ctrl-C\n";
+  if (!options.robot.file) std::cout << "robot: " << options.description_topic << '\n';
+  for (const std::string& name : options.joint_topics)
+    if (options.poses != PoseSource::transforms) std::cout << "joints: " << name << '\n';
+  for (const io::LiveCameraOptions& camera : options.cameras) {
+    std::cout << (camera.name.empty() ? "depth: " : camera.name + ": depth: ")
+              << io::printable(camera.depth_topic) << ", camera_info " << camera.info_topic;
+    if (!camera.color_topic.empty()) std::cout << ", color " << camera.color_topic;
+    std::cout << '\n';
+  }
+  std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
+}
+
+}  // namespace
+
+int execute(const LiveArguments& arguments) {
+  const io::NameResolver names = resolver_of(arguments);
+  io::LiveOptions options = options_of(arguments, names);
+  std::ofstream summary;
+  if (arguments.summary) {
+    summary.open(*arguments.summary);
+    if (!summary)
+      throw InputError("--summary " + arguments.summary->string() + ": cannot be written");
+  }
+  StopSignal stop;
+  const auto graph = io::join_graph(arguments.graph);
+  if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
+      !advice.empty())
+    tell_notes(std::vector{advice});
+  Diagnostics diagnostics(*graph);
+  options.cameras = named_cameras(arguments, names);
+  if (options.cameras.empty()) {
+    auto camera = find_camera(arguments, names, *graph, diagnostics, stop);
+    if (!camera) return 0;
+    options.cameras.push_back(std::move(*camera));
+  }
+  tell_topics(options, graph->domain());
+  Live live(arguments, names, *graph, options);
+  live.run(*graph, diagnostics, stop);
+  tell_notes(graph->take_complaints());
+  if (arguments.summary) {
+    summary << live.summary() << '\n';
+    if (!summary.flush())
+      throw InputError("--summary " + arguments.summary->string() + ": cannot be written");
+  }
+  return 0;
+}
+
+}  // namespace penumbra::app

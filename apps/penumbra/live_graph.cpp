@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <apps/penumbra/live_graph.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr int result_depth = 2;    // of results that a subscriber has not fetched
+constexpr int image_depth = 4;     // of images that are not read yet
+constexpr int state_depth = 1000;  // of joint states and transforms: a second of them
+
+bool is_image(io::LiveRole role) {
+  return role == io::LiveRole::depth || role == io::LiveRole::color;
+}
+
+io::TopicQos qos_of(const io::LiveTopic& topic, bool reliable) {
+  return {.reliable = reliable || topic.latched,
+          .latched = topic.latched,
+          .depth = is_image(topic.role) ? image_depth : state_depth};
+}
+
+}  // namespace
+
+GraphResults::GraphResults(io::Participant& graph,
+                           const std::function<std::string(const io::ResultTopic&)>& name_of) {
+  for (const io::ResultTopic& topic : io::result_topics)
+    if (const std::string name = name_of(topic); !name.empty())
+      publications_[static_cast<std::size_t>(topic.result)] =
+          graph.advertise(name, std::string(topic.type), {.reliable = true, .depth = result_depth});
+}
+
+bool GraphResults::wants(io::Result result) const {
+  const auto& publication = publications_[static_cast<std::size_t>(result)];
+  return publication && publication->subscribers() > 0;
+}
+
+void GraphResults::write(io::Result result, std::int64_t /*stamp*/,
+                         std::span<const std::byte> payload) {
+  if (!publications_[static_cast<std::size_t>(result)]->write(payload)) ++not_written_;
+}
+
+LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)
+    : graph_(graph), runner_(runner), reliable_(reliable) {
+  topics_ = runner.with_inbox([](const io::LiveInbox& inbox) {
+    return std::vector<io::LiveTopic>(inbox.topics().begin(), inbox.topics().end());
+  });
+  subscriptions_.resize(topics_.size());
+  other_types_.resize(topics_.size());
+}
+
+std::string LiveSubscriptions::type_on_graph(const std::string& topic,
+                                             const std::vector<io::GraphTopic>& all) const {
+  for (const io::GraphTopic& one : all)
+    if (one.name == topic && !one.publishers.empty()) return one.type;
+  return {};
+}
+
+void LiveSubscriptions::open(std::size_t topic) {
+  subscriptions_[topic] =
+      graph_.subscribe(topics_[topic].name, topics_[topic].type, qos_of(topics_[topic], reliable_));
+}
+
+void LiveSubscriptions::follow(bool with_color) {
+  const std::vector<io::GraphTopic> all = graph_.graph();
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    io::LiveTopic& topic = topics_[i];
+    const std::string told = type_on_graph(topic.name, all);
+    if (topic.type.empty()) {
+      const auto types = io::LiveInbox::target_types();
+      if (std::find(types.begin(), types.end(), told) != types.end()) {
+        topic.type = told;
+        runner_.with_inbox([&](io::LiveInbox& inbox) {
+          inbox.set_type(i, told);
+          return true;
+        });
+      }
+    }
+    const bool is_wanted = !topic.type.empty() && (topic.role != io::LiveRole::color || with_color);
+    if (is_wanted && !subscriptions_[i]) open(i);
+    if (!is_wanted) subscriptions_[i].reset();
+    other_types_[i] = told == topic.type ? "" : told;
+  }
+}
+
+void LiveSubscriptions::receive(std::chrono::nanoseconds at_most) {
+  graph_.wait(at_most);
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
+    if (!subscriptions_[i]) continue;
+    for (io::Sample sample; subscriptions_[i]->take(sample);)
+      runner_.receive(i, {sample.data, sample.owner});
+  }
+}
+
+std::vector<io::LiveLink> LiveSubscriptions::links() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<io::LiveLink> links(subscriptions_.size());
+  for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
+    links[i].other_type = other_types_[i];
+    if (!subscriptions_[i]) continue;
+    const io::SubscriptionStatus status = subscriptions_[i]->status();
+    links[i].is_open = true;
+    links[i].publishers = status.publishers;
+    links[i].lost = status.lost;
+    links[i].overwritten = status.overwritten;
+    links[i].refused_because = status.refused_because;
+  }
+  return links;
+}
+
+}  // namespace penumbra::app

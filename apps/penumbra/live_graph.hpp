@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <io/dds/participant.hpp>
+#include <io/live/live_diagnostics.hpp>
+#include <io/live/live_runner.hpp>
+#include <io/ros_frames/result_encoder.hpp>
+
+namespace penumbra::app {
+
+/// Publishes a camera's results, those that somebody subscribes to.
+class GraphResults final : public io::ResultSink {
+ public:
+  /// `name_of`: the topic of a result, "/penumbra/labels"; empty: it is not published.
+  GraphResults(io::Participant& graph,
+               const std::function<std::string(const io::ResultTopic&)>& name_of);
+
+  [[nodiscard]] bool wants(io::Result result) const override;
+  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
+
+  /// Results that slow subscribers kept from being published.
+  [[nodiscard]] std::size_t not_written() const { return not_written_; }
+
+ private:
+  std::array<std::unique_ptr<io::Publication>, io::result_topics.size()> publications_;
+  std::atomic<std::size_t> not_written_ = 0;
+};
+
+/// Hands a graph's messages to a runner. receive() is for one thread; the rest for any.
+class LiveSubscriptions {
+ public:
+  LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable);
+
+  /// Subscribes to what can be by now: topics of targets once somebody says their type, color
+  /// images as long as `with_color`.
+  void follow(bool with_color);
+
+  /// Waits for messages and hands them on, at most that long.
+  void receive(std::chrono::nanoseconds at_most);
+
+  /// What is known of each of the runner's topics.
+  [[nodiscard]] std::vector<io::LiveLink> links() const;
+
+ private:
+  [[nodiscard]] std::string type_on_graph(const std::string& topic,
+                                          const std::vector<io::GraphTopic>& all) const;
+  void open(std::size_t topic);
+
+  io::Participant& graph_;
+  io::LiveRunner& runner_;
+  bool reliable_;
+  std::vector<io::LiveTopic> topics_;
+  mutable std::mutex mutex_;                                      // guards what follows
+  std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to
+  std::vector<std::string> other_types_;
+};
+
+}  // namespace penumbra::app

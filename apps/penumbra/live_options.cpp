@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/graph_options.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/ros_frames/result_encoder.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr double longest_duration = 1e9;  // s
+constexpr int most_waiting = 1000;        // images
+
+/// "overlay" of "overlay/compressed".
+std::string_view short_name(std::string_view topic) { return topic.substr(0, topic.find('/')); }
+
+void check_results(const std::string& list) {
+  for (const std::string& name : split(list, ',')) {
+    const bool known =
+        std::any_of(io::result_topics.begin(), io::result_topics.end(),
+                    [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; });
+    if (!known)
+      refuse_option("--publish", name,
+                    "of vdi, labels, mask, filtered_depth, points, targets, overlay");
+  }
+}
+
+void add_graph(CLI::App& app, LiveArguments& live) {
+  add_domain(app, live.graph);
+  add_option(app, "--namespace", "of the names below that have no / before them", "NS",
+             [&](const std::string& text) { live.name_space = text; });
+  add_list(app, "--remap", "another name for a topic; may be given several times", "FROM:=TO",
+           [&](const std::string& text) { live.remaps.push_back(text); });
+  app.add_flag("--reliable", live.reliable,
+               "ask for QoS reliable of images, joint states and tf: nothing is lost, but a "
+               "publisher of best effort is not heard");
+  add_option(
+      app, "--queue", "images that wait for their pose at a time; default 8", "N",
+      [&](const std::string& text) { live.queue = to_count("--queue", text, 1, most_waiting); });
+}
+
+}  // namespace
+
+void add_live(CLI::App& app, LiveArguments& live) {
+  app.footer(live_examples);
+  add_list(app, "--camera",
+           "depth images of a camera, whose results come below /penumbra/NAME; may be given "
+           "several times. Default: the only one, found by type and name",
+           "NAME=TOPIC", [&](const std::string& text) {
+             const auto [name, topic] = to_pair("--camera", text, "NAME=TOPIC of depth images");
+             live.cameras.push_back({name, topic});
+           });
+  add_option(app, "--publish",
+             "results to publish: of vdi,labels,mask,filtered_depth,points,targets,overlay; "
+             "default: all that somebody subscribes to",
+             "LIST", [&](const std::string& text) {
+               check_results(text);
+               live.publish = text;
+             });
+  add_option(app, "--duration", "end after so many seconds; default: never", "S",
+             [&](const std::string& text) {
+               live.duration = to_seconds("--duration", text, longest_duration);
+             });
+  add_option(app, "--summary", "what came of all images, at the end", "JSON",
+             [&](const std::string& text) {
+               if (text.empty()) refuse_option("--summary", text, "a path");
+               live.summary = text;
+             });
+  add_graph(app, live);
+  add_judging(app, live.judging);
+  live.judging.bag.group = "Of topics";
+  add_bag(app, live.judging.bag);
+}
+
+void check_live(const LiveArguments& live) {
+  check_renderer(live.judging.renderer);
+  const BagArguments& topics = live.judging.bag;
+  if (live.cameras.empty()) return;
+  if (topics.depth_topic)
+    throw InputError("--depth-topic: --camera is given too; leave one of them out");
+  for (std::size_t i = 0; i < live.cameras.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (live.cameras[i].name == live.cameras[j].name)
+        refuse_option("--camera", live.cameras[i].name, "another name for each camera");
+  if (live.cameras.size() == 1) return;
+  const auto refuse = [](const char* option) {
+    throw InputError(std::string(option) +
+                     ": is of one camera, and --camera names several; start one penumbra live for "
+                     "each, or leave it to the topics' names and tf");
+  };
+  if (topics.camera_info_topic) refuse("--camera-info-topic");
+  if (topics.color_topic) refuse("--color-topic");
+  if (topics.camera_frame) refuse("--camera-frame");
+  if (topics.parent) refuse("--parent");
+  if (topics.pose) refuse("--pose");
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <io/json-inl.hpp>
+#include <io/live/live_summary.hpp>
+
+namespace penumbra::io {
+namespace {
+
+Json quantiles_json(const LatencyHistogram& times) {
+  return {{"count", times.count()},
+          {"median", or_null(times.quantile(0.5))},
+          {"p99", or_null(times.quantile(0.99))}};
+}
+
+Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
+  const LiveCounts counts = camera.counts();
+  Json dropped = Json::object();
+  for (std::size_t i = 0; i < live_drops; ++i)
+    dropped[std::string(to_string(static_cast<LiveDrop>(i)))] = counts.dropped[i];
+  Json frames = Json::object();
+  for (const auto& [status, number] : tally.statuses) frames[status] = number;
+  return {{"name", camera.options().name},
+          {"depth_topic", camera.options().depth_topic},
+          {"received", counts.received},
+          {"judged", counts.judged},
+          {"failed", counts.failed},
+          {"waiting", counts.waiting},
+          {"dropped", dropped},
+          {"frames", frames},
+          {"stamp_to_published_ms", quantiles_json(tally.latency)},
+          {"arrival_to_published_ms", quantiles_json(tally.processing)},
+          {"stamps_of_another_clock", tally.beyond_clock},
+          {"camera_info_changes", camera.camera_changes()}};
+}
+
+}  // namespace
+
+std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> links,
+                              const LiveRun& run) {
+  Json topics = Json::array();
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    topics.push_back({{"name", inbox.topics()[i].name},
+                      {"type", or_null(inbox.topics()[i].type)},
+                      {"received", inbox.received()[i]},
+                      {"unreadable", inbox.faults().of(inbox.topics()[i].name)},
+                      {"lost", links[i].lost},
+                      {"overwritten", links[i].overwritten}});
+  Json cameras = Json::array();
+  for (std::size_t i = 0; i < inbox.camera_count(); ++i)
+    cameras.push_back(camera_json(inbox.camera(i), inbox.tally(i)));
+  const double share = run.seconds > 0.0 ? run.cpu_seconds / run.seconds : 0.0;
+  return Json{{"seconds", run.seconds},
+              {"cpu_share", share},
+              {"results_not_written", run.not_written},
+              {"robots", inbox.robot().robots()},
+              {"cameras", cameras},
+              {"topics", topics}}
+      .dump(2);
+}
+
+}  // namespace penumbra::io
