@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What penumbra live refuses, and how it ends; what it publishes is tested against Fast DDS.
+#include "program.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <io/dds/participant.hpp>
+
+namespace penumbra::test {
+namespace {
+
+struct Refused {
+  std::vector<std::string> options;
+  std::string words;
+};
+
+TEST(LiveCommand, RefusesWhatCannotBe) {
+  const std::vector<Refused> all = {
+      {{"--domain", "233"}, "--domain"},
+      {{"--camera", "left"}, "NAME=TOPIC"},
+      {{"--camera", "a=/x", "--camera", "a=/y"}, "another name"},
+      {{"--camera", "a=/x y"}, "no name of a topic"},
+      {{"--camera", "a=/x", "--depth-topic", "/y"}, "leave one of them out"},
+      {{"--camera", "a=/x", "--camera", "b=/y", "--parent", "base"}, "--parent"},
+      {{"--publish", "labels,depth"}, "'depth'"},
+      {{"--queue", "0"}, "--queue"},
+      {{"--remap", "/a=/b"}, "FROM:=TO"},
+      {{"--namespace", "a b"}, "--namespace"},
+      {{"--duration", "-1"}, "--duration"},
+      {{"--summary", "/nonexistent/live.json"}, "/nonexistent/live.json"},
+      {{"--robot", "/nonexistent.urdf", "--depth-topic", "/depth"}, "nonexistent.urdf"},
+      {{"--pose", "/nonexistent.csv", "--depth-topic", "/depth"}, "nonexistent.csv"}};
+  for (const Refused& refused : all) {
+    std::vector<std::string> arguments = refused.options;
+    arguments.insert(arguments.begin(), "live");
+    const Outcome outcome = penumbra(arguments, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
+    EXPECT_EQ(outcome.status, 2) << refused.words << outcome.err;
+    if (!io::has_dds() && outcome.err.find("cyclonedds-dev") != std::string::npos) continue;
+    EXPECT_NE(outcome.err.find(refused.words), std::string::npos) << outcome.err;
+    EXPECT_LE(count_lines(outcome.err), 2U) << outcome.err;  // and what the kernel's buffers lack
+  }
+}
+
+TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
+  if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
+  const TemporaryFolder folder;
+  const std::string summary = folder.path() / "live.json";
+  const Outcome outcome = penumbra(
+      {"live", "--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary},
+      {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("no publisher of /nobody/depth"), std::string::npos) << outcome.err;
+  EXPECT_NE(read_file(summary).find("\"received\": 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::test
