@@ -11,7 +11,8 @@ Json build_json(const BuildReport& build) {
   return {{"type", or_null(build.type)},
           {"compiler", build.compiler},
           {"sanitizers", or_null(build.sanitizers)},
-          {"opengl", build.opengl}};
+          {"opengl", build.opengl},
+          {"dds", build.dds}};
 }
 
 Json device_json(std::size_t index, const GlDevice& device) {
@@ -53,6 +54,9 @@ std::string machine_json(const MachineReport& machine) {
                       {{"backend", to_string(machine.choice.backend)},
                        {"reason", machine.choice.reason},
                        {"warnings", machine.choice.warnings}}},
+                     {"network",
+                      {{"receive_buffer_limit", or_null(machine.receive_buffer_limit)},
+                       {"advice", or_null(machine.receive_buffer_advice)}}},
                      {"libraries", libraries_json(machine.build.libraries)}};
   // A driver's words may hold bytes that are no UTF-8: those are replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

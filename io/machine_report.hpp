@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct BuildReport {
   std::string compiler;
   std::string sanitizers;  ///< as in -fsanitize=; empty: none
   bool opengl = false;     ///< the gl renderer is in it
+  bool dds = false;        ///< live topics of ROS 2 are in it
   std::vector<LibraryVersion> libraries;
 };
 
@@ -35,6 +38,9 @@ struct MachineReport {
   std::vector<GlDevice> gl_devices;
   std::string gl_fault;  ///< why there are no OpenGL devices, and what to install
   RendererChoice choice;
+  /// The most bytes that a socket may hold for its reader; nothing: the system does not say.
+  std::optional<std::uint64_t> receive_buffer_limit;
+  std::string receive_buffer_advice;  ///< where that is too little for images; empty: it is not
 };
 
 /// What `doctor --json` prints; what does not apply is null.

@@ -16,7 +16,7 @@ std::string or_unknown(const std::string& text) { return text.empty() ? "not tol
 void print_build(const io::BuildReport& build) {
   std::cout << "penumbra " << build.version << '\n'
             << "  build    " << or_unknown(build.type) << ", " << build.compiler << ", OpenGL "
-            << (build.opengl ? "on" : "off");
+            << (build.opengl ? "on" : "off") << ", DDS " << (build.dds ? "on" : "off");
   if (!build.sanitizers.empty()) std::cout << ", sanitizers " << build.sanitizers;
   std::cout << '\n';
 }
@@ -65,6 +65,19 @@ void print_choice(const io::MachineReport& machine) {
     if (!is_told(warning, machine)) std::cout << "  note: " << warning << '\n';
 }
 
+void print_network(const io::MachineReport& machine) {
+  std::cout << "\nLive topics of ROS 2\n";
+  if (!machine.build.dds)
+    std::cout << "  not built in: install cyclonedds-dev and build Penumbra again\n";
+  std::cout << "  a socket may hold "
+            << (machine.receive_buffer_limit
+                    ? std::to_string(*machine.receive_buffer_limit / 1024) + " KiB"
+                    : or_unknown(""))
+            << " for its reader (net.core.rmem_max)\n";
+  if (!machine.receive_buffer_advice.empty())
+    std::cout << "  note: " << machine.receive_buffer_advice << '\n';
+}
+
 void print_libraries(const std::vector<io::LibraryVersion>& libraries) {
   std::cout << '\n';
   std::vector<std::vector<std::string>> rows = {{"LIBRARY", "BUILT WITH", "LOADED FROM"}};
@@ -86,6 +99,7 @@ int execute(const DoctorArguments& arguments) {
   print_cpu(machine);
   print_opengl(machine);
   print_choice(machine);
+  print_network(machine);
   print_libraries(machine.build.libraries);
   return 0;
 }

@@ -63,8 +63,9 @@ Examples:
   penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
 
 inline constexpr const char* doctor_examples = R"(
-Prints versions, SIMD targets, OpenGL devices and their faults, and which renderer
---renderer auto would take for a small robot at 640x480. The exit status is 0 without OpenGL too.
+Prints versions, SIMD targets, OpenGL devices and their faults, which renderer
+--renderer auto would take for a small robot at 640x480, and whether the kernel gives sockets enough
+for live images. The exit status is 0 without OpenGL too.
 
 Examples:
   penumbra doctor

@@ -14,6 +14,8 @@
 
 #include <apps/penumbra/build_info.hpp>
 #include <apps/penumbra/machine.hpp>
+#include <io/dds/participant.hpp>
+#include <io/dds/receive_buffers.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -98,11 +100,14 @@ io::MachineReport examine_machine() {
   machine.simd = simd_target_names();
   machine.gl_devices = devices_or_fault(machine.gl_fault);
   machine.choice = choose_for_small_arm();
+  machine.receive_buffer_limit = io::receive_buffer_limit();
+  machine.receive_buffer_advice = io::receive_buffer_advice(machine.receive_buffer_limit);
   machine.build = {PENUMBRA_VERSION,
                    std::string(build_type),
                    std::string(build_compiler),
                    std::string(build_sanitizers),
                    build_opengl,
+                   io::has_dds(),
                    libraries()};
   return machine;
 }

@@ -13,9 +13,11 @@ namespace penumbra::io {
 namespace {
 
 // Images of megabytes come as bursts of datagrams, which wait in the socket while others are read:
-// a default of 1 MiB loses some of them. The kernel cuts this to net.core.rmem_max.
+// a default of 1 MiB loses some of them. The kernel cuts this to net.core.rmem_max. What is lost
+// all the same is asked for again after 10 ms, not 100: publishers of images keep few.
 constexpr std::string_view our_settings =
-    R"(<CycloneDDS><Domain id="any"><Internal><SocketReceiveBufferSize max="16MiB"/></Internal></Domain></CycloneDDS>)";
+    R"(<CycloneDDS><Domain id="any"><Internal><SocketReceiveBufferSize max="16MiB"/>)"
+    R"(<NackDelay>10ms</NackDelay></Internal></Domain></CycloneDDS>)";
 
 // Without multicast participants find each other by the ports of their numbers.
 constexpr std::string_view localhost_settings =

@@ -34,9 +34,10 @@ Json doctor_json(const std::vector<std::string>& environment = {}) {
 
 TEST(Doctor, JsonHasTheBuildTheMachineAndTheChoice) {
   const Json json = doctor_json();
-  EXPECT_EQ(keys(json), (Keys{"penumbra", "build", "cpu", "opengl", "auto", "libraries"}));
+  EXPECT_EQ(keys(json),
+            (Keys{"penumbra", "build", "cpu", "opengl", "auto", "network", "libraries"}));
   EXPECT_EQ(json["penumbra"], PENUMBRA_VERSION);
-  EXPECT_EQ(keys(json["build"]), (Keys{"type", "compiler", "sanitizers", "opengl"}));
+  EXPECT_EQ(keys(json["build"]), (Keys{"type", "compiler", "sanitizers", "opengl", "dds"}));
   EXPECT_EQ(json["cpu"]["simd"], Json(simd_target_names()));
   EXPECT_GT(json["cpu"]["threads"], 0);
   EXPECT_EQ(keys(json["auto"]), (Keys{"backend", "reason", "warnings"}));
@@ -50,13 +51,15 @@ TEST(Doctor, NamesTheLibrariesThatThisProcessRuns) {
   const Json json = doctor_json();
   for (const Json& library : json["libraries"]) {
     names.insert(library["name"]);
-    EXPECT_TRUE(library["version"].is_string() || library["name"] == "libepoxy") << library;
+    EXPECT_TRUE(library["version"].is_string() || library["name"] == "libepoxy" ||
+                library["name"] == "Cyclone DDS")
+        << library;
     if (library["file"].is_null()) continue;
     EXPECT_TRUE(std::ifstream(library["file"].get<std::string>())) << library;
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"Eigen", "Highway", "Assimp", "tinyxml2", "meshoptimizer",
-                                   "yaml-cpp", "libpng", "CLI11", "nlohmann-json", "libepoxy"}));
+  EXPECT_EQ(names, (std::set<std::string>{"Eigen", "Highway", "Assimp", "tinyxml2", "meshoptimizer",
+                                          "yaml-cpp", "libpng", "CLI11", "nlohmann-json",
+                                          "libepoxy", "Cyclone DDS"}));
 }
 
 TEST(Doctor, TextTellsWhatJsonTells) {
