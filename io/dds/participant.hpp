@@ -28,7 +28,8 @@ struct ParticipantOptions {
 };
 
 struct Sample {
-  std::span<const std::byte> data;    ///< CDR with its 4 bytes of encapsulation
+  /// CDR with its 4 bytes of encapsulation; up to 3 bytes of padding may follow.
+  std::span<const std::byte> data;
   std::shared_ptr<const void> owner;  ///< keeps `data` alive, without a copy, as long as it lives
   std::int64_t source_time = 0;       ///< nanoseconds since 1970: when it was written, by DDS
 };
