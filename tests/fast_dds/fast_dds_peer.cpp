@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A publisher or subscriber of ROS 2's graph on another vendor's DDS, for tests: messages are bytes
 // in CDR, of any type.
-//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS SIZE COUNT HZ  messages of pattern.hpp, once
-//   somebody
-//                                                             listens
-//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS               messages from stdin, each behind its
-//                                                             size in 4 bytes
-//   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS             messages to stdout, likewise
-//   fast_dds_peer DOMAIN count TOPIC TYPE QOS                 a line for each message of
-//   pattern.hpp
+//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS SIZE COUNT HZ
+//     says "ready", "matched" (if not latched), begins with a line on stdin, says "written N":
+//     messages of pattern.hpp
+//   fast_dds_peer DOMAIN publish TOPIC TYPE QOS
+//     messages from stdin, each behind its size in 4 bytes
+//   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS
+//     messages to stdout, likewise
+//   fast_dds_peer DOMAIN count TOPIC TYPE QOS
+//     "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
 // latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone; net:N: on
-// the network. Ends with stdin, and pattern messages when all are acknowledged.
+// the network. Ends with stdin.
 #include "pattern.hpp"
 
 #include <array>
@@ -159,6 +160,12 @@ struct Pattern {
 
 void say(const std::string& line) { std::cout << line << std::endl; }
 
+/// Waits for a line on stdin; false: it ended.
+bool is_told_to_go() {
+  std::string line;
+  return static_cast<bool>(std::getline(std::cin, line));
+}
+
 void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos& qos) {
   using namespace std::chrono_literals;
   dds::PublicationMatchedStatus matched;
@@ -168,8 +175,8 @@ void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos&
     if (stdin_ended()) return;
     std::this_thread::sleep_for(5ms);
   }
-  say("matched");
-  std::this_thread::sleep_for(100ms);  // the other side may know of the match a little later
+  if (!qos.latched) say("matched");
+  if (!is_told_to_go()) return;
   std::uint32_t refused = 0;
   auto next = std::chrono::steady_clock::now();
   for (std::uint32_t number = 0; number < pattern.count; ++number) {

@@ -26,6 +26,10 @@ class PeerProcess {
   /// Waits until it says so; false: it says something else or nothing.
   [[nodiscard]] bool says(const std::string& text) { return line() == text; }
 
+  /// Lets one that publishes messages of pattern.hpp begin. Who wants the first of them waits until
+  /// both sides know of each other.
+  void go();
+
   /// For one that publishes what it is given.
   void give(std::span<const std::byte> message);
 

@@ -26,6 +26,14 @@ class Vendors : public testing::Test {
     return PeerProcess(words);
   }
 
+  /// Lets a publisher begin once the subscription and it know of each other.
+  void begin(PeerProcess& publisher, const io::Subscription& heard) const {
+    ASSERT_TRUE(publisher.says("ready"));
+    ASSERT_TRUE(publisher.says("matched"));
+    ASSERT_TRUE(eventually(*graph, [&] { return heard.status().publishers == 1; }));
+    publisher.go();
+  }
+
   LoneDomain domain;
   std::unique_ptr<io::Participant> graph = io::join_graph({.domain = domain.id()});
 };
@@ -49,6 +57,7 @@ TEST_P(BothWays, FromFastDdsEveryByteArrives) {
   const auto heard = graph->subscribe("/a", image, qos());
   auto other = peer("publish", peers_qos(),
                     {std::to_string(GetParam().size), std::to_string(GetParam().count), "30"});
+  begin(other, *heard);
   EXPECT_EQ(listen(*graph, *heard, GetParam().count), numbers_up_to(GetParam().count));
   const auto status = heard->status();
   EXPECT_EQ(status.received, GetParam().count);
@@ -88,7 +97,7 @@ TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
 TEST_F(Vendors, ComingLateLatchedMessagesAreHad) {
   auto early = peer("publish", "reliable,latched,depth=1", {"100000", "3", "1000"});
   ASSERT_TRUE(early.says("ready"));
-  ASSERT_TRUE(early.says("matched"));
+  early.go();
   ASSERT_TRUE(early.says("written 3"));
   const auto heard = graph->subscribe("/a", image, {.reliable = true, .latched = true, .depth = 1});
   EXPECT_EQ(listen(*graph, *heard, 1), (std::vector<std::int64_t>{2}));
@@ -116,6 +125,7 @@ TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
   const auto heard = graph->subscribe("/a", image, {.reliable = true, .depth = 100});
   {
     auto first = peer("publish", "reliable", {"1000", "1000000", "100"});
+    begin(first, *heard);
     EXPECT_GE(listen(*graph, *heard, 10).size(), 10U);
     first.kill();
   }
@@ -125,6 +135,7 @@ TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
     return heard->status().publishers == 0;
   }));
   auto second = peer("publish", "reliable", {"1000", "20", "100"});
+  begin(second, *heard);
   EXPECT_EQ(listen(*graph, *heard, 20), numbers_up_to(20));
 }
 
@@ -132,8 +143,7 @@ TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
 TEST_F(Vendors, LargeMessagesWithBestEffortArriveWholeOrAreCounted) {
   const auto heard = graph->subscribe("/a", image, {.depth = 50});
   auto other = peer("publish", "best_effort", {std::to_string(large), "15", "30"});
-  ASSERT_TRUE(other.says("ready"));
-  ASSERT_TRUE(other.says("matched"));
+  begin(other, *heard);
   ASSERT_TRUE(other.says("written 15"));
   const std::vector<std::int64_t> numbers = take_numbers(*heard);
   std::uint64_t gaps = 0;
@@ -162,6 +172,7 @@ TEST(VendorsLoss, WhatIsDroppedOnTheWayIsCounted) {
                      "600000", "200", "100"});
   ASSERT_TRUE(other.says("ready"));
   ASSERT_TRUE(other.says("matched"));
+  other.go();
   ASSERT_TRUE(other.says("written 200"));
   const std::vector<std::int64_t> numbers = take_numbers(*heard);
   ASSERT_FALSE(numbers.empty());
