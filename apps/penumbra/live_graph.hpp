@@ -59,7 +59,8 @@ class LiveSubscriptions {
   io::LiveRunner& runner_;
   bool reliable_;
   std::vector<io::LiveTopic> topics_;
-  mutable std::mutex mutex_;                                      // guards what follows
+  mutable std::mutex
+      mutex_;  // guards what follows; taken before the runner's, not while it is held
   std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to
   std::vector<std::string> other_types_;
 };

@@ -164,53 +164,70 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
   return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
 }
 
-DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
-                                               std::span<const LiveLink> links,
-                                               const LiveMoment& moment) {
-  const double seconds = std::max(static_cast<double>(moment.now - before_) * 1e-9, 1e-3);
-  cameras_.resize(inbox.camera_count());
-  received_.resize(inbox.topics().size());
-  const auto rate_of = [&](std::size_t i) {
-    return static_cast<double>(inbox.received()[i] - received_[i]) / seconds;
-  };
-  DiagnosticArrayMessage array{.header = {moment.system_now, ""}, .status = {}};
-
-  Status& robot = array.status.emplace_back();
-  const LiveTrouble of_robot = trouble_of_robot(inbox, links, moment.now);
-  robot = {.level = of_robot.level, .name = "penumbra: robot", .message = of_robot.why};
+DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
+                                                      std::span<const LiveLink> links,
+                                                      const Period& period) const {
+  const LiveTrouble trouble = trouble_of_robot(inbox, links, period.now);
+  Status status;
+  status.level = trouble.level;
+  status.name = "penumbra: robot";
+  status.message = trouble.why;
   if (const auto& posed = inbox.robot().posed()) {
-    if (robot.message.empty()) robot.message = posed->robot.name() + ", its pose is told";
-    for (const std::string& line : refusals_of(posed->history)) add(robot, "note", line);
-    for (const std::string& line : posed->robot.notes()) add(robot, "note", line);
+    if (status.message.empty()) status.message = posed->robot.name() + ", its pose is told";
+    for (const std::string& line : refusals_of(posed->history)) add(status, "note", line);
+    for (const std::string& line : posed->robot.notes()) add(status, "note", line);
   }
-  add_count(robot, "robots told", inbox.robot().robots());
+  add_count(status, "robots told", inbox.robot().robots());
   for (const auto& [topic, fault] : inbox.faults().all())
-    add(robot, "unreadable in " + printable(topic),
+    add(status, "unreadable in " + printable(topic),
         std::to_string(fault.messages) + ", the first: " + fault.what);
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
     if (is_of_robot(inbox.topics()[i].role))
-      add_link(robot, inbox.topics()[i], links[i], rate_of(i));
+      add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
+  return status;
+}
 
+DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, std::size_t number,
+                                                       std::span<const LiveLink> links,
+                                                       const Period& period) const {
+  const LiveCamera& camera = inbox.camera(number);
+  const LiveCounts counts = camera.counts();
+  const LiveTrouble trouble = trouble_of_camera(inbox, number, links, period.now);
+  const double rate = static_cast<double>(counts.judged - judged_[number]) / period.seconds;
+  Status status;
+  status.level = trouble.level;
+  status.name = name_of(camera);
+  status.message = trouble.why.empty() ? decimal(rate, " frames/s judged") : trouble.why;
+  add(status, "judged per second", decimal(rate, ""));
+  if (camera.setup() != nullptr)
+    add(status, "camera on link",
+        camera.setup()->mount.parent + ", by " + camera.setup()->mount.told);
+  add_counts(status, counts);
+  add_tally(status, inbox.tally(number));
+  if (camera.camera_changes() > 0)
+    add_count(status, "camera_info changed", camera.camera_changes());
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
+      add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
+  return status;
+}
+
+double LiveDiagnostics::rate_of(const LiveInbox& inbox, std::size_t topic,
+                                const Period& period) const {
+  return static_cast<double>(inbox.received()[topic] - received_[topic]) / period.seconds;
+}
+
+DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
+                                               std::span<const LiveLink> links,
+                                               const LiveMoment& moment) {
+  const Period period{moment.now, std::max(static_cast<double>(moment.now - before_) * 1e-9, 1e-3)};
+  judged_.resize(inbox.camera_count());
+  received_.resize(inbox.topics().size());
+  DiagnosticArrayMessage array{.header = {moment.system_now, ""}, .status = {}};
+  array.status.push_back(robot_status(inbox, links, period));
   for (std::size_t c = 0; c < inbox.camera_count(); ++c) {
-    const LiveCamera& camera = inbox.camera(c);
-    const LiveCounts counts = camera.counts();
-    const LiveTrouble trouble = trouble_of_camera(inbox, c, links, moment.now);
-    Status status{.level = trouble.level, .name = name_of(camera), .message = trouble.why};
-    const double rate = static_cast<double>(counts.judged - cameras_[c].judged) / seconds;
-    if (status.message.empty()) status.message = decimal(rate, " frames/s judged");
-    add(status, "judged per second", decimal(rate, ""));
-    if (camera.setup() != nullptr)
-      add(status, "camera on link",
-          camera.setup()->mount.parent + ", by " + camera.setup()->mount.told);
-    add_counts(status, counts);
-    add_tally(status, inbox.tally(c));
-    if (camera.camera_changes() > 0)
-      add_count(status, "camera_info changed", camera.camera_changes());
-    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-      if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == c)
-        add_link(status, inbox.topics()[i], links[i], rate_of(i));
-    array.status.push_back(std::move(status));
-    cameras_[c] = {counts.received, counts.judged};
+    array.status.push_back(camera_status(inbox, c, links, period));
+    judged_[c] = inbox.camera(c).counts().judged;
   }
   received_.assign(inbox.received().begin(), inbox.received().end());
   before_ = moment.now;

@@ -34,7 +34,7 @@ struct LiveMoment {
 /// rates since the last report and, where nothing is published, the reason.
 class LiveDiagnostics {
  public:
-  explicit LiveDiagnostics(std::int64_t started) : started_(started), before_(started) {}
+  explicit LiveDiagnostics(std::int64_t started) : before_(started) {}
 
   /// `links`: one for each of inbox.topics().
   [[nodiscard]] DiagnosticArrayMessage report(const LiveInbox& inbox,
@@ -42,14 +42,23 @@ class LiveDiagnostics {
                                               const LiveMoment& moment);
 
  private:
-  struct Before {
-    std::size_t received = 0, judged = 0;
+  /// Since the last report.
+  struct Period {
+    std::int64_t now;
+    double seconds;
   };
+  [[nodiscard]] DiagnosticStatusMessage robot_status(const LiveInbox& inbox,
+                                                     std::span<const LiveLink> links,
+                                                     const Period& period) const;
+  [[nodiscard]] DiagnosticStatusMessage camera_status(const LiveInbox& inbox, std::size_t number,
+                                                      std::span<const LiveLink> links,
+                                                      const Period& period) const;
+  [[nodiscard]] double rate_of(const LiveInbox& inbox, std::size_t topic,
+                               const Period& period) const;
 
-  std::int64_t started_;
-  std::int64_t before_;  // when the last report was made
-  std::vector<Before> cameras_;
-  std::vector<std::size_t> received_;  // of each topic
+  std::int64_t before_;                // when the last report was made
+  std::vector<std::size_t> judged_;    // of each camera, until then
+  std::vector<std::size_t> received_;  // of each topic, until then
 };
 
 /// Why a camera's results do not come, or cannot be trusted, in one line; empty: they do.

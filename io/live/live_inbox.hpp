@@ -86,8 +86,8 @@ class LiveInbox {
   void receive(std::size_t topic, const LiveMessage& message, std::int64_t now);
 
   /// As LiveCamera has it.
-  bool next(std::size_t camera, std::int64_t now, bool with_color, LiveJob& job) {
-    return cameras_[camera]->next(now, with_color, job);
+  bool next(std::size_t camera, std::int64_t now, bool with_overlay, LiveJob& job) {
+    return cameras_[camera]->next(now, with_overlay, job);
   }
   /// To be called once for each job; `system_now`: nanoseconds since 1970.
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,

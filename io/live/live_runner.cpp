@@ -8,6 +8,9 @@
 namespace penumbra::io {
 namespace {
 
+/// Drawing an overlay takes longer than all else, and people look at it: not all need one.
+constexpr std::int64_t overlay_period = 200'000'000;
+
 template <typename Clock>
 std::int64_t nanoseconds_of() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
@@ -71,13 +74,15 @@ void LiveRunner::work(std::size_t camera) {
   try {
     while (!stopping_) {
       lock.unlock();
-      const bool with_color = self.sink->wants(Result::overlay);
+      const bool with_overlay =
+          steady_now() >= self.next_overlay && self.sink->wants(Result::overlay);
       lock.lock();
       if (stopping_) break;
-      if (!inbox_.next(camera, steady_now(), with_color, job)) {
+      if (!inbox_.next(camera, steady_now(), with_overlay, job)) {
         wait(camera, lock);
         continue;
       }
+      if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       lock.unlock();
       const LiveOutcome outcome = self.worker->judge(job, *self.sink);
       const std::int64_t now = steady_now(), system = system_now();

@@ -60,6 +60,7 @@ class LiveRunner {
   struct CameraThread {
     ResultSink* sink = nullptr;
     std::unique_ptr<LiveWorker> worker;
+    std::int64_t next_overlay = 0;  // not before; the thread's own
     std::thread thread;
   };
   void work(std::size_t camera);

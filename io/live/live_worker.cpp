@@ -10,6 +10,21 @@
 namespace penumbra::io {
 namespace {
 
+/// Leaves overlays out.
+class WithoutOverlay final : public ResultSink {
+ public:
+  explicit WithoutOverlay(ResultSink& to) : to_(to) {}
+  [[nodiscard]] bool wants(Result result) const override {
+    return result != Result::overlay && to_.wants(result);
+  }
+  void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
+    to_.write(result, stamp, payload);
+  }
+
+ private:
+  ResultSink& to_;
+};
+
 PipelineConfig config_of(const LiveSetup& setup, PipelineConfig config) {
   config.camera_parent = setup.mount.parent;
   config.T_parent_camera = setup.mount.T_parent_camera;
@@ -54,10 +69,12 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   }
   frame.source_message = message_;
   const FrameReport& report = process(frame);
-  show_color(job, sink.wants(Result::overlay));
+  WithoutOverlay without_overlay(sink);
+  ResultSink& taken = job.with_overlay ? sink : without_overlay;
+  show_color(job, taken.wants(Result::overlay));
   tools_->encoder.encode(report, {frame.depth, std::as_const(color_).view()},
                          {frame.targets, tools_->pipeline.robot(), job.setup->cameras.judged},
-                         sink);
+                         taken);
   outcome.is_published = true;
   outcome.status = report.status;
   outcome.message = report.message;

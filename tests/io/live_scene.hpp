@@ -183,7 +183,7 @@ class LiveBench {
   /// Judges what can be judged; answers how many.
   std::size_t work() {
     std::size_t judged = 0;
-    for (; inbox.next(0, now, false, job); ++judged)
+    for (; inbox.next(0, now, true, job); ++judged)
       inbox.done(0, worker.judge(job, results), now, now);
     return judged;
   }
