@@ -53,15 +53,27 @@ class BothWays : public Vendors, public testing::WithParamInterface<Case> {
   }
 };
 
+// The first message may be missed: if a part of it is dropped before the publisher's first
+// heartbeat, a subscription that is not latched takes it for one from before they met.
 TEST_P(BothWays, FromFastDdsEveryByteArrives) {
   const auto heard = graph->subscribe("/a", image, qos());
   auto other = peer("publish", peers_qos(),
                     {std::to_string(GetParam().size), std::to_string(GetParam().count), "30"});
   begin(other, *heard);
-  EXPECT_EQ(listen(*graph, *heard, GetParam().count), numbers_up_to(GetParam().count));
+  std::vector<std::int64_t> numbers;
+  const std::int64_t last = GetParam().count - 1;
+  ASSERT_TRUE(eventually(*graph, [&] {
+    for (const std::int64_t number : take_numbers(*heard)) numbers.push_back(number);
+    return !numbers.empty() && numbers.back() == last;
+  }));
+  const std::int64_t first = numbers.front();
+  EXPECT_LE(first, 1);
+  std::vector<std::int64_t> wanted = numbers_up_to(GetParam().count);
+  wanted.erase(wanted.begin(), wanted.begin() + first);
+  EXPECT_EQ(numbers, wanted);
   const auto status = heard->status();
-  EXPECT_EQ(status.received, GetParam().count);
-  EXPECT_EQ(status.taken, GetParam().count);
+  EXPECT_EQ(status.received, wanted.size());
+  EXPECT_EQ(status.taken, wanted.size());
   EXPECT_EQ(status.lost, 0U);
 }
 
