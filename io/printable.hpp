@@ -6,6 +6,9 @@
 
 namespace penumbra::io {
 
+/// Whether a character ends a line or steers a terminal.
+[[nodiscard]] constexpr bool is_control(char c) { return (c >= 0 && c < ' ') || c == 127; }
+
 /// A foreign text for a message of one line: question marks for what is no visible ASCII, cut after
 /// 80 characters.
 [[nodiscard]] inline std::string printable(std::string_view text) {

@@ -34,6 +34,7 @@ TargetEstimate estimate_of(const FrameValue& value, bool is_pose, const LinkFram
     estimate.value = position_of(value.numbers);
   const auto sigmas = std::span(value.numbers).subspan(is_pose ? 7 : 3);
   if (!sigmas.empty()) estimate.covariance = covariance_of(sigmas);
+  check_estimate(estimate);
   return estimate;
 }
 
@@ -51,9 +52,10 @@ EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
               : reader.values(node.at("point"), fixed_format({"x", "y", "z"}, {"sigma"})));
   const auto make = [=](const FrameValue& value) { return estimate_of(value, is_pose, link); };
   values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
-  const auto of_frame = [=](std::int64_t index) -> std::optional<TargetEstimate> {
+  const auto of_frame = [=](std::int64_t index) {
     const FrameValue value = values->at(index);
-    if (!value.fault.empty() && value.place.empty()) return std::nullopt;
+    if (!value.fault.empty() && value.place.empty())
+      return TargetEstimate{.value = std::monostate{}};
     if (!value.fault.empty()) throw InputError(value.fault);
     return at_place(value.place, [&] { return make(value); });
   };

@@ -22,8 +22,9 @@ namespace {
 
 using MakeShape = std::function<TargetShape(const FrameValue&)>;
 
-/// What would make a region unknown in every frame is told at once.
-void check_shape(const TargetShape& shape, const Intrinsics& images) {
+/// What would make a target unknown in every frame is told at once.
+void check(const TargetShape& shape, const Intrinsics& images) {
+  check_shape(shape);
   if (const auto* target = std::get_if<RegionTarget>(&shape))
     check_region(target->region, images.width(), images.height());
 }
@@ -33,7 +34,7 @@ ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const Va
                       const MakeShape& make) {
   auto values = std::make_shared<FrameValues>(reader.values(node, format));
   const Intrinsics& images = reader.context.images;
-  values->check_written([&](const FrameValue& value) { check_shape(make(value), images); });
+  values->check_written([&](const FrameValue& value) { check(make(value), images); });
   const bool may_be_late = values->has_stamps();
   return {
       [=](std::int64_t index) {
@@ -146,7 +147,7 @@ ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   if (!node.is_map()) {
     const FileResult read = read_png(reader.folder / node.text(), *mask, size);
     if (!read.ok()) node.fail(read.message);
-    node.blamed_for([&] { check_shape(make().shape, reader.context.images); });
+    node.blamed_for([&] { check(make().shape, reader.context.images); });
     return {[=](std::int64_t) { return make(); }};
   }
   node.allow_only({"files"});
@@ -187,15 +188,18 @@ ShapeSource read_keypoint(const TargetReader& reader, const YamlNode& node) {
   KeypointTarget common;
   read_ellipse(reader.node, common);
   common.expected_depth = depth_of(reader.node);
-  if (const YamlNode* score = reader.node.find("min_score")) common.min_score = score->number();
-  return source_of(reader, node, fixed_format({"u", "v"}, {"score"}),
-                   [common](const FrameValue& value) -> TargetShape {
-                     KeypointTarget target = common;
-                     target.pixel = {value.numbers[0], value.numbers[1]};
-                     if (value.numbers.size() > 2) target.score = value.numbers[2];
-                     if (value.expected_depth) target.expected_depth = value.expected_depth;
-                     return target;
-                   });
+  ValueFormat format = fixed_format({"u", "v"}, {"score"});
+  if (const YamlNode* score = reader.node.find("min_score")) {
+    common.min_score = score->number();
+    format = fixed_format({"u", "v", "score"});  // it would be compared with nothing
+  }
+  return source_of(reader, node, format, [common](const FrameValue& value) -> TargetShape {
+    KeypointTarget target = common;
+    target.pixel = {value.numbers[0], value.numbers[1]};
+    if (value.numbers.size() > 2) target.score = value.numbers[2];
+    if (value.expected_depth) target.expected_depth = value.expected_depth;
+    return target;
+  });
 }
 
 ShapeSource read_point(const TargetReader& reader, const YamlNode& node) {
@@ -227,7 +231,8 @@ ShapeSource read_object_box(const TargetReader& reader, const YamlNode& node) {
 
 std::shared_ptr<const TriangleMesh> mesh_of(const TargetReader& reader) {
   const YamlNode& file = reader.node.at("file");
-  TriangleMesh mesh = at_place("", [&] { return load_mesh(reader.folder / file.text()); });
+  TriangleMesh mesh;
+  file.blamed_for([&] { mesh = load_mesh(reader.folder / file.text()); });
   if (const YamlNode* scale = reader.node.find("scale"))
     for (Eigen::Vector3f& vertex : mesh.vertices) vertex *= static_cast<float>(positive(*scale));
   return std::make_shared<const TriangleMesh>(std::move(mesh));

@@ -49,9 +49,9 @@ struct ShapeSource {
 /// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
 [[nodiscard]] ShapeSource read_shape(const TargetReader& reader);
 
-/// An estimate by frames; nothing in frames without one.
+/// An estimate by frames; std::monostate in frames without one.
 struct EstimateSource {
-  std::function<std::optional<TargetEstimate>(std::int64_t index)> of_frame;
+  std::function<TargetEstimate(std::int64_t index)> of_frame;
   bool is_pose = false;
 };
 [[nodiscard]] EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node);

@@ -9,6 +9,7 @@
 
 #include <io/disk_file.hpp>
 #include <io/frame_values.hpp>
+#include <io/printable.hpp>
 #include <io/target_shapes.hpp>
 #include <io/targets_file.hpp>
 #include <io/yaml.hpp>
@@ -46,10 +47,18 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
                     "rectified");
 }
 
+/// Names stand in lines of reports and on terminals.
+void check_name(const YamlNode& node) {
+  const std::string& name = node.text();
+  if (std::any_of(name.begin(), name.end(), is_control))
+    node.fail("has a control character; letters, digits and signs are wanted");
+}
+
 TargetSource source_of(const YamlNode& node, const TargetsContext& context,
                        const std::filesystem::path& folder, ValueTables& tables) {
   TargetSource source;
   source.name = node.at("name").text();
+  check_name(node.at("name"));
   const TargetReader reader{node, source.name, context, folder, tables};
   source.shape = read_shape(reader);
   if (const YamlNode* frame_id = node.find("frame_id")) source.frame_id = frame_id->text();
@@ -81,15 +90,21 @@ Target target_of(const YamlNode& node, const TargetSource& source, const Targets
   Target target;
   target.name = source.name;
   target.frame_id = source.frame_id;
+  if (const YamlNode* margin = node.find("depth_margin")) {
+    target.depth_margin = margin->number();
+    margin->blamed_for([&] { check_target(target); });
+  }
   target.thresholds.beyond_hides = context.beyond_hides;
   if (const YamlNode* thresholds = node.find("thresholds"))
     target.thresholds = read_thresholds(*thresholds, target.thresholds);
-  if (const YamlNode* margin = node.find("depth_margin")) {
-    target.depth_margin = margin->number();
-    if (target.depth_margin < 0.0) margin->fail("is negative; metres from 0 are wanted");
-  }
   if (const YamlNode* handling = node.find("handling")) target.handling = read_handling(*handling);
   check_handling(node, source, target.handling);
+  if (source.shape.has_pose && target.thresholds.min_inside > 0)
+    node.at("thresholds")
+        .at("min_inside")
+        .fail(
+            "is not possible here: what of a box3d or a mesh lies outside of the image is not "
+            "known");
   return target;
 }
 

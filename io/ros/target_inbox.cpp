@@ -54,7 +54,9 @@ TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& head
 std::string TargetInbox::name_of(const std::string& topic, const std::string& id,
                                  std::span<const HypothesisMessage> results,
                                  std::span<const std::string> taken) const {
-  const std::string base = topic + "/" + (id.empty() ? best_class(results) : id);
+  std::string base = topic + "/" + (id.empty() ? best_class(results) : id);
+  std::replace_if(
+      base.begin(), base.end(), [](char c) { return is_control(c); }, '?');
   std::string name = base;
   for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
     name = base + " " + std::to_string(i);

@@ -62,10 +62,12 @@ class RecentPoses {
   std::size_t next_ = 0;
 };
 
-/// Copies of the last frames' images. Holds its buffers, as many as the span needs.
+/// Copies of the last frames' images. Holds its buffers, as many as the span needs, up to both
+/// limits.
 class RecentFrames {
  public:
   static constexpr std::size_t max_frames = 1024;
+  static constexpr std::size_t max_bytes = std::size_t{1} << 30;  // 106 frames of 1280x720
 
   /// `span`: nanoseconds that frames are kept for; 0: none is.
   explicit RecentFrames(std::int64_t span) : span_(span) {}
@@ -99,6 +101,7 @@ class RecentFrames {
   void copy_images(const JudgedImages& from, Copy& to);
 
   std::int64_t span_;
+  std::size_t pixels_ = 1;   // of a frame: the most so far
   std::deque<Copy> copies_;  // views of theirs stay valid as their number grows
   TileMask everything_;
   TileMask left_;  // of a copy's tiles, while it is written anew

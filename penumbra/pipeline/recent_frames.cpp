@@ -73,6 +73,9 @@ void RecentPoses::clear() {
 
 void RecentFrames::keep(const JudgedFrame& frame) {
   if (!any() || !frame.stamp) return;
+  const ImageView<const std::uint8_t>& labels = frame.images.labels.labels;
+  pixels_ = std::max(
+      pixels_, static_cast<std::size_t>(labels.width) * static_cast<std::size_t>(labels.height));
   Copy& copy = place_for(*frame.stamp);
   copy.frame = {frame.stamp, frame.status, {}, {}, {}};
   copy.message = frame.message;
@@ -98,7 +101,9 @@ RecentFrames::Copy& RecentFrames::place_for(std::int64_t stamp) {
       farthest = &copy;
     }
   }
-  const bool is_over = most > static_cast<std::uint64_t>(span_) || copies_.size() == max_frames;
+  const std::size_t bytes = 11 * pixels_;  // labels, depth, links, measured
+  const std::size_t places = std::clamp<std::size_t>(max_bytes / bytes, 1, max_frames);
+  const bool is_over = most > static_cast<std::uint64_t>(span_) || copies_.size() >= places;
   if (farthest != nullptr && is_over) return *farthest;
   return copies_.emplace_back();
 }

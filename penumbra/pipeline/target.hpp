@@ -21,6 +21,10 @@
 
 namespace penumbra {
 
+/// Nothing of a target lies farther, or is larger: float32 depths beyond would mean nothing.
+/// Metres.
+inline constexpr double max_target_distance = 1e6;
+
 /// The frame of a position or pose: nothing is the camera's optical frame, an empty name the
 /// robot's root link, else the link of that name.
 using LinkFrame = std::optional<std::string_view>;
@@ -73,7 +77,9 @@ using TargetShape =
 
 /// What the perception system says of a target's whereabouts.
 struct TargetEstimate {
-  std::variant<Eigen::Isometry3d, Eigen::Vector3d> value = Eigen::Isometry3d::Identity();
+  /// std::monostate: it found none in this frame, and nothing else stands for it.
+  std::variant<Eigen::Isometry3d, Eigen::Vector3d, std::monostate> value =
+      Eigen::Isometry3d::Identity();
   std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; nothing: the target's
   LinkFrame frame = {};                    ///< at that stamp
   /// Of position and rotation vector along the axes of `frame`; a point takes the first 3 x 3.
@@ -101,6 +107,17 @@ struct Target {
   std::optional<TargetEstimate> estimate = {};
   std::string_view fault = {};  ///< what its source knows to be wrong with it; empty: nothing
 };
+
+/// Whether a shape is rendered alone.
+[[nodiscard]] bool is_rendered(const TargetShape& shape);
+
+/// Throw InputError for a shape, a name or settings that can be right in no frame: what the
+/// pipeline would say of it in each. Pixels of a region are checked with the image they are of.
+void check_shape(const TargetShape& shape);
+void check_target(const Target& target);
+
+/// Throws InputError for a pose that is none, or more than max_target_distance away.
+void check_estimate(const TargetEstimate& estimate);
 
 /// Where a handled target is at the frame's stamp, in the root link's frame.
 struct HandledTarget {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/target_record-inl.hpp>
 
 namespace penumbra {
@@ -83,6 +83,11 @@ TargetTrack::TargetTrack(const TargetHandling& handling) {
 
 Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
                             const Eigen::Isometry3d& T_root_frame, Verdict verdict) {
+  try {
+    check_estimate(estimate);
+  } catch (const InputError&) {
+    return Outcome::refused_invalid;
+  }
   std::optional<Matrix6d> covariance;
   if (estimate.covariance) covariance = turned(*estimate.covariance, T_root_frame.linear());
   if (auto* points = std::get_if<PointTracker>(&tracker_)) {
@@ -91,7 +96,7 @@ Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
     return points->update(point, verdict);
   }
   const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value);
-  if (pose == nullptr || !is_rigid(*pose)) return Outcome::refused_invalid;
+  if (pose == nullptr) return Outcome::refused_invalid;
   return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// By this name targets are judged whose stamp is before one that was judged: what verdicts
 /// remember is of later frames, and is left alone.
-constexpr std::string_view out_of_order = "\x01 out of order";
+constexpr std::string_view out_of_order("\0 out of order", 14);
 
 std::int64_t nanoseconds(double seconds) {
   if (seconds >= 0.0 && seconds <= PipelineConfig::max_target_history)
@@ -24,11 +24,6 @@ std::int64_t nanoseconds(double seconds) {
 bool is_modal(const Target& target) {
   const auto* region = std::get_if<RegionTarget>(&target.shape);
   return region != nullptr && region->extent == Extent::modal;
-}
-
-bool is_rendered(const Target& target) {
-  return std::holds_alternative<BoxTarget>(target.shape) ||
-         std::holds_alternative<MeshTarget>(target.shape);
 }
 
 /// Whether it is known how far it is, whatever is measured.
@@ -157,18 +152,13 @@ void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& sl
 }
 
 void TargetStage::check(const Target& target, TargetRecord& memory) const {
-  if (target.name.empty()) throw InputError("has no name");
   if (!memory.track) memory.track.emplace(target.handling);
   if (memory.times > 1) throw InputError("its name is used twice in this frame");
   if (!target.fault.empty()) throw InputError(std::string(target.fault));
   if (!target.frame_id.empty() && target.frame_id != camera_.frame_id)
     throw InputError("is of image frame '" + std::string(target.frame_id) + "', the camera's is '" +
                      camera_.frame_id + "'");
-  target.thresholds.check();
-  if (is_rendered(target) && target.thresholds.min_inside > 0)
-    throw InputError(
-        "min_inside needs to know what lies outside of the image, which is not known of 3-D boxes "
-        "and meshes: leave it out");
+  check_target(target);
   if (target.estimate) check_link(target.estimate->frame, robot_);
 }
 
@@ -246,9 +236,9 @@ void TargetStage::handle(const Target& target, const JudgedFrame& frame, const S
   if (!memory.track || !memory.track->handles()) return;
   report.wants_stamp = !frame.stamp;
   if (report.wants_stamp) return;
-  auto estimate = target.estimate;
-  if (!estimate) estimate = own_estimate(target, report);
-  if (estimate && memory.times == 1) {
+  const auto estimate = target.estimate ? target.estimate : own_estimate(target, report);
+  const bool is_given = estimate && !std::holds_alternative<std::monostate>(estimate->value);
+  if (is_given && memory.times == 1) {
     const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp));
     report.estimate = feed(*estimate, stamp, memory);
   }

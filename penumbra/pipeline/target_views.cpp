@@ -7,42 +7,15 @@
 #include <Eigen/SVD>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
 
 namespace penumbra {
 namespace {
 
-/// Float32 depths beyond would mean nothing, metres.
-constexpr double max_distance = 1e6;
-
 std::string written(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
-}
-
-void check_positive(double value, const char* what, const char* unit) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw InputError(std::string(what) + " is " + written(value) + "; " + unit +
-                   " above 0 are wanted");
-}
-
-void check_expected(const std::optional<double>& depth) {
-  if (depth) check_positive(*depth, "expected depth", "metres");
-}
-
-void check_position(const Eigen::Vector3d& p) {
-  if (p.allFinite() && p.cwiseAbs().maxCoeff() <= max_distance) return;
-  throw InputError("position is not finite, or more than 1000 km away; metres are wanted");
-}
-
-void check_pose(const Eigen::Isometry3d& T) {
-  if (!is_rigid(T))
-    throw InputError(
-        "pose is no rigid transform: a rotation (a unit quaternion) and a finite position in "
-        "metres are wanted");
-  check_position(T.translation());
 }
 
 double metres_at(const DepthView& depth, const Eigen::Vector2d& pixel) {
@@ -98,7 +71,6 @@ struct TargetViews::Builder {
   bool operator()(const std::monostate&) { throw InputError("not found in this frame"); }
 
   bool operator()(const RegionTarget& target) {
-    check_expected(target.expected_depth);
     view.region = target.region;
     view.extent = target.extent;
     view.expected_depth = target.expected_depth;
@@ -106,13 +78,8 @@ struct TargetViews::Builder {
   }
 
   bool operator()(const KeypointTarget& target) {
-    check_expected(target.expected_depth);
     if (!(target.score >= target.min_score))  // also NaN
       throw InputError("score " + written(target.score) + " is below " + written(target.min_score));
-    if (!target.pixel.allFinite()) throw InputError("pixel is not finite");
-    for (const double semi_axis : target.semi_axes)
-      check_positive(semi_axis, "semi-axis", target.in_metres ? "metres" : "pixels");
-    if (!std::isfinite(target.angle)) throw InputError("angle is not finite");
     view.expected_depth = target.expected_depth;
     view.point_pixel = target.pixel;
     PixelEllipse ellipse{target.pixel, target.semi_axes, target.angle};
@@ -135,8 +102,6 @@ struct TargetViews::Builder {
   }
 
   bool operator()(const PointTarget& target) {
-    check_position(target.position);
-    check_positive(target.radius, "radius", "metres");
     const Eigen::Vector3d p = T_camera(target.frame) * target.position;
     const auto pixel = views.project(p);
     if (!pixel) return false;
@@ -148,14 +113,12 @@ struct TargetViews::Builder {
   }
 
   bool operator()(const BoxTarget& target) {
-    check_pose(target.pose);
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
     return rendered(views.renderers_.box(target.size, T)) ||
            nearest_pixel(T.translation(), 0.5 * target.size.norm());
   }
 
   bool operator()(const MeshTarget& target) {
-    check_pose(target.pose);
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
     if (rendered(views.renderers_.mesh(target.mesh, T))) return true;
     Eigen::AlignedBox3f bounds;

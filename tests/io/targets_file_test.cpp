@@ -48,6 +48,20 @@ TEST_F(TargetsFileTest, GivesEachFrameItsValues) {
   EXPECT_TRUE(file.of_frame(3)[0].fault.empty());
 }
 
+TEST_F(TargetsFileTest, FramesWithoutAnEstimateHaveNone) {
+  io::TargetsFile file = open(
+      "targets:\n- name: a\n  point: [0, 0, 1]\n  handling: point\n"
+      "  estimate: {point: {frames: {0: [1, 2, 3], 1: null}}}\n"
+      "- {name: b, point: [0, 0, 1], handling: point}\n");
+  EXPECT_TRUE(std::holds_alternative<Eigen::Vector3d>(file.of_frame(0)[0].estimate->value));
+  for (const std::int64_t frame : {1, 2}) {
+    const auto targets = file.of_frame(frame);
+    ASSERT_TRUE(targets[0].estimate) << "its own point would stand for it";
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(targets[0].estimate->value));
+    EXPECT_FALSE(targets[1].estimate);
+  }
+}
+
 TEST_F(TargetsFileTest, EstimatesSayHowSureTheyAre) {
   folder_.write("e.csv",
                 "frame,x,y,z,qx,qy,qz,qw,position_sigma,orientation_sigma\n"
@@ -116,6 +130,7 @@ TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
 TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
   io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 7, 1).view());
   folder_.write("odd.csv", "frame,u,w\n0,1,2\n");
+  folder_.write("plain.csv", "frame,u,v\n0,1,2\n");
   const std::string head = "targets:\n- name: a\n  ";
   const std::pair<std::string, std::string> cases[] = {
       {head + "box: [1, 2, 0, 4]\n", ":3: targets[0].box: has no area"},
@@ -132,6 +147,23 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
       {head + "polygon: [[1, 1], [2, 2]]\n", "fewer than 3"},
       {head + "rle: {size: [48, 64], counts: [5]}\n", "add up to 5"},
       {head + "keypoint: {csv: odd.csv}\n", "odd.csv:1: has no column 'v'"},
+      {head + "keypoint: [1, 1]\n  min_score: 0.5\n", ":3: targets[0].keypoint: has 2 values"},
+      {head + "keypoint: {csv: plain.csv}\n  min_score: 0.5\n",
+       "plain.csv:1: has no column 'score'"},
+      {head + "keypoint: [1, 1]\n  expected_depth: 1e30\n", ":3: targets[0].keypoint: expected"},
+      {head + "keypoint: [1, 1]\n  radius: 1e12\n", "semi-axis is 1e+12"},
+      {head + "keypoint: [1, 1]\n  radius_m: 1e9\n", "semi-axis is 1e+09"},
+      {head + "keypoint: [1, 1]\n  ellipse: [1, 1, 1e308]\n", "angle is"},
+      {head + "box: [1, 2, 3, 4]\n  depth_margin: 1e30\n", ":4: targets[0].depth_margin: "},
+      {head + "point: [0, 0, 1]\n  radius: 1e7\n", "radius is 1e+07"},
+      {head + "box3d: [0, 0, 1e7, 0, 0, 0, 1]\n  size: [1, 1, 1]\n", "1000 km away"},
+      {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1e30, 1, 1]\n", "edge of the box is 1e+30"},
+      {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1, 1, 1]\n  thresholds: {min_inside: 0.5}\n",
+       ":5: targets[0].thresholds.min_inside: is not possible"},
+      {head + "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: nope.stl\n", ":4: targets[0].file: mesh "},
+      {head + "keypoint: [1, 1]\n  handling: point\n  estimate: {point: [1e308, 0, 0]}\n",
+       ":5: targets[0].estimate.point: position is not finite, or more than"},
+      {"targets:\n- name: \"a\\nb\"\n  box: [1, 2, 3, 4]\n", ":2: targets[0].name: has a control"},
       {head + "keypoint: [1, 1]\n  handling: hold\n", ":4: targets[0].handling: is 'hold'"},
       {head + "keypoint: [1, 1]\n  thresholds: {partial_enter: 2}\n", "partial_enter"},
       {head + "keypoint: [1, 1]\n  estimate: {point: [0, 0, 1]}\n", "not handled"}};

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/pipeline/target.hpp>
+
+namespace penumbra {
+namespace {
+
+std::string written(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void check_length(double value, const char* what, double most, const char* unit) {
+  if (value > 0.0 && value <= most) return;
+  throw InputError(std::string(what) + " is " + written(value) + "; " + unit + " above 0, up to " +
+                   written(most) + ", are wanted");
+}
+
+void check_metres(double value, const char* what) {
+  check_length(value, what, max_target_distance, "metres");
+}
+
+void check_position(const Eigen::Vector3d& p) {
+  if (p.allFinite() && p.cwiseAbs().maxCoeff() <= max_target_distance) return;
+  throw InputError("position is not finite, or more than 1000 km away; metres are wanted");
+}
+
+void check_pose(const Eigen::Isometry3d& T) {
+  if (!is_rigid(T))
+    throw InputError(
+        "pose is no rigid transform: a rotation (a unit quaternion) and a finite position in "
+        "metres are wanted");
+  check_position(T.translation());
+}
+
+struct ShapeCheck {
+  void operator()(const std::monostate&) const {}
+
+  void operator()(const RegionTarget& target) const {
+    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+  }
+
+  void operator()(const KeypointTarget& target) const {
+    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+    if (!target.pixel.allFinite()) throw InputError("pixel is not finite");
+    for (const double semi_axis : target.semi_axes)
+      if (target.in_metres)
+        check_metres(semi_axis, "semi-axis");
+      else
+        check_length(semi_axis, "semi-axis", max_coordinate, "pixels");
+    constexpr double most_turns = 1e6;  // radians; a double's rounding is 1e-10 there
+    if (!(std::abs(target.angle) <= most_turns))
+      throw InputError("angle is " + written(target.angle) + " rad; up to a million are possible");
+  }
+
+  void operator()(const PointTarget& target) const {
+    check_position(target.position);
+    check_metres(target.radius, "radius");
+  }
+
+  void operator()(const BoxTarget& target) const {
+    check_pose(target.pose);
+    for (const double edge : target.size) check_metres(edge, "edge of the box");
+  }
+
+  void operator()(const MeshTarget& target) const { check_pose(target.pose); }
+};
+
+struct EstimateCheck {
+  void operator()(const std::monostate&) const {}
+  void operator()(const Eigen::Vector3d& position) const { check_position(position); }
+  void operator()(const Eigen::Isometry3d& pose) const { check_pose(pose); }
+};
+
+}  // namespace
+
+bool is_rendered(const TargetShape& shape) {
+  return std::holds_alternative<BoxTarget>(shape) || std::holds_alternative<MeshTarget>(shape);
+}
+
+void check_shape(const TargetShape& shape) { std::visit(ShapeCheck{}, shape); }
+
+void check_target(const Target& target) {
+  if (target.name.empty()) throw InputError("has no name");
+  target.thresholds.check();
+  if (is_rendered(target.shape) && target.thresholds.min_inside > 0)
+    throw InputError(
+        "min_inside needs to know what lies outside of the image, which is not known of 3-D boxes "
+        "and meshes: leave it out");
+  if (!(target.depth_margin >= 0.0 && target.depth_margin <= max_target_distance))
+    throw InputError("depth margin is " + written(target.depth_margin) +
+                     "; metres from 0 up to a million are wanted");
+  check_shape(target.shape);
+}
+
+void check_estimate(const TargetEstimate& estimate) { std::visit(EstimateCheck{}, estimate.value); }
+
+}  // namespace penumbra

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that are followed: which estimates are taken, and where they are said to be.
+#include "targets_fixture.hpp"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/pipeline.hpp>
+
+namespace penumbra::test {
+namespace {
+
+Target followed(const PixelBox& box) {
+  return {.name = "hand", .shape = RegionTarget{box}, .handling = PointTrackerConfig{}};
+}
+
+TEST_F(TargetsTest, AHiddenPointIsHeld) {
+  const TargetReport seen = judge(0, followed(beside_slab));
+  ASSERT_TRUE(seen.handled);
+  EXPECT_EQ(seen.estimate, penumbra::Outcome::accepted);
+  EXPECT_EQ(seen.handled->source, Source::measured);
+  EXPECT_EQ(seen.handled->position, seen.point);
+  const TargetReport hidden = judge(100 * ms, followed(behind_slab));
+  EXPECT_FALSE(hidden.estimate) << "there is no point to take";
+  EXPECT_EQ(hidden.handled->source, Source::held);
+  EXPECT_NEAR(hidden.handled->age, 0.1, 1e-9);
+  EXPECT_EQ(hidden.handled->position, seen.point);
+  EXPECT_GT(hidden.handled->sigma, seen.handled->sigma);
+  const TargetReport gone = judge(9000 * ms, {.name = "hand", .handling = PointTrackerConfig{}});
+  EXPECT_EQ(gone.handled->source, Source::lost);
+  EXPECT_FALSE(gone.handled->position);
+}
+
+TEST_F(TargetsTest, BeforeTheFirstEstimateNothingIsKnown) {
+  const TargetReport report = judge(0, followed(behind_slab));
+  EXPECT_EQ(report.handled->source, Source::lost);
+  EXPECT_TRUE(std::isinf(report.handled->sigma)) << "not 0, which would look certain";
+  EXPECT_TRUE(std::isinf(report.handled->age));
+}
+
+Target estimated(std::int64_t stamp, const PixelBox& box, double x) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(x, 0.0, 2.0);
+  return {.name = "crate",
+          .shape = RegionTarget{box},
+          .handling = PoseTrackerConfig{},
+          .estimate = TargetEstimate{.value = pose, .stamp = stamp, .frame = ""}};
+}
+
+TEST_F(TargetsTest, EstimatesCountWithTheVerdictOfTheirOwnStamp) {
+  // Seen at 0 and 100 ms, hidden at 200; estimates come 100 ms late.
+  EXPECT_EQ(judge(0, estimated(0, beside_slab, 0.0)).estimate, penumbra::Outcome::accepted);
+  EXPECT_EQ(judge(100 * ms, {.name = "crate", .shape = RegionTarget{beside_slab}}).verdict,
+            Verdict::visible);
+  const TargetReport late = judge(200 * ms, estimated(100 * ms, behind_slab, 0.01));
+  EXPECT_EQ(late.verdict, Verdict::hidden);
+  EXPECT_EQ(late.estimate, penumbra::Outcome::accepted) << "it was visible when it was found";
+  EXPECT_EQ(late.handled->source, Source::predicted);
+  const TargetReport back = judge(300 * ms, estimated(200 * ms, beside_slab, 0.02));
+  EXPECT_EQ(back.estimate, penumbra::Outcome::refused_verdict) << "it was hidden then";
+  const TargetReport other = judge(400 * ms, estimated(350 * ms, beside_slab, 0.03));
+  EXPECT_EQ(other.estimate, penumbra::Outcome::refused_verdict) << "no frame of that stamp";
+}
+
+TEST_F(TargetsTest, NothingIsAcceptedWithoutPoseOrDepth) {
+  PoseTrackerConfig any;
+  any.worst = Verdict::hidden;
+  Target target = estimated(0, beside_slab, 0.0);
+  target.handling = any;
+  EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::accepted);
+  target.estimate->stamp = 100 * ms;
+  Frame frame{.stamp = 100 * ms, .depth = depth_.view(), .joints = {}, .targets = {&target, 1}};
+  EXPECT_EQ(pipeline_.process(frame).targets[0].estimate, penumbra::Outcome::refused_verdict);
+  frame.stamp = target.estimate->stamp = 200 * ms;
+  frame.joints = positions_;
+  frame.depth = DepthView{};
+  const TargetReport& report = pipeline_.process(frame).targets[0];
+  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_verdict);
+  EXPECT_EQ(report.handled->source, Source::predicted) << "handling goes on";
+}
+
+TEST_F(TargetsTest, EstimatesOfTheCameraAreBroughtToTheRoot) {
+  PipelineConfig config = plain_config();
+  config.T_parent_camera.translation().x() = 0.25;
+  config.camera_parent = "slab";  // eye in hand
+  config.T_parent_camera.translation().z() = -1.2;
+  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  const Image<float> wall(depth_.width(), depth_.height(), 3.0F);
+  for (int i = 0; i < 3; ++i) {
+    positions_[0] = 0.05 * i;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Eigen::Vector3d(0.0, 0.0, 2.0 - 0.05 * i);  // still in the root's frame
+    Target target = estimated(i * 100 * ms, PixelBox{2, 100, 12, 12}, 0.0);
+    target.estimate->frame.reset();
+    target.estimate->value = pose;
+    const TargetReport& report = pipeline
+                                     .process({.stamp = i * 100 * ms,
+                                               .depth = wall.view(),
+                                               .joints = positions_,
+                                               .targets = {&target, 1}})
+                                     .targets[0];
+    ASSERT_EQ(report.estimate, penumbra::Outcome::accepted) << report.reason;
+    // The camera is 0.25 m beside and 1.2 m before the slab, which is 1 m + slide from the root.
+    const Eigen::Vector3d expected(0.25, 0.0, 1.0 - 1.2 + 2.0);
+    EXPECT_LT((*report.handled->position - expected).norm(), 1e-6);
+  }
+}
+
+/// Not even where it is of a frame that was judged before.
+TEST_F(TargetsTest, EstimatesInAnUnknownFrameAreRefused) {
+  Target target = region("a", beside_slab);
+  target.handling = PointTrackerConfig{};
+  judge(1 * ms, target);
+  target.estimate =
+      TargetEstimate{.value = Eigen::Vector3d(0, 0, 1), .stamp = 1 * ms, .frame = "arm"};
+  const TargetReport& report = judge(2 * ms, target);
+  EXPECT_EQ(report.verdict, Verdict::unknown);
+  EXPECT_NE(report.reason.find("'arm'"), std::string_view::npos) << report.reason;
+  EXPECT_EQ(report.estimate, Outcome::refused_invalid);
+}
+
+TEST_F(TargetsTest, WithoutStampsNothingIsHandled) {
+  const Target target = followed(beside_slab);
+  const FrameReport& report = pipeline_.process(
+      {.stamp = {}, .depth = depth_.view(), .joints = positions_, .targets = {&target, 1}});
+  EXPECT_EQ(report.targets[0].verdict, Verdict::visible);
+  EXPECT_FALSE(report.targets[0].handled);
+  EXPECT_TRUE(report.targets[0].wants_stamp);
+  EXPECT_FALSE(judge(1 * ms, target).wants_stamp);
+}
+
+TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
+  judge(0, followed(beside_slab));
+  pipeline_.forget_target("hand");
+  EXPECT_EQ(judge(100 * ms, followed(behind_slab)).handled->source, Source::lost);
+  judge(200 * ms, followed(beside_slab));
+  EXPECT_EQ(judge(-7000 * ms, followed(behind_slab)).handled->source, Source::lost)
+      << "a clock that is set back begins a new sequence";
+}
+
+/// Half a second is enough: at the old stamps the target is elsewhere.
+TEST_F(TargetsTest, AClockThatIsSetBackALittleLeavesNothingMeasured) {
+  for (int i = 0; i < 6; ++i)
+    ASSERT_EQ(judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.0)).handled->source,
+              Source::measured);
+  for (int i = 0; i < 6; ++i) {
+    const TargetReport& report = judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.17));
+    ASSERT_EQ(report.estimate, penumbra::Outcome::accepted);
+    EXPECT_EQ(report.handled->source, Source::measured);
+    EXPECT_NEAR(report.handled->position->x(), 0.17, 1e-9);
+  }
+}
+
+/// As of a clock that stands still.
+TEST_F(TargetsTest, ARefusedEstimateIsNotMeasured) {
+  ASSERT_EQ(judge(0, estimated(0, beside_slab, 0.0)).handled->source, Source::measured);
+  const TargetReport& report = judge(0, estimated(0, beside_slab, 0.17));
+  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_invalid);
+  EXPECT_EQ(report.handled->source, Source::predicted);
+}
+
+TEST_F(TargetsTest, NothingStandsForAnEstimateThatWasNotFound) {
+  Target target = followed(beside_slab);
+  target.estimate = TargetEstimate{.value = std::monostate{}};
+  const TargetReport none = judge(0, target);
+  EXPECT_EQ(none.verdict, Verdict::visible);
+  EXPECT_TRUE(none.point) << "which would be taken if estimates were not given from outside";
+  EXPECT_FALSE(none.estimate);
+  EXPECT_EQ(none.handled->source, Source::lost);
+  target.estimate.reset();
+  EXPECT_EQ(judge(100 * ms, target).handled->source, Source::measured);
+}
+
+TEST_F(TargetsTest, EstimatesFartherThanAnythingAreInvalid) {
+  Target target = followed(beside_slab);
+  const double far = 2e6;
+  for (const double x : {far, -1e200, 1e308, std::numeric_limits<double>::infinity()}) {
+    target.estimate = TargetEstimate{.value = Eigen::Vector3d(x, 0, 1), .frame = ""};
+    const TargetReport report = judge(0, target);
+    EXPECT_EQ(report.estimate, penumbra::Outcome::refused_invalid) << x;
+    EXPECT_EQ(report.handled->source, Source::lost) << x;
+  }
+  target.estimate = TargetEstimate{.value = Eigen::Vector3d(0, 0, 1), .frame = ""};
+  EXPECT_EQ(judge(100 * ms, target).estimate, penumbra::Outcome::accepted) << "not held against it";
+}
+
+TEST_F(TargetsTest, CheckedBeforehandIsAsJudged) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Target box{.name = "box", .shape = BoxTarget{.size = {1e30, 1, 1}, .frame = ""}};
+  Target ball{.name = "ball", .shape = PointTarget{.radius = 1e7}};
+  Target key{.name = "key", .shape = KeypointTarget{.angle = inf}};
+  Target margin{.name = "margin", .shape = RegionTarget{beside_slab}, .depth_margin = -1};
+  for (const Target& target : {box, ball, key, margin}) {
+    std::string fault;
+    try {
+      check_target(target);
+    } catch (const InputError& error) {
+      fault = error.what();
+    }
+    EXPECT_NE(fault, "") << target.name;
+    const TargetReport report = judge(0, target);
+    EXPECT_EQ(report.verdict, Verdict::unknown);
+    EXPECT_EQ(report.reason, fault);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
