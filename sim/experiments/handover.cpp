@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <random>
@@ -112,9 +113,17 @@ class HandoverRun {
     if (!event.estimated) return event;
     const Eigen::Vector3d& position = answer.estimate->position;
     event.translation_error = (position - truth.position).norm();
-    event.on_robot = event.translation_error > reached_distance &&
-                     watcher_.near_robot(frame.true_joints, position, body_distance + wrist_radius);
+    event.on_robot = on_robot(answer.surface, frame, truth);
     return event;
+  }
+
+  /// Whether a measured surface is the robot's, however near the wrist may be: it lies nearer to
+  /// the robot's true surface than to the wrist's.
+  bool on_robot(const Eigen::Vector3d& surface, const SimFrame& frame,
+                const WristTruth& truth) const {
+    const double to_wrist = std::abs((surface - truth.position).norm() - wrist_radius);
+    const auto to_robot = watcher_.distance_to_robot(frame.true_joints, surface, body_distance);
+    return to_robot && *to_robot < to_wrist;
   }
 
   void record(std::int64_t stamp, const WristTruth& wrist) {

@@ -107,6 +107,8 @@ LineStyle line_style(const std::string& key) {
                                                        {"tracker", {"#e69f00", ""}},
                                                        {"height_raw", {"#cc79a7", "2 4"}},
                                                        {"height", {"#cc79a7", ""}},
+                                                       {"silhouette_raw", {"#8b5a2b", "2 4"}},
+                                                       {"silhouette", {"#8b5a2b", ""}},
                                                        {"urdf_filter_raw", {"#56b4e9", "2 4"}},
                                                        {"urdf_filter", {"#56b4e9", ""}},
                                                        {"own_model", {"#0072b2", "9 3 2 3"}},

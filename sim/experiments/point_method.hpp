@@ -17,6 +17,7 @@ namespace penumbra::sim {
 struct PointAnswer {
   std::optional<PointEstimate> estimate;  ///< in the base frame
   Verdict verdict = Verdict::visible;
+  Eigen::Vector3d surface{0, 0, 0};  ///< what was measured, in the base frame; with an estimate
 };
 
 /// One way of following a wrist that the robot hides at times: a key point's place in space comes
@@ -43,9 +44,12 @@ class PointMethod {
  protected:
   [[nodiscard]] const Cell& cell() const { return *cell_; }
 
-  /// The wrist's centre where its surface has this depth, metres.
-  [[nodiscard]] PointEstimate wrist_at(const Sensed& sensed, const Keypoint& keypoint,
-                                       double depth) const;
+  /// The wrist's centre where its surface was measured at this depth, metres; visible.
+  [[nodiscard]] PointAnswer wrist_at(const Sensed& sensed, const Keypoint& keypoint,
+                                     double depth) const;
+
+  /// The point of this depth on a key point's ray, in the base frame.
+  [[nodiscard]] Eigen::Vector3d point_at(const Keypoint& keypoint, double depth) const;
 
  private:
   const Cell* cell_;

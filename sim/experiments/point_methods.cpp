@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <type_traits>
 
 #include <sim/experiments/point_method.hpp>
 #include <sim/experiments/ray_cloud.hpp>
+#include <sim/experiments/robot_filters.hpp>
 
 namespace penumbra::sim {
 namespace {
@@ -47,7 +50,7 @@ class RawPoint : public PointMethod {
   PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
     const auto depth = depth_about(sensed, keypoint, [](int, int, double) { return true; });
     if (!depth) return {};
-    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    return wrist_at(sensed, keypoint, *depth);
   }
   Outcome take(const PointAnswer& answer) override {
     if (!last_ || answer.estimate->stamp > last_->stamp) last_ = answer.estimate;
@@ -78,46 +81,68 @@ class PointTrackerAlone : public PointMethod {
   PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
     const auto depth = depth_about(sensed, keypoint, [](int, int, double) { return true; });
     if (!depth) return {};
-    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    return wrist_at(sensed, keypoint, *depth);
   }
+};
+
+/// A way of taking the robot out of a depth image.
+struct DepthFilter {
+  const char* key;
+  const char* name;
+  const char* idea;
+  bool (*removes)(const Cell& cell, const Sensed& sensed, int u, int v, double depth);
 };
 
 /// Points above a plane are robot (Yoshioka 2021).
-class PointHeightThreshold : public PointMethod {
+constexpr DepthFilter height_depth_filter{
+    "height", "Height threshold",
+    "Points above a plane are robot and are taken from the depth image (Yoshioka 2021). The plane "
+    "is better than any real one: 5 cm above the wrist's true height at every instant.",
+    [](const Cell& cell, const Sensed&, int u, int v, double depth) {
+      return surface_at(cell.camera.intrinsics, cell.T_base_camera, u, v, depth).z() >
+             cell.reach + plane_margin;
+    }};
+
+constexpr DepthFilter silhouette_depth_filter{
+    "silhouette", "Silhouette subtraction",
+    "Every pixel on which the robot's model is drawn is taken from the depth image, also where "
+    "something before the robot was measured; with the same renderer and joints as ours.",
+    [](const Cell&, const Sensed& sensed, int u, int v, double) {
+      return on_silhouette(sensed, u, v);
+    }};
+
+constexpr DepthFilter urdf_depth_filter{
+    "urdf_filter", "URDF filter",
+    "Pixels on which the robot's model is drawn are taken from the depth image where the measured "
+    "depth lies beyond the drawn one less 5 cm: realtime_urdf_filter's rule with the threshold "
+    "that it ships, with the same renderer and joints as ours.",
+    [](const Cell&, const Sensed& sensed, int u, int v, double) {
+      return urdf_filtered(sensed, u, v);
+    }};
+
+/// The median depth about the key point of what a filter leaves; `Base` says who follows.
+template <typename Base>
+class FilteredPoint : public Base {
  public:
-  using PointMethod::PointMethod;
+  FilteredPoint(const Cell& cell, const PointTrackerConfig& tracker, const DepthFilter& filter)
+      : Base(cell, tracker), filter_(filter) {}
   MethodInfo info() const override {
-    return {
-        "height", "Height threshold",
-        "Points above a plane are robot and are taken from the depth image (Yoshioka 2021). The "
-        "plane is better than any real one: 5 cm above the wrist's true height at every instant."};
+    if (std::is_base_of_v<RawPoint, Base>)
+      return {filter_.key + std::string("_raw"), filter_.name,
+              filter_.idea + std::string(" The last position that arrived, as it is.")};
+    return {filter_.key, filter_.name + std::string(" + tracker"),
+            "The same, and our tracker follows."};
   }
   PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
-    const double limit = cell().reach + plane_margin;
     const auto depth = depth_about(sensed, keypoint, [&](int u, int v, double z) {
-      return surface_at(cell().camera.intrinsics, cell().T_base_camera, u, v, z).z() <= limit;
+      return !filter_.removes(this->cell(), sensed, u, v, z);
     });
     if (!depth) return {};
-    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    return this->wrist_at(sensed, keypoint, *depth);
   }
-};
 
-/// Every robot pixel is subtracted (realtime_urdf_filter; Magrini 2014).
-class PointUrdfFilter : public PointMethod {
- public:
-  using PointMethod::PointMethod;
-  MethodInfo info() const override {
-    return {"urdf_filter", "URDF filter",
-            "Every pixel on which the robot's model is drawn is taken from the depth image "
-            "(realtime_urdf_filter, Magrini 2014), with the same renderer and joints as ours."};
-  }
-  PointAnswer look(const Sensed& sensed, const Keypoint& keypoint) override {
-    const auto& drawn = sensed.robot.virtual_depth.depth;
-    const auto depth = depth_about(
-        sensed, keypoint, [&](int u, int v, double) { return drawn.empty() || drawn(u, v) <= 0; });
-    if (!depth) return {};
-    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
-  }
+ private:
+  DepthFilter filter_;
 };
 
 /// What is measured well before where the hand can be is not the hand (after Wuethrich 2013).
@@ -126,7 +151,7 @@ class PointOwnModel : public PointMethod {
   using PointMethod::PointMethod;
   MethodInfo info() const override {
     return {
-        "own_model", "Hand's own model",
+        "own_model", "Hand's own model + tracker",
         "Depths more than 10 cm (and 25 cm/s of age) nearer than the hand's surface at its held "
         "place are not the hand's (after Wuethrich 2013) and are taken from the depth image."};
   }
@@ -139,7 +164,7 @@ class PointOwnModel : public PointMethod {
     const auto depth =
         depth_about(sensed, keypoint, [&](int, int, double z) { return z >= nearest; });
     if (!depth) return {};
-    return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    return wrist_at(sensed, keypoint, *depth);
   }
 };
 
@@ -150,7 +175,7 @@ class PointTwoCameras : public PointMethod {
   using PointMethod::PointMethod;
   MethodInfo info() const override {
     return {
-        "two_cameras", "Second depth camera",
+        "two_cameras", "Second camera + tracker",
         "Depths of the first camera near the wrist's held place (10 cm, and 25 cm/s of age); "
         "where there are none, points of the second camera there that lie on the key point's ray "
         "(after Fetzner 2014). Needs a second camera."};
@@ -163,15 +188,17 @@ class PointTwoCameras : public PointMethod {
     const auto depth = depth_about(sensed, keypoint, [&](int, int, double z) {
       return !known || std::abs(z + cell().wrist_radius - expected) < most_apart;
     });
-    if (depth) return {wrist_at(sensed, keypoint, *depth), Verdict::visible};
+    if (depth) return wrist_at(sensed, keypoint, *depth);
     if (!known) return {};
     std::vector<double> behind = second_depths_on_ray(cell(), sensed, keypoint.pixel);
     std::erase_if(behind, [&](double z) {
       return std::abs(z - cell().wrist_radius - expected) > most_apart;
     });
     if (behind.size() < least_depths) return {};
-    const double surface = median_of(behind) - 2 * cell().wrist_radius;
-    return {wrist_at(sensed, keypoint, surface), Verdict::visible};
+    const double far_side = median_of(behind);
+    PointAnswer answer = wrist_at(sensed, keypoint, far_side - 2 * cell().wrist_radius);
+    answer.surface = point_at(keypoint, far_side);
+    return answer;
   }
 };
 
@@ -192,8 +219,10 @@ class PenumbraPoint : public PointMethod {
     target.point_pixel = keypoint.pixel;
     judge_.begin(sensed.robot);
     const Judgement judged = judge_.judge(target);
-    if (!judged.point) return {std::nullopt, judged.verdict};
-    return {wrist_at(sensed, keypoint, judged.point->z()), judged.verdict};
+    if (!judged.point) return {std::nullopt, judged.verdict, {}};
+    PointAnswer answer = wrist_at(sensed, keypoint, judged.point->z());
+    answer.verdict = judged.verdict;
+    return answer;
   }
 
  private:
@@ -227,13 +256,19 @@ Outcome PointMethod::take(const PointAnswer& answer) {
 
 TrackedPoint PointMethod::at(std::int64_t stamp) const { return tracker_.at(stamp); }
 
-PointEstimate PointMethod::wrist_at(const Sensed& sensed, const Keypoint& keypoint,
-                                    double depth) const {
-  PointEstimate estimate;
-  estimate.stamp = sensed.stamp;
-  estimate.position = surface_at(cell_->camera.intrinsics, cell_->T_base_camera, keypoint.pixel.x(),
-                                 keypoint.pixel.y(), depth + cell_->wrist_radius);
-  return estimate;
+PointAnswer PointMethod::wrist_at(const Sensed& sensed, const Keypoint& keypoint,
+                                  double depth) const {
+  PointAnswer answer;
+  answer.estimate.emplace();
+  answer.estimate->stamp = sensed.stamp;
+  answer.estimate->position = point_at(keypoint, depth + cell_->wrist_radius);
+  answer.surface = point_at(keypoint, depth);
+  return answer;
+}
+
+Eigen::Vector3d PointMethod::point_at(const Keypoint& keypoint, double depth) const {
+  return surface_at(cell_->camera.intrinsics, cell_->T_base_camera, keypoint.pixel.x(),
+                    keypoint.pixel.y(), depth);
 }
 
 std::vector<std::unique_ptr<PointMethod>> make_point_methods(const Cell& cell) {
@@ -243,8 +278,11 @@ std::vector<std::unique_ptr<PointMethod>> make_point_methods(const Cell& cell) {
   std::vector<std::unique_ptr<PointMethod>> methods;
   methods.push_back(std::make_unique<RawPoint>(cell, tracker));
   methods.push_back(std::make_unique<PointTrackerAlone>(cell, tracker));
-  methods.push_back(std::make_unique<PointHeightThreshold>(cell, tracker));
-  methods.push_back(std::make_unique<PointUrdfFilter>(cell, tracker));
+  for (const DepthFilter& filter :
+       {height_depth_filter, silhouette_depth_filter, urdf_depth_filter}) {
+    methods.push_back(std::make_unique<FilteredPoint<RawPoint>>(cell, tracker, filter));
+    methods.push_back(std::make_unique<FilteredPoint<PointMethod>>(cell, tracker, filter));
+  }
   methods.push_back(std::make_unique<PointOwnModel>(cell, tracker));
   methods.push_back(std::make_unique<PointTwoCameras>(cell, tracker));
   methods.push_back(std::make_unique<PenumbraPartialPoint>(cell, takes_partial));

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
 
 #include <sim/experiments/masks.hpp>
 #include <sim/experiments/object_cloud.hpp>
 #include <sim/experiments/pose_method.hpp>
+#include <sim/experiments/robot_filters.hpp>
 
 namespace penumbra::sim {
 namespace {
@@ -76,68 +79,60 @@ class TrackerAlone : public PoseMethod {
   }
 };
 
-/// The detected pixels that are not above a plane (Yoshioka 2021).
-Image<std::uint8_t> below_plane(const Cell& cell, const PoseView& view) {
-  const double limit = cell.object_size.z() + height_margin;
-  return without(view.detection.mask, view.detection.box, [&](int u, int v) {
-    return height_at(cell, view.sensed, u, v).value_or(0) > limit;
-  });
-}
-
-/// The detected pixels on which no robot is drawn (realtime_urdf_filter; Magrini 2014).
-Image<std::uint8_t> beside_robot(const PoseView& view) {
-  const auto& drawn = view.sensed.robot.virtual_depth.depth;
-  return without(view.detection.mask, view.detection.box,
-                 [&](int u, int v) { return !drawn.empty() && drawn(u, v) > 0; });
-}
-
-class RawHeightThreshold : public RawPose {
- public:
-  using RawPose::RawPose;
-  MethodInfo info() const override {
-    return {"height_raw", "Height threshold",
-            "Points more than 3 cm above the object's known top are robot and are taken from the "
-            "region (Yoshioka 2021); the last estimate from the rest, as it is."};
-  }
-  PoseAnswer look(const PoseView& view) override {
-    return {estimate(view, below_plane(cell(), view).view()), Verdict::visible};
-  }
+/// A way of taking the robot out of a detected region.
+struct RegionFilter {
+  const char* key;
+  const char* name;
+  const char* idea;
+  bool (*removes)(const Cell& cell, const Sensed& sensed, int u, int v);
 };
 
-class HeightThreshold : public PoseMethod {
- public:
-  using PoseMethod::PoseMethod;
-  MethodInfo info() const override {
-    return {"height", "Height threshold + tracker", "The same, and our tracker follows."};
-  }
-  PoseAnswer look(const PoseView& view) override {
-    return {estimate(view, below_plane(cell(), view).view()), Verdict::visible};
-  }
-};
+/// Points above a plane are robot (Yoshioka 2021).
+constexpr RegionFilter height_region_filter{
+    "height", "Height threshold",
+    "Points more than 3 cm above the object's known top are robot and are taken from the region "
+    "(Yoshioka 2021), with 3 pixels about them.",
+    [](const Cell& cell, const Sensed& sensed, int u, int v) {
+      return height_at(cell, sensed, u, v).value_or(0) > cell.object_size.z() + height_margin;
+    }};
 
-class RawUrdfFilter : public RawPose {
- public:
-  using RawPose::RawPose;
-  MethodInfo info() const override {
-    return {"urdf_filter_raw", "URDF filter",
-            "Every pixel on which the robot's model is drawn is taken from the region "
-            "(realtime_urdf_filter, Magrini 2014), with the same renderer and joints as ours; the "
-            "last estimate from the rest, as it is."};
-  }
-  PoseAnswer look(const PoseView& view) override {
-    return {estimate(view, beside_robot(view).view()), Verdict::visible};
-  }
-};
+constexpr RegionFilter silhouette_region_filter{
+    "silhouette", "Silhouette subtraction",
+    "Every pixel on which the robot's model is drawn is taken from the region, with 3 pixels about "
+    "it, also where something before the robot was measured; with the same renderer and joints as "
+    "ours.",
+    [](const Cell&, const Sensed& sensed, int u, int v) { return on_silhouette(sensed, u, v); }};
 
-class UrdfFilter : public PoseMethod {
+constexpr RegionFilter urdf_region_filter{
+    "urdf_filter", "URDF filter",
+    "Pixels on which the robot's model is drawn are taken from the region, with 3 pixels about "
+    "them, where the measured depth lies beyond the drawn one less 5 cm: realtime_urdf_filter's "
+    "rule with the threshold that it ships, with the same renderer and joints as ours.",
+    [](const Cell&, const Sensed& sensed, int u, int v) { return urdf_filtered(sensed, u, v); }};
+
+/// The estimate from what a filter leaves of the region; `Base` says who follows.
+template <typename Base>
+class FilteredPose : public Base {
  public:
-  using PoseMethod::PoseMethod;
+  FilteredPose(const Cell& cell, const Perception& perception, const PoseTrackerConfig& tracker,
+               const RegionFilter& filter)
+      : Base(cell, perception, tracker), filter_(filter) {}
   MethodInfo info() const override {
-    return {"urdf_filter", "URDF filter + tracker", "The same, and our tracker follows."};
+    if (std::is_base_of_v<RawPose, Base>)
+      return {filter_.key + std::string("_raw"), filter_.name,
+              filter_.idea + std::string(" The last estimate from the rest, as it is.")};
+    return {filter_.key, filter_.name + std::string(" + tracker"),
+            "The same, and our tracker follows."};
   }
   PoseAnswer look(const PoseView& view) override {
-    return {estimate(view, beside_robot(view).view()), Verdict::visible};
+    const auto rest = without(view.detection.mask, view.detection.box, [&](int u, int v) {
+      return filter_.removes(this->cell(), view.sensed, u, v);
+    });
+    return {this->estimate(view, rest.view()), Verdict::visible};
   }
+
+ private:
+  RegionFilter filter_;
 };
 
 /// What is measured well before the object's own predicted surface is not the object (Wuethrich
@@ -297,10 +292,12 @@ std::vector<std::unique_ptr<PoseMethod>> make_pose_methods(const Cell& cell,
   std::vector<std::unique_ptr<PoseMethod>> methods;
   methods.push_back(std::make_unique<RawPose>(cell, perception, tracker));
   methods.push_back(std::make_unique<TrackerAlone>(cell, perception, tracker));
-  methods.push_back(std::make_unique<RawHeightThreshold>(cell, perception, tracker));
-  methods.push_back(std::make_unique<HeightThreshold>(cell, perception, tracker));
-  methods.push_back(std::make_unique<RawUrdfFilter>(cell, perception, tracker));
-  methods.push_back(std::make_unique<UrdfFilter>(cell, perception, tracker));
+  for (const RegionFilter& filter :
+       {height_region_filter, silhouette_region_filter, urdf_region_filter}) {
+    methods.push_back(std::make_unique<FilteredPose<RawPose>>(cell, perception, tracker, filter));
+    methods.push_back(
+        std::make_unique<FilteredPose<PoseMethod>>(cell, perception, tracker, filter));
+  }
   methods.push_back(std::make_unique<OwnModel>(cell, perception, tracker));
   methods.push_back(std::make_unique<TwoCameras>(cell, perception, tracker));
   methods.push_back(std::make_unique<PenumbraPartial>(cell, perception, takes_partial));

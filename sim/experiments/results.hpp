@@ -54,7 +54,7 @@ struct Event {
   bool accepted = false;
   double translation_error = 0;  ///< metres: of the estimate at its own stamp
   double rotation_error = 0;     ///< radians
-  bool on_robot = false;         ///< it lies on the robot's body, and wrong
+  bool on_robot = false;         ///< what was measured is the robot's body
   bool seen = false;             ///< the robot hid nothing of the target
   bool before_robot = false;     ///< as in FrameTruth
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <sim/experiments/robot_watcher.hpp>
 
@@ -33,13 +35,15 @@ double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return inside ? std::min(edges, normal.dot(a) * normal.dot(a) / area) : edges;
 }
 
-bool near_mesh(const TriangleMesh& mesh, const Eigen::Vector3d& point, double distance) {
+/// Squared distance of a point from a mesh; infinite from one of no triangle.
+double squared_distance(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   const auto corner = [&](std::uint32_t i) {
     return Eigen::Vector3d(mesh.vertices[i].template cast<double>() - point);
   };
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
-    return squared_distance(corner(t[0]), corner(t[1]), corner(t[2])) < distance * distance;
-  });
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles)
+    least = std::min(least, squared_distance(corner(t[0]), corner(t[1]), corner(t[2])));
+  return least;
 }
 
 }  // namespace
@@ -60,19 +64,22 @@ Sensed RobotWatcher::see(const SimFrame& frame) {
   return sensed;
 }
 
-bool RobotWatcher::near_robot(std::span<const double> joints, const Eigen::Vector3d& point,
-                              double distance) const {
+std::optional<double> RobotWatcher::distance_to_robot(std::span<const double> joints,
+                                                      const Eigen::Vector3d& point,
+                                                      double most) const {
   std::vector<Eigen::Isometry3d> poses(robot().links().size());
   robot().forward_kinematics(joints, poses);
+  double least = std::numeric_limits<double>::infinity();  // squared
   for (std::size_t link = 0; link < poses.size(); ++link) {
     const Eigen::Vector3d in_link = poses[link].inverse() * point;
     if (!robot().report()[link].drawn ||
-        robot().report()[link].bounds.squaredExteriorDistance(in_link) > distance * distance)
+        robot().report()[link].bounds.squaredExteriorDistance(in_link) > most * most)
       continue;
     for (const TriangleMesh& mesh : robot().meshes(link))
-      if (near_mesh(mesh, in_link, distance)) return true;
+      least = std::min(least, squared_distance(mesh, in_link));
   }
-  return false;
+  if (least > most * most) return std::nullopt;
+  return std::sqrt(least);
 }
 
 }  // namespace penumbra::sim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,11 @@ class RobotWatcher {
   [[nodiscard]] const Robot& robot() const { return pipeline_.robot(); }
   [[nodiscard]] const LabelRule& rule() const { return pipeline_.rule(); }
 
-  /// Whether a point in the base frame lies within `distance` of the robot's surface, metres.
-  [[nodiscard]] bool near_robot(std::span<const double> joints, const Eigen::Vector3d& point,
-                                double distance) const;
+  /// How far a point in the base frame lies from the robot's surface, metres; nothing where
+  /// further than `most`.
+  [[nodiscard]] std::optional<double> distance_to_robot(std::span<const double> joints,
+                                                        const Eigen::Vector3d& point,
+                                                        double most) const;
 
  private:
   Pipeline pipeline_;

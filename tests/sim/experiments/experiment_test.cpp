@@ -59,10 +59,11 @@ json value_or_null(const Results& results, const std::string& lane, const std::s
       .at("value");
 }
 
-// docs/experiments.md has 4 and 7 mm over 30 seeds, 88 mm without handling, trackers within 10 % of
-// ours with a careful estimator and worse with an eager one; two seeds spread more.
+// docs/experiments.md has 4 and 7 mm over 30 seeds, a tenth and less of what comes without a
+// tracker, trackers within 10 % of ours with a careful estimator and worse with an eager one. Two
+// seeds spread more: with an eager estimator ours may then be 0.15 of what comes without a tracker.
 constexpr double careful_p95 = 8.0, eager_p95 = 14.0;  // mm
-constexpr double tenth = 0.2, alike = 1.5;
+constexpr double careful_share = 0.1, eager_share = 0.15, alike = 1.5;
 
 TEST(Experiment, ConveyorFollowsWhatTheArmHides) {
   const Results results = run({.experiment = "conveyor", .end_seed = 2, .output = {}});
@@ -75,9 +76,12 @@ TEST(Experiment, ConveyorFollowsWhatTheArmHides) {
     const double p95 = value(methods, "penumbra", "translation_p95_mm");
     const bool is_eager = std::string(lane).ends_with("_eager");
     EXPECT_LT(p95, is_eager ? eager_p95 : careful_p95);
-    for (const char* const untracked : {"raw", "height_raw", "urdf_filter_raw"})
-      EXPECT_LT(p95, tenth * value(methods, untracked, "translation_p95_mm")) << untracked;
-    for (const char* const tracked : {"tracker", "height", "urdf_filter", "own_model"})
+    for (const char* const untracked : {"raw", "height_raw", "silhouette_raw", "urdf_filter_raw"})
+      EXPECT_LT(p95, (is_eager ? eager_share : careful_share) *
+                         value(methods, untracked, "translation_p95_mm"))
+          << lane << ", " << untracked;
+    for (const char* const tracked :
+         {"tracker", "height", "silhouette", "urdf_filter", "own_model"})
       EXPECT_LT(p95, (is_eager ? 1.0 : alike) * value(methods, tracked, "translation_p95_mm"))
           << lane << ", " << tracked;
   }
@@ -93,14 +97,17 @@ TEST(Experiment, HandoverKeepsTheHandBeforeTheArm) {
   EXPECT_GT(value(lane, "raw", "on_robot_accepted"), 0.0);
   constexpr double few = 10.0, many = 30.0;  // percent
   EXPECT_EQ(value(lane, "penumbra", "success_percent"), 100.0);
-  // 80 mm over 30 seeds, the URDF filter's 83 mm, 350 mm without handling.
+  // 80 mm over 30 seeds, with the robot's silhouette subtracted 83 mm, 350 mm without handling.
   const double p95 = value(lane, "penumbra", "translation_p95_mm");
   EXPECT_LT(p95, 120.0);
-  EXPECT_LT(p95, 1.2 * value(lane, "urdf_filter", "translation_p95_mm"));
-  for (const char* const fooled : {"raw", "tracker", "height"})
+  for (const char* const filter : {"silhouette", "urdf_filter"})
+    EXPECT_LT(p95, 1.2 * value(lane, filter, "translation_p95_mm")) << filter;
+  for (const char* const fooled : {"raw", "tracker", "height_raw", "height"})
     EXPECT_LT(p95, 0.5 * value(lane, fooled, "translation_p95_mm")) << fooled;
   EXPECT_LT(value(lane, "penumbra", "refused_before_robot_percent"), few);
-  EXPECT_GT(value(lane, "urdf_filter", "refused_before_robot_percent"), many);
+  EXPECT_GT(value(lane, "silhouette", "refused_before_robot_percent"), many);
+  EXPECT_LT(value(lane, "urdf_filter", "refused_before_robot_percent"), few)
+      << "realtime_urdf_filter keeps what stands before the robot";
 }
 
 TEST(Experiment, DoesNotDependOnTheNumberOfThreads) {

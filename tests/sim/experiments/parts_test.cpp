@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <sim/experiments/follower.hpp>
 #include <sim/experiments/object_cloud.hpp>
 #include <sim/experiments/picture_data.hpp>
+#include <sim/experiments/robot_filters.hpp>
 #include <sim/experiments/statistics.hpp>
 
 namespace penumbra::test {
@@ -145,6 +147,34 @@ TEST(BoxDepth, IsWhereARayEntersTheBox) {
   EXPECT_DOUBLE_EQ(box_depth(T_object_camera, size, {0, 0, 1}), 1.7);
   EXPECT_DOUBLE_EQ(box_depth(T_object_camera, size, {0.1, 0, 1}), 1.7);
   EXPECT_EQ(box_depth(T_object_camera, size, {0.2, 0, 1}), 0.0);
+}
+
+/// realtime_urdf_filter's shader, by hand: the robot drawn at 1 m, 5 cm allowed before it.
+TEST(RobotFilters, TheUrdfFilterKeepsWhatStandsBeforeTheRobotAndTheSilhouetteNothing) {
+  struct Case {
+    std::uint16_t measured;  // millimetres
+    float drawn;             // metres
+    bool by_urdf_filter, by_silhouette;
+    const char* what;
+  };
+  const std::array<Case, 6> cases{{{600, 1.0F, false, true, "well before the robot"},
+                                   {949, 1.0F, false, true, "just more than 5 cm before it"},
+                                   {951, 1.0F, true, true, "just less than 5 cm before it"},
+                                   {1000, 1.0F, true, true, "the robot"},
+                                   {3000, 1.0F, true, true, "beyond it"},
+                                   {1000, 0.0F, false, false, "beside it"}}};
+  for (const Case& one : cases) {
+    const Image<std::uint16_t> depth(1, 1, one.measured), missing(1, 1, 0);
+    const Image<float> drawn(1, 1, one.drawn);
+    Sensed sensed;
+    sensed.depth = depth.view();
+    EXPECT_FALSE(urdf_filtered(sensed, 0, 0) || on_silhouette(sensed, 0, 0)) << "nothing drawn";
+    sensed.robot.virtual_depth.depth = drawn.view();
+    EXPECT_EQ(urdf_filtered(sensed, 0, 0), one.by_urdf_filter) << one.what;
+    EXPECT_EQ(on_silhouette(sensed, 0, 0), one.by_silhouette) << one.what;
+    sensed.depth = missing.view();
+    EXPECT_FALSE(urdf_filtered(sensed, 0, 0)) << "nothing measured";
+  }
 }
 
 struct FakeAnswer {

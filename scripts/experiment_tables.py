@@ -1,0 +1,95 @@
+#!/usr/bin/env -S python3 -B
+# SPDX-License-Identifier: Apache-2.0
+"""The experiments' tables of docs/experiments.md, from what `penumbra experiment` measured.
+
+experiment_tables.py METRICS.json...: prints them, and the figures that README.md tells.
+experiment_tables.py --into docs/experiments.md METRICS.json...: replaces what stands between
+"<!-- begin NAME -->" and "<!-- end NAME -->" there.
+"""
+import json
+import pathlib
+import re
+import sys
+
+from performance_table import table
+
+# Key in metrics.json, head of the column, digits.
+COLUMNS = {
+    "conveyor": (("translation_median_mm", "position error hidden, median, mm", 1),
+                 ("translation_p95_mm", "p95, mm", 1),
+                 ("rotation_p95_deg", "rotation p95, degrees", 1),
+                 ("wrong_accepted", "off by > 2 cm accepted, per run", 2),
+                 ("wrong_accepted_hidden", "of these hidden", 2),
+                 ("without_pose_s", "without a pose, s per run", 2),
+                 ("success_percent", "picks, %", 0)),
+    "handover": (("translation_median_mm", "wrist error hidden, median, mm", 0),
+                 ("translation_p95_mm", "p95, mm", 0),
+                 ("on_robot_accepted", "on the robot's body accepted, per run", 2),
+                 ("wrong_accepted", "off by > 10 cm accepted, per run", 2),
+                 ("refused_visible_percent", "refused although visible, %", 1),
+                 ("refused_before_robot_percent", "of these hand before the arm, %", 1),
+                 ("without_pose_s", "without a position, s per run", 2),
+                 ("success_percent", "reached, %", 0)),
+}
+README = {
+    "conveyor": ("amodal", ("wrong_accepted_hidden", "translation_p95_mm"),
+                 ("raw", "tracker", "urdf_filter", "penumbra")),
+    "handover": ("keypoint", ("on_robot_accepted", "refused_before_robot_percent"),
+                 ("raw", "tracker", "silhouette", "urdf_filter", "penumbra")),
+}
+
+
+def cell(measure, digits):
+    if measure["value"] is None:
+        return "-"
+    text = f'{measure["value"]:.{digits}f}'
+    if measure["ci95"] is None:
+        return text
+    low, high = measure["ci95"]
+    return f"{text} ({low:.{digits}f}-{high:.{digits}f})"
+
+
+def tables(metrics):
+    """Name between the marks, and table, of each kind of detection."""
+    columns = COLUMNS[metrics["experiment"]]
+    for lane, detection in metrics["detections"].items():
+        rows = [(method["name"], *(cell(method["summary"][key], digits)
+                                   for key, _, digits in columns))
+                for method in detection["methods"].values()]
+        yield (f'{metrics["experiment"]} {lane}',
+               table(("method", *(head for _, head, _ in columns)), rows))
+
+
+def told(metrics):
+    lane, keys, methods = README[metrics["experiment"]]
+    for method in methods:
+        summary = metrics["detections"][lane]["methods"][method]["summary"]
+        yield f"{method}: " + ", ".join(f'{key} {summary[key]["value"]:.2f}' for key in keys)
+
+
+def main(arguments):
+    page = None
+    if arguments[:1] == ["--into"] and len(arguments) > 1:
+        page, arguments = pathlib.Path(arguments[1]), arguments[2:]
+    if not arguments:
+        sys.exit(__doc__)
+    text = page.read_text() if page else None
+    for name in arguments:
+        metrics = json.loads(pathlib.Path(name).read_text())
+        for mark, rows in tables(metrics):
+            if page is None:
+                print(f"{mark}\n\n{rows}\n")
+                continue
+            pattern = re.compile(rf"(<!-- begin {mark} -->\n).*?(<!-- end {mark} -->)", re.DOTALL)
+            text, found = pattern.subn(lambda match: match[1] + rows + "\n" + match[2], text)
+            if found != 1:
+                sys.exit(f'{page}: "{mark}" stands {found} times between begin and end, not once')
+        if page is None:
+            print(f'README.md, {metrics["experiment"]}, seeds {metrics["seeds"]}:')
+            print("\n".join(told(metrics)) + "\n")
+    if page:
+        page.write_text(text)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
