@@ -140,8 +140,8 @@ PointTrackerConfig read_point(const YamlNode& node) {
 
 TargetThresholds read_thresholds(const YamlNode& node, TargetThresholds thresholds) {
   node.allow_only({"partial_enter", "partial_leave", "hidden_enter", "hidden_leave",
-                   "unknown_limit", "past_limit", "min_inside", "beyond_hides", "others_hide",
-                   "point_min_pixels", "point_min_fraction"});
+                   "unknown_limit", "past_limit", "min_measured", "min_inside", "beyond_hides",
+                   "others_hide", "point_min_pixels", "point_min_fraction"});
   read_number(node, "partial_enter", thresholds.partial_enter);
   read_number(node, "partial_leave", thresholds.partial_leave);
   read_number(node, "hidden_enter", thresholds.hidden_enter);
@@ -149,6 +149,7 @@ TargetThresholds read_thresholds(const YamlNode& node, TargetThresholds threshol
   if (const YamlNode* limit = node.find("unknown_limit"))
     thresholds.unknown_limit = limit->number();
   read_number(node, "past_limit", thresholds.past_limit);
+  read_number(node, "min_measured", thresholds.min_measured);
   read_number(node, "min_inside", thresholds.min_inside);
   read_flag(node, "beyond_hides", thresholds.beyond_hides);
   read_flag(node, "others_hide", thresholds.others_hide);

@@ -63,6 +63,7 @@ Json target_json(const TargetReport& target, std::span<const std::string> links)
           {"unknown_fraction", share(judged.unknown)},
           {"hidden_by_other_fraction",
            judged.hidden_by_other ? share(*judged.hidden_by_other) : Json(nullptr)},
+          {"measured_fraction", judged.measured ? share(*judged.measured) : Json(nullptr)},
           {"seen_past_fraction", judged.seen_past ? share(*judged.seen_past) : Json(nullptr)},
           {"verdict", to_string(target.verdict)},
           {"blame", target.judgement ? blame_json(judged, links) : Json(nullptr)},

@@ -131,8 +131,9 @@ int execute(const RenderArguments& arguments) {
   const std::size_t told = notes.size();
   append(notes, rest_notes(pipeline.robot(), arguments));
 
-  const Image<float> nothing_seen(camera.intrinsics.width(), camera.intrinsics.height());
-  const FrameReport& first = pipeline.process({.depth = nothing_seen.view(), .joints = positions});
+  // Any depth will do: nothing of what is written comes of it.
+  const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
+  const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
   write_images(arguments, first);
   SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);

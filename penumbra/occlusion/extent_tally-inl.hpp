@@ -67,6 +67,7 @@ class Measured {
       const float d = metres(u);
       return is_measurement(d) & (d > limit);
     }
+    [[nodiscard]] bool is_measured(int u) const { return is_measurement(metres(u)); }
 
    private:
     [[nodiscard]] bool is_measurement(float d) const {
@@ -159,13 +160,14 @@ struct ExtentTally {
 
   void clear() {
     pixels = {};
-    past = 0;
+    measured = past = 0;
     links.clear();
   }
 
   SeenCounts pixels;
-  std::size_t past = 0;  ///< of the clear and front ones: measured past the expected depth
-  LinkCounts links;      ///< those that hide
+  std::size_t measured = 0;  ///< of the clear and front ones: measured at all
+  std::size_t past = 0;      ///< of these: past the expected depth
+  LinkCounts links;          ///< those that hide
 };
 
 /// A target's expected depth, checked.

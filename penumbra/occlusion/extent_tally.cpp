@@ -7,6 +7,8 @@
 namespace penumbra {
 namespace {
 
+bool is_seen(Seen seen) { return seen == Seen::clear || seen == Seen::front; }
+
 Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
   switch (static_cast<Label>(label)) {
     case Label::clear:
@@ -54,28 +56,43 @@ void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
   }
 }
 
+/// Goes by labels alone. `measured(v)` gives a row's depths.
+template <typename Depths>
 class LabelTally {
  public:
-  LabelTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally)
-      : images_(frame.images), beyond_hides_(beyond_hides), tally_(tally) {}
+  LabelTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally,
+             const Depths& measured)
+      : images_(frame.images), beyond_hides_(beyond_hides), tally_(tally), measured_(measured) {}
 
   void add(const RowSpan& span) {
     for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
       if (touched)
         add_runs(span.v, u0, u1);
       else
-        tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0);
+        add_seen(Seen::clear, span.v, u0, u1);
     });
   }
 
  private:
+  void add_seen(Seen seen, int v, int u0, int u1) {
+    const auto measured = measured_(v);
+    std::int32_t count = 0;  // as wide as a depth: so the compiler takes vectors
+    for (int u = u0; u < u1; ++u) count += measured.is_measured(u) ? 1 : 0;
+    tally_.measured += static_cast<std::size_t>(count);
+    tally_.pixels[seen] += static_cast<std::size_t>(u1 - u0);
+  }
+
   void add_runs(int v, int u0, int u1) {
     const std::uint8_t* const row = images_.labels.labels.row(v);
     for (const std::uint8_t *p = row + u0, *end = row + u1; p < end;) {
       const std::uint8_t* const next = end_of_run(p, end);
       const Seen seen = seen_without_depth(*p, beyond_hides_);
-      tally_.pixels[seen] += static_cast<std::size_t>(next - p);
-      if (seen == Seen::occluded) blame(v, static_cast<int>(p - row), static_cast<int>(next - row));
+      const int u0_run = static_cast<int>(p - row), u1_run = static_cast<int>(next - row);
+      if (is_seen(seen))
+        add_seen(seen, v, u0_run, u1_run);
+      else
+        tally_.pixels[seen] += static_cast<std::size_t>(next - p);
+      if (seen == Seen::occluded) blame(v, u0_run, u1_run);
       p = next;
     }
   }
@@ -93,6 +110,7 @@ class LabelTally {
   const JudgedImages& images_;
   bool beyond_hides_;
   ExtentTally& tally_;
+  const Depths& measured_;
 };
 
 /// As LabelTally, where the target's depth is known: `limits(v)` gives, by u, a row's limits and
@@ -121,12 +139,14 @@ class DepthTally {
   void add_clear(int v, int u0, int u1) {
     const auto limits = limits_(v);
     const auto measured = measured_(v);
-    std::int32_t nearer = 0, farther = 0;  // as wide as a depth: so the compiler takes vectors
+    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth: for vectors
     for (int u = u0; u < u1; ++u) {
+      all += measured.is_measured(u) ? 1 : 0;
       nearer += measured.is_before(u, limits(u).near) ? 1 : 0;
       farther += measured.is_past(u, limits(u).far) ? 1 : 0;
     }
     const auto before = static_cast<std::size_t>(nearer);
+    tally_.measured += static_cast<std::size_t>(all - nearer);
     tally_.past += static_cast<std::size_t>(farther);
     tally_.pixels[Seen::other] += before;
     tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0) - before;
@@ -139,12 +159,13 @@ class DepthTally {
     const float* const robot = images_.virtual_depth.depth.row(v);
     const bool has_links = !images_.virtual_depth.links.empty();
     const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
-    std::size_t past = 0;
+    std::size_t measured_count = 0, past = 0;
     Run run;  // of pixels seen alike: counting them one by one in memory costs more
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
       const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], target, beyond_hides_);
-      past += measured.is_past(u, target.far) && (seen == Seen::clear || seen == Seen::front);
+      measured_count += measured.is_measured(u) && is_seen(seen);
+      past += measured.is_past(u, target.far) && is_seen(seen);
       const std::uint16_t link = seen == Seen::occluded && has_links ? links[u] : 0;
       if (seen != run.seen || link != run.link) {
         add(run);
@@ -153,6 +174,7 @@ class DepthTally {
       ++run.pixels;
     }
     add(run);
+    tally_.measured += measured_count;
     tally_.past += past;
   }
 
@@ -178,20 +200,17 @@ struct NoDepths {
   float operator[](int /*u*/) const { return 0.0f; }
   [[nodiscard]] bool is_before(int /*u*/, float /*limit*/) const { return false; }
   [[nodiscard]] bool is_past(int /*u*/, float /*limit*/) const { return false; }
+  [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
 };
 
-template <typename Limits>
-void tally_with(const LabelledFrame& frame, std::span<const RowSpan> spans, bool beyond_hides,
-                ExtentTally& tally, const Limits& limits) {
-  const auto add_all = [&](const auto& measured) {
-    DepthTally adder(frame, beyond_hides, tally, limits, measured);
-    for (const RowSpan& span : spans) adder.add(span);
-  };
-  if (!frame.is_measured()) return add_all([](int /*v*/) { return NoDepths{}; });
+/// Calls f(measured): `measured(v)` gives, by u, a row's depths.
+template <typename F>
+void with_depths(const LabelledFrame& frame, F&& f) {
+  if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
   std::visit(
       [&](const auto& image) {
         const Measured measured(image, *frame.rule);
-        add_all([&](int v) { return measured.row(v); });
+        f([&](int v) { return measured.row(v); });
       },
       frame.images.measured);
 }
@@ -235,13 +254,17 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
 void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally) {
   tally.clear();
-  if (expected.known()) {
-    with_limits(*frame.rule, expected,
-                [&](const auto& limits) { tally_with(frame, spans, beyond_hides, tally, limits); });
-  } else {
-    LabelTally adder(frame, beyond_hides, tally);
-    for (const RowSpan& span : spans) adder.add(span);
-  }
+  with_depths(frame, [&](const auto& measured) {
+    if (!expected.known()) {
+      LabelTally adder(frame, beyond_hides, tally, measured);
+      for (const RowSpan& span : spans) adder.add(span);
+      return;
+    }
+    with_limits(*frame.rule, expected, [&](const auto& limits) {
+      DepthTally adder(frame, beyond_hides, tally, limits, measured);
+      for (const RowSpan& span : spans) adder.add(span);
+    });
+  });
 }
 
 }  // namespace penumbra

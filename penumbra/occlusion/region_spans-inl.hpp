@@ -47,6 +47,9 @@ class SeenPixels {
 
   [[nodiscard]] bool all() const { return ends_.empty(); }
   [[nodiscard]] std::span<const RowSpan> row(int v) const;  ///< not of all()
+  /// Whether all pixels of a span, which may lie beside the image, are such; `width` and
+  /// `height`: of the image.
+  [[nodiscard]] bool hold(const RowSpan& span, int width, int height) const;
 
  private:
   std::vector<RowSpan> spans_;

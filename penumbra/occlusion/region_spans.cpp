@@ -82,6 +82,14 @@ std::span<const RowSpan> SeenPixels::row(int v) const {
   return std::span(spans_).subspan(begin, ends_[i] - begin);
 }
 
+bool SeenPixels::hold(const RowSpan& span, int width, int height) const {
+  if (span.v < 0 || span.v >= height || span.u0 < 0 || span.u1 > width) return false;
+  if (all()) return true;
+  const auto covers = [&](const RowSpan& one) { return one.u0 <= span.u0 && span.u1 <= one.u1; };
+  const std::span<const RowSpan> seen = row(span.v);
+  return std::any_of(seen.begin(), seen.end(), covers);
+}
+
 void ExtentRows::keep(const SeenPixels& seen) {
   kept_.clear();
   inside_ = 0;

@@ -14,6 +14,7 @@ void TargetThresholds::check() const {
   check_share("hidden_leave", hidden_leave);
   if (unknown_limit) check_share("unknown_limit", *unknown_limit);
   check_share("past_limit", past_limit);
+  check_share("min_measured", min_measured);
   check_share("min_inside", min_inside);
   check_share("point_min_fraction", point_min_fraction);
   const auto check_order = [](const char* low_name, double low, const char* high_name,

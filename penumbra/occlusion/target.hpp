@@ -86,9 +86,14 @@ struct TargetThresholds {
   std::optional<double> unknown_limit;  ///< unknown share above which it becomes `unknown`, unless
                                         ///< the verdict is the same were all of it hidden; nothing:
                                         ///< partial_enter
-  /// Share of what is seen of it (clear and front) above which it becomes `unknown` where the
-  /// sensor looks past its expected depth: it is not there, or transparent. 1: however much.
+  /// Share of what is measured of it (of its clear and front pixels) from which on it becomes
+  /// `unknown` where the sensor looks past its expected depth: it is not there, or transparent.
+  /// 1: however much.
   double past_limit = 0.5;
+  /// Least share of what is seen of it (clear and front) that must be measured: nothing says that
+  /// it is where nothing is measured. Below, a target with an expected depth is `unknown`; of one
+  /// without, no estimate is taken. 0: it may be as dark or transparent as it will.
+  double min_measured = 0.2;
   double min_inside = 0.0;   ///< at most this share of the extent in the image: out_of_view;
                              ///< of rendered regions, 3-D boxes and meshes 0 alone
   bool beyond_hides = true;  ///< `beyond` counts as occluded; else it counts as clear

@@ -53,14 +53,20 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-std::string_view reason_for_unknown(const Sight& sight, double past_limit, bool has_pose,
-                                    bool has_depth) {
-  if (!has_pose) return "the robot's pose is not known in this frame";
+std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds) {
+  if (!sight.has_pose) return "the robot's pose is not known in this frame";
+  if (sight.is_cut)
+    return "seen at the image's border alone: how much of it the robot beside it hides is not "
+           "known";
   if (sight.first_near_robot)
     return "first seen beside the robot: how much of it the robot hides is not known";
   if (sight.is_missing) return "its mask is smaller than it was, and the robot is beside it";
-  if (sight.is_passed(past_limit)) return "the sensor looks past where most of it is expected";
-  if (has_depth) return "too much of it is robot without measurement, or at the robot's own depth";
+  if (sight.is_expected && sight.is_passed(thresholds.past_limit))
+    return "the sensor looks past where most of it is expected";
+  if (sight.is_expected && sight.is_unmeasured(thresholds.min_measured))
+    return "hardly anything is measured where it is expected";
+  if (sight.is_expected)
+    return "too much of it is robot without measurement, or at the robot's own depth";
   return "too much of it is robot without measurement";
 }
 
@@ -156,14 +162,14 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   judgement.front = sight.fraction(Seen::front);
   judgement.unknown = sight.fraction(Seen::unknown);
   judgement.clear = sight.fraction(Seen::clear);
-  if (expected.known() && frame.is_measured() && frame.has_pose()) {
-    judgement.hidden_by_other = sight.fraction(Seen::other);
-    judgement.seen_past = sight.past_fraction();
+  if (frame.is_measured() && frame.has_pose()) {
+    judgement.measured = sight.share(sight.measured);
+    if (expected.known()) judgement.hidden_by_other = sight.fraction(Seen::other);
+    if (expected.known()) judgement.seen_past = sight.share(sight.past);
   }
   judgement.blame = sight.links->write(sight.inside, blame);
   if (judgement.verdict == Verdict::unknown)
-    judgement.reason =
-        reason_for_unknown(sight, target.thresholds.past_limit, frame.has_pose(), expected.known());
+    judgement.reason = reason_for_unknown(sight, target.thresholds);
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

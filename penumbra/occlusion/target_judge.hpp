@@ -66,6 +66,9 @@ struct Judgement {
   double clear = 0;
   /// By something that is not the robot; nothing where no expected depth or no image is there.
   std::optional<double> hidden_by_other;
+  /// Share of pixels, clear or front ones, where the sensor measures anything; nothing where no
+  /// image is there, or no pose.
+  std::optional<double> measured;
   /// Share of pixels, clear or front ones, where the sensor measures past the expected depth: the
   /// target is not seen there. Nothing as hidden_by_other.
   std::optional<double> seen_past;
@@ -98,8 +101,9 @@ struct Judgement {
 /// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
 /// robot's pose, and where unknown exceeds its limit and the verdict would be another were all
 /// unknown pixels hidden; instead of visible, where no more is seen (clear and front) than unknown,
-/// and of visible and partial, where none is seen or, of what is seen, more than past_limit is
-/// measured past the expected depth, d > ze + m. It is out_of_view whatever else is known.
+/// and of visible and partial, where none is seen or, with an expected depth, less than
+/// min_measured of what is seen is measured, or past_limit or more of what is measured is past the
+/// expected depth, d > ze + m. It is out_of_view whatever else is known.
 /// Hysteresis goes on from the last verdict that was neither.
 ///
 /// A modal extent is compared with the last good one: that of the last frame with verdict visible,
@@ -110,7 +114,9 @@ struct Judgement {
 /// missing, which is near the last good extent or as near to the mask as what is missing can reach,
 /// what is missing beside what is known to be hidden is unknown, however long. What `motion`
 /// carries out of the image is missing too, unless the mask lies at that border and is no larger
-/// than what is left. A target that is first seen near the robot is unknown.
+/// than what is left. A target that is first seen near the robot is unknown. So is one whose last
+/// good extent reaches the image's border, or that of what the camera saw, where the robot is as
+/// near as the target may be large: there is more of it than was seen.
 ///
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where

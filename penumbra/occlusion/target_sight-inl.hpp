@@ -26,6 +26,7 @@ struct TargetMemory {
   Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
   std::vector<RowSpan> extent;       ///< modal: the last good one; empty: none
   std::size_t extent_pixels = 0;     ///< inside the image
+  bool is_cut = false;               ///< of the extent: by the image's border; there is more of it
   std::uint64_t extent_frame = 0;    ///< in which it stood where it stands
   Eigen::Vector2d moved{0, 0};       ///< since then, until the last verdict visible
 };
@@ -44,25 +45,34 @@ using TargetMemories =
 /// An extent as it is seen.
 struct Sight {
   [[nodiscard]] double fraction(Seen seen) const;
-  [[nodiscard]] double past_fraction() const;
+  /// Of the pixels inside, `count` of them.
+  [[nodiscard]] double share(std::size_t count) const;
   [[nodiscard]] double hidden(bool others_hide) const {
     return fraction(Seen::occluded) + (others_hide ? fraction(Seen::other) : 0.0);
   }
   [[nodiscard]] std::size_t seen() const { return pixels[Seen::clear] + pixels[Seen::front]; }
-  /// Whether the sensor looks past where more than `limit` of what is seen is expected.
+  /// Whether the sensor looks past where `limit` or more of what is measured is expected.
   [[nodiscard]] bool is_passed(double limit) const {
-    return static_cast<double>(past) > limit * static_cast<double>(seen());
+    return past > 0 && limit < 1 &&
+           static_cast<double>(past) >= limit * static_cast<double>(measured);
+  }
+  /// Whether less than `least` of what is seen is measured.
+  [[nodiscard]] bool is_unmeasured(double least) const {
+    return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
   /// Counts pixels that were seen so as unknown instead, as many as there are.
   void doubt(Seen seen, std::size_t& count);
   void doubt_all();  ///< what counts as seen is unknown
 
   std::size_t covered = 0, inside = 0;
-  SeenCounts pixels{};   ///< inside
-  std::size_t past = 0;  ///< as in ExtentTally
+  SeenCounts pixels{};                 ///< inside
+  std::size_t measured = 0, past = 0;  ///< as in ExtentTally
+  std::size_t unmeasured = 0;          ///< clear or front, but not measured
+  bool is_expected = false;            ///< its depth is
   const LinkCounts* links = nullptr;
   bool has_pose = true;
   bool first_near_robot = false;  ///< how much more of it there is is not known
+  bool is_cut = false;            ///< likewise: it was never seen clear of the image's border
   bool is_missing = false;        ///< some of it is not in its mask, and near the robot
 };
 
@@ -79,7 +89,9 @@ struct Look {
 class Sights {
  public:
   Sights(int width, int height, std::size_t links, SeenPixels seen_pixels)
-      : seen_pixels_(std::move(seen_pixels)),
+      : width_(width),
+        height_(height),
+        seen_pixels_(std::move(seen_pixels)),
         seen_(width, height),
         last_(width, height),
         seen_tally_(links),
@@ -101,11 +113,15 @@ class Sights {
  private:
   [[nodiscard]] static Sight look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally);
   [[nodiscard]] Sight look_modal(const Look& at, const TargetMemory& memory, const Sight& now);
+  [[nodiscard]] Sight compare(const Look& at, const TargetMemory& memory, const Sight& now,
+                              const SpanBox& box);
+  [[nodiscard]] bool reaches_border() const;
   [[nodiscard]] Sight look_last(const Look& at, std::size_t missing);
   bool place_last(const Look& at, const TargetMemory& memory, const Sight& now, const SpanBox& box);
   [[nodiscard]] bool lies_near_robot(const Look& at, const SpanBox& box,
                                      const SpanBox& whole) const;
 
+  int width_, height_;
   SeenPixels seen_pixels_;
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;

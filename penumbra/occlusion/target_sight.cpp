@@ -7,6 +7,10 @@
 namespace penumbra {
 namespace {
 
+/// Networks draw masks at a quarter of the image's size, so that one of what the border cuts may
+/// end so many pixels before it.
+constexpr int border_margin = 4;
+
 double bad_share(const Sight& sight, bool others_hide) {
   return sight.hidden(others_hide) + sight.fraction(Seen::unknown);
 }
@@ -27,10 +31,12 @@ int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
 int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
 
 /// Nothing that was not seen is called visible, and nothing partial of which no pixel was.
-bool is_seen_enough(const Sight& sight, Verdict level, double past_limit) {
+bool is_seen_enough(const Sight& sight, Verdict level, const TargetThresholds& t) {
   if (level == Verdict::hidden) return true;
   const std::size_t least = level == Verdict::visible ? sight.pixels[Seen::unknown] : 0;
-  return sight.seen() > least && !sight.is_passed(past_limit);
+  if (sight.seen() <= least) return false;
+  return !sight.is_expected ||
+         !(sight.is_passed(t.past_limit) || sight.is_unmeasured(t.min_measured));
 }
 
 SpanBox grown(const SpanBox& box, int du, int dv) {
@@ -58,13 +64,11 @@ bool follows_out(const LabelledFrame& frame, const SpanBox& box, const SpanBox& 
 
 }  // namespace
 
-double Sight::fraction(Seen seen) const {
-  return inside == 0 ? 0.0 : static_cast<double>(pixels[seen]) / static_cast<double>(inside);
+double Sight::share(std::size_t count) const {
+  return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
 }
 
-double Sight::past_fraction() const {
-  return inside == 0 ? 0.0 : static_cast<double>(past) / static_cast<double>(inside);
-}
+double Sight::fraction(Seen seen) const { return share(pixels[seen]); }
 
 void Sight::doubt(Seen seen, std::size_t& count) {
   const std::size_t some = std::min(count, pixels[seen]);
@@ -75,7 +79,8 @@ void Sight::doubt(Seen seen, std::size_t& count) {
 
 void Sight::doubt_all() {
   pixels[Seen::unknown] += seen();
-  pixels[Seen::clear] = pixels[Seen::front] = past = 0;
+  pixels[Seen::clear] = pixels[Seen::front] = 0;
+  measured = past = 0;
 }
 
 Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally) {
@@ -83,8 +88,11 @@ Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& ta
   Sight sight{.covered = extent.covered(),
               .inside = extent.inside(),
               .pixels = tally.pixels,
+              .measured = tally.measured,
               .past = tally.past,
+              .is_expected = at.expected.known(),
               .links = &tally.links};
+  sight.unmeasured = sight.seen() - sight.measured;
   if (at.frame.images.is_blind) sight.doubt_all();
   return sight;
 }
@@ -111,6 +119,19 @@ Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight
     first.first_near_robot = holds_robot(at.frame, grown(box, at.reach, at.reach));
     return first;
   }
+  Sight sight = compare(at, memory, now, box);
+  if (memory.is_cut) {
+    // There is more of it than was ever seen, perhaps as much again.
+    const SpanBox last = box_of_spans(memory.extent);
+    const int more =
+        at.reach + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
+    sight.is_cut = sight.first_near_robot = holds_robot(at.frame, grown(box, more, more));
+  }
+  return sight;
+}
+
+Sight Sights::compare(const Look& at, const TargetMemory& memory, const Sight& now,
+                      const SpanBox& box) {
   const SpanBox whole_box = box_of_spans(memory.extent);
   may_replace_ = !holds_robot(
       at.frame, grown(box, at.reach + width_of(whole_box), at.reach + height_of(whole_box)));
@@ -176,11 +197,23 @@ Sight Sights::look_last(const Look& at, std::size_t missing) {
   return last;
 }
 
+bool Sights::reaches_border() const {
+  const std::span<const RowSpan> spans = seen_.spans();
+  return std::any_of(spans.begin(), spans.end(), [&](const RowSpan& span) {
+    for (const int dv : {-border_margin, 0, border_margin}) {
+      const RowSpan around{span.v + dv, span.u0 - border_margin, span.u1 + border_margin};
+      if (!seen_pixels_.hold(around, width_, height_)) return true;
+    }
+    return false;
+  });
+}
+
 void Sights::remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_t number,
                       TargetMemory& memory) const {
   if (seen_.inside() >= memory.extent_pixels || may_replace_) {
     memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
     memory.extent_pixels = seen_.inside();
+    memory.is_cut = reaches_border();
     memory.moved.setZero();
     memory.extent_frame = number;
   } else if (motion) {
@@ -199,7 +232,7 @@ Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMem
   const Verdict level = next_level(memory.level, hidden, thresholds);
   if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
     return Verdict::unknown;
-  if (!is_seen_enough(sight, level, thresholds.past_limit)) return Verdict::unknown;
+  if (!is_seen_enough(sight, level, thresholds)) return Verdict::unknown;
   memory.level = level;
   return level;
 }

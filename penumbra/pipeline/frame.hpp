@@ -27,7 +27,8 @@ enum class FrameStatus {
   stale_joints,       ///< a joint was not seen near the stamp: the robot's pose is unknown
   missing_link,       ///< drawn without a link whose mesh could not be read
   missing_depth,      ///< no depth image: every robot pixel is unknown
-  bad_depth,          ///< a depth image that cannot be used: every robot pixel is unknown
+  bad_depth,          ///< a depth image that cannot be used, or that holds no measurement within
+                      ///< the sensor's range: every robot pixel is unknown
   missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
                       ///< a link, no rigid transform
   stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
@@ -103,7 +104,8 @@ struct FrameReport {
   std::optional<std::int64_t> stamp;      ///< nanoseconds
   std::optional<std::int64_t> joint_age;  ///< nanoseconds
   FrameStatus status = FrameStatus::ok;
-  std::string message;  ///< one line for every status but ok
+  std::string message;            ///< one line for every status but ok
+  bool nothing_measured = false;  ///< no pixel of the depth image is within the sensor's range
   PixelCounts pixels;
   StageTimes timing;
 

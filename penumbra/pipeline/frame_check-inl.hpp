@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
@@ -12,11 +13,13 @@ namespace penumbra {
 /// Judges what goes into a frame before anything is computed from it.
 class FrameCheck {
  public:
-  FrameCheck(const Robot& robot, int width, int height, std::span<const std::string> missing_links);
+  /// `width`, `height`: of the depth images. `rule`: its range tells what is a measurement.
+  FrameCheck(const Robot& robot, int width, int height, const LabelRule& rule,
+             std::span<const std::string> missing_links);
 
-  /// The frame's status; `message` says all that is wrong, in one line. Allocates nothing for a
-  /// good frame.
-  FrameStatus operator()(const Frame& frame, std::string& message) const;
+  /// Writes the frame's status; the message says all that is wrong, in one line. Allocates nothing
+  /// for a good frame.
+  void operator()(const Frame& frame, FrameReport& report) const;
 
  private:
   FrameStatus check_source(const Frame& frame, std::string& message) const;
@@ -24,11 +27,14 @@ class FrameCheck {
   FrameStatus check_joints(const JointInput& joints, std::string& message) const;
   FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link,
                           std::string& message) const;
-  FrameStatus check_depth(const Frame& frame, std::string& message) const;
+  FrameStatus check_depth(const Frame& frame, FrameReport& report) const;
+  [[nodiscard]] std::string without_measurement() const;
 
   const Robot& robot_;
   int width_;
   int height_;
+  DepthRange range_;
+  labelling::Rule rule_;
   std::string missing_links_;
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <sstream>
 #include <variant>
 
 #include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
 
 namespace penumbra {
@@ -25,6 +28,18 @@ bool is_rotation(std::span<const double> q) {
   return std::abs(length - 1.0) <= quaternion_error;
 }
 
+template <typename T>
+bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
+  const Measured measured(depth, rule);
+  for (int v = 0; v < depth.height; ++v) {
+    const auto row = measured.row(v);
+    std::int32_t count = 0;  // whole rows, without branches: so the compiler takes vectors
+    for (int u = 0; u < depth.width; ++u) count += row.is_measured(u) ? 1 : 0;
+    if (count > 0) return true;
+  }
+  return false;
+}
+
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 FrameStatus worse(FrameStatus a, FrameStatus b) {
   constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
@@ -38,21 +53,23 @@ FrameStatus worse(FrameStatus a, FrameStatus b) {
 
 }  // namespace
 
-FrameCheck::FrameCheck(const Robot& robot, int width, int height,
+FrameCheck::FrameCheck(const Robot& robot, int width, int height, const LabelRule& rule,
                        std::span<const std::string> missing_links)
-    : robot_(robot), width_(width), height_(height) {
+    : robot_(robot), width_(width), height_(height), range_(rule.range), rule_(rule) {
   for (const std::string& link : missing_links)
     missing_links_ += (missing_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
 }
 
-FrameStatus FrameCheck::operator()(const Frame& frame, std::string& message) const {
+void FrameCheck::operator()(const Frame& frame, FrameReport& report) const {
+  std::string& message = report.message;
   message.clear();
+  report.nothing_measured = false;
   const FrameStatus source = check_source(frame, message);
   const FrameStatus poses = has_pose(source) ? check_poses(frame, message) : FrameStatus::ok;
-  const FrameStatus depth = has_depth(source) ? check_depth(frame, message) : FrameStatus::ok;
+  const FrameStatus depth = has_depth(source) ? check_depth(frame, report) : FrameStatus::ok;
   const FrameStatus links = missing_links_.empty() ? FrameStatus::ok : FrameStatus::missing_link;
   if (!missing_links_.empty()) add_line(message, missing_links_);
-  return worse(worse(source, poses), worse(depth, links));
+  report.status = worse(worse(source, poses), worse(depth, links));
 }
 
 FrameStatus FrameCheck::check_source(const Frame& frame, std::string& message) const {
@@ -115,7 +132,8 @@ FrameStatus FrameCheck::check_joints(const JointInput& joints, std::string& mess
   return FrameStatus::ok;
 }
 
-FrameStatus FrameCheck::check_depth(const Frame& frame, std::string& message) const {
+FrameStatus FrameCheck::check_depth(const Frame& frame, FrameReport& report) const {
+  std::string& message = report.message;
   const auto [empty, width, height] =
       std::visit([](const auto& view) { return std::tuple(view.empty(), view.width, view.height); },
                  frame.depth);
@@ -123,11 +141,25 @@ FrameStatus FrameCheck::check_depth(const Frame& frame, std::string& message) co
     add_line(message, "no depth image");
     return FrameStatus::missing_depth;
   }
-  if (width == width_ && height == height_) return FrameStatus::ok;
-  add_line(message, "depth image is " + std::to_string(width) + "x" + std::to_string(height) +
-                        ", the camera's images are " + std::to_string(width_) + "x" +
-                        std::to_string(height_));
+  if (width != width_ || height != height_) {
+    add_line(message, "depth image is " + std::to_string(width) + "x" + std::to_string(height) +
+                          ", the camera's images are " + std::to_string(width_) + "x" +
+                          std::to_string(height_));
+    return FrameStatus::bad_depth;
+  }
+  report.nothing_measured =
+      !std::visit([&](const auto& view) { return holds_measurement(view, rule_); }, frame.depth);
+  if (!report.nothing_measured) return FrameStatus::ok;
+  add_line(message, without_measurement());
   return FrameStatus::bad_depth;
+}
+
+std::string FrameCheck::without_measurement() const {
+  std::ostringstream text;
+  text << "no pixel of the depth image holds a measurement";
+  if (range_.near > 0.0 || std::isfinite(range_.far))
+    text << " within " << range_.near << " to " << range_.far << " m";
+  return text.str();
 }
 
 std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps) {

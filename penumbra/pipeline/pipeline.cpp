@@ -163,7 +163,8 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       render_intrinsics(rectification ? rectification->pinhole() : camera.intrinsics),
       output_intrinsics(config.image == ImageSpace::raw ? camera.intrinsics : render_intrinsics),
       missing_links(missing_links_of(robot)),
-      check(robot, camera.intrinsics.width(), camera.intrinsics.height(), missing_links),
+      check(robot, camera.intrinsics.width(), camera.intrinsics.height(), rule_of(camera, config),
+            missing_links),
       poses(robot, config),
       camera_inside(bodies_of(robot)),
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
@@ -224,7 +225,8 @@ void Pipeline::forget_target(std::string_view name) { state_->targets.forget(nam
 void Pipeline::forget_targets() { state_->targets.forget_all(); }
 
 void Pipeline::State::label(const Frame& frame) {
-  const FrameStatus status = check(frame, report.message);
+  check(frame, report);
+  const FrameStatus status = report.status;
   if (!has_pose(status)) return without_pose(status);
 
   const auto T_camera_link = pose_links(frame);

@@ -55,7 +55,8 @@ void SequenceNotes::add(const FrameReport& report, std::span<const double> posit
 }
 
 void SequenceNotes::add_pixels(const FrameReport& report) {
-  if (!source_.has_sensor || !has_depth(report.status)) return;
+  if (!source_.has_sensor) return;
+  if (!has_depth(report.status) && !report.nothing_measured) return;
   const PixelCounts& pixels = report.pixels;
   robot_pixels_ += *pixels.robot;
   measured_ += *pixels.robot - pixels.unknown;

@@ -50,6 +50,13 @@ void check_link(const LinkFrame& frame, const Robot& robot) {
                    robot.name() + "'");
 }
 
+/// Whether it counts as seen, though hardly any of that was measured: with an expected depth it is
+/// unknown then.
+bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
+  if (judged.verdict != Verdict::visible && judged.verdict != Verdict::partial) return false;
+  return judged.measured.value_or(0.0) < thresholds.min_measured * (judged.clear + judged.front);
+}
+
 /// What stands for an estimate that was not given, of the target's stamp.
 std::optional<TargetEstimate> own_estimate(const Target& target, const TargetReport& report) {
   if (const auto* point = std::get_if<PointTarget>(&target.shape))
@@ -69,7 +76,7 @@ TargetStage::TargetStage(const Setup& setup)
       camera_(setup.camera),
       judge_(setup.camera, setup.rule, setup.robot.links().size(), setup.unseen),
       renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
-      views_(robot_, camera_, renderers_),
+      views_(robot_, camera_, renderers_, setup.rule),
       recent_poses_(robot_.links().size()),
       recent_frames_(nanoseconds(setup.history)) {}
 
@@ -137,7 +144,7 @@ void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& sl
     report.verdict = judgement.verdict;
     if (judgement.point) report.point = seen.poses.T_root_camera * *judgement.point;
     report.judgement = judgement;
-    was_judged = seen.status == FrameStatus::ok;
+    was_judged = seen.status == FrameStatus::ok && !lacks_depth(judgement, target.thresholds);
     doubt(seen, slot, report);
   } catch (const InputError& fault) {
     report.verdict = Verdict::unknown;
@@ -172,6 +179,7 @@ void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& repo
   judgement.point.reset();
   judgement.unknown += judgement.clear + judgement.front;
   judgement.clear = judgement.front = 0.0;
+  judgement.measured.reset();
   judgement.seen_past.reset();
   if (report.verdict != Verdict::visible && report.verdict != Verdict::partial) return;
   report.verdict = judgement.verdict = Verdict::unknown;

@@ -13,6 +13,7 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/recent_frames-inl.hpp>
@@ -60,8 +61,10 @@ class ObjectRenderers {
 /// Brings targets' shapes to the image.
 class TargetViews {
  public:
-  /// `camera`: of the images that are judged. All must outlive this.
-  TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers);
+  /// `camera`: of the images that are judged, `rule`: that of their labels. All but the rule must
+  /// outlive this.
+  TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
+              const LabelRule& rule);
 
   /// The target's region and expected depth; nothing where its shape lies outside of the camera's
   /// view. Valid until the next call. Throws InputError for a shape that is none.
@@ -79,6 +82,7 @@ class TargetViews {
   const Robot& robot_;
   const Camera& camera_;
   ObjectRenderers& renderers_;
+  labelling::Rule rule_;
 };
 
 }  // namespace penumbra

@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
 
 namespace penumbra {
@@ -18,16 +19,15 @@ std::string written(double value) {
   return text.str();
 }
 
-double metres_at(const DepthView& depth, const Eigen::Vector2d& pixel) {
+/// 0 where nothing is measured.
+double metres_at(const DepthView& depth, const labelling::Rule& rule,
+                 const Eigen::Vector2d& pixel) {
   return std::visit(
       [&](const auto& image) {
         const double u = std::round(pixel.x()), v = std::round(pixel.y());
         if (!(u >= 0.0 && v >= 0.0 && u < image.width && v < image.height)) return 0.0;
-        using Pixel = std::remove_cvref_t<decltype(image(0, 0))>;
-        constexpr bool is_millimetres = std::is_same_v<Pixel, std::uint16_t>;
-        const Pixel depth_there = image(static_cast<int>(u), static_cast<int>(v));
-        if (is_millimetres && depth_there == saturated_depth) return 0.0;
-        return (is_millimetres ? 1e-3 : 1.0) * static_cast<double>(depth_there);
+        const Measured measured(image, rule);
+        return static_cast<double>(measured.row(static_cast<int>(v))[static_cast<int>(u)]);
       },
       depth);
 }
@@ -59,8 +59,9 @@ Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const
   throw InputError("'" + std::string(*frame) + "' is no link of robot '" + robot.name() + "'");
 }
 
-TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers)
-    : robot_(robot), camera_(camera), renderers_(renderers) {}
+TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
+                         const LabelRule& rule)
+    : robot_(robot), camera_(camera), renderers_(renderers), rule_(rule) {}
 
 /// Makes a view of each kind of shape.
 struct TargetViews::Builder {
@@ -94,8 +95,8 @@ struct TargetViews::Builder {
           "radius in metres, but at the pixel the robot is measured, or may be; give an expected "
           "depth");
     const double depth =
-        target.expected_depth.value_or(metres_at(frame.images.measured, target.pixel));
-    if (!(depth > 0.0 && std::isfinite(depth)))
+        target.expected_depth.value_or(metres_at(frame.images.measured, views.rule_, target.pixel));
+    if (!(depth > 0.0))
       throw InputError(
           "radius in metres, but no depth is measured at the pixel; give an expected depth");
     return std::max(views.camera_.intrinsics.fx(), views.camera_.intrinsics.fy()) / depth;

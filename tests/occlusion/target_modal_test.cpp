@@ -180,18 +180,77 @@ TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsOutOfTheImage) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
   EXPECT_EQ(see(20, 33, -52.0, 3).verdict, Verdict::unknown) << "the mask is not at the border";
   judge.forget("cup");
-  EXPECT_EQ(see(0, 100).verdict, Verdict::visible);
-  EXPECT_EQ(see(0, 15, -32.0, 3).verdict, Verdict::unknown) << "the mask is larger than that";
+  EXPECT_EQ(see(5, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(0, 15, -37.0, 3).verdict, Verdict::unknown) << "the mask is larger than that";
 }
 
 TEST_F(ModalTargets, ThatLeaveTheImageBesideTheRobotStayVisible) {
-  EXPECT_EQ(see(0, 100).verdict, Verdict::visible);
+  EXPECT_EQ(see(5, 100).verdict, Verdict::visible);
   TargetFrame frame;
   frame.add_robot(22, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
   TargetView target = box_target("cup", {-28, 40, 40, 20}, Extent::modal);
-  target.motion = Eigen::Vector2d(-28, 0);
+  target.motion = Eigen::Vector2d(-33, 0);
   judge.begin(frame.images());
   EXPECT_EQ(judge.judge(target).verdict, Verdict::visible);
+}
+
+/// It comes into the image, of which its border shows 10 of 40 columns, and goes behind the robot.
+TEST_F(ModalTargets, OfWhichTheBorderCutsSomeAreNotKnownWhole) {
+  for (const double motion : {0.0, 35.0}) {
+    judge.forget("cup");
+    const auto moved = [&] { return motion > 0 ? std::optional(motion) : std::nullopt; };
+    EXPECT_EQ(see(-30, 100).verdict, Verdict::visible) << "no robot is near";
+    const Judgement more = see(5, 30, moved());
+    EXPECT_EQ(more.verdict, Verdict::unknown) << "25 of 40 columns are seen, more than before";
+    EXPECT_NE(more.reason.find("border"), std::string_view::npos) << more.reason;
+    EXPECT_EQ(see(5, 46, moved()).verdict, Verdict::unknown) << "nor is it known that this is all";
+    EXPECT_EQ(see(5, 120, moved()).verdict, Verdict::visible) << "clear of border and robot";
+    EXPECT_EQ(see(5, 46, 0.0).verdict, Verdict::visible);
+    EXPECT_EQ(see(5, 30, 0.0).verdict, Verdict::partial);
+  }
+}
+
+TEST_F(ModalTargets, AreCutByEachBorder) {
+  const auto after = [&](const PixelBox& first) {
+    judge.forget("cup");
+    for (const bool with_robot : {false, true}) {
+      TargetFrame frame;
+      if (with_robot) frame.add_robot(90, 40, 100, 60, 1.0f, 1);
+      judge.begin(frame.images());
+      const PixelBox seen = with_robot ? PixelBox{60, 40, 30, 20} : first;
+      const Verdict verdict = judge.judge(box_target("cup", seen, Extent::modal)).verdict;
+      if (with_robot) return verdict;
+      EXPECT_EQ(verdict, Verdict::visible);
+    }
+    return Verdict::visible;
+  };
+  EXPECT_EQ(after({60, 50, 20, 20}), Verdict::visible);
+  constexpr int margin = 4;  // a mask of a quarter of the image's size ends so far from the border
+  EXPECT_EQ(after({margin, margin, 20, 20}), Verdict::visible);
+  EXPECT_EQ(after({margin - 1, 40, 20, 20}), Verdict::unknown);
+  EXPECT_EQ(after({60, margin - 1, 20, 20}), Verdict::unknown);
+  const int u = TargetFrame::width - 20 - margin, v = TargetFrame::height - 20 - margin;
+  EXPECT_EQ(after({1.0 * u, 1.0 * v, 20, 20}), Verdict::visible);
+  EXPECT_EQ(after({u + 1.0, 40, 20, 20}), Verdict::unknown);
+  EXPECT_EQ(after({60, v + 1.0, 20, 20}), Verdict::unknown);
+}
+
+/// A rectified image whose left part the camera did not see.
+TEST_F(ModalTargets, AreCutWhereTheCameraSawNothing) {
+  Image<std::uint8_t> unseen(TargetFrame::width, TargetFrame::height);
+  for (int v = 0; v < TargetFrame::height; ++v)
+    for (int u = 0; u < 20 + v / 60; ++u) unseen(u, v) = 1;
+  for (const int first : {15, 30}) {
+    judge = TargetJudge(TargetFrame::camera(), TargetFrame::without_cleanup(), 3, unseen.view());
+    EXPECT_EQ(see(first, 140).verdict, Verdict::visible);
+    EXPECT_EQ(see(60, 100).verdict, first == 30 ? Verdict::visible : Verdict::unknown) << first;
+  }
+}
+
+/// Nothing near it: the verdict is about the robot's body.
+TEST_F(ModalTargets, ThatTheBorderCutsAreVisibleAwayFromTheRobot) {
+  for (int u = -30; u <= 60; u += 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
+  for (int u = 60; u >= -30; u -= 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
 }
 
 TEST_F(ModalTargets, AreForgottenOnRequest) {

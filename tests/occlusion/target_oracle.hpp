@@ -17,7 +17,7 @@ namespace penumbra::test {
 struct NaiveJudgement {
   std::size_t inside = 0;
   std::size_t clear = 0, front = 0, occluded = 0, unknown = 0, other = 0;
-  std::size_t past = 0;                      // of the clear and front ones
+  std::size_t measured = 0, past = 0;        // of the clear and front ones
   std::map<std::size_t, std::size_t> blame;  // pixels by link
   std::vector<float> trusted;                // sorted
 
@@ -73,6 +73,7 @@ struct NaiveTarget {
       }
     }
     const bool is_seen = label == Label::clear || label == Label::front;
+    if (is_seen && d > 0) ++result.measured;
     if (ze > 0 && is_seen && d > ze + (tolerance(ze) + depth_margin)) ++result.past;
     if (label == Label::clear) ++result.clear;
     if (label == Label::front) ++result.front;

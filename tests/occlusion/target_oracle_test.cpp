@@ -77,6 +77,7 @@ void expect_same(const Judgement& judged, const test::NaiveJudgement& naive) {
   EXPECT_NEAR(judged.occluded, share(naive.occluded), rounding);
   EXPECT_NEAR(judged.unknown, share(naive.unknown), rounding);
   EXPECT_NEAR(judged.hidden_by_other.value_or(0), share(naive.other), rounding);
+  EXPECT_NEAR(judged.measured.value_or(-1), share(naive.measured), rounding);
   EXPECT_NEAR(judged.seen_past.value_or(0), share(naive.past), rounding);
   ASSERT_EQ(judged.blame.size(), naive.blame.size());
   for (std::size_t i = 0; i < judged.blame.size(); ++i) {
@@ -154,6 +155,7 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
       target.thresholds.beyond_hides = i % 2 == 0;
       target.thresholds.point_min_pixels = 1;
       target.thresholds.point_min_fraction = 0;
+      target.thresholds.min_measured = 0;
       target.thresholds.hidden_enter = 1;
       target.thresholds.unknown_limit = target.thresholds.past_limit = 1;
       Image<float> expected(width, height);

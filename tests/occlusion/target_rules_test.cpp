@@ -181,12 +181,24 @@ TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
   frame.see(40, 45, 60, 55, 1.526f);
   judgement = judge_once(frame, target);
   EXPECT_NEAR(*judgement.seen_past, 0.5, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::visible) << "not more than the limit";
+  EXPECT_EQ(judgement.verdict, Verdict::unknown) << "half against half is not seen";
+  frame.see(40, 55, 41, 56, 1.526f);
+  judgement = judge_once(frame, target);
+  EXPECT_NEAR(*judgement.seen_past, 199.0 / 400.0, share_rounding);
+  EXPECT_EQ(judgement.verdict, Verdict::visible) << "less than the limit";
   target.depth_margin = 0.6;
   EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
   target.depth_margin = 0;
   target.thresholds.past_limit = 0.4;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
+  target.thresholds.past_limit = 1;
+  frame.see(40, 40, 60, 60, 2.0f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible) << "however much";
+  target.thresholds.past_limit = 0;
+  frame.see(40, 40, 60, 60, 1.5f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
+  frame.see(40, 45, 41, 46, 2.0f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "one is above the limit";
   frame.see(40, 40, 60, 60, hole);
   EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
   target.expected_depth = {};
@@ -252,6 +264,9 @@ TEST(Judging, WithoutDepthOnlyWhatIsRobotIsUnknown) {
   EXPECT_FALSE(beside.point);
   TargetView behind = box_target("pan", box);
   behind.expected_depth = behind_robot;
+  TargetView known = box_target("lid", {80, 80, 9, 9});
+  known.expected_depth = behind_robot;
+  EXPECT_EQ(judge.judge(known).verdict, Verdict::unknown) << "nothing says that it is there";
   const Judgement hidden = judge.judge(behind);
   EXPECT_EQ(hidden.verdict, Verdict::hidden);
   EXPECT_FALSE(hidden.hidden_by_other);
@@ -374,6 +389,7 @@ TEST(BadTargets, NumbersOutOfBounds) {
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.01; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.unknown_limit = nan; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.min_inside = -1; }), "no fault");
+  EXPECT_NE(fault([](TargetView& t) { t.thresholds.min_measured = nan; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.point_min_fraction = 2; }), "no fault");
 }
 

@@ -157,6 +157,37 @@ TEST_F(FrameStatusTest, DepthThatTheSourceCallsBad) {
                        FrameStatus::bad_depth, "depth_3.png: truncated");
 }
 
+/// As blind as no image.
+TEST_F(FrameStatusTest, DepthWithoutAnyMeasurement) {
+  Frame frame = good();
+  for (const std::uint16_t value : {std::uint16_t{0}, saturated_depth}) {
+    Image<std::uint16_t> dead(depth_.width(), depth_.height(), value);
+    frame.depth = dead.view();
+    expect_robot_unknown(frame, FrameStatus::bad_depth, "no pixel of the depth image holds a meas");
+    process(frame);
+    dead(dead.width() - 1, dead.height() - 1) = 900;
+    EXPECT_EQ(process(frame).status, FrameStatus::ok) << "one pixel is measured";
+    EXPECT_FALSE(process(frame).nothing_measured);
+  }
+  for (const float value : {0.0F, -1.0F, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    const Image<float> dead(depth_.width(), depth_.height(), value);
+    frame.depth = dead.view();
+    expect_robot_unknown(frame, FrameStatus::bad_depth, "no pixel of the depth image holds a meas");
+    EXPECT_TRUE(process(frame).nothing_measured);
+  }
+  frame.source_status = FrameStatus::missing_depth;
+  EXPECT_FALSE(process(frame).nothing_measured) << "there was no image";
+}
+
+TEST_F(FrameStatusTest, DepthOutOfTheSensorsRange) {
+  camera_.range = {0.3, 1.6};
+  pipeline_ = Pipeline(slab_robot(), camera_);
+  const Image<float> wall(depth_.width(), depth_.height(), 3.0F);
+  Frame frame = good();
+  frame.depth = wall.view();
+  expect_robot_unknown(frame, FrameStatus::bad_depth, "holds a measurement within 0.3 to 1.6 m");
+}
+
 TEST_F(FrameStatusTest, TheWorseFaultIsTheStatusAndAllAreTold) {
   Frame frame = with_joints({});
   frame.depth = {};

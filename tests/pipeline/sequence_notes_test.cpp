@@ -86,12 +86,13 @@ TEST(SequenceNotes, ARobotInOneFrameOrOfUnknownPoseIsNot) {
 
 /// The notes of frames that are labelled so.
 Lines notes_of_labels(const std::vector<PixelCounts>& frames, FrameStatus status = FrameStatus::ok,
-                      const SequenceNotes::Source& source = {}) {
+                      const SequenceNotes::Source& source = {}, bool nothing_measured = false) {
   const Robot any = robot();
   SequenceNotes notes(any, source);
   for (const PixelCounts& pixels : frames) {
     FrameReport report;
     report.status = status;
+    report.nothing_measured = nothing_measured;
     report.pixels = pixels;
     notes.add(report, {});
   }
@@ -129,6 +130,9 @@ TEST(SequenceNotes, ARobotWithoutMeasurementIsTold) {
   EXPECT_NE(lines[0].find("measured on 3.1 % of the robot's pixels"), std::string::npos);
   EXPECT_EQ(notes_of_labels({counts_of(0, 60, 940, 0)}), Lines{});
   EXPECT_EQ(notes_of_labels({blind}, FrameStatus::missing_depth), Lines{}) << "said elsewhere";
+  EXPECT_EQ(notes_of_labels({blind}, FrameStatus::bad_depth), Lines{}) << "likewise";
+  EXPECT_EQ(notes_of_labels({blind}, FrameStatus::bad_depth, {}, true).size(), 1U)
+      << "images came, of which no pixel is measured";
   EXPECT_EQ(notes_of_labels({blind}, FrameStatus::ok, {.has_sensor = false}), Lines{});
 }
 

@@ -134,6 +134,105 @@ TEST_F(TargetsTest, WithoutDepthWhatTheRobotHidesIsHidden) {
   EXPECT_EQ(report.targets[4].verdict, Verdict::hidden);
 }
 
+/// A frame of a sensor that fails says nothing of what the robot does not hide.
+TEST_F(TargetsTest, ADepthImageWithoutMeasurementIsNone) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 2.0 * slab_camera().intrinsics.ray(20, 85);
+  const std::vector<Target> targets{
+      {.name = "solid",
+       .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
+       .handling = PoseTrackerConfig{}},
+      {.name = "region",
+       .shape = RegionTarget{beside_slab},
+       .handling = PoseTrackerConfig{},
+       .estimate = TargetEstimate{.value = pose, .frame = ""}},
+      {.name = "behind", .shape = RegionTarget{behind_slab, Extent::amodal, 2.0}}};
+  depth_ = Image<float>(depth_.width(), depth_.height(), 0.0F);
+  const FrameReport& report = process(1 * ms, targets);
+  EXPECT_EQ(report.status, FrameStatus::bad_depth);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(report.targets[i].verdict, Verdict::unknown);
+    EXPECT_EQ(report.targets[i].reason,
+              "bad_depth: no pixel of the depth image holds a measurement");
+    EXPECT_EQ(report.targets[i].estimate, penumbra::Outcome::refused_verdict);
+    EXPECT_EQ(report.targets[i].handled->source, Source::lost);
+  }
+  EXPECT_EQ(report.targets[2].verdict, Verdict::hidden) << "the model says so";
+}
+
+class TargetsWithinARange : public TargetsTest {
+ protected:
+  TargetsWithinARange() {
+    Camera camera = slab_camera();
+    camera.range = {0.3, 1.6};
+    pipeline_ = Pipeline(slab_robot(), camera, plain_config());
+  }
+};
+
+/// The wall behind it is out of range.
+TEST_F(TargetsWithinARange, ThinAirIsNotVisibleAndItsPoseNotTaken) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 1.3 * slab_camera().intrinsics.ray(20, 85);
+  const Target air{.name = "air",
+                   .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
+                   .depth_margin = 0.02,
+                   .handling = PoseTrackerConfig{}};
+  const TargetReport& report = judge(1 * ms, air);
+  EXPECT_EQ(report.verdict, Verdict::unknown);
+  EXPECT_EQ(report.judgement->measured, 0.0);
+  EXPECT_NE(report.reason.find("hardly anything is measured"), std::string_view::npos)
+      << report.reason;
+  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_verdict);
+  EXPECT_EQ(report.handled->source, Source::lost);
+}
+
+/// Three of ten pixels of a dark object are holes.
+TEST_F(TargetsWithinARange, AnObjectWithHolesIsVisibleAndItsPoseTaken) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 1.3 * slab_camera().intrinsics.ray(20, 85);
+  for (int v = 65; v < 105; ++v)
+    for (int u = 0; u < 40; ++u) depth_(u, v) = (u + 3 * v) % 10 < 3 ? 0.0F : 1.25F;
+  const Target box{.name = "box",
+                   .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
+                   .depth_margin = 0.1,  // its near face is measured
+                   .handling = PoseTrackerConfig{}};
+  const TargetReport& report = judge(1 * ms, box);
+  EXPECT_EQ(report.verdict, Verdict::visible) << report.reason;
+  EXPECT_NEAR(*report.judgement->measured, 0.7, 0.05);
+  EXPECT_EQ(report.estimate, penumbra::Outcome::accepted);
+  EXPECT_EQ(report.handled->source, Source::measured);
+  EXPECT_TRUE(report.point);
+}
+
+/// It is not hidden by the robot; what a detector says of it was not seen by the sensor.
+TEST_F(TargetsWithinARange, NoEstimateIsTakenWhereNothingIsMeasured) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 2.9 * slab_camera().intrinsics.ray(20, 85);
+  Target target{.name = "far",
+                .shape = RegionTarget{beside_slab},
+                .handling = PoseTrackerConfig{},
+                .estimate = TargetEstimate{.value = pose, .frame = ""}};
+  const TargetReport far = judge(1 * ms, target);
+  EXPECT_EQ(far.verdict, Verdict::visible);
+  EXPECT_FALSE(far.point);
+  EXPECT_EQ(far.estimate, penumbra::Outcome::refused_verdict);
+  EXPECT_EQ(far.handled->source, Source::lost);
+  target.thresholds.min_measured = 0.0;
+  EXPECT_EQ(judge(2 * ms, target).estimate, penumbra::Outcome::accepted) << "asked for";
+}
+
+TEST_F(TargetsWithinARange, KeypointsInMetresTakeNoDepthOutOfIt) {
+  const KeypointTarget shape{.pixel = {20, 85}, .semi_axes = {0.05, 0.05}, .in_metres = true};
+  for (const float depth : {0.03F, 1.7F}) {
+    depth_(20, 85) = depth;
+    const TargetReport& report = judge(1 * ms, {.name = "k", .shape = shape});
+    EXPECT_EQ(report.verdict, Verdict::unknown) << depth;
+    EXPECT_NE(report.reason.find("no depth is measured"), std::string_view::npos) << report.reason;
+  }
+  depth_(20, 85) = 1.5F;
+  EXPECT_EQ(judge(2 * ms, {.name = "k", .shape = shape}).verdict, Verdict::visible);
+}
+
 class TargetsWithoutALink : public testing::Test {
  protected:
   Robot robot = Robot::parse(

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// A search for what is called visible though it is not: random objects, robots and sensors, of
+// which the truth is known pixel by pixel.
+#include "../support/random.hpp"
+#include "target_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+namespace {
+
+using test::TargetFrame;
+
+constexpr int width = TargetFrame::width, height = TargetFrame::height;
+constexpr int frames = 40;         // of a sequence
+constexpr float noise = 0.005f;    // metres: within the least tolerance, 0.015 m
+constexpr double rounding = 1e-9;  // of shares
+constexpr int wide_gap = 20;       // pixels: more than the reach of the robot's edges
+
+/// How a target is told where it is.
+enum Way { amodal, amodal_with_depth, modal, modal_with_motion, ways };
+constexpr std::array<const char*, ways> way_names{"amodal", "amodal with depth", "modal",
+                                                  "modal with motion"};
+
+struct Moving {
+  int u = 0, v = 0, du = 0, dv = 0;  // pixels; per frame
+  int w = 1, h = 1;
+  float z = 1;  // metres
+
+  void move() { u += du, v += dv; }
+  [[nodiscard]] bool holds(int x, int y) const {
+    return x >= u && x < u + w && y >= v && y < v + h;
+  }
+};
+
+/// A box or an ellipse that is there or not, robots, and a sensor.
+struct World {
+  [[nodiscard]] bool of_object(int x, int y) const {
+    if (!object.holds(x, y)) return false;
+    if (!is_round) return true;
+    const double a = (x + 0.5 - object.u) * 2 / object.w - 1;
+    const double b = (y + 0.5 - object.v) * 2 / object.h - 1;
+    return a * a + b * b <= 1;
+  }
+  [[nodiscard]] float robot_depth(int x, int y) const {
+    float z = std::numeric_limits<float>::infinity();
+    for (const Moving& part : robot)
+      if (part.holds(x, y)) z = std::min(z, part.z);
+    return z;
+  }
+  [[nodiscard]] bool is_hidden(int x, int y) const { return robot_depth(x, y) < object.z; }
+
+  Moving object;
+  bool is_round = false, is_there = true;
+  std::vector<Moving> robot;
+  double holes = 0;         // share of pixels that are not measured
+  double object_holes = 0;  // likewise, on the object: dark or shiny
+};
+
+/// What is true of the object in a frame, and its pixels.
+struct Truth {
+  Truth(const World& world, int gap) : whole(width, height), seen(width, height) {
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        if (!world.of_object(u, v)) continue;
+        whole(u, v) = 1;
+        ++inside;
+        const bool is_hidden = world.is_hidden(u, v);
+        hidden += is_hidden ? 1 : 0;
+        seen(u, v) = is_hidden ? 0 : 1;
+      }
+    }
+    is_clear = hidden == 0 && world.object.u >= gap_to_border && world.object.v >= gap_to_border &&
+               world.object.u + world.object.w <= width - gap_to_border &&
+               world.object.v + world.object.h <= height - gap_to_border;
+    if (gap > 0) wear(world, gap);
+    for (const std::uint8_t one : std::vector<std::uint8_t>(seen.data(), seen.data() + seen.size()))
+      left += one;
+  }
+
+  /// A mask that keeps away from the robot that hides the object.
+  void wear(const World& world, int gap) {
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        for (const Moving& part : world.robot)
+          if (part.z < world.object.z && u >= part.u - gap && u < part.u + part.w + gap &&
+              v >= part.v - gap && v < part.v + part.h + gap)
+            seen(u, v) = 0;
+  }
+
+  [[nodiscard]] double share() const { return inside == 0 ? 0 : 1.0 * hidden / inside; }
+
+  static constexpr int gap_to_border = 5;
+  Image<std::uint8_t> whole, seen;  // 1: of the object; of its mask
+  int inside = 0, hidden = 0, left = 0;
+  bool is_clear = false;  // all of it is seen, clear of the border
+};
+
+class TargetSearch : public testing::Test {
+ protected:
+  int number(int low, int high) {
+    return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  double share(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+  bool with(double chance) { return share(0, 1) < chance; }
+
+  Moving moving(int least, int largest, int speed) {
+    return {number(-20, width),
+            number(-20, height),
+            number(-speed, speed),
+            number(-speed, speed),
+            number(least, largest),
+            number(least, largest),
+            static_cast<float>(share(0.7, 1.7))};
+  }
+
+  World world() {
+    World all;
+    all.object = moving(8, 50, 4);
+    all.is_round = with(0.5);
+    all.is_there = with(0.85);
+    for (int i = number(1, 2); i > 0; --i) all.robot.push_back(moving(10, 70, 6));
+    all.holes = with(0.3) ? share(0, 1) : share(0, 0.1);
+    all.object_holes = with(0.3) ? share(0, 1) : 0;
+    return all;
+  }
+
+  void draw(const World& world, TargetFrame& frame) {
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        float& z = frame.measured(u, v);
+        z = TargetFrame::wall;
+        const bool on_object = world.is_there && world.of_object(u, v);
+        if (on_object) z = world.object.z;
+        z = std::min(z, world.robot_depth(u, v)) + static_cast<float>(share(-noise, noise));
+        const bool is_object = on_object && !world.is_hidden(u, v);
+        if (with(is_object ? std::max(world.holes, world.object_holes) : world.holes)) z = 0;
+      }
+    }
+    for (std::size_t i = 0; i < world.robot.size(); ++i)
+      add(world.robot[i], static_cast<std::uint16_t>(i), frame);
+  }
+
+  static void add(const Moving& part, std::uint16_t link, TargetFrame& frame) {
+    for (int v = std::max(part.v, 0); v < std::min(part.v + part.h, height); ++v)
+      for (int u = std::max(part.u, 0); u < std::min(part.u + part.w, width); ++u)
+        if (frame.robot(u, v) == 0 || part.z < frame.robot(u, v))
+          frame.add_robot(u, v, u + 1, v + 1, part.z, link, false);
+  }
+
+  void run(World world);
+  void judge(Way way, const World& world, const Truth& truth, TargetJudge& judge);
+  TargetView view(Way way, const World& world, const Truth& truth);
+
+  std::mt19937_64 random = test::seeded_random(7);
+  TargetThresholds thresholds;
+  double most = 0;  // that may be hidden of what is visible
+  bool has_depth = false;
+  std::array<Moving, ways> last{};                    // where it was when it was last visible
+  std::array<bool, ways> was_whole{};                 // when it was visible
+  std::array<std::size_t, ways> visible{}, behind{};  // verdicts; truths: hidden by more than that
+  std::size_t absent = 0;
+};
+
+TargetView TargetSearch::view(Way way, const World& world, const Truth& truth) {
+  TargetView target;
+  target.name = way_names[way];
+  target.thresholds = thresholds;
+  target.region = PixelMask{(way < modal ? truth.whole : truth.seen).view()};
+  target.extent = way < modal ? Extent::amodal : Extent::modal;
+  if (way == amodal_with_depth || (way >= modal && has_depth))
+    target.expected_depth = static_cast<double>(world.object.z);
+  if (way == modal_with_motion)
+    target.motion = Eigen::Vector2d(world.object.u - last[way].u, world.object.v - last[way].v);
+  return target;
+}
+
+void TargetSearch::judge(Way way, const World& world, const Truth& truth, TargetJudge& judge) {
+  const TargetView target = view(way, world, truth);
+  const Verdict verdict = judge.judge(target).verdict;
+  const bool is_seen = verdict == Verdict::visible || verdict == Verdict::partial;
+  behind[way] += truth.share() > most ? 1 : 0;
+  if (!world.is_there && target.expected_depth) {
+    EXPECT_FALSE(is_seen) << way_names[way] << ", where nothing is";
+    ++absent;
+  }
+  if (verdict != Verdict::visible) return;
+  ++visible[way];
+  EXPECT_LE(truth.share(), most + rounding)
+      << way_names[way] << ", " << truth.hidden << " of " << truth.inside << " pixels hidden";
+  last[way] = world.object;
+  was_whole[way] = was_whole[way] || truth.is_clear;
+}
+
+void TargetSearch::run(World world) {
+  LabelRule rule = with(0.5) ? LabelRule{} : TargetFrame::without_cleanup();
+  if (with(0.3)) rule.range = {0.3, 1.8};  // the wall is out of it
+  thresholds.unknown_limit.reset();
+  if (with(0.5)) thresholds.unknown_limit = 0;
+  // What is unknown may be hidden, up to its limit.
+  most = thresholds.partial_enter + thresholds.unknown_limit.value_or(thresholds.partial_enter);
+  has_depth = with(0.5);
+  const int gap = with(0.3) ? number(1, wide_gap) : 0;
+  was_whole.fill(false);
+  last.fill(world.object);
+  TargetJudge judge_all(TargetFrame::camera(), rule, 2);
+  for (int i = 0; i < frames; ++i) {
+    TargetFrame frame(rule);
+    draw(world, frame);
+    judge_all.begin(frame.images());
+    for (const Way way : {amodal, amodal_with_depth, modal, modal_with_motion}) {
+      const Truth truth(world, was_whole[way] ? gap : 0);
+      const bool is_found = way < modal ? truth.inside > 0 : truth.left > 0 && !with(0.1);
+      if (is_found) judge(way, world, truth, judge_all);
+    }
+    world.object.move();
+    for (Moving& part : world.robot) part.move();
+  }
+}
+
+TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
+  const int sequences = std::getenv("PENUMBRA_FULL") != nullptr ? 5000 : 100;
+  for (int i = 0; i < sequences; ++i) {
+    SCOPED_TRACE("sequence " + std::to_string(i));
+    run(world());
+    if (HasFailure()) return;
+  }
+  for (std::size_t way = 0; way < ways; ++way) {
+    std::cout << way_names[way] << ": visible " << visible[way] << " times, hidden by more than "
+              << "its threshold " << behind[way] << " times\n";
+    EXPECT_GT(visible[way], 200U) << "or the search says nothing";
+    EXPECT_GT(behind[way], 100U);
+  }
+  EXPECT_GT(absent, 200U);
+}
+
+}  // namespace
+}  // namespace penumbra
