@@ -112,7 +112,8 @@ struct Judgement {
 /// target. Then the last good extent is judged as well, moved by `motion` (without `motion`, where
 /// it was, for extent_frames frames), and the worse counts; and where the robot may hide what is
 /// missing, which is near the last good extent or as near to the mask as what is missing can reach,
-/// what is missing beside what is known to be hidden is unknown, however long. What `motion`
+/// what is missing beside what is known to be hidden is unknown, however long, and unknown_limit
+/// passes over nothing that is. What `motion`
 /// carries out of the image is missing too, unless the mask lies at that border and is no larger
 /// than what is left. A target that is first seen near the robot is unknown. So is one whose last
 /// good extent reaches the image's border, or that of what the camera saw, where the robot is as

@@ -191,7 +191,7 @@ Sight Sights::look_last(const Look& at, std::size_t missing) {
   const SeenCounts& pixels = last.pixels;
   const std::size_t known = pixels[Seen::occluded] + pixels[Seen::other] + pixels[Seen::unknown];
   std::size_t doubted = missing - std::min(missing, known);
-  last.is_missing = doubted > 0;
+  last.is_missing = missing > 0;
   last.doubt(Seen::clear, doubted);
   last.doubt(Seen::front, doubted);
   return last;
@@ -227,8 +227,10 @@ Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMem
   if (!sight.has_pose) return Verdict::unknown;
   const double hidden = sight.hidden(thresholds.others_hide);
   const double unknown = sight.first_near_robot ? 1 - hidden : sight.fraction(Seen::unknown);
+  // What its mask lacks is not seen: no limit passes over what else is unknown.
+  const bool is_doubtful = sight.first_near_robot || sight.is_missing;
   const double limit =
-      sight.first_near_robot ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
+      is_doubtful ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
   const Verdict level = next_level(memory.level, hidden, thresholds);
   if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
     return Verdict::unknown;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a detector sees of its targets, judged against MuJoCo's segmentation: each target is seen
+// once without the arm, then by the pixels that the arm leaves of it. Truth is MuJoCo's.
+#include "../support/random.hpp"
+#include "simulated.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using sim::ObjectTruth;
+using sim::SimFrame;
+using sim::Simulation;
+using Mask = Image<std::uint8_t>;
+
+constexpr int least_pixels = 100;  // of a target: fewer make shares coarse
+constexpr int farthest = 60;       // pixels that a target moves, along u and v
+constexpr int seeds = 4;
+
+/// Most that the arm hides of a target that is called visible: partial_enter, and what silhouettes
+/// that differ by part of a pixel add.
+constexpr double most_hidden = 0.06;
+
+/// How often targets must be called visible, or the test says nothing. What was seen at the border
+/// alone is so away from the arm, and most targets are near it.
+constexpr std::array<std::size_t, 4> least_visible{50, 50, 50, 2};
+
+/// Where the target was when it was seen whole, and what is known of that.
+enum Way { there, moved, moved_unsaid, at_the_border, ways };
+constexpr std::array<const char*, ways> way_names{
+    "seen whole there", "moved since, and said how far", "moved since", "seen at the border alone"};
+
+Mask shifted(const Mask& mask, int du, int dv) {
+  Mask all(mask.width(), mask.height());
+  for (int v = std::max(0, -dv); v < std::min(mask.height(), mask.height() - dv); ++v)
+    for (int u = std::max(0, -du); u < std::min(mask.width(), mask.width() - du); ++u)
+      all(u + du, v + dv) = mask(u, v);
+  return all;
+}
+
+bool is_empty(const Mask& mask) {
+  return std::all_of(mask.data(), mask.data() + mask.size(), [](auto one) { return one == 0; });
+}
+
+/// Pixels from the left border up to which a third of the mask's columns reach when it is moved
+/// left so far that the others are cut.
+int leftwards(const Mask& mask) {
+  int first = mask.width(), last = 0;
+  for (int v = 0; v < mask.height(); ++v)
+    for (int u = 0; u < mask.width(); ++u)
+      if (mask(u, v) != 0) first = std::min(first, u), last = std::max(last, u);
+  return -(first + 2 * (last - first) / 3);
+}
+
+/// A target in a frame, as it was before and as it is seen.
+struct Case {
+  std::string name;
+  Way way = there;
+  int du = 0, dv = 0;  // by which it was elsewhere
+  Mask before, seen;
+  double hidden = 0;  // by the arm
+};
+
+struct Tally {
+  std::size_t cases = 0, visible = 0, clear = 0, hidden = 0;  // clear, hidden: truths
+  double missed = 0;
+
+  void add(const Case& one, Verdict verdict) {
+    const TargetThresholds t;
+    ++cases;
+    (one.hidden > t.partial_enter ? hidden : clear) += 1;
+    if (verdict != Verdict::visible) return;
+    ++visible;
+    missed = std::max(missed, one.hidden);
+  }
+};
+using Tallies = std::array<Tally, ways>;
+
+class ModalBench {
+ public:
+  ModalBench(std::uint64_t seed, bool noisy)
+      : random_(seeded_random(seed)),
+        simulation_("random", options(seed, noisy)),
+        pipeline_(robot(), simulation_.camera(), config()),
+        judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
+
+  void run(int frames, Tallies& tallies) {
+    SimFrame frame;
+    for (int i = 0; i < frames && simulation_.next(frame); ++i) {
+      const FrameReport& report = pipeline_.process(
+          {.stamp = frame.stamp, .depth = frame.depth.view(), .joints = frame.joints});
+      ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
+      std::vector<Case> cases;
+      for (const ObjectTruth& object : frame.objects) add_cases(frame, object, cases);
+      judge_alone(frame, cases);
+      judge_.begin({{report.labels, {}, nullptr}, report.virtual_depth, frame.depth.view()});
+      for (const Case& one : cases) judge(one, tallies[one.way]);
+    }
+  }
+
+ private:
+  static sim::SimulationOptions options(std::uint64_t seed, bool noisy) {
+    sim::SimulationOptions all = without_noise(seed);
+    if (noisy) all.depth = sim::DepthNoise::d415();
+    all.color = false;
+    return all;
+  }
+  [[nodiscard]] Robot robot() const {
+    RobotOptions all;
+    all.geometry = Geometry::visual;
+    return Robot::load(simulation_.urdf(), all);
+  }
+  [[nodiscard]] PipelineConfig config() const {
+    PipelineConfig all;
+    all.T_parent_camera = simulation_.T_base_camera();
+    return all;
+  }
+  int number(int low, int high) {
+    return low + static_cast<int>(random_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+
+  void add_cases(const SimFrame& frame, const ObjectTruth& object, std::vector<Case>& cases) {
+    if (object.pixels_alone < least_pixels) return;
+    Mask seen(frame.ids.width(), frame.ids.height());
+    std::size_t hidden = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const std::int32_t id = frame.ids.data()[i];
+      seen.data()[i] = id == object.id ? 1 : 0;
+      if (object.alone.data()[i] != 0 && id > 0 && id < sim::first_object_id) ++hidden;
+    }
+    if (is_empty(seen)) return;  // no detector finds it
+    for (const Way way : {there, moved, moved_unsaid, at_the_border}) {
+      Case one{object.name + ", " + way_names[way], way, 0, 0, {}, seen, 0.0};
+      if (way != there) one.du = number(-farthest, farthest), one.dv = number(-farthest, farthest);
+      if (way == at_the_border) one.du = leftwards(object.alone), one.dv = 0;
+      one.before = shifted(object.alone, one.du, one.dv);
+      one.hidden = static_cast<double>(hidden) / static_cast<double>(object.pixels_alone);
+      if (!is_empty(one.before)) cases.push_back(std::move(one));
+    }
+  }
+
+  /// A frame without the arm.
+  void judge_alone(const SimFrame& frame, const std::vector<Case>& cases) {
+    const Mask labels(frame.ids.width(), frame.ids.height());
+    const Image<float> nothing(frame.ids.width(), frame.ids.height());
+    judge_.begin({{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}});
+    for (const Case& one : cases) {
+      judge_.forget(one.name);
+      EXPECT_EQ(judge_.judge(target_of(one, one.before)).verdict, Verdict::visible) << one.name;
+    }
+  }
+
+  void judge(const Case& one, Tally& tally) {
+    TargetView target = target_of(one, one.seen);
+    if (one.way == moved) target.motion = Eigen::Vector2d(-one.du, -one.dv);
+    tally.add(one, judge_.judge(target).verdict);
+  }
+
+  static TargetView target_of(const Case& one, const Mask& mask) {
+    TargetView target;
+    target.name = one.name;
+    target.region = PixelMask{mask.view()};
+    target.extent = Extent::modal;
+    target.wants_point = false;
+    return target;
+  }
+
+  std::mt19937_64 random_;
+  Simulation simulation_;
+  Pipeline pipeline_;
+  TargetJudge judge_;
+};
+
+void judge_all(bool noisy) {
+  const int frames = std::getenv("PENUMBRA_FULL") != nullptr ? 1000 : 60;
+  Tallies tallies;
+  for (int seed = 0; seed < seeds; ++seed) {
+    ModalBench bench(static_cast<std::uint64_t>(seed) + 200, noisy);
+    bench.run(frames / seeds, tallies);
+  }
+  std::cout << frames << " frames\n";
+  for (std::size_t way = 0; way < ways; ++way) {
+    SCOPED_TRACE(way_names[way]);
+    const Tally& tally = tallies[way];
+    std::cout << way_names[way] << ": " << tally.cases << " targets, " << tally.clear
+              << " of them not hidden, " << tally.visible << " called visible, hidden of these at "
+              << "most " << tally.missed << '\n';
+    EXPECT_GT(tally.hidden, 50U) << "or this says nothing";
+    EXPECT_GT(tally.visible, least_visible[way]);
+    EXPECT_LT(tally.missed, most_hidden);
+  }
+}
+
+TEST(ModalTruth, WithoutNoise) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  judge_all(false);
+}
+
+TEST(ModalTruth, WithADepthCamerasNoise) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  judge_all(true);
+}
+
+}  // namespace
+}  // namespace penumbra::test
