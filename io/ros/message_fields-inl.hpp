@@ -319,6 +319,7 @@ struct Fields<TargetMessage> {
                  Member{"clear_fraction", &M::clear_fraction},
                  Member{"unknown_fraction", &M::unknown_fraction},
                  Member{"hidden_by_other_fraction", &M::hidden_by_other_fraction},
+                 Member{"measured_fraction", &M::measured_fraction},
                  Member{"seen_past_fraction", &M::seen_past_fraction},
                  Member{"blame", &M::blame},
                  as<Vector3Wire>("point", &M::point),

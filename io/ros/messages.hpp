@@ -259,6 +259,7 @@ struct TargetMessage {
   double clear_fraction = none;
   double unknown_fraction = none;
   double hidden_by_other_fraction = none;
+  double measured_fraction = none;
   double seen_past_fraction = none;
   std::vector<BlameMessage> blame = {};
   Eigen::Vector3d point = Eigen::Vector3d::Constant(none);

@@ -63,6 +63,7 @@ void put_judgement(const Judgement& judged, std::span<const std::string> links,
   message.clear_fraction = judged.clear;
   message.unknown_fraction = judged.unknown;
   message.hidden_by_other_fraction = judged.hidden_by_other.value_or(TargetMessage::none);
+  message.measured_fraction = judged.measured.value_or(TargetMessage::none);
   message.seen_past_fraction = judged.seen_past.value_or(TargetMessage::none);
 }
 

@@ -65,6 +65,7 @@ Json target_json(const char* name) {
           {"clear_fraction", "NaN"},
           {"unknown_fraction", "NaN"},
           {"hidden_by_other_fraction", "NaN"},
+          {"measured_fraction", "NaN"},
           {"seen_past_fraction", "NaN"},
           {"blame", Json::array()},
           {"point", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},

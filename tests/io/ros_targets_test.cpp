@@ -16,6 +16,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   judged.front = 0.125;
   judged.unknown = 0.25;
   judged.clear = 0.25;
+  judged.measured = 0.75;
   judged.seen_past = 0.0625;
   judged.blame = blame;
   judged.point_pixels = 9;
@@ -57,6 +58,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   EXPECT_EQ(first.inside, 100U);
   EXPECT_EQ(first.occluded_fraction, 0.375);
   EXPECT_TRUE(std::isnan(first.hidden_by_other_fraction));
+  EXPECT_EQ(first.measured_fraction, 0.75);
   EXPECT_EQ(first.seen_past_fraction, 0.0625);
   ASSERT_EQ(first.blame.size(), 2U);
   EXPECT_EQ(first.blame[0].link, "tool");
