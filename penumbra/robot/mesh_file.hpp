@@ -16,7 +16,8 @@ namespace penumbra {
 /// Metres: STL, OBJ and PLY as they are; Collada's <unit> is applied and its <up_axis> ignored, as
 /// RViz does; glTF's y-up is kept (its z is not turned up), as RViz does. Transforms of nodes are
 /// applied; what they mirror is wound again. What bends or repeats a mesh in ways that are not read
-/// (skins, morphs, Collada's skew, glTF's compression and instancing) is an error.
+/// (skins, morphs, Collada's skew, glTF's compression, instancing and rotations of another length
+/// than 1) is an error, as is an OBJ vertex with a fourth coordinate other than 1.
 ///
 /// Throws InputError naming file, reason and remedy for whatever cannot be read whole: no such
 /// file, truncated as far as the format shows it, no triangles, a coordinate that is not finite or

@@ -36,8 +36,9 @@ void check_ply(std::string_view bytes);
 /// The same for OBJ; returns what may be a truncation and may be none, in words, or nothing.
 [[nodiscard]] std::string check_obj(std::string_view bytes);
 
-/// The vertices and faces alone of an OBJ that was checked. Assimp takes an OBJ itself for the
-/// material file that it names where there is none, and crashes on what stands in it.
+/// The vertices' places and faces' corners alone of an OBJ that was checked, written anew. Assimp
+/// takes an OBJ itself for the material file that it names where there is none, and crashes on what
+/// stands in it; vertices it drops or scales by how many words of their lines look like numbers.
 [[nodiscard]] std::string surface_of_obj(std::string_view bytes);
 
 /// The same for glTF and GLB; returns the triangles that the file's meshes count.

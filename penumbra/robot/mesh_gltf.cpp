@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -82,6 +85,24 @@ void check_rigid(const Json& root) {
   for (const Json& mesh : array_of(root, "meshes"))
     if (moved(mesh))
       throw FormatError("glTF: a mesh is moved by morph weights; export it without them");
+}
+
+/// Assimp makes a rotation's length, squared, a scale, and shows one of a node's instances.
+void check_transforms(const Json& root) {
+  constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (conventions.md)
+  constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+  for (const Json& node : array_of(root, "nodes")) {
+    if (node.contains("extensions") && node.at("extensions").contains(instancing))
+      throw FormatError(std::string("glTF: a node repeats its mesh by ") + instancing +
+                        ", which is not read; export every copy as a node of its own");
+    if (!node.contains("rotation")) continue;
+    const auto rotation = node.at("rotation").get<std::vector<double>>();
+    double squared = 0.0;
+    for (const double value : rotation) squared += value * value;
+    if (rotation.size() != 4 || !(std::abs(std::sqrt(squared) - 1.0) <= most_off))
+      throw FormatError("glTF: a node's rotation " + node.at("rotation").dump().substr(0, 80) +
+                        " is no quaternion of length 1; normalise it, or export the file again");
+  }
 }
 
 constexpr std::uint64_t largest_size = std::uint64_t{1} << 32;  // products of two do not overflow
@@ -195,6 +216,7 @@ std::size_t check_gltf(std::string_view bytes, bool binary) {
     check_extensions(root);
     check_nodes(root);
     check_rigid(root);
+    check_transforms(root);
     for (const Json& accessor : array_of(root, "accessors")) check_accessor(root, accessor);
     std::size_t triangles = 0;
     for (const Json& mesh : array_of(root, "meshes"))

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +11,12 @@
 
 namespace penumbra::mesh_formats {
 namespace {
+
+/// The next word of a line; empty before a comment too.
+std::string_view take_item(std::string_view& line) {
+  const std::string_view word = take_word(line);
+  return word.starts_with('#') ? std::string_view() : word;
+}
 
 /// Walks an OBJ file's vertices, faces, lines and points, with the line for messages.
 class ObjCheck {
@@ -36,15 +45,24 @@ class ObjCheck {
  private:
   void vertex(std::string_view line) {
     ++vertices_;
-    for (int i = 0; i < 3; ++i) {
-      const std::string_view word = take_word(line);
-      if (!parse_number<double>(word)) fail(word, "three coordinates");
+    std::size_t count = 0;
+    double last = 0.0;
+    for (std::string_view word = take_item(line); count < 3 || !word.empty();
+         word = take_item(line), ++count) {
+      const auto number = parse_number<double>(word);
+      if (!number || !std::isfinite(*number))
+        fail(word, count < 3 ? "three coordinates" : "a colour's number");
+      last = *number;
     }
+    // A weight of curves in the format's own words, a divisor to some readers.
+    if (count == 4 && last != 1.0)
+      throw FormatError("OBJ, line " + std::to_string(line_) +
+                        ": a vertex has a fourth coordinate, which is not 1; export it with three");
   }
 
   int corners(std::string_view line) {
     int count = 0;
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
+    for (std::string_view word = take_item(line); !word.empty(); word = take_item(line), ++count) {
       const auto index = parse_number<std::int64_t>(word.substr(0, word.find('/')));
       if (!index || *index == 0 || *index < -vertices_) fail(word, "a vertex's number");
       use(*index < 0 ? vertices_ + 1 + *index : *index);
@@ -84,7 +102,7 @@ template <typename F>
 void for_each_line(std::string_view bytes, F&& f) {
   std::string joined;
   while (!bytes.empty()) {
-    const std::string_view line = take_line(bytes);
+    const std::string_view line = take_any_line(bytes);
     if (joined.empty() && !line.ends_with('\\')) {
       f(line);
       continue;
@@ -97,6 +115,14 @@ void for_each_line(std::string_view bytes, F&& f) {
     f(std::string_view(joined));
     joined.clear();
   }
+}
+
+/// The number as Assimp reads it: it takes no word for one that begins with a point.
+template <typename Number>
+void append_number(std::optional<Number> number, std::string& text) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number.value()).ptr;
+  text.append(" ").append(buffer.data(), end);
 }
 
 }  // namespace
@@ -119,13 +145,14 @@ std::string surface_of_obj(std::string_view bytes) {
   std::string surface;
   surface.reserve(bytes.size());
   for_each_line(bytes, [&](std::string_view line) {
-    std::string_view words = line;
-    const std::string_view keyword = take_word(words);
-    if (keyword == "v") surface.append(line).append("\n");
-    if (keyword != "f") return;
-    surface += 'f';
-    for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
-      surface.append(" ").append(word.substr(0, word.find('/')));
+    const std::string_view keyword = take_word(line);
+    if (keyword != "v" && keyword != "f") return;
+    surface += keyword;
+    if (keyword == "v")
+      for (int i = 0; i < 3; ++i) append_number(parse_number<double>(take_item(line)), surface);
+    else
+      for (std::string_view word = take_item(line); !word.empty(); word = take_item(line))
+        append_number(parse_number<std::int64_t>(word.substr(0, word.find('/'))), surface);
     surface += '\n';
   });
   return surface;

@@ -163,13 +163,28 @@ void check_list(Body& body, const Property& property, std::uint64_t vertices) {
   }
 }
 
+/// Assimp takes 0 for a coordinate that is not there.
+void check_coordinates(const Element& vertex) {
+  for (const char* name : {"x", "y", "z"}) {
+    const auto count = std::count_if(
+        vertex.properties.begin(), vertex.properties.end(),
+        [&](const Property& property) { return property.name == name && !property.is_list; });
+    if (count != 1)
+      throw FormatError("PLY: its vertices have " + std::to_string(count) + " properties '" + name +
+                        "'; x, y and z are wanted, once each: export it again");
+  }
+}
+
 }  // namespace
 
 void check_ply(std::string_view bytes) {
   const Header header = take_header(bytes);
   std::uint64_t vertices = 0;
-  for (const Element& element : header.elements)
-    if (element.name == "vertex") vertices = element.count;
+  for (const Element& element : header.elements) {
+    if (element.name != "vertex") continue;
+    check_coordinates(element);
+    vertices = element.count;
+  }
 
   Body body(bytes, header.format);
   for (const Element& element : header.elements) {

@@ -29,6 +29,15 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+/// The same where lines may end as on any system: with LF, CR LF or CR alone.
+inline std::string_view take_any_line(std::string_view& text) {
+  const std::size_t end = text.find_first_of("\r\n");
+  const std::string_view line = text.substr(0, end);
+  const bool both = end != std::string_view::npos && text.substr(end).starts_with("\r\n");
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + (both ? 2 : 1));
+  return line;
+}
+
 /// The whole word as a number; nothing if it is none. Doubles take every float that is written.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view word) {

@@ -142,6 +142,34 @@ TEST_F(MeshBadFile, CountsThatDoNotFit) {
                  "");
 }
 
+TEST_F(MeshBadFile, ObjVerticesThatReadersTakeForDifferentThings) {
+  const auto expect = [&](const std::string& by, const std::string& why) {
+    expect_refused("a.obj", replaced(test::obj(), "v 2 0 0", by), why);
+  };
+  expect("v 2 0 0 2", "line 4: a vertex has a fourth coordinate, which is not 1");
+  expect("v 2 0 0 .5", "fourth coordinate");
+  expect("v 2 0", "the line ends where three coordinates should stand");
+  expect("v 2 0 # 0", "the line ends where three coordinates should stand");
+  expect("v 2 0 0 red", "'red' stands where a colour's number");
+  expect("v 2 nan 0", "'nan' stands where three coordinates");
+  expect("v 2,0 0 0", "'2,0' stands where");
+  std::string cr = replaced(test::obj(), "f 1 3 2", "f 1 3 5");
+  for (char& c : cr) c = c == '\n' ? '\r' : c;
+  expect_refused("cr.obj", cr, "line 10: a corner names vertex 5 of 4");
+}
+
+TEST_F(MeshBadFile, PlyWithoutACoordinate) {
+  for (const auto& [name, bytes] : test::samples())
+    if (name.ends_with(".ply"))
+      for (const char* axis : {"x", "y", "z"}) {
+        const std::string line = std::string("property float ") + axis;
+        expect_refused(name, replaced(bytes, line, "property float w"),
+                       std::string("have 0 properties '") + axis + "'");
+        expect_refused(name, replaced(bytes, "element face", line + "\nelement face"),
+                       std::string("have 2 properties '") + axis + "'");
+      }
+}
+
 TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
   const std::string whole = test::gltf_json(",\"uri\":\"a.bin\"");
   folder_.write("a.bin", test::gltf_buffer());
@@ -162,6 +190,13 @@ TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
            std::string("requires the extension ") + extension);
   expect("{\"mesh\":0", "{\"mesh\":0,\"skin\":0", "by a skin");
   expect("{\"mesh\":0", "{\"mesh\":0,\"weights\":[0,0.5]", "morph weights");
+  for (const char* rotation : {"[0,0,0.7,0.9]", "[0,0,0,0]", "[0,0,0.7073,0.7073]", "[0,0,1]"})
+    expect("{\"mesh\":0", std::string("{\"mesh\":0,\"rotation\":") + rotation,
+           "is no quaternion of length 1");
+  expect("{\"mesh\":0", "{\"mesh\":0,\"rotation\":[\"a\",0,0,1]", "glTF");
+  expect("{\"mesh\":0",
+         "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{}}}",
+         "repeats its mesh by EXT_mesh_gpu_instancing");
   expect("{\"primitives\"", "{\"weights\":[1],\"primitives\"", "morph weights");
   expect("\"count\":4", "\"count\":4,\"sparse\":{\"count\":1}", "sparse");
   expect("\"count\":4", "\"count\":4,\"byteOffset\":4", "beyond its bufferView");

@@ -85,6 +85,32 @@ TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
   EXPECT_NEAR(volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume, float_rounding);
 }
 
+TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto expect_half = [&](const std::string& vertices) {
+    SCOPED_TRACE(vertices);
+    expect_tetrahedron(load("a.obj", vertices + faces), 0.25);
+  };
+  expect_half("v 0 0 0\nv .5 0 0\nv 0 .75 0\nv 0 0 1.\n");
+  expect_half("v 0 0 0\nv .5 0 0\nv 0 .75 0\nv 0 0 1\nv 9 9 9\nv 9 9 9\n");  // two unused
+  expect_half("v -.0 0. 0\nv +.5 0 0\nv 0 75.e-2 0\nv 0 0 .1E+1\n");
+  expect_half("  v  0 0 0\n\tv .5 0 0 \n v 0\t.75 0\nv 0 0 1 # the tip\n");
+  for (const char* more : {"1", "1.0", ".2 .3 1", "0.2 0.3 1", ".2 .3 1 .5", "1 .2 .3 1"}) {
+    const std::string end = std::string(" ") + more + "\n";
+    expect_half("v 0 0 0" + end + "v .5 0 0" + end + "v 0 .75 0" + end + "v 0 0 1" + end);
+  }
+}
+
+TEST_F(MeshFile, ObjLinesMayEndAsOnAnySystem) {
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char c : test::obj()) text += c == '\n' ? std::string(line_end) : std::string(1, c);
+    std::vector<std::string> notes;
+    expect_tetrahedron(load_mesh(folder_.write("a.obj", text), notes));
+    EXPECT_EQ(notes.size(), 0U) << notes.front();
+  }
+}
+
 TEST_F(MeshFile, ColladaUnitIsAppliedOnce) {
   expect_tetrahedron(load_collada("", test::collada_node()));
   expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>", test::collada_node()));
