@@ -113,6 +113,10 @@ struct FrameReport {
   std::optional<Eigen::Isometry3d> T_root_camera;
   std::span<const Eigen::Isometry3d> T_root_link;
 
+  /// Indices of the links of which a part lies nearer than DepthRenderer::near_plane on the image's
+  /// rays: it is not drawn, and what it hides is labelled as if it were not there.
+  std::span<const std::size_t> near_links;
+
   /// Of this frame; all views empty where the robot's pose is unknown or labels are made on the
   /// device (PipelineConfig::labels_on_device).
   VirtualDepthView virtual_depth;

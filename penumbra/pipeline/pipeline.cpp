@@ -14,6 +14,7 @@
 #include <penumbra/pipeline/link_poses-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
+#include <penumbra/render/near_plane_check.hpp>
 
 namespace penumbra {
 namespace {
@@ -119,7 +120,7 @@ struct Pipeline::State {
   [[nodiscard]] TargetStage::Setup target_setup(const PipelineConfig& config) const;
   void begin(const Frame& frame);
   std::optional<std::span<const Eigen::Isometry3d>> pose_links(const Frame& frame);
-  void refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link);
+  void look_around_camera(std::span<const Eigen::Isometry3d> T_camera_link);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
                             const DepthView& measured);
@@ -140,6 +141,7 @@ struct Pipeline::State {
   FrameCheck check;
   LinkPoses poses;
   CameraInsideCheck camera_inside;
+  NearPlaneCheck near_plane;
   ChosenRenderer chosen;                          // no renderer with
   std::unique_ptr<GlLabeller> labeller;           // labels_on_device
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
@@ -167,6 +169,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
             missing_links),
       poses(robot, config),
       camera_inside(bodies_of(robot)),
+      near_plane(render_intrinsics, bodies_of(robot)),
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
       labeller(labeller_of(camera, config, bodies_of(robot))),
       uncovered(uncovered_of(rectification, config.image)),
@@ -252,6 +255,7 @@ void Pipeline::State::begin(const Frame& frame) {
   report.targets = {};
   report.T_root_camera.reset();
   report.T_root_link = {};
+  report.near_links = {};
 }
 
 std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(const Frame& frame) {
@@ -263,16 +267,17 @@ std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(co
   return std::nullopt;
 }
 
-void Pipeline::State::refuse_camera_inside(std::span<const Eigen::Isometry3d> T_camera_link) {
+void Pipeline::State::look_around_camera(std::span<const Eigen::Isometry3d> T_camera_link) {
   if (const auto link = camera_inside.find(T_camera_link))
     throw InputError("the camera's centre lies inside of link '" + robot.links()[*link] +
                      "': correct the camera's pose, or name the link in ignore_links if it is the "
                      "camera's own housing");
+  report.near_links = near_plane.find(T_camera_link);
 }
 
 VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
   const StageTimer timer(report.timing.render);
-  refuse_camera_inside(T_camera_link);
+  look_around_camera(T_camera_link);
   const VirtualDepthView rendered = chosen.render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
 }
@@ -281,7 +286,7 @@ LabelView Pipeline::State::label_on_device(std::span<const Eigen::Isometry3d> T_
                                            const DepthView& measured) {
   {
     const StageTimer timer(report.timing.render);
-    refuse_camera_inside(T_camera_link);
+    look_around_camera(T_camera_link);
     labeller->submit(T_camera_link, seen_depth(measured));
   }
   const StageTimer timer(report.timing.classify);

@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <utility>
 
+#include <penumbra/base/stamps-inl.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
 #include <penumbra/pipeline/sequence_notes.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {
 namespace {
@@ -40,7 +42,10 @@ bool exceeds(std::size_t part, double share, std::size_t whole) {
 
 SequenceNotes::SequenceNotes(const Robot& robot) : SequenceNotes(robot, Source{}) {}
 SequenceNotes::SequenceNotes(const Robot& robot, const Source& source)
-    : robot_(robot), source_(source), frames_beyond_(robot.joints().size()) {}
+    : robot_(robot),
+      source_(source),
+      frames_beyond_(robot.joints().size()),
+      frames_near_(robot.links().size()) {}
 
 void SequenceNotes::add(const FrameReport& report, std::span<const double> positions) {
   if (report.pixels.robot) {
@@ -48,6 +53,7 @@ void SequenceNotes::add(const FrameReport& report, std::span<const double> posit
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
     add_pixels(report);
   }
+  for (const std::size_t link : report.near_links) ++frames_near_[link];
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
   add_targets(report);
   add_stamp(report);
@@ -69,6 +75,8 @@ void SequenceNotes::add_stamp(const FrameReport& report) {
   if (last_stamp_ && *report.stamp <= *last_stamp_) {
     if (!first_late_) first_late_ = {report.index, *report.stamp, *last_stamp_};
     ++late_stamps_;
+  } else if (last_stamp_) {
+    longest_period_ = std::max(longest_period_, stamp_distance(*report.stamp, *last_stamp_));
   }
   last_stamp_ = report.stamp;
 }
@@ -98,7 +106,10 @@ std::vector<std::string> SequenceNotes::lines() const {
                     "the inverse), in metres?");
   if (std::string line = depth_line(); !line.empty()) lines.push_back(std::move(line));
   if (source_.image == ImageSpace::raw && uncovered_ > 0) lines.push_back(uncovered_line());
+  for (std::size_t i = 0; i < frames_near_.size(); ++i)
+    if (frames_near_[i] > 0) lines.push_back(near_line(i));
   if (late_stamps_ > 0) lines.push_back(stamp_line());
+  if (longest_period_ > 0 && longest_period_ < shortest_period) lines.push_back(period_line());
   if (forgotten_ > 0)
     lines.push_back("stamps went back in " + counted(forgotten_, "frame") +
                     " with targets: what was known of them until then was forgotten");
@@ -127,11 +138,23 @@ std::string SequenceNotes::uncovered_line() const {
          "images; are the distortion coefficients right?";
 }
 
+std::string SequenceNotes::near_line(std::size_t link) const {
+  static_assert(DepthRenderer::near_plane == 0.01, "the line's 1 cm");
+  return "part of link '" + robot_.links()[link] + "' lies within 1 cm of the camera and is not " +
+         "drawn in " + counted(frames_near_[link], "frame") +
+         ": what it hides is labelled as if it were not there";
+}
+
 std::string SequenceNotes::stamp_line() const {
   return counted(late_stamps_, "stamp") + " not after the frame's before, first in frame " +
          std::to_string(first_late_->index) + " (" + std::to_string(first_late_->stamp) +
          " ns after " + std::to_string(first_late_->before) +
          " ns): are frames doubled or out of order?";
+}
+
+std::string SequenceNotes::period_line() const {
+  return "stamps rise by " + std::to_string(longest_period_) +
+         " ns at most from frame to frame: are stamps in nanoseconds?";
 }
 
 std::string SequenceNotes::limit_line() const {

@@ -27,6 +27,10 @@ class SequenceNotes {
   static constexpr double most = 0.5;
   static constexpr double nearly_none = 0.05;
 
+  /// Stamps that are all less apart, nanoseconds, are of another unit: no depth camera gives 1000
+  /// images a second.
+  static constexpr std::uint64_t shortest_period = 1'000'000;
+
   /// What the frames are of.
   struct Source {
     ImageSpace image = ImageSpace::raw;
@@ -42,8 +46,9 @@ class SequenceNotes {
 
   /// A line each: a robot that is in no frame whose pose is known, robot pixels that are nearly all
   /// without measurement or mostly front or beyond, raw images that the lens model does not reach
-  /// everywhere, stamps that do not rise from frame to frame, targets that were forgotten as stamps
-  /// went back or not handled without stamps, joints beyond their limits.
+  /// everywhere, parts of links before the near plane, stamps that do not rise from frame to frame
+  /// or by less than a camera's, targets that were forgotten as stamps went back or not handled
+  /// without stamps, joints beyond their limits.
   [[nodiscard]] std::vector<std::string> lines() const;
 
  private:
@@ -59,7 +64,9 @@ class SequenceNotes {
   void add_targets(const FrameReport& report);
   [[nodiscard]] std::string depth_line() const;
   [[nodiscard]] std::string uncovered_line() const;
+  [[nodiscard]] std::string near_line(std::size_t link) const;
   [[nodiscard]] std::string stamp_line() const;
+  [[nodiscard]] std::string period_line() const;
   [[nodiscard]] std::string limit_line() const;
 
   const Robot& robot_;
@@ -71,9 +78,11 @@ class SequenceNotes {
   std::optional<std::int64_t> last_stamp_;
   std::optional<LateStamp> first_late_;
   std::size_t late_stamps_ = 0;
+  std::uint64_t longest_period_ = 0;        // nanoseconds between two stamps that rise
   std::size_t forgotten_ = 0;               // times, with targets in the frame
   std::size_t not_handled_ = 0;             // frames
   std::vector<std::size_t> frames_beyond_;  // of each joint
+  std::vector<std::size_t> frames_near_;    // of each link
 };
 
 }  // namespace penumbra

@@ -31,11 +31,12 @@ class GeometryLoader {
   /// reason for geometry that cannot be had, unless missing meshes are allowed.
   [[nodiscard]] LinkGeometry load(const UrdfLink& link, const LinkChoice& choice);
 
-  /// Where packages were found, then what is odd about mesh files.
+  /// Where packages were found, then what is odd about mesh files and about links' sizes.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  void add(const UrdfElement& element, LinkGeometry& out);
+  void add(const UrdfElement& element, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
+  void note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin);
   TriangleMesh make_mesh(const UrdfElement& element, std::string& source);
   TriangleMesh read_mesh(const UrdfMesh& mesh, std::string& source);
   const TriangleMesh& read_file(const std::filesystem::path& file);
@@ -45,6 +46,7 @@ class GeometryLoader {
   bool allow_missing_;
   std::map<std::filesystem::path, TriangleMesh> files_;
   std::vector<std::string> file_notes_;
+  std::vector<std::string> size_notes_;
 };
 
 }  // namespace penumbra::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -15,6 +17,10 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kFarthestVertex = 1e6;  // metres from the link's origin
+
+// Metres. The smallest parts that are links of their own, fingertips and sensors, are larger; what
+// is up to 2 m large and drawn a thousand times too small is not.
+constexpr double kSmallestLink = 0.002;
 
 std::string round_name(const char* kind, double radius, double length) {
   return std::string(kind) + " radius " + printed(radius) + " length " + printed(length);
@@ -62,6 +68,12 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
+Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) bounds.extend(vertex.cast<double>().eval());
+  return bounds;
+}
+
 // The report's figures of the meshes as they are drawn.
 void measure(LinkGeometry& link) {
   LinkReport& report = link.report;
@@ -70,8 +82,7 @@ void measure(LinkGeometry& link) {
       report.drawn && std::all_of(link.meshes.begin(), link.meshes.end(), is_watertight);
   for (const TriangleMesh& mesh : link.meshes) {
     report.triangles += mesh.triangles.size();
-    for (const Eigen::Vector3f& vertex : mesh.vertices)
-      report.bounds.extend(vertex.cast<double>().eval());
+    report.bounds.extend(bounds_of(mesh));
   }
 }
 
@@ -84,20 +95,33 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
   out.report.reason = choice.reason;
   if (!choice.draw) return out;
   out.report.margin = choice.margin;
+  Eigen::AlignedBox3d without_margin;
   for (const UrdfElement& element : link.elements(choice.geometry)) {
     try {
-      add(element, out);
+      add(element, out, without_margin);
     } catch (const InputError& error) {
       throw InputError(file_ + ":" + std::to_string(element.line) + ": link " +
                        in_quotes(link.name) + ": " + error.what());
     }
   }
   measure(out);
+  note_size(out.report, without_margin);
   out.report.load_ms = milliseconds_since(start);
   return out;
 }
 
-void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
+void GeometryLoader::note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin) {
+  if (!link.drawn || link.missing) return;
+  const double size = without_margin.sizes().maxCoeff();
+  if (size >= kSmallestLink) return;
+  std::array<char, 32> millimetres{};
+  std::snprintf(millimetres.data(), millimetres.size(), "%.2g", 1e3 * size);
+  size_notes_.push_back("link '" + link.link + "': its geometry is only " + millimetres.data() +
+                        " mm large; is the unit right?");
+}
+
+void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out,
+                         Eigen::AlignedBox3d& without_margin) {
   std::string& source = out.report.sources.emplace_back();
   TriangleMesh mesh;
   try {
@@ -108,6 +132,7 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
     out.report.reason += std::string("; missing: ") + error.what();
     return;
   }
+  without_margin.extend(bounds_of(mesh));
   if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
   if (mesh.triangles.empty())
     throw InputError(source + ": nothing is left of it with a margin of " +
@@ -117,7 +142,8 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
 
 std::vector<std::string> GeometryLoader::notes() const {
   std::vector<std::string> all = locator_.notes();
-  all.insert(all.end(), file_notes_.begin(), file_notes_.end());
+  for (const auto& more : {file_notes_, size_notes_})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

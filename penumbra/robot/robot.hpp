@@ -118,8 +118,9 @@ class Robot {
   [[nodiscard]] std::span<const LinkReport> report() const;
 
   /// What a user should know though nothing is wrong, a line each: where a package was found that
-  /// was not given ("package NAME: taken from ..."), and which links have geometry, but none of the
-  /// chosen kind, and so are not drawn.
+  /// was not given ("package NAME: taken from ..."), what is odd about mesh files, which links are
+  /// so small that their unit is in doubt, and which have geometry, but none of the chosen kind,
+  /// and so are not drawn.
   [[nodiscard]] std::span<const std::string> notes() const;
 
   /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, within

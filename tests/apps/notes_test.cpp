@@ -88,6 +88,36 @@ TEST_F(NotesTest, RawPixelsThatTheLensModelDoesNotReach) {
   EXPECT_GT(Json::parse(rendered.out)["uncovered"], 0) << rendered.out;
 }
 
+TEST_F(NotesTest, LinksThatAreTiny) {
+  edit_file(path("tiny.urdf"), "</robot>",
+            "<link name=\"speck\"><collision><geometry><mesh filename=\"board.stl\" scale=\"0.001 "
+            "0.001 0.001\"/></geometry></collision></link><joint name=\"hold\" "
+            "type=\"fixed\"><parent link=\"board\"/><child link=\"speck\"/></joint></robot>");
+  const std::string words = "link 'speck': its geometry is only 0.4 mm large; is the unit right?";
+  expect_note_of_run(words);
+  expect_note_of_render({}, words);
+  EXPECT_NE(penumbra({"inspect", path("tiny.urdf")}).out.find("note: " + words), std::string::npos);
+}
+
+TEST_F(NotesTest, PartsBeforeTheNearPlane) {
+  edit_file(path("tiny.urdf"), "</robot>",
+            "<link name=\"plate\"><collision><geometry><box size=\"1 1 0.002\"/></geometry>"
+            "</collision></link><joint name=\"hold\" type=\"fixed\"><parent link=\"base\"/><child "
+            "link=\"plate\"/><origin xyz=\"0 0 0.005\"/></joint></robot>");
+  const std::string words = "part of link 'plate' lies within 1 cm of the camera and is not drawn ";
+  expect_note_of_run(words + "in 3 frames");
+  expect_note_of_render({}, words + "in 1 frame");
+  edit_file(path("tiny.urdf"), "0 0 0.005", "0 0 -0.005");
+  expect_note_of_run("");
+}
+
+TEST_F(NotesTest, StampsOfAnotherUnit) {
+  write_file(path("joint_states.csv"),
+             "frame,stamp,slide\n0,1700000000000000,0\n"
+             "1,1700000000033333,0.05\n2,1700000000066667,0.1\n");
+  expect_note_of_run("are stamps in nanoseconds?");
+}
+
 TEST_F(NotesTest, StampsThatDoNotRise) {
   write_file(path("joint_states.csv"), "frame,stamp,slide\n0,7,0.0\n1,7,0.05\n2,6,0.1\n");
   expect_note_of_run("2 stamps not after the frame's before, first in frame 1");

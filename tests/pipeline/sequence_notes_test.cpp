@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -146,16 +148,53 @@ TEST(SequenceNotes, RawPixelsThatTheLensModelDoesNotReachAreTold) {
       << "every rectified image has a rim that the camera did not see";
 }
 
+constexpr std::int64_t ms = 1'000'000;
+
+TEST(SequenceNotes, LinksBeforeTheNearPlaneAreTold) {
+  const Robot any = robot();
+  SequenceNotes notes(any);
+  const std::vector<std::size_t> one = {*any.find_link("a")};
+  const std::vector<std::size_t> two = {*any.find_link("base"), *any.find_link("a")};
+  FrameReport report;
+  for (const auto& near : {std::span<const std::size_t>(one), std::span<const std::size_t>(two),
+                           std::span<const std::size_t>()}) {
+    report.near_links = near;
+    notes.add(report, {});
+  }
+  const std::string why = ": what it hides is labelled as if it were not there";
+  EXPECT_EQ(
+      notes.lines(),
+      (Lines{
+          "part of link 'base' lies within 1 cm of the camera and is not drawn in 1 frame" + why,
+          "part of link 'a' lies within 1 cm of the camera and is not drawn in 2 frames" + why}));
+}
+
 TEST(SequenceNotes, StampsThatDoNotRiseAreTold) {
-  EXPECT_EQ(notes_of_stamps({5, 6, 7}), Lines{});
+  EXPECT_EQ(notes_of_stamps({5 * ms, 6 * ms, 7 * ms}), Lines{});
   EXPECT_EQ(notes_of_stamps({std::nullopt, std::nullopt}), Lines{});
-  EXPECT_EQ(notes_of_stamps({5, 5, 6}),
-            Lines{"1 stamp not after the frame's before, first in frame 11 (5 ns after 5 ns): are "
-                  "frames doubled or out of order?"});
-  EXPECT_EQ(notes_of_stamps({5, 9, std::nullopt, 8, 7}),
-            Lines{"2 stamps not after the frame's before, first in frame 13 (8 ns after 9 ns): are "
-                  "frames doubled or out of order?"})
+  EXPECT_EQ(notes_of_stamps({5 * ms, 5 * ms, 6 * ms}),
+            Lines{"1 stamp not after the frame's before, first in frame 11 (5000000 ns after "
+                  "5000000 ns): are frames doubled or out of order?"});
+  EXPECT_EQ(notes_of_stamps({5 * ms, 9 * ms, std::nullopt, 8 * ms, 7 * ms}),
+            Lines{"2 stamps not after the frame's before, first in frame 13 (8000000 ns after "
+                  "9000000 ns): are frames doubled or out of order?"})
       << "a frame without a stamp is passed over";
+}
+
+TEST(SequenceNotes, StampsOfAnotherUnitAreTold) {
+  const auto expect_asked = [](const Lines& lines, const std::string& longest) {
+    EXPECT_EQ(lines, Lines{"stamps rise by " + longest +
+                           " ns at most from frame to frame: are stamps in nanoseconds?"});
+  };
+  expect_asked(notes_of_stamps({1700000000'000000, 1700000000'033333, 1700000000'066667}), "33334");
+  expect_asked(notes_of_stamps({1700000000'000, std::nullopt, 1700000000'033}), "33");
+  expect_asked(notes_of_stamps({1700000000, 1700000001}), "1");
+  const std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(notes_of_stamps({least, std::numeric_limits<std::int64_t>::max()}), Lines{});
+  EXPECT_EQ(notes_of_stamps({5, 5 + ms, 6 + ms}), Lines{}) << "not throughout";
+  EXPECT_EQ(notes_of_stamps({5}), Lines{});
+  EXPECT_EQ(notes_of_stamps({5, 5}).size(), 1U) << "of frames that are doubled alone";
+  EXPECT_EQ(notes_of_stamps({5, 5, 6}).size(), 2U);
 }
 
 TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
@@ -166,7 +205,7 @@ TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
   waiting[1].wants_stamp = true;
   FrameReport report;
   for (const std::int64_t stamp : {5, 4, 6, 6, 2}) {
-    report.stamp = stamp;
+    report.stamp = stamp * ms;
     report.targets = stamp == 2 ? std::span<const TargetReport>() : plain;
     notes.add(report, {});
   }

@@ -213,6 +213,36 @@ TEST_F(MeshFiles, WhatIsOddIsNotedOnceAFile) {
       holds(robot.notes()[0], "mesh " + file + ": 1 of its 4 vertices are part of no face"));
 }
 
+TEST(Geometry, LinksThatAreTinyAsAWholeAreNoted) {
+  using Notes = std::vector<std::string>;
+  const auto notes_of = [](const std::string& shapes, const RobotOptions& options = {}) {
+    const Robot robot = parse(robot_xml(link_xml("a", shapes)), options);
+    return Notes(robot.notes().begin(), robot.notes().end());
+  };
+  const std::string tiny = collision_xml("<box size=\"0.0009 0.0009 0.0001\"/>");
+  const Notes told{"link 'a': its geometry is only 0.9 mm large; is the unit right?"};
+  EXPECT_EQ(notes_of(tiny), told);
+  EXPECT_EQ(notes_of(tiny + tiny), told);
+  EXPECT_EQ(notes_of(tiny, {.margins = {{"a", 0.01}}}), told) << "a margin is no geometry";
+  EXPECT_EQ(notes_of(tiny + collision_xml("<sphere radius=\"0.1\"/>")), Notes{});
+  EXPECT_EQ(notes_of(tiny + collision_xml("<box size=\"0.0009 0.0009 0.0001\"/>",
+                                          "<origin xyz=\"0 0 0.1\"/>")),
+            Notes{})
+      << "parts that are apart";
+  EXPECT_EQ(notes_of(collision_xml("<box size=\"0.0001 0.0001 0.0021\"/>")), Notes{});
+  EXPECT_EQ(notes_of(tiny, {.geometry = Geometry::collision, .allow_missing_meshes = true}), told);
+}
+
+TEST_F(MeshFiles, LinksThatAreTinyByTheirScaleAreNoted) {
+  const auto urdf = folder_.write(
+      "r.urdf",
+      robot_xml(link_xml("a", collision_xml("<mesh filename=\"meshes/t.stl\" scale=\"1e-20 "
+                                            "1e-20 1e-20\"/>"))));
+  const Robot robot = Robot::load(urdf);
+  ASSERT_EQ(robot.notes().size(), 1U);
+  EXPECT_TRUE(holds(robot.notes()[0], "link 'a': its geometry is only "));
+}
+
 TEST_F(MeshFiles, FolderOrWebAddressIsNoMesh) {
   EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"meshes\""); }), "no file at"));
   EXPECT_TRUE(holds(message_of([&] { (void)load("filename=\"https://x.org/t.stl\""); }),
