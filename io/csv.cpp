@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include <penumbra/base/error.hpp>
+
 #include <io/csv.hpp>
+#include <io/disk_file.hpp>
 #include <io/numbers.hpp>
 
 namespace penumbra::io {
+
+std::string read_csv(const std::filesystem::path& file, std::uint64_t max_bytes) {
+  std::string text = read_text(file, max_bytes);
+  // With a byte order mark, or in its place a first letter of which one byte is 0.
+  const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+                        (text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0'));
+  if (is_utf16)
+    throw InputError(file.string() + ": is UTF-16, two bytes for a letter; save it as UTF-8");
+  return text;
+}
 
 CsvLines::CsvLines(std::string_view text) : rest_(text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";

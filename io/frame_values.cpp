@@ -5,10 +5,10 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/csv.hpp>
-#include <io/disk_file.hpp>
 #include <io/frame_values.hpp>
 #include <io/names.hpp>
 #include <io/numbers.hpp>
+#include <io/printable.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -55,11 +55,11 @@ void ValueTables::Table::read_header(const CsvLines& lines) {
   header = lines.cells();
   header_line = lines.line();
   if (header[0] != "frame")
-    throw InputError(place(lines.line()) + "the first column is '" + std::string(header[0]) +
+    throw InputError(place(lines.line()) + "the first column is '" + printable(header[0]) +
                      "'; the header must be frame,... with commas between");
   for (auto at = header.begin(); at != header.end(); ++at)
     if (std::find(header.begin(), at, *at) != at)
-      throw InputError(place(lines.line()) + "column '" + std::string(*at) +
+      throw InputError(place(lines.line()) + "column '" + printable(*at) +
                        "' is there twice; keep one");
   name_column = find("name");
 }
@@ -68,7 +68,7 @@ void ValueTables::Table::add(const CsvLines& lines) {
   Row row{lines.line(), 0, lines.cells()};
   const auto frame = parse_number<std::int64_t>(row.cells[0]);
   if (!frame || *frame < 0)
-    throw InputError(place(row.line) + "'" + std::string(row.cells[0]) +
+    throw InputError(place(row.line) + "'" + printable(row.cells[0]) +
                      "' is no frame number; a whole number from 0 is wanted");
   row.frame = *frame;
   if (name_column && *name_column >= row.cells.size())
@@ -86,7 +86,7 @@ const ValueTables::Table& ValueTables::read(const std::filesystem::path& file) {
   entry->second = std::make_unique<Table>();
   Table& table = *entry->second;
   table.file = file;
-  table.text = read_text(file, max_table_bytes);
+  table.text = read_csv(file, max_table_bytes);
   CsvLines lines(table.text);
   if (!lines.next()) throw InputError(file.string() + ": is empty; a header frame,... is wanted");
   table.read_header(lines);
@@ -125,8 +125,8 @@ ValueColumns columns_of(const ValueTables::Table& table, const ValueFormat& form
   known.insert(known.end(), format.optional_columns.begin(), format.optional_columns.end());
   for (const std::string_view name : table.header)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(table.place(table.header_line) + "unknown column '" + std::string(name) +
-                       "'" + near_names(name, known));
+      throw InputError(table.place(table.header_line) + "unknown column '" + printable(name) + "'" +
+                       near_names(name, known));
   return columns;
 }
 
@@ -135,8 +135,8 @@ T cell(const ValueTables::Table& table, const ValueTables::Table::Row& row, std:
   const std::string_view text = row.cells[column];
   if (const auto value = parse_number<T>(text)) return *value;
   throw InputError(
-      "column '" + std::string(table.header[column]) + "' " +
-      (text.empty() ? "is empty" : "is '" + std::string(text) + "'") +
+      "column '" + printable(table.header[column]) + "' " +
+      (text.empty() ? "is empty" : "is '" + printable(text) + "'") +
       (std::is_integral_v<T> ? "; whole nanoseconds are wanted" : "; a finite number is wanted"));
 }
 

@@ -7,10 +7,10 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/csv.hpp>
-#include <io/disk_file.hpp>
 #include <io/joint_file.hpp>
 #include <io/names.hpp>
 #include <io/numbers.hpp>
+#include <io/printable.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -32,14 +32,14 @@ bool is_mimic(const Robot& robot, std::string_view name) {
 void check_known(const Robot& robot, std::string_view name, const std::string& place) {
   if (robot.find_variable(name) || is_mimic(robot, name)) return;
   const std::vector<std::string_view> known(robot.variables().begin(), robot.variables().end());
-  throw InputError(place + "column '" + std::string(name) +
-                   "' is no joint of the robot that moves" + near_names(name, known));
+  throw InputError(place + "column '" + printable(name) + "' is no joint of the robot that moves" +
+                   near_names(name, known));
 }
 
 Columns read_header(const std::vector<std::string_view>& cells, const Robot& robot,
                     const std::string& place) {
   if (cells[0] != "frame")
-    throw InputError(place + "the first column is '" + std::string(cells[0]) +
+    throw InputError(place + "the first column is '" + printable(cells[0]) +
                      "'; the header must be frame,[stamp,]JOINT,... with commas between");
   Columns columns{{cells.begin(), cells.end()}, {}, cells.size() > 1 && cells[1] == "stamp"};
   columns.variables.resize(cells.size());
@@ -47,7 +47,7 @@ Columns read_header(const std::vector<std::string_view>& cells, const Robot& rob
     check_known(robot, cells[i], place);
     if (std::find(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(i), cells[i]) !=
         cells.begin() + static_cast<std::ptrdiff_t>(i))
-      throw InputError(place + "column '" + std::string(cells[i]) + "' is there twice; keep one");
+      throw InputError(place + "column '" + printable(cells[i]) + "' is there twice; keep one");
     columns.variables[i] = robot.find_variable(cells[i]);
   }
   for (std::size_t v = 0; v < robot.variables().size(); ++v)
@@ -64,7 +64,7 @@ void check_stamp(const Columns& columns, const std::vector<std::string_view>& ce
   if (!columns.has_stamp || cells.size() < 2) return;
   const auto stamp = parse_number<std::int64_t>(cells[1]);
   if (stamp && *stamp < 0)
-    throw InputError(place + "stamp " + std::string(cells[1]) +
+    throw InputError(place + "stamp " + printable(cells[1]) +
                      " is negative; nanoseconds from 0 are wanted");
 }
 
@@ -76,8 +76,7 @@ std::string read_values(const Columns& columns, const std::vector<std::string_vi
            std::to_string(columns.names.size());
   if (columns.has_stamp) {
     row.stamp = parse_number<std::int64_t>(cells[1]);
-    if (!row.stamp)
-      return "stamp '" + std::string(cells[1]) + "' is no whole number of nanoseconds";
+    if (!row.stamp) return "stamp '" + printable(cells[1]) + "' is no whole number of nanoseconds";
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!columns.variables[i]) continue;
@@ -85,7 +84,7 @@ std::string read_values(const Columns& columns, const std::vector<std::string_vi
     if (!value)
       return "column '" + columns.names[i] + "' " +
              (cells[i].empty() ? "is empty"
-                               : "is '" + std::string(cells[i]) + "', which is no finite number");
+                               : "is '" + printable(cells[i]) + "', which is no finite number");
     row.positions[*columns.variables[i]] = *value;
   }
   return {};
@@ -94,7 +93,7 @@ std::string read_values(const Columns& columns, const std::vector<std::string_vi
 }  // namespace
 
 std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const Robot& robot) {
-  const std::string text = read_text(file, max_joint_bytes);
+  const std::string text = read_csv(file, max_joint_bytes);
   const auto place = [&](std::size_t line) {
     return file.string() + ":" + std::to_string(line) + ": ";
   };
@@ -109,7 +108,7 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     JointRow row;
     const auto index = parse_number<std::int64_t>(lines.cells()[0]);
     if (!index || *index < 0)
-      throw InputError(place(lines.line()) + "'" + std::string(lines.cells()[0]) +
+      throw InputError(place(lines.line()) + "'" + printable(lines.cells()[0]) +
                        "' is no frame number; a whole number from 0 is wanted");
     row.index = *index;
     const auto [first, is_new] = line_of_frame.emplace(row.index, lines.line());

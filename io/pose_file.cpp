@@ -6,9 +6,9 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/csv.hpp>
-#include <io/disk_file.hpp>
 #include <io/numbers.hpp>
 #include <io/pose_file.hpp>
+#include <io/printable.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::uint64_t max_bytes = 1 << 16;
 constexpr std::string_view rows_wanted = "four rows of four comma-separated numbers are wanted";
 
 Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
-  const std::string text = read_text(file, max_bytes);
+  const std::string text = read_csv(file, max_bytes);
   Eigen::Matrix4d matrix;
   CsvLines lines(text);
   int row = 0;
@@ -33,7 +33,7 @@ Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
       const std::string_view cell = lines.cells()[static_cast<std::size_t>(column)];
       const auto value = parse_number<double>(cell);
       if (!value)
-        throw InputError(place + "'" + std::string(cell) + "' is no finite number; " +
+        throw InputError(place + "'" + printable(cell) + "' is no finite number; " +
                          std::string(rows_wanted));
       matrix(row, column) = *value;
     }

@@ -11,6 +11,7 @@
 #include <io/disk_file.hpp>
 #include <io/names.hpp>
 #include <io/numbers.hpp>
+#include <io/printable.hpp>
 #include <io/yaml.hpp>
 
 namespace penumbra::io {
@@ -156,7 +157,7 @@ std::vector<YamlNode> YamlNode::parse_all(const std::string& text,
     if (documents.empty()) YamlBuilder(file).root().fail("is empty");
   } catch (const YAML::Exception& fault) {
     throw InputError(file.string() + ":" + std::to_string(fault.mark.line + 1) +
-                     ": is not YAML: " + fault.msg);
+                     ": is not YAML: " + printable(fault.msg));
   }
   return documents;
 }

@@ -76,6 +76,15 @@ void check_own(const std::string& option, const std::filesystem::path& file,
   }
 }
 
+/// A picture's name must not stand for what is none.
+void check_ending(const std::string& option, const std::filesystem::path& file,
+                  const std::string& ending, const std::string& content) {
+  if (file.extension() == ending) return;
+  std::string message = option + ": " + file.string();
+  message += ": " + content + " would be written; name a file that ends in " + ending;
+  throw InputError(message);
+}
+
 /// What an earlier call wrote must not be taken for this one's, should it fail.
 void remove_former_files(const RenderArguments& arguments) {
   std::vector<std::pair<std::string, std::filesystem::path>> others = {
@@ -85,6 +94,8 @@ void remove_former_files(const RenderArguments& arguments) {
   check_own("-o", arguments.output, others);
   others.emplace_back("-o", arguments.output);
   if (arguments.links) check_own("--links", *arguments.links, others);
+  check_ending("-o", arguments.output, ".npy", "NumPy's format (float32 metres)");
+  if (arguments.links) check_ending("--links", *arguments.links, ".png", "a 16-bit PNG");
   remove_former_file("-o", arguments.output);
   if (arguments.links) remove_former_file("--links", *arguments.links);
 }
@@ -122,19 +133,19 @@ void print_text(const RenderArguments& arguments, const io::RenderResult& result
 int execute(const RenderArguments& arguments) {
   remove_former_files(arguments);
   Robot robot = Robot::load(arguments.robot, arguments.options);
-  tell_notes(robot.notes());
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
-  tell_choice(pipeline.renderer_choice());
-  std::vector<std::string> notes = notes_of(pipeline);
-  const std::size_t told = notes.size();
-  append(notes, rest_notes(pipeline.robot(), arguments));
 
   // Any depth will do: nothing of what is written comes of it.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
   const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
   write_images(arguments, first);
+  tell_notes(pipeline.robot().notes());
+  tell_choice(pipeline.renderer_choice());
+  std::vector<std::string> notes = notes_of(pipeline);
+  const std::size_t told = notes.size();
+  append(notes, rest_notes(pipeline.robot(), arguments));
   SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
   append(notes, doubts.lines());

@@ -167,7 +167,6 @@ LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
 int execute(const RunArguments& arguments) {
   clear_output(arguments);
   RunInput input = open_input(arguments);
-  tell_notes(input.robot.notes());
   const Camera camera = camera_of_report(arguments, input.camera);
   auto targets = open_targets(arguments, input, camera);
   Pipeline pipeline =
@@ -207,6 +206,7 @@ int execute(const RunArguments& arguments) {
   std::vector<std::string> late_notes = notes_of_frames(*source, doubts, watch, lost);
   for (std::string& note : output->notes()) late_notes.push_back(std::move(note));
   output->finish(statistics, late_notes);
+  if (statistics.usable_frames() > 0) tell_notes(pipeline.robot().notes());
   tell_faults(statistics, color);
   tell_notes(late_notes);
   tell_summary(statistics, output->where());

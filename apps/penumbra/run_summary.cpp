@@ -23,11 +23,16 @@ std::string percent(std::size_t part, std::size_t whole) {
              : fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
 }
 
+/// None where no frame was usable: why not is said already.
+std::span<const TargetStatistics> judged_targets(const Statistics& statistics) {
+  if (statistics.usable_frames() == 0) return {};
+  return statistics.targets();
+}
+
 /// A line for each target; of very many, for the first.
 void tell_targets(const Statistics& statistics) {
-  const auto& targets = statistics.targets();
-  for (const TargetStatistics& target :
-       std::span(targets).first(std::min(most_targets, targets.size())))
+  const auto targets = judged_targets(statistics);
+  for (const TargetStatistics& target : targets.first(std::min(most_targets, targets.size())))
     std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
               << " frames visible, " << target.frames(Verdict::partial) << " partial, "
               << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
@@ -47,7 +52,7 @@ void tell_faults(const Statistics& statistics, const ColorFaults& color) {
               << ", first in frame " << fault.reasons.front().first << ": "
               << fault.reasons.front().message << more_reasons(fault) << '\n';
   std::size_t told = 0;
-  for (const TargetStatistics& target : statistics.targets())
+  for (const TargetStatistics& target : judged_targets(statistics))
     if (target.frames(Verdict::unknown) > 0 && ++told <= most_targets)
       std::cerr << "penumbra: target '" << target.name << "' unknown in "
                 << frames(target.frames(Verdict::unknown)) << ", first in frame "

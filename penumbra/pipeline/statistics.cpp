@@ -1,10 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <penumbra/pipeline/statistics.hpp>
 
 namespace penumbra {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view take_word(std::string_view& text) {
+  const std::size_t end = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return word;
+}
+
+/// A file's name, or a place before what is said of it: "depth/12.png:", "joints.csv:7:".
+bool is_place(std::string_view word) {
+  return word.find('/') != std::string_view::npos || word.ends_with(':');
+}
+
+bool is_same_without_digits(std::string_view a, std::string_view b) {
+  const auto skip = [](std::string_view text, std::size_t i) {
+    while (i < text.size() && is_digit(text[i])) ++i;
+    return i;
+  };
+  for (std::size_t i = 0, j = 0;; ++i, ++j) {
+    i = skip(a, i);
+    j = skip(b, j);
+    if (i == a.size() || j == b.size()) return i == a.size() && j == b.size();
+    if (a[i] != b[j]) return false;
+  }
+}
+
+/// Whether two messages say the same, of other files, lines or frames perhaps.
+bool is_same_reason(std::string_view a, std::string_view b) {
+  for (std::string_view before; !a.empty() && !b.empty();) {
+    const std::string_view word = take_word(a);
+    const std::string_view other = take_word(b);
+    const bool may_differ = before == "frame" || (is_place(word) && is_place(other));
+    if (word != other && !(may_differ && is_same_without_digits(word, other))) return false;
+    before = word;
+  }
+  return a.empty() && b.empty();
+}
+
+}  // namespace
 
 std::optional<Quantiles> quantiles(std::vector<double> samples) {
   if (samples.empty()) return std::nullopt;
@@ -63,7 +106,7 @@ void Statistics::add_fault(const FrameReport& report) {
 
   std::vector<Reason>& reasons = fault->reasons;
   const auto reason = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& known) {
-    return known.message == report.message;
+    return is_same_reason(known.message, report.message);
   });
   if (reason != reasons.end())
     ++reason->frames;

@@ -31,9 +31,10 @@ inline constexpr std::array stages = {
     Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
     Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
 
-/// What was said of frames, and of how many.
+/// What was said of frames, and of how many. Messages that differ in the numbers of files, lines
+/// and frames alone are one reason.
 struct Reason {
-  std::string message;
+  std::string message;  ///< the first frame's
   std::size_t frames = 0;
   std::size_t first = 0;  ///< index of its first frame
 };

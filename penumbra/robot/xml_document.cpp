@@ -51,7 +51,9 @@ XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file
 void check_start(std::string_view xml, const std::string& file) {
   if (trimmed(xml).empty()) throw InputError(file + ": is empty; a URDF file is expected");
   if (xml.find('\0') != std::string_view::npos)
-    throw InputError(file + ": is not text in UTF-8 (it holds zero bytes); a URDF is expected");
+    throw InputError(file +
+                     ": is not text in UTF-8 (it holds zero bytes, as UTF-16 does); a URDF " +
+                     "in UTF-8 is expected");
   const bool marked = xml.starts_with("\xEF\xBB\xBF");
   if (!trimmed(xml.substr(marked ? 3 : 0)).starts_with('<'))
     throw InputError(file + ": is not XML (it does not start with '<'); a URDF is expected");

@@ -108,6 +108,13 @@ std::vector<BadInput> bad_robots() {
   };
 }
 
+/// ASCII as a Windows editor saves it, with a byte order mark or without.
+std::string utf16(const std::string& text, bool with_mark) {
+  std::string bytes = with_mark ? "\xFF\xFE" : "";
+  for (const char c : text) bytes.append({c, '\0'});
+  return bytes;
+}
+
 std::vector<BadInput> bad_recordings() {
   return {
       {"NoFolder", [](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
@@ -156,6 +163,21 @@ std::vector<BadInput> bad_recordings() {
       {"JointNoNumber",
        replace("joint_states.csv", "frame,slide\n0,far\n1,near\n"),
        {"joint_states.csv", "far"}},
+      {"JointsWithZeroByte",
+       replace("joint_states.csv", std::string("frame,slide\n0,0.1\n\0", 19)),
+       {"joint_states.csv:3", "'?'"}},
+      {"JointsWithForeignBytes",
+       replace("joint_states.csv", "frame,slide\n0,0.1\xFF\x1B[31m\n"),
+       {"'0.1??[31m'"}},
+      {"JointsInUtf16",
+       replace("joint_states.csv", utf16("frame,slide\n0,0.1\n", true)),
+       {"joint_states.csv: is UTF-16", "UTF-8"}},
+      {"PoseInUtf16",
+       replace("camera_pose.csv", utf16("1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n", false)),
+       {"camera_pose.csv: is UTF-16", "UTF-8"}},
+      {"UrdfInUtf16",
+       replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)),
+       {"tiny.urdf", "UTF-16"}},
       {"JointNan", replace("joint_states.csv", "frame,slide\n0,nan\n"), {"joint_states.csv"}},
       {"DepthMissing",
        [](const fs::path& folder) {
@@ -164,6 +186,13 @@ std::vector<BadInput> bad_recordings() {
        },
        {"missing_depth", "depth_0.png"}},
       {"DepthOfAnotherSize", every_depth<std::uint16_t>(65, 48, 900), {"bad_depth", "depth_0.png"}},
+      {"WidthAndHeightSwapped",
+       [](const fs::path& folder) {
+         edit_file(folder / "camera_info.yaml", "width: 64\nheight: 48", "width: 48\nheight: 64");
+         edit_file(folder / "recording.yaml", "frames:", "targets: targets.yaml\nframes:");
+         write_file(folder / "targets.yaml", "targets:\n  - {name: a, box: [9, 9, 9, 9]}\n");
+       },
+       {"bad_depth in 3 of 3 frames", "48 x 64\n"}},
       {"DepthOf8Bit", every_depth<std::uint8_t>(64, 48, 90), {"bad_depth", "depth_0.png"}},
       {"ColorAsDepth", every_depth<io::Rgb8>(64, 48, {1, 2, 3}), {"bad_depth", "depth_0.png"}},
   };

@@ -120,6 +120,43 @@ TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {
   EXPECT_NE(outcome.err.find("nowhere"), std::string::npos) << outcome.err;
 }
 
+TEST_F(RenderTest, RefusesNamesOfOtherFormats) {
+  const fs::path picture = folder_.path() / "v.png";
+  write_file(picture, "kept");
+  for (const char* name : {"v.png", "v", "npy", "v.npy.png"})
+    expect_refused(penumbra({"render", "--robot", folder_.path() / "tiny.urdf", "--camera",
+                             folder_.path() / "camera_info.yaml", "--pose",
+                             folder_.path() / "camera_pose.csv", "-o", folder_.path() / name}),
+                   "name a file that ends in .npy");
+  EXPECT_EQ(read_file(picture), "kept");
+  expect_refused(render({"--links", folder_.path() / "links.npy"}), "ends in .png");
+}
+
+TEST_F(RenderTest, TellsNotesOnlyOfWhatItDrew) {
+  fs::create_directory(folder_.path() / "boards");
+  write_file(folder_.path() / "boards/package.xml", "<package><name>boards</name></package>");
+  fs::rename(folder_.path() / "board.stl", folder_.path() / "boards/board.stl");
+  edit_file(folder_.path() / "tiny.urdf", "board.stl", "package://boards/board.stl");
+  edit_file(folder_.path() / "tiny.urdf", "</robot>",
+            "<link name=\"tip\"/><joint name=\"mimic\" type=\"prismatic\"><parent "
+            "link=\"board\"/><child link=\"tip\"/><mimic joint=\"slide\"/><limit lower=\"-1\" "
+            "upper=\"1\" effort=\"1\" velocity=\"1\"/></joint></robot>");
+  const Outcome drawn = render({});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.err.find("note: package boards: taken from"), std::string::npos) << drawn.err;
+  fs::remove(folder_.path() / "vdi.npy");
+  expect_refused(render({"--joint", "mimic=0.01"}), "mimic");
+  expect_refused(render({"--joint", "slide=1", "--joint", "slide=2"}), "twice");
+  expect_refused(render({"--parent", "foo"}), "foo");
+  expect_refused(render({"--joint", "slide=-1"}), "ignore_links");
+  const auto run = [&] { return penumbra({"run", folder_.path(), "-o", folder_.path() / "out"}); };
+  EXPECT_NE(run().err.find("note: package boards: taken from"), std::string::npos) << run().err;
+  edit_file(folder_.path() / "camera_info.yaml", "width: 64\nheight: 48", "width: 48\nheight: 64");
+  const Outcome ran = run();
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(count_lines(ran.err), 1U) << ran.err;
+}
+
 TEST_F(RenderTest, RefusesEmptyNamesAndFolders) {
   expect_refused(render({"--links", ""}), "--links: '' is not a path");
   fs::create_directory(folder_.path() / "links.png");

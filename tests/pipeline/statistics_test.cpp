@@ -36,7 +36,7 @@ TEST(Statistics, CountsFaultsByKind) {
     report = {};
     report.index = index;
     report.status = FrameStatus::missing_joints;
-    report.message = "frame " + std::to_string(index);
+    report.message = "reason " + std::to_string(index);
     report.pixels.unknown = 100;
     statistics.add(report);
   }
@@ -47,7 +47,7 @@ TEST(Statistics, CountsFaultsByKind) {
   EXPECT_EQ(statistics.faults()[0].frames, 2U);
   ASSERT_EQ(statistics.faults()[0].reasons.size(), 2U);
   EXPECT_EQ(statistics.faults()[0].reasons[0].first, 5U);
-  EXPECT_EQ(statistics.faults()[0].reasons[0].message, "frame 5");
+  EXPECT_EQ(statistics.faults()[0].reasons[0].message, "reason 5");
   EXPECT_EQ(statistics.pixels().robot, 10U);
   EXPECT_EQ(statistics.pixels().unknown, 200U);
   EXPECT_EQ(statistics.timing(1)->max, 0.5);
@@ -79,6 +79,34 @@ TEST(Statistics, KeepsEveryReasonUpToABound) {
   for (const Reason& reason : fault.reasons) told += reason.frames;
   EXPECT_EQ(told + fault.other_reasons, fault.frames);
   EXPECT_EQ(fault.frames, 103U);
+}
+
+TEST(Statistics, ReasonsThatDifferInTheirFileAreOne) {
+  const auto reasons_of = [](const std::vector<std::string>& messages) {
+    Statistics statistics;
+    FrameReport report;
+    report.status = FrameStatus::bad_depth;
+    for (const std::string& message : messages) {
+      report.message = message;
+      statistics.add(report);
+    }
+    return statistics.faults().at(0).reasons;
+  };
+  const auto depth = reasons_of({"r/depth/9.png: has 64 x 48 pixels; the camera has 48 x 64",
+                                 "r/depth/10.png: has 64 x 48 pixels; the camera has 48 x 64",
+                                 "r/depth/11.png: has 65 x 48 pixels; the camera has 48 x 64"});
+  ASSERT_EQ(depth.size(), 2U) << "another size is another reason";
+  EXPECT_EQ(depth[0].frames, 2U);
+  EXPECT_EQ(depth[0].message, "r/depth/9.png: has 64 x 48 pixels; the camera has 48 x 64");
+  EXPECT_EQ(reasons_of({"joints.csv:9: frame 7: column 'a' is empty",
+                        "joints.csv:10: frame 8: column 'a' is empty"})
+                .size(),
+            1U);
+  EXPECT_EQ(reasons_of({"j.csv has no row for frame 9", "j.csv has no row for frame 10"}).size(),
+            1U);
+  EXPECT_EQ(reasons_of({"a/1.png: is no PNG", "a/1.jpg: is no PNG"}).size(), 2U);
+  EXPECT_EQ(reasons_of({"a/1.png: is no PNG", "a/2.png: is no PNG at all"}).size(), 2U);
+  EXPECT_EQ(reasons_of({"joint 'a1' is missing", "joint 'a2' is missing"}).size(), 2U);
 }
 
 }  // namespace
