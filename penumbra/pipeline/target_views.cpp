@@ -13,7 +13,7 @@
 namespace penumbra {
 namespace {
 
-std::string written(double value) {
+std::string printed_score(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
@@ -80,7 +80,8 @@ struct TargetViews::Builder {
 
   bool operator()(const KeypointTarget& target) {
     if (!(target.score >= target.min_score))  // also NaN
-      throw InputError("score " + written(target.score) + " is below " + written(target.min_score));
+      throw InputError("score " + printed_score(target.score) + " is below " +
+                       printed_score(target.min_score));
     view.expected_depth = target.expected_depth;
     view.point_pixel = target.pixel;
     PixelEllipse ellipse{target.pixel, target.semi_axes, target.angle};
