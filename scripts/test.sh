@@ -134,17 +134,19 @@ if $full; then
     echo "== benchmarks run: skipped: no data"
   fi
 fi
+# A whole recording, made again: minutes without a sanitizer, and no code of its own.
+made_again='^Example[.]IsReproducible$'
 if check "build (asan)" build asan all "${sanitizer_scope[@]}" "-DPENUMBRA_SANITIZE=address,$undefined"; then
   # Threads are ThreadSanitizer's; more meshes of the same robots, scenes through OpenGL beside its
   # own tests, and narrower vectors say no more.
   scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
   many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
   many+='|cpu_SSE4|RenderersAreMadeAndDropped|RenderersMadeAndDropped|OffsetGrid.RealLinks'
-  if $full; then many='^$'; fi
+  if $full; then many=$made_again; fi
   run_tests asan -E "$many"
 fi
 if $full; then
-  check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan
+  check "build (tsan)" build tsan all "${sanitizer_scope[@]}" && run_tests tsan -E "$made_again"
 else
   # Where one thread of ours runs there is no race to find; one robot's threads are like another's.
   one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest|Isas[.]'
