@@ -251,7 +251,7 @@ class Live {
       }));
       sinks.push_back(results_.back().get());
     }
-    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), std::move(sinks));
+    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
     subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
   }
 

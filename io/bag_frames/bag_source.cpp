@@ -321,7 +321,8 @@ void BagSource::show_color(std::int64_t stamp, FrameData& data) {
 std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = inbox_.notes();
   const std::string& bag = inbox_.name();
-  for (const std::string& refusal : refusals_of(history_)) lines.push_back(bag + ": " + refusal);
+  for (const std::string& refusal : refusals_of(history_))
+    lines.push_back(std::string(bag).append(": ").append(refusal));
   if (targets_.waiting() > 0)
     lines.push_back(bag + ": " + std::to_string(targets_.waiting()) +
                     " targets came after the last frame and are not judged");

@@ -23,7 +23,7 @@ std::int64_t LiveRunner::steady_now() { return nanoseconds_of<std::chrono::stead
 std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::system_clock>(); }
 
 LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
-                       std::vector<ResultSink*> sinks)
+                       const std::vector<ResultSink*>& sinks)
     : inbox_(options) {
   for (ResultSink* sink : sinks) {
     CameraThread& camera = cameras_.emplace_back();

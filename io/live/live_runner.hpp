@@ -29,7 +29,7 @@ class LiveRunner {
  public:
   /// `sinks`: one for each camera, which must outlive this. Throws as LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
-             std::vector<ResultSink*> sinks);
+             const std::vector<ResultSink*>& sinks);
   ~LiveRunner() { stop(); }
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
