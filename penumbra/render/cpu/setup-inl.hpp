@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include <penumbra/render/cpu/kernel.hpp>
 #include <penumbra/render/cpu/pieces-inl.hpp>
+#include <penumbra/render/cpu/sliver-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
@@ -64,6 +66,9 @@ struct EdgeFunction {
   VF base, du, dv;
 };
 
+constexpr float edge_margin = 48.0F;  // pixels
+constexpr float edge_rounding = 0x1p-21F;
+
 /// The edge from p to q. Its bias exceeds the rounding of its value at any pixel: some six
 /// roundings (2^-24 each) of terms over the whole triangle, unclipped, and a dozen over the last 32
 /// pixels.
@@ -71,10 +76,10 @@ HWY_INLINE EdgeFunction MakeEdge(VF pu, VF pv, VF qu, VF qv, const Boxes& b) {
   EdgeFunction e;
   e.du = hn::Sub(qv, pv);
   e.dv = hn::Sub(pu, qu);
-  const auto margin = hn::Set(df, 48.0F);
+  const auto margin = hn::Set(df, edge_margin);
   const auto terms = hn::MulAdd(hn::Abs(e.du), hn::Add(b.width_px, margin),
                                 hn::Mul(hn::Abs(e.dv), hn::Add(b.height_px, margin)));
-  const auto bias = hn::Mul(terms, hn::Set(df, 0x1p-21F));
+  const auto bias = hn::Mul(terms, hn::Set(df, edge_rounding));
   e.base = hn::MulAdd(e.du, hn::Sub(b.first_u, pu), hn::MulAdd(e.dv, hn::Sub(b.first_v, pv), bias));
   return e;
 }
@@ -130,6 +135,80 @@ HWY_INLINE DepthPlanes MakeDepthPlanes(const FrameContext& frame, const Scratch&
   return {hn::Load(df, base.data()), hn::Load(df, du.data()), hn::Load(df, dv.data())};
 }
 
+/// Twice the bound of the edge functions' biases: one that is b lets a corner's weight fall to -b /
+/// area, and two may do so.
+HWY_INLINE VF TwoBiases(const Boxes& b) {
+  const auto margin = hn::Set(df, edge_margin);
+  const auto terms = hn::MulAdd(b.width_px, hn::Add(b.height_px, margin),
+                                hn::Mul(b.height_px, hn::Add(b.width_px, margin)));
+  return hn::Mul(terms, hn::Set(df, 2.0F * edge_rounding));
+}
+
+// Triangles are slivers where the biases reach further than this beyond them, or to depths of
+// which 1/z exceeds theirs by more than a share. Both at the worst: roundings seldom add up.
+constexpr float sliver_reach = 0.5F;  // pixels
+constexpr float sliver_excess = 1e-3F;
+
+HWY_INLINE VF TwiceArea(const EdgeFunction& first, const EdgeFunction& last) {
+  return hn::MulSub(first.du, last.dv, hn::Mul(first.dv, last.du));
+}
+
+/// Which triangles are surely no slivers. None of no area is.
+HWY_INLINE hn::Mask<DF> AreTame(const std::array<VF, 6>& p, const Boxes& b, VF area,
+                                const DepthPlanes& z) {
+  const auto range = hn::MulAdd(hn::Abs(z.du), b.width_px, hn::Mul(hn::Abs(z.dv), b.height_px));
+  const auto corner = hn::MulAdd(z.du, hn::Sub(p[0], b.first_u),
+                                 hn::MulAdd(z.dv, hn::Sub(p[1], b.first_v), z.base));
+  const auto half = hn::Mul(corner, hn::Set(df, 0.5F));  // less than any where the range is less
+  const auto length = hn::Max(b.width_px, b.height_px);
+  const auto beyond = hn::Max(hn::Mul(range, hn::Set(df, 1.0F / sliver_excess)),
+                              hn::Mul(hn::Mul(length, half), hn::Set(df, 1.0F / sliver_reach)));
+  return hn::And(hn::Gt(half, range), hn::Gt(hn::Mul(area, half), hn::Mul(TwoBiases(b), beyond)));
+}
+
+/// Which triangles are slivers.
+HWY_INLINE hn::Mask<DF> AreSlivers(const std::array<VF, 6>& p, const Boxes& b, VF area,
+                                   const DepthPlanes& z) {
+  constexpr float thin = 4.0F;              // pixels
+  constexpr float excess_of_thick = 0.25F;  // to whom a hundredth of a pixel makes more difference
+  const auto depth_at = [&](VF u, VF v) HWY_ATTR {
+    return hn::MulAdd(z.du, hn::Sub(u, b.first_u), hn::MulAdd(z.dv, hn::Sub(v, b.first_v), z.base));
+  };
+  const auto d0 = depth_at(p[0], p[1]);
+  const auto d1 = depth_at(p[2], p[3]);
+  const auto d2 = depth_at(p[4], p[5]);
+  const auto least = hn::Min(hn::Min(d0, d1), d2);
+  const auto range = hn::Sub(hn::Max(hn::Max(d0, d1), d2), least);
+  const auto length = hn::Max(b.width_px, b.height_px);
+  const auto is_thin = hn::Lt(area, hn::Mul(length, hn::Set(df, thin)));
+  const auto excess =
+      hn::IfThenElse(is_thin, hn::Set(df, sliver_excess), hn::Set(df, excess_of_thick));
+  const auto biases = TwoBiases(b);
+  const auto fit =
+      hn::And(hn::Gt(hn::Mul(area, hn::Set(df, sliver_reach)), hn::Mul(biases, length)),
+              hn::Ge(hn::Mul(area, hn::Mul(least, excess)), hn::Mul(biases, range)));
+  return hn::Not(fit);
+}
+
+/// Draws the slivers among up to kStep survivors, and has their records, of which `base` are the
+/// first values, draw nothing. It makes all from the beginning: only few come here, and what SetUp
+/// would hand over would be kept in memory for all.
+HWY_NOINLINE void TakeOutSlivers(const FrameContext& frame, std::size_t start, std::size_t count,
+                                 const Scratch& s, const Target& target, float* base) {
+  std::array<VF, 6> p;
+  for (std::size_t j = 0; j < p.size(); ++j) p[j] = hn::LoadU(df, &s.survivor_pixels[j][start]);
+  const Boxes b = BoundBlocks(p, frame.view->intrinsics, target.lanes_per_row);
+  const EdgeFunction first = MakeEdge(p[0], p[1], p[2], p[3], b);
+  const EdgeFunction last = MakeEdge(p[4], p[5], p[0], p[1], b);
+  const DepthPlanes z = MakeDepthPlanes(frame, s, start, count, b);
+  std::uint32_t bits = Bits(AreSlivers(p, b, TwiceArea(first, last), z)) & ((1U << count) - 1);
+  for (; bits != 0; bits &= bits - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+    base[4 * i] = -1e20F;
+    DrawSliver(frame, s, start + i, target);
+  }
+}
+
 /// Makes records of up to kStep survivors and sorts them into the bins.
 void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scratch& s,
            const Target& target) {
@@ -140,6 +219,7 @@ void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scra
   const EdgeFunction e1 = MakeEdge(p[2], p[3], p[4], p[5], b);
   const EdgeFunction e2 = MakeEdge(p[4], p[5], p[0], p[1], b);
   const DepthPlanes z = MakeDepthPlanes(frame, s, start, count, b);
+  const std::uint32_t tame = Bits(AreTame(p, b, TwiceArea(e0, e2), z));
   const auto as_float = [](VI v) HWY_ATTR { return hn::BitCast(df, v); };
   HWY_ALIGN float base[4 * kStep];
   HWY_ALIGN float du[4 * kStep];
@@ -152,6 +232,9 @@ void SetUp(const FrameContext& frame, std::size_t start, std::size_t count, Scra
   hn::StoreInterleaved4(as_float(b.offset), as_float(hn::Set(di, frame.bodies[s.survivor_body].id)),
                         as_float(b.width), as_float(b.height), df, rest);
   hn::Store(b.bin, di, bin);
+  if (HWY_UNLIKELY((~tame & ((1U << count) - 1)) != 0)) {
+    TakeOutSlivers(frame, start, count, s, target, base);
+  }
   const hn::Full128<float> quartet;
   for (std::size_t i = 0; i < count; ++i) {
     const auto which = static_cast<std::size_t>(bin[i]);
