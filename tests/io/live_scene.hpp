@@ -44,8 +44,10 @@ inline constexpr const char* live_urdf = R"(<robot name="tiny">
 /// How far the board has turned at a stamp, radians: evenly, so that what lies between two states
 /// is known, and by a pixel at its rim in some 20 ms.
 inline double spin_at(std::int64_t stamp) {
-  constexpr double speed = 3.0;  // radians per second
-  return std::remainder(speed * 1e-9 * static_cast<double>(stamp), 2 * std::numbers::pi);
+  constexpr std::int64_t turn = 2 * seconds;
+  // Whole turns go first: of the nanoseconds since 1970 a double would lose some hundred.
+  const double part = static_cast<double>(stamp % turn) / static_cast<double>(turn);
+  return std::remainder(2 * std::numbers::pi * part, 2 * std::numbers::pi);
 }
 
 inline io::CameraInfoMessage live_info(std::int64_t stamp, double focal = 60.0) {
