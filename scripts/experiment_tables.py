@@ -6,6 +6,7 @@ experiment_tables.py METRICS.json...: prints them, and the figures that README.m
 experiment_tables.py --into docs/experiments.md METRICS.json...: replaces what stands between
 "<!-- begin NAME -->" and "<!-- end NAME -->" there.
 """
+import argparse
 import json
 import pathlib
 import re
@@ -67,15 +68,23 @@ def told(metrics):
         yield f"{method}: " + ", ".join(f'{key} {summary[key]["value"]:.2f}' for key in keys)
 
 
-def main(arguments):
-    page = None
-    if arguments[:1] == ["--into"] and len(arguments) > 1:
-        page, arguments = pathlib.Path(arguments[1]), arguments[2:]
-    if not arguments:
-        sys.exit(__doc__)
+def read_metrics(name):
+    try:
+        return json.loads(name.read_text())
+    except (OSError, ValueError) as fault:
+        sys.exit(f"{name}: no metrics.json of an experiment: {fault}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("metrics", nargs="+", type=pathlib.Path, metavar="METRICS.json")
+    parser.add_argument("--into", type=pathlib.Path, metavar="PAGE.md")
+    arguments = parser.parse_args()
+    page = arguments.into
     text = page.read_text() if page else None
-    for name in arguments:
-        metrics = json.loads(pathlib.Path(name).read_text())
+    for name in arguments.metrics:
+        metrics = read_metrics(name)
         for mark, rows in tables(metrics):
             if page is None:
                 print(f"{mark}\n\n{rows}\n")
@@ -92,4 +101,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
