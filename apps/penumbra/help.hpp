@@ -97,7 +97,8 @@ Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2
 image with the robot's pose at its own stamp, and publishes what a bag of results holds below
 /penumbra (with --camera below /penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets,
 overlay/compressed, each only while somebody listens; and /diagnostics, once a second, which says why
-nothing is published. What is not known is published as unknown. Ctrl-C and SIGTERM end it.
+nothing is published. What is not known is published as unknown. Ctrl-C and SIGTERM end it; after
+--duration its exit status is 2 if it judged nothing.
 ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
 
 Examples:
@@ -121,11 +122,8 @@ Ctrl-C ends it. Topics and what was not published are told.
 
 Examples:
   penumbra play bag.mcap
-  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --loop --restamp
-  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --rate 0.5 --start 10 --topics /tf,/tf_static,/camera/depth/image_raw
-  penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap --remap /joint_states:=/arm/joint_states --domain 7)";
 
 }  // namespace penumbra::app

@@ -15,11 +15,11 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/bag_frames/bag_topics.hpp>
 #include <io/dds/receive_buffers.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/live/name_resolver.hpp>
@@ -35,8 +35,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto report_period = 1s;
 constexpr auto longest_receive = 100ms;
 constexpr auto discovery_step = 200ms;
-/// The graph has to stay the same so long before the camera is chosen, or none can be.
-constexpr auto settled_after = 1s, ambiguous_after = 3s;
 
 double cpu_seconds() {
   rusage usage{};
@@ -97,113 +95,21 @@ class Diagnostics {
   std::string told_;
 };
 
-/// What others than Penumbra publish.
-std::vector<io::BagTopic> published_topics(const io::Participant& graph) {
-  std::vector<io::BagTopic> topics;
-  for (const io::GraphTopic& topic : graph.graph())
-    if (!topic.publishers.empty() && topic.name.find("/penumbra/") == std::string::npos)
-      topics.push_back({.name = topic.name,
-                        .type = topic.type,
-                        .definition = {},
-                        .encoding = "cdr",
-                        .messages = {}});
-  return topics;
-}
-
-std::string names_of(const std::vector<io::BagTopic>& topics) {
-  std::string names;
-  for (const io::BagTopic& topic : topics) names += topic.name + " " + topic.type + "\n";
-  return names;
-}
-
-std::optional<std::string> resolved(const io::NameResolver& names,
-                                    const std::optional<std::string>& name) {
-  if (!name) return std::nullopt;
-  return names.resolve(*name);
-}
-
-io::TopicWishes wishes_of(const LiveArguments& arguments, const io::NameResolver& names) {
-  const BagArguments& topics = arguments.judging.bag;
-  io::TopicWishes wishes;
-  wishes.depth = resolved(names, topics.depth_topic);
-  wishes.camera_info = resolved(names, topics.camera_info_topic);
-  wishes.color = resolved(names, topics.color_topic);
-  wishes.with_color = true;
-  return wishes;
-}
-
-/// What does not depend on which camera it is.
-io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
-  const BagArguments& topics = arguments.judging.bag;
-  io::LiveCameraOptions options;
-  options.mount = mount_wishes(topics);
-  options.info_is_named = topics.camera_info_topic.has_value();
-  options.is_rectified = topics.rectified;
-  options.poses = topics.poses.value_or(PoseSource::joints);
-  options.time_offset = topics.time_offset;
-  options.max_frames = static_cast<std::size_t>(arguments.queue);
-  return options;
-}
-
-/// Cameras whose depth images are named: nothing has to be there yet.
-std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
-                                                 const io::NameResolver& names) {
-  const BagArguments& topics = arguments.judging.bag;
-  auto named = arguments.cameras;
-  if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
-  std::vector<io::LiveCameraOptions> cameras;
-  for (const auto& [name, topic] : named) {
-    io::LiveCameraOptions camera = camera_options(arguments);
-    camera.name = name;
-    camera.depth_topic = names.resolve(topic);
-    camera.info_topic = resolved(names, topics.camera_info_topic)
-                            .value_or(io::info_topic_beside(camera.depth_topic));
-    if (topics.color_topic) {
-      camera.color_topic = names.resolve(*topics.color_topic);
-      camera.color_info_topic = io::info_topic_beside(camera.color_topic);
-    }
-    cameras.push_back(std::move(camera));
-  }
-  return cameras;
-}
-
-/// Waits until the graph shows one camera. Nothing: it was stopped before.
+/// Waits for the graph's one camera. Nothing: it was stopped before. Throws InputError where there
+/// is none when the time is over.
 std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
-                                                 const io::NameResolver& names,
-                                                 const io::Participant& graph,
+                                                 CameraSearch& search,
+                                                 const io::LiveCameraOptions& common,
                                                  Diagnostics& diagnostics, StopSignal& stop) {
-  std::string seen;
-  Clock::time_point since = Clock::now(), told = Clock::now();
   const Clock::time_point begin = Clock::now();
+  Clock::time_point told = begin;
   while (!stop.wait(discovery_step)) {
-    if (arguments.duration && Clock::now() - begin > to_duration(*arguments.duration)) break;
-    const auto topics = published_topics(graph);
-    if (std::string now = names_of(topics); now != seen) {
-      seen = std::move(now);
-      since = Clock::now();
-    }
-    const auto settled = Clock::now() - since;
-    std::string why = "nobody publishes depth images yet";
-    try {
-      const io::BagTopics chosen =
-          io::choose_camera_topics("ROS 2's graph", topics, wishes_of(arguments, names));
-      if (settled >= settled_after) {
-        io::LiveCameraOptions camera = camera_options(arguments);
-        camera.depth_topic = chosen.depth.name;
-        camera.info_topic = chosen.camera_info.name;
-        if (chosen.color) camera.color_topic = chosen.color->name;
-        if (chosen.color_info) camera.color_info_topic = chosen.color_info->name;
-        return camera;
-      }
-    } catch (const io::AmbiguousTopics& error) {
-      if (settled >= ambiguous_after) throw;
-      why = error.what();
-    } catch (const InputError& error) {
-      if (!topics.empty()) why = error.what();
-    }
+    if (const auto chosen = search.look()) return found_camera(*chosen, common);
+    if (arguments.duration && Clock::now() - begin > to_duration(*arguments.duration))
+      throw InputError("no camera was found: " + search.why());
     if (Clock::now() - told < report_period) continue;
     told = Clock::now();
-    diagnostics.tell_waiting(why);
+    diagnostics.tell_waiting(search.why());
   }
   return std::nullopt;
 }
@@ -213,7 +119,7 @@ io::LiveOptions options_of(const LiveArguments& arguments, const io::NameResolve
   io::LiveOptions options;
   options.robot.robot.packages = topics.packages;
   add_robot_choices(arguments.judging, options.robot.robot);
-  options.robot.file = topics.robot;
+  if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
   options.poses = topics.poses.value_or(PoseSource::joints);
   options.description_topic = names.resolve("robot_description");
   options.transform_topic = names.resolve("/tf");
@@ -255,7 +161,8 @@ class Live {
     subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
   }
 
-  void run(io::Participant& graph, Diagnostics& diagnostics, StopSignal& stop) {
+  /// Whether it was stopped, rather than that its time was over.
+  bool run(io::Participant& graph, Diagnostics& diagnostics, StopSignal& stop) {
     runner_->start();
     std::atomic<bool> ends = false;
     std::exception_ptr fault;
@@ -267,16 +174,25 @@ class Live {
         ends = true;
       }
     });
-    report_until_end(diagnostics, stop, ends);
+    const bool stopped = report_until_end(diagnostics, stop, ends);
     ends = true;
     graph.wake();
     receiving.join();
     runner_->stop();
     if (fault) std::rethrow_exception(fault);
     runner_->rethrow();
+    return stopped;
   }
 
-  /// After run().
+  /// After run(), as what follows: images whose labels were published.
+  [[nodiscard]] std::size_t judged() {
+    return runner_->with_inbox([&](const io::LiveInbox& inbox) {
+      std::size_t images = 0;
+      for (std::size_t i = 0; i < results_.size(); ++i) images += inbox.camera(i).counts().judged;
+      return images;
+    });
+  }
+
   [[nodiscard]] std::string summary() {
     io::LiveRun run{.seconds = seconds(), .cpu_seconds = cpu_seconds() - cpu_at_start_};
     for (const auto& results : results_) run.not_written += results->not_written();
@@ -290,10 +206,11 @@ class Live {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
   }
 
-  void report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
+  bool report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
     io::LiveDiagnostics words(io::LiveRunner::steady_now());
     auto next = Clock::now();
-    for (bool stopped = false; !stopped && !ends && !runner_->has_failed();) {
+    bool stopped = false;
+    while (!stopped && !ends && !runner_->has_failed()) {
       if (arguments_.duration && seconds() >= *arguments_.duration) break;
       const bool pictures = std::any_of(results_.begin(), results_.end(), [](const auto& results) {
         return results->wants(io::Result::overlay);
@@ -311,6 +228,7 @@ class Live {
                                              to_duration(*arguments_.duration)));
       stopped = stop.wait_until(until);
     }
+    return stopped;
   }
 
   const LiveArguments& arguments_;
@@ -323,7 +241,7 @@ class Live {
 
 void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "live on domain " << domain << ", until Ctrl-C\n";
-  if (!options.robot.file) std::cout << "robot: " << options.description_topic << '\n';
+  if (!options.robot.given) std::cout << "robot: " << options.description_topic << '\n';
   for (const std::string& name : options.joint_topics)
     if (options.poses != PoseSource::transforms) std::cout << "joints: " << name << '\n';
   for (const io::LiveCameraOptions& camera : options.cameras) {
@@ -340,6 +258,8 @@ void tell_topics(const io::LiveOptions& options, int domain) {
 int execute(const LiveArguments& arguments) {
   const io::NameResolver names = resolver_of(arguments);
   io::LiveOptions options = options_of(arguments, names);
+  const io::LiveCameraOptions common = camera_options(arguments);
+  options.cameras = named_cameras(arguments, names, common);
   std::ofstream summary;
   if (arguments.summary) {
     summary.open(*arguments.summary);
@@ -352,22 +272,24 @@ int execute(const LiveArguments& arguments) {
       !advice.empty())
     tell_notes(std::vector{advice});
   Diagnostics diagnostics(*graph);
-  options.cameras = named_cameras(arguments, names);
   if (options.cameras.empty()) {
-    auto camera = find_camera(arguments, names, *graph, diagnostics, stop);
+    CameraSearch search(*graph, camera_wishes(arguments, names));
+    auto camera = find_camera(arguments, search, common, diagnostics, stop);
     if (!camera) return 0;
     options.cameras.push_back(std::move(*camera));
   }
   tell_topics(options, graph->domain());
   Live live(arguments, names, *graph, options);
-  live.run(*graph, diagnostics, stop);
+  const bool stopped = live.run(*graph, diagnostics, stop);
   tell_notes(graph->take_complaints());
   if (arguments.summary) {
     summary << live.summary() << '\n';
     if (!summary.flush())
       throw InputError("--summary " + arguments.summary->string() + ": cannot be written");
   }
-  return 0;
+  if (stopped || live.judged() > 0) return 0;
+  std::cerr << "penumbra: no image was judged\n";
+  return 2;
 }
 
 }  // namespace penumbra::app

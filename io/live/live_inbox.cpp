@@ -19,7 +19,7 @@ std::string type_of_images(const std::string& topic) {
 }
 
 void add_topics_of_robot(const LiveOptions& options, std::vector<LiveTopic>& topics) {
-  if (!options.robot.file)
+  if (!options.robot.given)
     topics.push_back({.role = LiveRole::description,
                       .name = options.description_topic,
                       .type = message_type<StringMessage>(),

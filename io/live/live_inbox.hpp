@@ -72,7 +72,7 @@ struct LiveTally {
 /// meanwhile.
 class LiveInbox {
  public:
-  /// Throws InputError of the robot's file.
+  /// Throws InputError for what LiveCamera refuses.
   explicit LiveInbox(const LiveOptions& options);
 
   /// What is to be subscribed to.

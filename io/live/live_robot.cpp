@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -10,7 +9,7 @@
 namespace penumbra::io {
 
 LiveRobot::LiveRobot(LiveRobotOptions options) : options_(std::move(options)) {
-  if (options_.file) replace(Robot::load(*options_.file, options_.robot));
+  if (options_.given) replace(*options_.given);
 }
 
 void LiveRobot::replace(Robot robot) {
@@ -21,7 +20,7 @@ void LiveRobot::replace(Robot robot) {
 }
 
 void LiveRobot::take(const StringMessage& description) {
-  if (options_.file || description_ == description.data) return;
+  if (options_.given || description_ == description.data) return;
   description_ = description.data;
   posed_.reset();
   fault_.clear();

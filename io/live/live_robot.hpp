@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,19 +27,18 @@ struct PosedRobot {
 };
 
 struct LiveRobotOptions {
-  RobotOptions robot;
-  std::optional<std::filesystem::path> file;  ///< the robot, in place of what is told
+  RobotOptions robot;          ///< for robots that are told
+  std::optional<Robot> given;  ///< in place of what is told
 };
 
 /// The one robot of a graph, as it is told: by a robot_description, joint states and transforms.
 class LiveRobot {
  public:
-  /// Throws InputError of the file, if one is given.
   explicit LiveRobot(LiveRobotOptions options);
 
   /// The same text again is nothing new. Of another one the robot is made anew, and what was told
   /// of the old one's joints is forgotten. Of one that cannot be read there is no robot: what the
-  /// old one would say may be wrong. Nothing happens where a file says what the robot is.
+  /// old one would say may be wrong. Nothing happens where the robot is given.
   void take(const StringMessage& description);
   void take(const JointStateMessage& message, std::int64_t now);
   void take(const TfMessage& message, bool is_static, std::int64_t now);

@@ -33,7 +33,10 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--duration", "-1"}, "--duration"},
       {{"--summary", "/nonexistent/live.json"}, "/nonexistent/live.json"},
       {{"--robot", "/nonexistent.urdf", "--depth-topic", "/depth"}, "nonexistent.urdf"},
-      {{"--pose", "/nonexistent.csv", "--depth-topic", "/depth"}, "nonexistent.csv"}};
+      {{"--pose", "/nonexistent.csv", "--depth-topic", "/depth"}, "nonexistent.csv"},
+      {{"--robot", "/nonexistent.urdf"}, "nonexistent.urdf"},  // before any camera is there
+      {{"--pose", "/nonexistent.csv"}, "nonexistent.csv"},
+      {{"--duration", "0.5"}, "no camera was found: "}};
   for (const Refused& refused : all) {
     std::vector<std::string> arguments = refused.options;
     arguments.insert(arguments.begin(), "live");
@@ -52,7 +55,8 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   const Outcome outcome = penumbra(
       {"live", "--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary},
       {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("no image was judged"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("no publisher of /nobody/depth"), std::string::npos) << outcome.err;
   EXPECT_NE(read_file(summary).find("\"received\": 0"), std::string::npos);
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/live_cameras.hpp>
+#include <apps/penumbra/run_input.hpp>
+
+namespace penumbra::app {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// The graph has to stay the same so long before the camera is chosen, or none can be.
+constexpr auto settled_after = 1s, ambiguous_after = 3s;
+
+/// What others than Penumbra publish.
+std::vector<io::BagTopic> published_topics(const io::Participant& graph) {
+  std::vector<io::BagTopic> topics;
+  for (const io::GraphTopic& topic : graph.graph())
+    if (!topic.publishers.empty() && topic.name.find("/penumbra/") == std::string::npos)
+      topics.push_back({.name = topic.name,
+                        .type = topic.type,
+                        .definition = {},
+                        .encoding = "cdr",
+                        .messages = {}});
+  return topics;
+}
+
+std::string names_of(const std::vector<io::BagTopic>& topics) {
+  std::string names;
+  for (const io::BagTopic& topic : topics) names += topic.name + " " + topic.type + "\n";
+  return names;
+}
+
+std::optional<std::string> resolved(const io::NameResolver& names,
+                                    const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  return names.resolve(*name);
+}
+
+}  // namespace
+
+io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::LiveCameraOptions options;
+  options.mount = mount_wishes(topics);
+  options.info_is_named = topics.camera_info_topic.has_value();
+  options.is_rectified = topics.rectified;
+  options.poses = topics.poses.value_or(PoseSource::joints);
+  options.time_offset = topics.time_offset;
+  options.max_frames = static_cast<std::size_t>(arguments.queue);
+  return options;
+}
+
+std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
+                                                 const io::NameResolver& names,
+                                                 const io::LiveCameraOptions& common) {
+  const BagArguments& topics = arguments.judging.bag;
+  auto named = arguments.cameras;
+  if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
+  std::vector<io::LiveCameraOptions> cameras;
+  for (const auto& [name, topic] : named) {
+    io::LiveCameraOptions camera = common;
+    camera.name = name;
+    camera.depth_topic = names.resolve(topic);
+    camera.info_topic = resolved(names, topics.camera_info_topic)
+                            .value_or(io::info_topic_beside(camera.depth_topic));
+    if (topics.color_topic) {
+      camera.color_topic = names.resolve(*topics.color_topic);
+      camera.color_info_topic = io::info_topic_beside(camera.color_topic);
+    }
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+io::TopicWishes camera_wishes(const LiveArguments& arguments, const io::NameResolver& names) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::TopicWishes wishes;
+  wishes.depth = resolved(names, topics.depth_topic);
+  wishes.camera_info = resolved(names, topics.camera_info_topic);
+  wishes.color = resolved(names, topics.color_topic);
+  wishes.with_color = true;
+  return wishes;
+}
+
+CameraSearch::CameraSearch(const io::Participant& graph, const io::TopicWishes& wishes)
+    : graph_(graph), wishes_(wishes), since_(Clock::now()) {}
+
+std::optional<io::BagTopics> CameraSearch::look() {
+  const auto topics = published_topics(graph_);
+  if (std::string now = names_of(topics); now != seen_) {
+    seen_ = std::move(now);
+    since_ = Clock::now();
+  }
+  const auto settled = Clock::now() - since_;
+  why_ = "nobody publishes depth images yet";
+  try {
+    const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, wishes_);
+    if (settled >= settled_after) return chosen;
+    why_ = "waiting for what else is published";
+  } catch (const io::AmbiguousTopics& error) {
+    if (settled >= ambiguous_after) throw;
+    why_ = error.what();
+  } catch (const InputError& error) {
+    if (!topics.empty()) why_ = error.what();
+  }
+  return std::nullopt;
+}
+
+io::LiveCameraOptions found_camera(const io::BagTopics& chosen, io::LiveCameraOptions common) {
+  common.depth_topic = chosen.depth.name;
+  common.info_topic = chosen.camera_info.name;
+  if (chosen.color) common.color_topic = chosen.color->name;
+  if (chosen.color_info) common.color_info_topic = chosen.color_info->name;
+  return common;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which cameras `penumbra live` takes: those that are named, or the one that the graph shows.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <apps/penumbra/arguments.hpp>
+#include <io/bag_frames/bag_topics.hpp>
+#include <io/dds/participant.hpp>
+#include <io/live/live_inbox.hpp>
+#include <io/live/name_resolver.hpp>
+
+namespace penumbra::app {
+
+/// What does not depend on which camera it is. Throws InputError of the pose's file.
+[[nodiscard]] io::LiveCameraOptions camera_options(const LiveArguments& arguments);
+
+/// Cameras whose depth images are named: nothing has to be there yet.
+[[nodiscard]] std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
+                                                               const io::NameResolver& names,
+                                                               const io::LiveCameraOptions& common);
+
+/// What is looked for where none is named.
+[[nodiscard]] io::TopicWishes camera_wishes(const LiveArguments& arguments,
+                                            const io::NameResolver& names);
+
+/// Looks for the one camera of a graph, which appears bit by bit.
+class CameraSearch {
+ public:
+  CameraSearch(const io::Participant& graph, const io::TopicWishes& wishes);
+
+  /// The camera's topics, once the graph has settled; nothing: not yet, why() says what lacks.
+  /// Throws io::AmbiguousTopics where there are several, and it stays so.
+  [[nodiscard]] std::optional<io::BagTopics> look();
+  [[nodiscard]] const std::string& why() const { return why_; }
+
+ private:
+  const io::Participant& graph_;
+  io::TopicWishes wishes_;
+  std::string seen_, why_;
+  std::chrono::steady_clock::time_point since_;  // it is as it is
+};
+
+[[nodiscard]] io::LiveCameraOptions found_camera(const io::BagTopics& chosen,
+                                                 io::LiveCameraOptions common);
+
+}  // namespace penumbra::app
