@@ -3,13 +3,9 @@
 
 namespace penumbra::test {
 
-/// Whether this build watches memory or threads, which takes memory of its own and 20 times as
-/// long.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool sanitized = true;
-#else
-inline constexpr bool sanitized = false;
-#endif
+/// Whether this build watches memory or threads (PENUMBRA_SANITIZE), which takes memory of its own
+/// and 20 times as long.
+inline constexpr bool sanitized = PENUMBRA_IS_SANITIZED;
 
 /// Sanitizers see what code does after a few samples; how exact its results are is for other builds
 /// to measure, with all samples.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include <epoxy/gl.h>
@@ -14,11 +16,15 @@ namespace {
 constexpr GLuint position_attribute = 0;
 constexpr GLuint first_row_attribute = 1;
 constexpr GLuint body_attribute = 4;
+constexpr GLuint depths_attribute = 5;
 
 // Where the attributes come from.
 constexpr GLuint vertex_binding = 0;
-constexpr GLuint matrix_binding = 1;
+constexpr GLuint placement_binding = 1;
 constexpr GLuint body_binding = 2;
+
+/// Of a depth: more than the device's arithmetic is off by, where a face is not edge-on.
+constexpr double depth_slack = 1e-4;
 
 template <typename T>
 GLuint make_buffer_of(const std::vector<T>& values, const char* what) {
@@ -40,6 +46,7 @@ void Scene::upload(std::span<const Body> bodies) {
   std::vector<Eigen::Vector3f> vertices(1, Eigen::Vector3f::Zero());  // no buffer may be empty
   std::vector<std::uint32_t> indices(1, 0);
   std::vector<std::uint32_t> body_indices(1, 0);
+  body_bounds_.resize(bodies.size());
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     body_indices.push_back(body);
     for (const TriangleMesh& mesh : bodies[body].meshes) {
@@ -52,6 +59,7 @@ void Scene::upload(std::span<const Body> bodies) {
         for (const std::uint32_t i : shell.indices) {
           part.bounds.extend(welded.vertices[i].cast<double>());
         }
+        body_bounds_[body].extend(part.bounds);
         indices.insert(indices.end(), shell.indices.begin(), shell.indices.end());
         parts_.push_back(part);
       }
@@ -76,22 +84,27 @@ void Scene::upload(std::span<const Body> bodies) {
 }
 
 void Scene::make_stream(std::size_t bodies, std::size_t frames) {
-  commands_at_ = aligned(bodies * sizeof(Matrix));
+  commands_at_ = aligned(bodies * sizeof(Placement));
   frame_size_ = aligned(commands_at_ + parts_.size() * sizeof(Command)) + buffer_alignment;
   constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   stream_ = make_buffer(frames * frame_size_, nullptr, access, "the links' poses", &stream_data_);
+  const auto add_attribute = [&](GLuint attribute, GLint floats, std::size_t offset) {
+    glEnableVertexArrayAttrib(vertex_array_, attribute);
+    glVertexArrayAttribFormat(vertex_array_, attribute, floats, GL_FLOAT, GL_FALSE,
+                              static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(vertex_array_, attribute, placement_binding);
+  };
   for (GLuint row = 0; row < 3; ++row) {
-    glEnableVertexArrayAttrib(vertex_array_, first_row_attribute + row);
-    glVertexArrayAttribFormat(vertex_array_, first_row_attribute + row, 4, GL_FLOAT, GL_FALSE,
-                              static_cast<GLuint>(row * 4 * sizeof(float)));
-    glVertexArrayAttribBinding(vertex_array_, first_row_attribute + row, matrix_binding);
+    add_attribute(first_row_attribute + row, 4,
+                  offsetof(Placement, to_clip) + row * 4 * sizeof(float));
   }
-  glVertexArrayBindingDivisor(vertex_array_, matrix_binding, 1);
+  add_attribute(depths_attribute, 2, offsetof(Placement, depths));
+  glVertexArrayBindingDivisor(vertex_array_, placement_binding, 1);
 }
 
 /// OpenGL samples a pixel at its index + 1/2, our pixels have their centres at their index. Rows
 /// are stored as they come, so that v runs with OpenGL's y.
-Scene::Matrix Scene::to_clip(const Eigen::Isometry3d& T_camera_body) const {
+Scene::Placement Scene::placement(std::size_t body, const Eigen::Isometry3d& T_camera_body) const {
   const Intrinsics& k = intrinsics_;
   Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
   m(0, 0) = 2.0 * k.fx() / k.width();
@@ -100,11 +113,19 @@ Scene::Matrix Scene::to_clip(const Eigen::Isometry3d& T_camera_body) const {
   m(1, 2) = 2.0 * (k.cy() + 0.5) / k.height() - 1.0;
   m(2, 2) = 1.0;
   const Eigen::Matrix<double, 3, 4> rows = m * T_camera_body.matrix().topRows<3>();
-  Matrix out;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = static_cast<float>(
+  Placement out{};
+  for (std::size_t i = 0; i < out.to_clip.size(); ++i) {
+    out.to_clip[i] = static_cast<float>(
         rows(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)));
   }
+  const Eigen::AlignedBox3d& box = body_bounds_[body];
+  if (box.isEmpty()) return out;
+  const Eigen::RowVector3d to_depth = T_camera_body.linear().row(2);
+  const double middle = to_depth.dot(box.center()) + T_camera_body.translation().z();
+  const double half = to_depth.cwiseAbs().dot(box.sizes()) / 2.0;
+  const double slack = depth_slack * (std::abs(middle) + half);
+  out.depths = {static_cast<float>(middle - half - slack),
+                static_cast<float>(middle + half + slack)};
   return out;
 }
 
@@ -112,8 +133,8 @@ PixelRectangle Scene::place(std::span<const Eigen::Isometry3d> T_camera_body, st
   slot_ = slot;
   std::byte* const frame = stream_data_ + slot * frame_size_;
   for (std::size_t i = 0; i < T_camera_body.size(); ++i) {
-    const Matrix matrix = to_clip(T_camera_body[i]);
-    std::memcpy(frame + i * sizeof(Matrix), &matrix, sizeof(Matrix));
+    const Placement placed = placement(i, T_camera_body[i]);
+    std::memcpy(frame + i * sizeof(Placement), &placed, sizeof(Placement));
   }
   front_count_ = both_count_ = 0;
   PixelRectangle all;
@@ -133,8 +154,8 @@ PixelRectangle Scene::place(std::span<const Eigen::Isometry3d> T_camera_body, st
 }
 
 void Scene::draw() const {
-  glVertexArrayVertexBuffer(vertex_array_, matrix_binding, stream_,
-                            static_cast<GLintptr>(slot_ * frame_size_), sizeof(Matrix));
+  glVertexArrayVertexBuffer(vertex_array_, placement_binding, stream_,
+                            static_cast<GLintptr>(slot_ * frame_size_), sizeof(Placement));
   const auto draw_commands = [&](std::size_t first, std::size_t count) {
     const std::size_t at = slot_ * frame_size_ + commands_at_ + first * sizeof(Command);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, as_address(at),

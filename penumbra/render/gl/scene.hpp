@@ -41,18 +41,23 @@ class Scene {
   struct Command {
     std::uint32_t index_count, instance_count, first_index, first_vertex, body;
   };
-  /// Rows of the matrix from a body's frame to clip coordinates, but for the constant third.
-  using Matrix = std::array<float, 12>;
+  /// What the shaders know of a body.
+  struct Placement {
+    /// Rows of the matrix from its frame to clip coordinates, but for the constant third.
+    std::array<float, 12> to_clip;
+    std::array<float, 2> depths;  ///< its box's nearest and farthest, in metres
+  };
 
   void upload(std::span<const Body> bodies);
   void make_stream(std::size_t bodies, std::size_t frames);
-  [[nodiscard]] Matrix to_clip(const Eigen::Isometry3d& T_camera_body) const;
+  [[nodiscard]] Placement placement(std::size_t body, const Eigen::Isometry3d& T_camera_body) const;
 
   Intrinsics intrinsics_;
   SideRule side_rule_;
   std::vector<Part> parts_;
+  std::vector<Eigen::AlignedBox3d> body_bounds_;  // in the bodies' frames
   unsigned vertex_array_ = 0;
-  unsigned stream_ = 0;               // for each frame its matrices, then its commands
+  unsigned stream_ = 0;               // for each frame its placements, then its commands
   std::byte* stream_data_ = nullptr;  // mapped
   std::size_t commands_at_ = 0;       // bytes from a frame's start
   std::size_t frame_size_ = 0;        // bytes
