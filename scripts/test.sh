@@ -121,8 +121,11 @@ fi
 
 check format check_format
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
+# A short run's experiments are the conveyor's.
+experiments='^Experiment[.](DoesNotDependOnTheNumberOfThreads|HandoverKeepsTheHandBeforeTheArm)$'
+if $full; then experiments='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" &&
-  run_tests release
+  run_tests release -E "$experiments"
 if $full; then
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
