@@ -124,8 +124,8 @@ check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPEN
 # A short run's experiments are the conveyor's.
 experiments='^Experiment[.](DoesNotDependOnTheNumberOfThreads|HandoverKeepsTheHandBeforeTheArm)$'
 if $full; then experiments='^$'; fi
-check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" &&
-  run_tests release -E "$experiments"
+check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" \
+  -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && run_tests release -E "$experiments"
 if $full; then
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then

@@ -44,7 +44,7 @@ CutTriangle cut(const CutTriangle& left, const Plane& plane) {
 }
 
 /// The pyramid between the camera's centre and the near plane, in a body's frame.
-struct Region {
+struct NearPyramid {
   std::array<Plane, plane_count> planes;
   Eigen::AlignedBox3d bounds;
 
@@ -69,10 +69,11 @@ struct Region {
 };
 
 /// `corners`: of the image on the near plane.
-Region region_of(const std::array<Vector3d, 4>& corners, const Eigen::Isometry3d& T_camera_body) {
+NearPyramid region_of(const std::array<Vector3d, 4>& corners,
+                      const Eigen::Isometry3d& T_camera_body) {
   const Eigen::Matrix3d R_body_camera = T_camera_body.linear().transpose();
   const Vector3d eye = -(R_body_camera * T_camera_body.translation());
-  Region region;
+  NearPyramid region;
   region.bounds.extend(eye);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector3d normal = R_body_camera * corners[(i + 1) % 4].cross(corners[i]).normalized();
@@ -115,7 +116,7 @@ bool NearPlaneCheck::reaches(Part& part, const Eigen::Isometry3d& T_camera_body)
   if (part.was_asked &&
       (T_camera_body.matrix() - part.last_pose.matrix()).cwiseAbs().maxCoeff() <= same_pose)
     return part.last_answer;
-  const Region region = region_of(corners_, T_camera_body);
+  const NearPyramid region = region_of(corners_, T_camera_body);
   part.was_asked = true;
   part.last_pose = T_camera_body;
   part.last_answer =

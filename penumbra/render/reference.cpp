@@ -16,7 +16,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-struct PixelBox {
+struct PixelBounds {
   int u0, v0, u1, v1;  // inclusive
   [[nodiscard]] bool empty() const { return u0 > u1 || v0 > v1; }
 };
@@ -59,7 +59,7 @@ class ReferenceRenderer final : public DepthRenderer {
   }
 
   void draw(const std::array<Vector3d, 3>& corners, std::uint16_t link) {
-    const PixelBox box = bounds(corners);
+    const PixelBounds box = bounds(corners);
     if (box.empty()) return;
     const auto& [a, b, c] = corners;
     const Vector3d ab = a.cross(b);
@@ -92,7 +92,7 @@ class ReferenceRenderer final : public DepthRenderer {
   }
 
   /// Pixels that the part of the triangle before the near plane may cover, cut to the image.
-  [[nodiscard]] PixelBox bounds(const std::array<Vector3d, 3>& corners) const {
+  [[nodiscard]] PixelBounds bounds(const std::array<Vector3d, 3>& corners) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector2d low(infinity, infinity);
     Vector2d high(-infinity, -infinity);

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t none = ~std::uint32_t{0};
 /// each edge to the next side across empty space.
 ///
 /// Half-edge 3 * side + k starts at corner k of its side and runs to corner k + 1.
-struct Sides {
+struct MeshSides {
   std::vector<std::uint32_t> start;     // per half-edge: the vertex where it starts
   std::vector<std::uint32_t> twin;      // per half-edge: the one that runs the edge backwards
   std::vector<Eigen::Vector3f> middle;  // per half-edge: unit, halves the empty wedge at the edge
@@ -33,6 +33,6 @@ struct Sides {
 };
 
 /// `welded` as weld() returns it.
-[[nodiscard]] Sides collect_sides(const TriangleMesh& welded);
+[[nodiscard]] MeshSides collect_sides(const TriangleMesh& welded);
 
 }  // namespace penumbra::offset

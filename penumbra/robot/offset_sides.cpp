@@ -29,7 +29,7 @@ class Gluer {
  public:
   explicit Gluer(const TriangleMesh& mesh) : mesh_(mesh) {}
 
-  Sides run() {
+  MeshSides run() {
     for (const MeshComponent& piece : connected_components(mesh_)) {
       for (const std::size_t i : piece.triangles) {
         const bool front = !piece.closed || piece.signed_volume >= 0.0;
@@ -89,7 +89,7 @@ class Gluer {
     const Eigen::Vector3d y = axis.cross(x);
     for (Leaf& leaf : leaves) {
       const std::uint32_t h = leaf.plus != none ? leaf.plus : leaf.minus;
-      const Eigen::Vector3d out = point(sides_.start[Sides::previous(h)]) - lower;
+      const Eigen::Vector3d out = point(sides_.start[MeshSides::previous(h)]) - lower;
       leaf.angle = std::atan2(out.dot(y), out.dot(x));
     }
     std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
@@ -115,12 +115,12 @@ class Gluer {
   }
 
   const TriangleMesh& mesh_;
-  Sides sides_;
+  MeshSides sides_;
   std::vector<Leaf> leaves_;
 };
 
 }  // namespace
 
-Sides collect_sides(const TriangleMesh& welded) { return Gluer(welded).run(); }
+MeshSides collect_sides(const TriangleMesh& welded) { return Gluer(welded).run(); }
 
 }  // namespace penumbra::offset

@@ -23,8 +23,8 @@ using offset::along;
 using offset::angle_between;
 using offset::Cap;
 using offset::drop_returns;
+using offset::MeshSides;
 using offset::none;
-using offset::Sides;
 
 // Every face of the result spans corners p + margin * u of unit u. It lies inside of the balls'
 // hull, and inside of the exact surface by at most margin * (1 - cos(r)), if all of its u lie
@@ -86,7 +86,7 @@ class Grower {
         begin = fan.size();
       }
       fan.push_back(h);
-      h = sides_.twin[Sides::previous(h)];
+      h = sides_.twin[MeshSides::previous(h)];
     } while (h != first);
     std::rotate(fan.begin(), fan.begin() + static_cast<std::ptrdiff_t>(begin), fan.end());
     return fan;
@@ -133,7 +133,7 @@ class Grower {
   }
 
   [[nodiscard]] Eigen::Vector3d direction_of(std::uint32_t h) const {
-    return (mesh_.vertices[sides_.start[Sides::next(h)]] - mesh_.vertices[sides_.start[h]])
+    return (mesh_.vertices[sides_.start[MeshSides::next(h)]] - mesh_.vertices[sides_.start[h]])
         .cast<double>()
         .stableNormalized();
   }
@@ -169,12 +169,12 @@ class Grower {
 
   [[nodiscard]] bool is_buried(std::uint32_t h) const {
     return burial_.hides_edge(mesh_.vertices[sides_.start[h]].cast<double>(),
-                              mesh_.vertices[sides_.start[Sides::next(h)]].cast<double>(),
+                              mesh_.vertices[sides_.start[MeshSides::next(h)]].cast<double>(),
                               normal(h), normal(sides_.twin[h]));
   }
 
   [[nodiscard]] bool is_concave(std::uint32_t h) const {
-    const Eigen::Vector3d into = direction_of(Sides::previous(sides_.twin[h])) * -1.0;
+    const Eigen::Vector3d into = direction_of(MeshSides::previous(sides_.twin[h])) * -1.0;
     return into.dot(normal(h)) > 1e-3;
   }
 
@@ -320,8 +320,8 @@ class Grower {
       const auto edge_to = [&](std::uint32_t v) -> Eigen::Vector3d {
         return (mesh_.vertices[v].cast<double>() - p).stableNormalized();
       };
-      const Eigen::Vector3d a = edge_to(sides_.start[Sides::next(h)]);
-      const Eigen::Vector3d b = edge_to(sides_.start[Sides::previous(h)]);
+      const Eigen::Vector3d a = edge_to(sides_.start[MeshSides::next(h)]);
+      const Eigen::Vector3d b = edge_to(sides_.start[MeshSides::previous(h)]);
       const double angle = angle_between(a, b);
       angles += angle;
       normals += angle * normal(h);
@@ -352,7 +352,7 @@ class Grower {
 
   const TriangleMesh& mesh_;
   double margin_;
-  Sides sides_;
+  MeshSides sides_;
   offset::Burial burial_;
   std::vector<std::uint32_t> moved_;         // per half-edge: the new vertex of its start
   std::vector<Chain> arcs_;                  // per half-edge: at its start, from its twin's side
