@@ -107,6 +107,33 @@ void listen(io::Participant& graph, std::vector<Returned>& results, const std::a
   }
 }
 
+std::vector<Returned> subscribe_to_results(io::Participant& graph, bool with_overlay) {
+  std::vector<Returned> results;
+  for (const char* name : {"labels", "mask", "filtered_depth"})
+    results.push_back(
+        {name,
+         graph.subscribe(std::string("/penumbra/") + name, "sensor_msgs/msg/Image", {.depth = 5}),
+         {}});
+  results.push_back(
+      {"targets",
+       graph.subscribe("/penumbra/targets", "penumbra_msgs/msg/Targets", {.depth = 5}),
+       {}});
+  if (with_overlay)
+    results.push_back({"overlay",
+                       graph.subscribe("/penumbra/overlay/compressed",
+                                       "sensor_msgs/msg/CompressedImage", {.depth = 5}),
+                       {}});
+  return results;
+}
+
+void tell(const std::vector<Returned>& results) {
+  for (const Returned& result : results)
+    std::cout << result.topic << ": " << result.latency.count() << " came, "
+              << result.subscription->status().lost << " lost, median "
+              << result.latency.quantile(0.5).value_or(0) << " ms, p99 "
+              << result.latency.quantile(0.99).value_or(0) << " ms after their stamps\n";
+}
+
 int run(const std::string& bag, int domain, double seconds, bool with_overlay) {
   const FirstMessages first(bag);
   auto depth = first.of<io::ImageMessage>("/image_raw");
@@ -125,21 +152,7 @@ int run(const std::string& bag, int domain, double seconds, bool with_overlay) {
   Publisher colors(*graph, "/camera/color/image_raw", depth);
   Publisher color_infos(*graph, "/camera/color/camera_info", info);
   Publisher states(*graph, "/joint_states", joints);
-  std::vector<Returned> results;
-  for (const char* name : {"labels", "mask", "filtered_depth"})
-    results.push_back(
-        {name,
-         back->subscribe(std::string("/penumbra/") + name, "sensor_msgs/msg/Image", {.depth = 5}),
-         {}});
-  results.push_back(
-      {"targets",
-       back->subscribe("/penumbra/targets", "penumbra_msgs/msg/Targets", {.depth = 5}),
-       {}});
-  if (with_overlay)
-    results.push_back({"overlay",
-                       back->subscribe("/penumbra/overlay/compressed",
-                                       "sensor_msgs/msg/CompressedImage", {.depth = 5}),
-                       {}});
+  std::vector<Returned> results = subscribe_to_results(*back, with_overlay);
   description.tell(first.of<io::StringMessage>("/robot_description"));
   mount.tell(first.of<io::TfMessage>("/tf_static"));
 
@@ -170,11 +183,7 @@ int run(const std::string& bag, int domain, double seconds, bool with_overlay) {
   listening.join();
   std::cout << images << " depth images of " << depth.width << " x " << depth.height
             << " published, " << depths.refused << " refused\n";
-  for (const Returned& result : results)
-    std::cout << result.topic << ": " << result.latency.count() << " came, "
-              << result.subscription->status().lost << " lost, median "
-              << result.latency.quantile(0.5).value_or(0) << " ms, p99 "
-              << result.latency.quantile(0.99).value_or(0) << " ms after their stamps\n";
+  tell(results);
   return 0;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A graphics device that fails under the command line: a plain line, and what was done is kept.
 #include "../support/opengl.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/data.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "program.hpp"
 
 #include <cstdint>
@@ -81,7 +81,7 @@ std::string grid_stl(std::uint32_t side) {
 
 TEST(InspectFull, AMeshOfFiveMillionTrianglesIsReported) {
   if (sanitized) GTEST_SKIP() << "skipped: sanitized";
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  if (!is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
   constexpr std::uint32_t side = 1582;
   const TemporaryFolder folder;
   write_file(folder.path() / "big.stl", grid_stl(side));

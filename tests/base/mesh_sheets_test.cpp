@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <tests/support/random.hpp>
-#include <tests/support/sanitized.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/mesh_sheets.hpp>
 #include <penumbra/base/mesh_topology.hpp>

@@ -3,7 +3,7 @@
 // against what is rendered in the pinhole image and mapped to the raw one.
 #include "../support/opengl.hpp"
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "closed_form_scene.hpp"
 #include "lens_samples.hpp"
 

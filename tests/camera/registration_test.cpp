@@ -2,7 +2,7 @@
 // Depth images of closed-form scenes, brought from one camera to another, against the same scene
 // cast from the other.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "closed_form_scene.hpp"
 #include "lens_samples.hpp"
 

@@ -2,7 +2,7 @@
 // penumbra live among publishers and a subscriber of another vendor: what it publishes is the truth
 // of the stamps, whatever stops and returns.
 #include "../io/live_scene.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "../support/temporary_folder.hpp"
 #include "lone_domain.hpp"
 #include "peer_process.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ROS 2's graph against Fast DDS, ROS 2's default middleware, in another process.
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "listening.hpp"
 #include "lone_domain.hpp"
 #include "peer_process.hpp"

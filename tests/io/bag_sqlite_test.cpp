@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "bag_files.hpp"
 
 #include <gtest/gtest.h>
@@ -169,7 +170,7 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
     most = std::max(most, all.messages.size());
   }
   EXPECT_GT(most, messages_.size() / 4);
-  for (std::size_t length = 0; length < whole.size(); length += test::full() ? 1 : 509) {
+  for (std::size_t length = 0; length < whole.size(); length += test::is_full_run() ? 1 : 509) {
     if (length % page == 0) continue;
     const BagContent all = read(whole.substr(0, length));
     ASSERT_TRUE(all.topics.empty()) << length;  // it was refused
@@ -183,7 +184,7 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
 TEST_F(SqliteDamage, SurvivesRandomDamage) {
   std::mt19937_64 random = test::seeded_random(92);
   const std::string whole = test::read_bytes(file_);
-  const int rounds = test::full() ? 50'000 : 1000;
+  const int rounds = test::is_full_run() ? 50'000 : 1000;
   for (int i = 0; i < rounds; ++i) {
     std::string damaged = whole;
     for (std::size_t n = 0; n < 1 + random() % 20; ++n) {

@@ -3,7 +3,6 @@
 
 #include "../support/temporary_folder.hpp"
 
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,9 +10,6 @@
 #include <penumbra/base/error.hpp>
 
 namespace penumbra::test {
-
-/// Whether long tests are asked for.
-inline bool full() { return std::getenv("PENUMBRA_FULL") != nullptr; }
 
 /// The message of the InputError that `call` throws; it must be one line.
 template <typename F>

@@ -3,7 +3,7 @@
 // memory stays in proportion.
 #include "../support/allocations.hpp"
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "mcap_files.hpp"
 
 #include <gtest/gtest.h>
@@ -126,7 +126,7 @@ TEST_P(McapDamage, ADamagedChunkIsOneFault) {
 
 TEST_P(McapDamage, SurvivesMuchRandomDamage) {
   std::mt19937_64 random = test::seeded_random(72);
-  const int rounds = test::full() ? 100'000 : 2000;
+  const int rounds = test::is_full_run() ? 100'000 : 2000;
   for (int i = 0; i < rounds; ++i) {
     std::string damaged = whole_;
     for (std::size_t n = 0; n < 1 + random() % 8; ++n) {

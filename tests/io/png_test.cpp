@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/data.hpp"
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "files.hpp"
 #include "mini_png.hpp"
 
@@ -268,7 +269,7 @@ void survive_damage_under_right_checksums(int rounds) {
 TEST_F(Png, SurvivesDamageUnderRightChecksums) { survive_damage_under_right_checksums(1000); }
 
 TEST(PngFull, SurvivesDamageUnderRightChecksums) {
-  if (!test::full()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
   survive_damage_under_right_checksums(20000);
 }
 

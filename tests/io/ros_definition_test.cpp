@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "files.hpp"
 #include "ros_samples.hpp"
 
@@ -220,7 +221,7 @@ TEST(RosDefinition, DamagedTextsThrowInputErrorsOnly) {
   for (std::size_t size = 0; size <= whole.size(); ++size)
     test::only_input_errors(
         [&] { MessageDefinition("penumbra_msgs/Targets", whole.substr(0, size)); });
-  const int rounds = test::full() ? 200'000 : 3'000;
+  const int rounds = test::is_full_run() ? 200'000 : 3'000;
   constexpr std::string_view spice = "[]<=#/\n\" 09aZ\t=";
   for (int i = 0; i < rounds; ++i) {
     std::string text = whole;

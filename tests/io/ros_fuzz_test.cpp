@@ -2,7 +2,7 @@
 // Damaged payloads and images: faults or other values, never a crash, a hang or large memory.
 #include "../support/allocations.hpp"
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "files.hpp"
 #include "jpeg_file.hpp"
 #include "ros_images.hpp"
@@ -136,7 +136,7 @@ TEST(RosFuzz, Images) { fuzz_images(test::samples(1000), 13); }
 
 // Minutes: one seed after the other.
 TEST(RosFuzzFull, EverythingForAMinuteEach) {
-  if (!test::full()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
   const auto for_a_minute = [](const auto& call) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     for (std::uint64_t seed = 1000; std::chrono::steady_clock::now() < end; ++seed) call(seed);

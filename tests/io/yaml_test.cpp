@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "files.hpp"
 
 #include <random>
@@ -165,7 +166,7 @@ void survive_random_damage(int rounds) {
 TEST(Yaml, SurvivesRandomDamage) { survive_random_damage(5000); }
 
 TEST(YamlFull, SurvivesRandomDamage) {
-  if (!test::full()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
   survive_random_damage(100000);
 }
 

@@ -2,7 +2,7 @@
 // A search for what is called visible though it is not: random objects, robots and sensors, of
 // which the truth is known pixel by pixel.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "target_frame.hpp"
 
 #include <algorithm>
@@ -229,7 +229,7 @@ void TargetSearch::run(World world) {
 }
 
 TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
-  const int sequences = std::getenv("PENUMBRA_FULL") != nullptr ? 5000 : test::samples(100);
+  const int sequences = test::is_full_run() ? 5000 : test::samples(100);
   for (int i = 0; i < sequences; ++i) {
     SCOPED_TRACE("sequence " + std::to_string(i));
     run(world());

@@ -2,7 +2,7 @@
 // The frame queue against a brute-force model, under random stamps, delays, losses, reorderings and
 // jumps of the clock. Every frame must come out exactly once, and only with a pose of its stamp.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "slab_scene.hpp"
 
 #include <algorithm>

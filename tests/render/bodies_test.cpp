@@ -2,7 +2,7 @@
 // Which bodies and meshes are drawn, and that frames do not depend on each other.
 #include "random.hpp"
 #include "render_test.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 #include "shapes.hpp"
 
 #include <cmath>

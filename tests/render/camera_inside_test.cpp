@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "random.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 #include "scene.hpp"
 #include "shapes.hpp"
 

@@ -2,7 +2,7 @@
 // Faces whose plane passes the camera's centre, and triangles of next to no area.
 #include "random.hpp"
 #include "render_test.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 #include "shapes.hpp"
 
 #include <algorithm>

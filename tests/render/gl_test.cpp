@@ -2,7 +2,7 @@
 // What only the OpenGL renderer has: devices, contexts, the rectangle that it reads back.
 #include "random.hpp"
 #include "render_test.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 #include "shapes.hpp"
 
 #include <cstdlib>
@@ -195,12 +195,10 @@ constexpr std::size_t growth_per_frame = 1'000;
 /// Bytes for the long runs of PENUMBRA_FULL: over 1000 cycles a lost mesh would show as 20 MB.
 constexpr std::size_t growth_in_all = 2'000'000;
 
-bool runs_long() { return std::getenv("PENUMBRA_FULL") != nullptr; }
-
 /// How often to do what PENUMBRA_FULL does `full` times.
 int repeats(int usual, int full) {
   if (sanitized) return usual / 10;
-  return runs_long() ? full : usual;
+  return is_full_run() ? full : usual;
 }
 
 template <typename Step>
@@ -213,7 +211,8 @@ void expect_no_growth(int count, std::size_t growth, Step&& step) {
             << before.resident / 1000 << " -> " << after.resident / 1000 << " kB\n";
   EXPECT_EQ(after.files, before.files);
   if (!sanitized) {  // their allocators keep what is freed; LeakSanitizer looks for what is not
-    const std::size_t most = runs_long() ? growth_in_all : growth * static_cast<std::size_t>(count);
+    const std::size_t most =
+        is_full_run() ? growth_in_all : growth * static_cast<std::size_t>(count);
     EXPECT_LT(after.resident, before.resident + most);
   }
 }

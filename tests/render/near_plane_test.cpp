@@ -2,7 +2,7 @@
 // What passes through, behind and around the camera.
 #include "random.hpp"
 #include "render_test.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 #include "shapes.hpp"
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "random.hpp"
 #include "render_test.hpp"
 #include "robot_views.hpp"
-#include "sanitized.hpp"
+#include "run_length.hpp"
 
 #include <cstdlib>
 #include <iostream>
@@ -76,7 +76,7 @@ TEST_P(RobotAgainstEmbree, RandomPosesAndCameras) {
   PENUMBRA_REQUIRE_DATA();
   const Robot robot = load_robot(GetParam().name, GetParam().geometry);
   std::mt19937_64 random = seeded_random(101);
-  const int cameras = std::getenv("PENUMBRA_FULL") != nullptr ? 20 : sanitized ? 1 : 2;
+  const int cameras = measures_in_full() ? 20 : sanitized ? 1 : 2;
   const std::vector<BackendChoice> choices = usable_backend_choices(1);
   std::vector<Agreement> totals(choices.size());
   for (int camera = 0; camera < cameras; ++camera) compare_views(random, robot, totals);

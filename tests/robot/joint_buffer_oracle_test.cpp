@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The joint buffer against a naive twin that keeps every state in a map.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "random_robot.hpp"
 #include "urdf_text.hpp"
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tests/robot/mesh_samples.hpp>
 #include <tests/support/random.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/robot/mesh_file.hpp>
@@ -341,7 +342,7 @@ void flip_bytes(const test::TemporaryFolder& folder, int trials, std::uint64_t s
 TEST_F(MeshBadFile, RandomDamageNeverCrashes) { flip_bytes(folder_, 300, 7); }
 
 TEST(MeshBadFileFull, RandomDamageNeverCrashes) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   flip_bytes(test::TemporaryFolder(), 20000, 8);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tests/robot/mesh_samples.hpp>
 #include <tests/support/data.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/mesh_file.hpp>
@@ -228,7 +229,7 @@ void expect_loads(const std::filesystem::path& file, const TriangleMesh& grid) {
 }
 
 TEST(MeshFileFull, FiveMillionTrianglesLoad) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   const TriangleMesh grid = large_grid();
   const test::TemporaryFolder folder;
   expect_loads(folder.write("big.stl", test::binary_stl(grid)), grid);

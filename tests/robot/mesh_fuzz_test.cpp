@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <tests/robot/mesh_samples.hpp>
 #include <tests/support/random.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/robot/mesh_file.hpp>
@@ -204,7 +205,7 @@ TEST(MeshFuzz, MutationsLeaveSomeFilesReadable) {
 }
 
 TEST(MeshFuzzFull, SwappedWordsAreReadOrRefused) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   fuzz(100000, 13);
 }
 

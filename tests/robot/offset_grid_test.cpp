@@ -11,7 +11,7 @@
 #include <tests/robot/urdf_text.hpp>
 #include <tests/support/data.hpp>
 #include <tests/support/random.hpp>
-#include <tests/support/sanitized.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/mesh_file.hpp>
@@ -149,7 +149,7 @@ TEST(OffsetGrid, RealLinks) {
 
 /// Thin walls, which the grid cuts into pieces.
 TEST(OffsetGridFull, LinkOfThinWalls) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  if (!test::measures_in_full()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   PENUMBRA_REQUIRE_DATA();
   const TriangleMesh mesh = load_mesh(
       test::data_folder() / "robots/xarm7/xarm_description/meshes/xarm7/visual/link_base.STL");
@@ -158,7 +158,7 @@ TEST(OffsetGridFull, LinkOfThinWalls) {
 }
 
 TEST(OffsetGridFull, EveryClosedLinkOfARealRobot) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  if (!test::measures_in_full()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
   PENUMBRA_REQUIRE_DATA();
   constexpr std::size_t most_triangles = 300'000;
   const auto folder = test::data_folder() / "robots/ur5e/ur_description/meshes/ur5e/collision";

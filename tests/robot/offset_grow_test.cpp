@@ -8,7 +8,7 @@
 #include <tests/robot/offset_shapes.hpp>
 #include <tests/support/data.hpp>
 #include <tests/support/random.hpp>
-#include <tests/support/sanitized.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>

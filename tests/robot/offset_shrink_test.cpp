@@ -7,7 +7,7 @@
 #include <tests/robot/offset_oracle.hpp>
 #include <tests/robot/urdf_text.hpp>
 #include <tests/support/random.hpp>
-#include <tests/support/sanitized.hpp>
+#include <tests/support/run_length.hpp>
 
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/robot/primitives.hpp>

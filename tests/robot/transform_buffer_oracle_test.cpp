@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The transform buffer against a naive twin: every state in a map, 4x4 matrices to the root.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 // Broken files give an InputError or a robot: never a crash, a hang or another exception.
 #include "../support/data.hpp"
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "random_robot.hpp"
 #include "urdf_text.hpp"
 
@@ -108,7 +109,7 @@ TEST(UrdfFuzz, MutatedUr5eIsReadOrRefused) {
 }
 
 TEST(UrdfFuzzFull, MutatedForLong) {
-  if (std::getenv("PENUMBRA_FULL") == nullptr) GTEST_SKIP() << "set PENUMBRA_FULL";
+  if (!is_full_run()) GTEST_SKIP() << "set PENUMBRA_FULL";
   mutate(kEverything, 500000, 10);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether what MuJoCo draws is the truth: against closed forms, and against Penumbra's own
 // rendering of the arm, which shares nothing with it but the URDF.
+#include "../support/run_length.hpp"
 #include "simulated.hpp"
 
 #include <cmath>
@@ -183,7 +184,7 @@ void compare(const SimFrame& frame, const VirtualDepthView& drawn, Agreement& al
 
 TEST(DrawingTruth, TheArmIsTheUrdfs) {
   PENUMBRA_REQUIRE_SIMULATION();
-  const int frames = std::getenv("PENUMBRA_FULL") != nullptr ? 200 : 12;
+  const int frames = measures_in_full() ? 200 : 12;
   auto options = without_noise(4);
   options.color = false;
   Simulation simulation("random", options);

@@ -2,6 +2,7 @@
 // What a detector sees of its targets, judged against MuJoCo's segmentation: each target is seen
 // once without the arm, then by the pixels that the arm leaves of it. Truth is MuJoCo's.
 #include "../support/random.hpp"
+#include "../support/run_length.hpp"
 #include "simulated.hpp"
 
 #include <algorithm>
@@ -181,7 +182,7 @@ class ModalBench {
 };
 
 void judge_all(bool noisy) {
-  const int frames = std::getenv("PENUMBRA_FULL") != nullptr ? 1000 : 60;
+  const int frames = measures_in_full() ? 1000 : 60;
   Tallies tallies;
   for (int seed = 0; seed < seeds; ++seed) {
     ModalBench bench(static_cast<std::uint64_t>(seed) + 200, noisy);

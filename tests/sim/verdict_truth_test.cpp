@@ -2,6 +2,7 @@
 // Verdicts against MuJoCo's segmentation: random arms with targets before, behind and beside them.
 // Labels, virtual depth and verdicts are Penumbra's; truth is MuJoCo's: ids and depths of what is
 // seen and of each thing alone. Masks are MuJoCo's too; of 3-D targets Penumbra gets the pose.
+#include "../support/run_length.hpp"
 #include "simulated.hpp"
 
 #include <algorithm>
@@ -300,7 +301,7 @@ class Bench {
 };
 
 Tallies judge_all(bool noisy) {
-  const int frames = std::getenv("PENUMBRA_FULL") != nullptr ? 1000 : 60;
+  const int frames = measures_in_full() ? 1000 : 60;
   Tallies tallies;
   for (int seed = 0; seed < seeds; ++seed) {
     Bench bench(static_cast<std::uint64_t>(seed) + 100, noisy);

@@ -2,7 +2,7 @@
 // Covariances are true: over many samples of the model, squared errors in units of the covariance
 // follow chi^2 (Bar-Shalom, Li, Kirubarajan 2001, section 5.4: NEES of states, NIS of estimates).
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "random_motion.hpp"
 #include "tracks.hpp"
 

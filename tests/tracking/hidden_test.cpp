@@ -2,7 +2,7 @@
 // A target is seen, hidden while a detector goes on inventing poses, and seen again: predictions
 // stay as near to the truth as they say, and the target is found again.
 #include "../support/random.hpp"
-#include "../support/sanitized.hpp"
+#include "../support/run_length.hpp"
 #include "random_motion.hpp"
 #include "tracks.hpp"
 
