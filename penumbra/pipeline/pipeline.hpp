@@ -66,8 +66,7 @@ class Pipeline {
   const FrameReport& process(const Frame& frame);
 
   /// Forgets a target's verdict, extent and track: the name stands for something new. All of them,
-  /// and the kept frames: a new sequence begins. A stamp that is more than 5 s before the one of
-  /// the last frame does so, too.
+  /// and the kept frames: a new sequence begins. A stamp before the last frame's does so, too.
   void forget_target(std::string_view name);
   void forget_targets();
 

@@ -48,9 +48,9 @@ class TargetTrack {
   Outcome update(const TargetEstimate& estimate, std::int64_t stamp,
                  const Eigen::Isometry3d& T_root_frame, Verdict verdict);
 
-  /// Nothing where the target is not handled. `is_refused`: the estimate of this frame; so nothing
-  /// is `measured`, not even by another estimate of the same stamp.
-  [[nodiscard]] std::optional<HandledTarget> at(std::int64_t stamp, bool is_refused = false) const;
+  /// Nothing where the target is not handled. `is_measured`: an estimate of this frame was taken;
+  /// else nothing is `measured`, not even by another one of the same stamp.
+  [[nodiscard]] std::optional<HandledTarget> at(std::int64_t stamp, bool is_measured) const;
 
  private:
   std::variant<std::monostate, PoseTracker, PointTracker> tracker_;

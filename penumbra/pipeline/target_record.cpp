@@ -100,13 +100,13 @@ Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
   return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
 }
 
-std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_refused) const {
+std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_measured) const {
   std::optional<HandledTarget> handled;
   if (const auto* poses = std::get_if<PoseTracker>(&tracker_))
     handled = handled_pose(poses->at(stamp));
   else if (const auto* points = std::get_if<PointTracker>(&tracker_))
     handled = handled_point(points->at(stamp));
-  if (handled && is_refused && handled->source == Source::measured) handled->source = carried_;
+  if (handled && !is_measured && handled->source == Source::measured) handled->source = carried_;
   return handled;
 }
 

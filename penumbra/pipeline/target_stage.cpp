@@ -76,7 +76,7 @@ TargetStage::TargetStage(const Setup& setup)
       camera_(setup.camera),
       judge_(setup.camera, setup.rule, setup.robot.links().size(), setup.unseen),
       renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
-      views_(robot_, camera_, renderers_, setup.rule),
+      views_(robot_, camera_, renderers_, setup.rule, setup.rectification),
       recent_poses_(robot_.links().size()),
       recent_frames_(nanoseconds(setup.history)) {}
 
@@ -233,7 +233,7 @@ void TargetStage::expect_motion(const JudgedFrame& frame, const TargetRecord& me
 std::optional<Eigen::Vector2d> TargetStage::track_pixel(const JudgedFrame& frame,
                                                         const TargetRecord& memory) const {
   if (!memory.track || !frame.stamp) return std::nullopt;
-  const auto handled = memory.track->at(*frame.stamp);
+  const auto handled = memory.track->at(*frame.stamp, false);
   if (!handled || !handled->position) return std::nullopt;
   return views_.project(frame.poses.T_root_camera.inverse() * *handled->position);
 }
@@ -246,12 +246,13 @@ void TargetStage::handle(const Target& target, const JudgedFrame& frame, const S
   if (report.wants_stamp) return;
   const auto estimate = target.estimate ? target.estimate : own_estimate(target, report);
   const bool is_given = estimate && !std::holds_alternative<std::monostate>(estimate->value);
+  bool is_measured = false;  // by this call: what an earlier one took of the same stamp is no news
   if (is_given && memory.times == 1) {
     const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp));
     report.estimate = feed(*estimate, stamp, memory);
+    is_measured = *report.estimate == Outcome::accepted && stamp == *frame.stamp;
   }
-  const bool is_refused = report.estimate && *report.estimate != Outcome::accepted;
-  report.handled = memory.track->at(*frame.stamp, is_refused);
+  report.handled = memory.track->at(*frame.stamp, is_measured);
   if (report.verdict == Verdict::visible && slot.seen != nullptr)
     memory.good_pixel = track_pixel(*slot.seen, memory);
 }

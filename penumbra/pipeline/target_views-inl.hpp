@@ -13,6 +13,7 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/camera/uncovered_view.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
@@ -61,10 +62,10 @@ class ObjectRenderers {
 /// Brings targets' shapes to the image.
 class TargetViews {
  public:
-  /// `camera`: of the images that are judged, `rule`: that of their labels. All but the rule must
-  /// outlive this.
+  /// `camera`: of the images that are judged, `rule`: that of their labels, `rectification`: of raw
+  /// images with lens distortion; else null. All but the rule must outlive this.
   TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
-              const LabelRule& rule);
+              const LabelRule& rule, const Rectification* rectification);
 
   /// The target's region and expected depth; nothing where its shape lies outside of the camera's
   /// view. Valid until the next call. Throws InputError for a shape that is none.
@@ -76,6 +77,7 @@ class TargetViews {
  private:
   struct Builder;
 
+  [[nodiscard]] Eigen::Matrix2d pixels_per_metre(const Eigen::Vector2d& ray, double depth) const;
   [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
                                         double radius) const;
 
@@ -83,6 +85,7 @@ class TargetViews {
   const Camera& camera_;
   ObjectRenderers& renderers_;
   labelling::Rule rule_;
+  std::optional<UncoveredView> uncovered_;  // of raw images with lens distortion
 };
 
 }  // namespace penumbra

@@ -40,6 +40,9 @@ bool shows_target(const ImageView<const std::uint8_t>& labels, const Eigen::Vect
   return label == Label::clear || label == Label::front;
 }
 
+constexpr const char* uncovered =
+    "reaches beyond what the lens model or the pinhole image covers: cannot be drawn there";
+
 bool shows_anything(const VirtualDepthView& view) {
   bool found = false;
   view.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
@@ -60,8 +63,10 @@ Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const
 }
 
 TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
-                         const LabelRule& rule)
-    : robot_(robot), camera_(camera), renderers_(renderers), rule_(rule) {}
+                         const LabelRule& rule, const Rectification* rectification)
+    : robot_(robot), camera_(camera), renderers_(renderers), rule_(rule) {
+  if (rectification != nullptr) uncovered_.emplace(camera, *rectification);
+}
 
 /// Makes a view of each kind of shape.
 struct TargetViews::Builder {
@@ -85,12 +90,13 @@ struct TargetViews::Builder {
     view.expected_depth = target.expected_depth;
     view.point_pixel = target.pixel;
     PixelEllipse ellipse{target.pixel, target.semi_axes, target.angle};
-    if (target.in_metres) ellipse.semi_axes *= pixels_per_metre(target);
+    if (target.in_metres) ellipse.semi_axes *= most_pixels_per_metre(target);
     view.region = ellipse;
     return true;
   }
 
-  [[nodiscard]] double pixels_per_metre(const KeypointTarget& target) const {
+  /// In the direction in which the lens stretches most.
+  [[nodiscard]] double most_pixels_per_metre(const KeypointTarget& target) const {
     if (!target.expected_depth && !shows_target(frame.images.labels.labels, target.pixel))
       throw InputError(
           "radius in metres, but at the pixel the robot is measured, or may be; give an expected "
@@ -100,11 +106,17 @@ struct TargetViews::Builder {
     if (!(depth > 0.0))
       throw InputError(
           "radius in metres, but no depth is measured at the pixel; give an expected depth");
-    return std::max(views.camera_.intrinsics.fx(), views.camera_.intrinsics.fy()) / depth;
+    const Camera& camera = views.camera_;
+    const auto ray = camera.distortion.undistort(
+        camera.intrinsics.ray(target.pixel.x(), target.pixel.y()).head<2>());
+    if (!ray) throw InputError("radius in metres, but the lens model does not reach its pixel");
+    const Eigen::JacobiSVD<Eigen::Matrix2d> svd(views.pixels_per_metre(*ray, depth));
+    return svd.singularValues()[0];
   }
 
   bool operator()(const PointTarget& target) {
     const Eigen::Vector3d p = T_camera(target.frame) * target.position;
+    if (views.uncovered_ && views.uncovered_->holds(p)) throw InputError(uncovered);
     const auto pixel = views.project(p);
     if (!pixel) return false;
     view.region = views.ellipse_of(p, *pixel, target.radius);
@@ -116,17 +128,24 @@ struct TargetViews::Builder {
 
   bool operator()(const BoxTarget& target) {
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
+    check_is_covered({-0.5 * target.size, 0.5 * target.size}, T);
     return rendered(views.renderers_.box(target.size, T)) ||
            nearest_pixel(T.translation(), 0.5 * target.size.norm());
   }
 
   bool operator()(const MeshTarget& target) {
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
-    if (rendered(views.renderers_.mesh(target.mesh, T))) return true;
-    Eigen::AlignedBox3f bounds;
-    for (const Eigen::Vector3f& vertex : target.mesh->vertices) bounds.extend(vertex);
-    return nearest_pixel(T * bounds.center().cast<double>(),
-                         0.5 * static_cast<double>(bounds.diagonal().norm()));
+    const bool is_shown = rendered(views.renderers_.mesh(target.mesh, T));
+    if (is_shown && !views.uncovered_) return true;
+    Eigen::AlignedBox3d bounds;
+    for (const Eigen::Vector3f& vertex : target.mesh->vertices)
+      bounds.extend(vertex.cast<double>());
+    check_is_covered(bounds, T);
+    return is_shown || nearest_pixel(T * bounds.center(), 0.5 * bounds.diagonal().norm());
+  }
+
+  void check_is_covered(const Eigen::AlignedBox3d& bounds, const Eigen::Isometry3d& T) const {
+    if (views.uncovered_ && views.uncovered_->holds_part_of(bounds, T)) throw InputError(uncovered);
   }
 
   bool rendered(const VirtualDepthView& object) {
@@ -179,12 +198,16 @@ std::optional<Eigen::Vector2d> TargetViews::project(const Eigen::Vector3d& p) co
   return camera_.intrinsics.project({bent.x(), bent.y(), 1.0});
 }
 
+/// Derivative of a point's pixel by its place, parallel to the image plane.
+Eigen::Matrix2d TargetViews::pixels_per_metre(const Eigen::Vector2d& ray, double depth) const {
+  const Intrinsics& k = camera_.intrinsics;
+  return Eigen::Vector2d(k.fx(), k.fy()).asDiagonal() * camera_.distortion.derivative(ray) / depth;
+}
+
 /// The image of the disc of that radius around the point, parallel to the image plane.
 PixelEllipse TargetViews::ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
                                      double radius) const {
-  const Intrinsics& k = camera_.intrinsics;
-  const Eigen::Matrix2d J = Eigen::Vector2d(k.fx(), k.fy()).asDiagonal() *
-                            camera_.distortion.derivative(p.head<2>() / p.z()) * (radius / p.z());
+  const Eigen::Matrix2d J = pixels_per_metre(p.head<2>() / p.z(), p.z()) * radius;
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(J, Eigen::ComputeFullU);
   const Eigen::Vector2d axis = svd.matrixU().col(0);
   return {pixel, svd.singularValues(), std::atan2(axis.y(), axis.x())};

@@ -30,6 +30,7 @@ class LiveProgram {
   explicit LiveProgram(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, "live"});
     std::vector<char*> words;
+    words.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
     if (posix_spawn(&pid_, PENUMBRA_PROGRAM, nullptr, nullptr, words.data(), environ) != 0)

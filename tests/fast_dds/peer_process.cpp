@@ -23,6 +23,7 @@ PeerProcess::PeerProcess(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {PENUMBRA_FAST_DDS_PEER};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::array<int, 2> to{}, from{};

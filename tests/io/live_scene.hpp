@@ -151,7 +151,7 @@ class KeptResults final : public io::ResultSink {
 /// An inbox and its worker, driven by hand.
 class LiveBench {
  public:
-  explicit LiveBench(io::LiveOptions options = one_camera()) : inbox(options) {}
+  explicit LiveBench(const io::LiveOptions& options = one_camera()) : inbox(options) {}
 
   static io::LiveOptions one_camera() {
     io::LiveOptions options;
@@ -190,7 +190,7 @@ class LiveBench {
     return judged;
   }
 
-  [[nodiscard]] const io::LiveCounts counts() const { return inbox.camera(0).counts(); }
+  [[nodiscard]] io::LiveCounts counts() const { return inbox.camera(0).counts(); }
 
   std::int64_t now = 1000 * seconds;
   io::LiveInbox inbox;

@@ -162,6 +162,22 @@ TEST_F(TargetsTest, ARefusedEstimateIsNotMeasured) {
   EXPECT_EQ(report.handled->source, Source::predicted);
 }
 
+TEST_F(TargetsTest, WhatIsHiddenAtTheStampOfAMeasurementIsNotMeasured) {
+  ASSERT_EQ(judge(0, followed(beside_slab)).handled->source, Source::measured);
+  const TargetReport& hidden = judge(0, followed(behind_slab));
+  EXPECT_EQ(hidden.verdict, Verdict::hidden);
+  EXPECT_FALSE(hidden.estimate);
+  EXPECT_EQ(hidden.handled->source, Source::held);
+}
+
+TEST_F(TargetsTest, AnEstimateOfAnotherStampIsNotMeasured) {
+  ASSERT_EQ(judge(0, estimated(0, beside_slab, 0.0)).handled->source, Source::measured);
+  ASSERT_EQ(judge(100 * ms, estimated(100 * ms, beside_slab, 0.0)).handled->source,
+            Source::measured);
+  const TargetReport& late = judge(200 * ms, estimated(150 * ms, beside_slab, 0.0));
+  EXPECT_EQ(late.handled->source, Source::predicted);
+}
+
 TEST_F(TargetsTest, NothingStandsForAnEstimateThatWasNotFound) {
   Target target = followed(beside_slab);
   target.estimate = TargetEstimate{.value = std::monostate{}};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "targets_fixture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 namespace penumbra::test {
 namespace {
@@ -43,6 +46,112 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   EXPECT_NEAR(static_cast<double>(plate.judgement->inside), covered, outline * covered);
   EXPECT_NEAR(plate.judgement->occluded, hidden / (1.0 * covered), outline);
   EXPECT_EQ(plate.verdict, Verdict::partial);
+}
+
+/// Pixels of a fisheye's image whose rays meet a sphere, by the formula of equidistant lenses: also
+/// of rays that no pinhole image holds.
+int pixels_of_sphere(const Intrinsics& k, const Eigen::Vector3d& middle, double radius) {
+  const double spread = std::asin(radius / middle.norm());
+  int pixels = 0;
+  for (int v = 0; v < k.height(); ++v) {
+    for (int u = 0; u < k.width(); ++u) {
+      const Eigen::Vector2d bent = k.ray(u, v).head<2>();
+      const double angle = bent.norm();
+      Eigen::Vector3d ray(0, 0, std::cos(angle));
+      if (angle > 0.0) ray.head<2>() = bent * (std::sin(angle) / angle);
+      if (std::acos(std::clamp(ray.dot(middle.normalized()), -1.0, 1.0)) <= spread) ++pixels;
+    }
+  }
+  return pixels;
+}
+
+/// A radius in metres takes in what a lens stretches: no less than the same disc's ellipse.
+TEST(TargetsInTheRawImage, OfARadiusInMetresGrowWithTheLens) {
+  Camera camera = slab_camera();
+  const double coefficients[] = {0.3, 0.0, 0.0, 0.0, 0.0};
+  camera.distortion = Distortion("plumb_bob", coefficients);
+  const Image<float> depth = scene_depth(camera, 0.0);
+  Pipeline pipeline(slab_robot(), camera, plain_config());
+  const Eigen::Vector3d middle(0.75, 0.6, 1.5);
+  const Eigen::Vector2d bent = camera.distortion.distort(middle.head<2>() / middle.z());
+  const Eigen::Vector2d pixel = camera.intrinsics.project({bent.x(), bent.y(), 1.0});
+  constexpr double radius = 0.1;
+  KeypointTarget key{.pixel = pixel, .semi_axes = Eigen::Vector2d::Constant(radius)};
+  key.in_metres = true;
+  key.expected_depth = middle.z();
+  const std::vector<Target> targets{{.name = "key", .shape = key},
+                                    {.name = "point", .shape = PointTarget{middle, radius, {}}}};
+  const std::vector<double> positions{0.0};
+  const FrameReport& report = pipeline.process(
+      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
+  ASSERT_TRUE(report.targets[0].judgement && report.targets[1].judgement);
+  const std::size_t disc = report.targets[1].judgement->covered;
+  EXPECT_GT(disc, 300U);
+  EXPECT_GE(report.targets[0].judgement->covered, disc);
+  EXPECT_LT(report.targets[0].judgement->covered, 2 * disc);
+}
+
+struct FisheyeCounts {
+  int undrawn = 0, out_of_view = 0, whole = 0;
+};
+
+/// Cubes all around a fisheye of that focal length, pixels. Those that reach beyond its pinhole
+/// image must not look visible, nor out of view where they are seen.
+FisheyeCounts judge_around_fisheye(double focal) {
+  Camera camera = slab_camera();
+  const int width = camera.intrinsics.width(), height = camera.intrinsics.height();
+  camera.intrinsics = Intrinsics(width, height, focal, focal, width / 2.0, height / 2.0);
+  const double coefficients[] = {0, 0, 0, 0};
+  camera.distortion = Distortion("equidistant", coefficients);
+  const Image<float> depth(width, height, static_cast<float>(wall_depth));
+  const std::vector<double> positions{0.0};
+  Pipeline pipeline(slab_robot(), camera, plain_config());
+  const double covered = Rectification(camera).half_angle();
+  constexpr double radius = 0.15, inner = radius / std::numbers::sqrt3;  // spheres around and in it
+  FisheyeCounts counts;
+  for (double angle = 0.2; angle < 2.8; angle += 0.05) {
+    for (double about = 0.0; about < 6.28; about += 0.35) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() = Eigen::Vector3d(std::sin(angle) * std::cos(about),
+                                           std::sin(angle) * std::sin(about), std::cos(angle));
+      const int pixels = pixels_of_sphere(camera.intrinsics, pose.translation(), inner);
+      Target target{.name = "cube",
+                    .shape = BoxTarget{pose, Eigen::Vector3d::Constant(2.0 * inner), {}}};
+      target.thresholds.past_limit = 1;  // the wall is what is measured
+      pipeline.forget_targets();
+      const TargetReport& report =
+          pipeline
+              .process(
+                  {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = {&target, 1}})
+              .targets[0];
+      SCOPED_TRACE(testing::Message() << angle << " about " << about << ": " << pixels);
+      const bool is_undrawn = report.reason.find("cannot be drawn") != std::string_view::npos;
+      if (pixels > 0 && angle + std::asin(inner) > covered) {
+        EXPECT_NE(report.verdict, Verdict::visible);
+        EXPECT_NE(report.verdict, Verdict::out_of_view);
+      }
+      if (angle + 1.1 * radius < covered) {
+        EXPECT_FALSE(is_undrawn);
+      }
+      counts.undrawn += is_undrawn ? 1 : 0;
+      counts.out_of_view += report.verdict == Verdict::out_of_view ? 1 : 0;
+      counts.whole += pixels > 0 && report.judgement && !is_undrawn ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+TEST(TargetsOfAFisheye, AreUnknownWhereTheyReachBeyondThePinholeImage) {
+  const FisheyeCounts counts = judge_around_fisheye(40.0);  // to 115 degrees from its axis
+  EXPECT_GT(counts.undrawn, 100);
+  EXPECT_GT(counts.whole, 100);
+}
+
+TEST(TargetsOfAFisheye, AreOutOfViewBesideANarrowOne) {
+  const FisheyeCounts counts = judge_around_fisheye(130.0);  // to 36 degrees: all is drawn
+  EXPECT_EQ(counts.undrawn, 0);
+  EXPECT_GT(counts.out_of_view, 100);
+  EXPECT_GT(counts.whole, 20);
 }
 
 /// A lens whose pinhole image reaches far beyond what the camera saw.
@@ -112,7 +221,9 @@ TEST_F(RectifiedTargetsTest, AreInViewWhereTheyAreInTheRawImage) {
         const Eigen::Vector3d position(scale * x, scale * y, 1.0);
         by.forget_targets();
         const Target target{.name = "point", .shape = PointTarget{position, 0.002, {}}};
-        return judge(by, target).verdict != Verdict::out_of_view;
+        const TargetReport report = judge(by, target);  // the raw image's corners are not covered
+        return report.verdict != Verdict::out_of_view &&
+               report.reason.find("cannot be drawn") == std::string_view::npos;
       };
       const bool in_raw = is_seen(raw, 1.0);
       if (is_seen(raw, 0.98) != is_seen(raw, 1.02)) continue;  // within two pixels of the edge

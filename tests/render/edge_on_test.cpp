@@ -198,7 +198,7 @@ ImageTriangle random_edge_on(std::mt19937_64& random, const Intrinsics& camera) 
   const std::array<Vector2d, 6> along{
       Vector2d(1, 0),  Vector2d(0, 1), Vector2d(1, 1),
       Vector2d(1, -1), Vector2d(2, 1), Vector2d(uniform(random, -1, 1), uniform(random, -1, 1))};
-  const Vector2d direction = along[random() % along.size()];
+  const Vector2d& direction = along[random() % along.size()];
   const Vector2d start(std::floor(uniform(random, 40, 120)), std::floor(uniform(random, 30, 90)));
   const double extent = std::pow(10.0, uniform(random, -3.0, 2.0));
   const std::array<double, 5> heights{0.0, 1e-6, 1e-4, 1e-3, 1e-2};

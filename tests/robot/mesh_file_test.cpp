@@ -98,7 +98,10 @@ TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
   expect_half("  v  0 0 0\n\tv .5 0 0 \n v 0\t.75 0\nv 0 0 1 # the tip\n");
   for (const char* more : {"1", "1.0", ".2 .3 1", "0.2 0.3 1", ".2 .3 1 .5", "1 .2 .3 1"}) {
     const std::string end = std::string(" ") + more + "\n";
-    expect_half("v 0 0 0" + end + "v .5 0 0" + end + "v 0 .75 0" + end + "v 0 0 1" + end);
+    std::string lines;
+    for (const char* corner : {"0 0 0", ".5 0 0", "0 .75 0", "0 0 1"})
+      lines.append("v ").append(corner).append(end);
+    expect_half(lines);
   }
 }
 
