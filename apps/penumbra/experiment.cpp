@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/progress.hpp>
+#include <io/pending_file.hpp>
 #include <sim/experiments/experiment.hpp>
 
 namespace penumbra::app {
 
 int execute(const ExperimentArguments& arguments) {
-  std::optional<Progress> progress;
-  sim::run_experiment(
-      arguments, [&](std::size_t total) { progress.emplace(total); }, [&] { progress->step(); });
-  progress.reset();
-  std::cout << (arguments.output / "report.html").string() << '\n';
-  return 0;
+  const std::filesystem::path report = arguments.output / "report.html";
+  const auto run = [&] {
+    std::optional<Progress> progress;
+    sim::run_experiment(
+        arguments, [&](std::size_t total) { progress.emplace(total); }, [&] { progress->step(); });
+    progress.reset();
+    std::cout << report.string() << '\n';
+    return 0;
+  };
+  return run_or_tell_left(run, [&] {
+    return io::left_as_it_was(arguments.output / "metrics.json") + io::left_as_it_was(report);
+  });
 }
 
 }  // namespace penumbra::app

@@ -70,7 +70,7 @@ std::vector<fs::path> images_in(const fs::path& output) {
 
 /// Whether a run's report stands there. `is_part`: it may not have got to its first bytes.
 /// Throws InputError where the file is another's.
-bool has_report(const fs::path& file, bool is_part) {
+bool is_report(const fs::path& file, bool is_part) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
   std::array<char, report_start.size()> start{};
@@ -84,44 +84,49 @@ bool has_report(const fs::path& file, bool is_part) {
   return true;
 }
 
-}  // namespace
+/// What an earlier run left in a folder.
+struct FormerRun {
+  fs::path report, part;
+  bool has_report = false, has_part = false;
+  std::vector<fs::path> images;
+};
 
-void remove_former_run(const fs::path& folder) {
+FormerRun find_former_run(const fs::path& folder) {
   std::error_code error;
+  FormerRun former{
+      .report = folder / "report.json", .part = folder / "report.json.part", .images = {}};
   const fs::file_status found = fs::status(folder, error);
-  if (!fs::exists(found)) return;
+  if (!fs::exists(found)) return former;
   if (!fs::is_directory(found))
     throw InputError(folder.string() +
                      ": cannot be used as output folder (it is a file); choose another with -o");
-  const fs::path report = folder / "report.json";
-  const fs::path part = report.string() + ".part";
-  if (fs::is_directory(report, error))
-    throw InputError(report.string() +
+  if (fs::is_directory(former.report, error))
+    throw InputError(former.report.string() +
                      ": is a folder where the report is to be written; remove it, or choose "
                      "another output folder with -o");
-  const bool has_whole = has_report(report, false);
-  const bool has_part = has_report(part, true);
-  const std::vector<fs::path> images = images_in(folder);
-  if (!images.empty() && !has_whole && !has_part)
-    throw InputError(images.front().string() +
+  former.has_report = is_report(former.report, false);
+  former.has_part = is_report(former.part, true);
+  former.images = images_in(folder);
+  if (!former.images.empty() && !former.has_report && !former.has_part)
+    throw InputError(former.images.front().string() +
                      ": is of no run of penumbra, as there is no report.json, and stands where "
                      "images are written; move it away, or choose another folder with -o");
-  // Until the last image is gone a report says whose they are, but none as of a whole run.
-  if (has_whole) fs::rename(report, part, error);
-  const bool is_renamed = has_whole && !error;
-  if (has_whole && error) remove_file(report);
-  for (const fs::path& image : images) remove_file(image);
-  if (is_renamed || has_part) remove_file(part);
+  return former;
 }
 
-void remove_former_file(const std::string& option, const fs::path& file) {
+}  // namespace
+
+void check_former_run(const fs::path& folder) { static_cast<void>(find_former_run(folder)); }
+
+void remove_former_run(const fs::path& folder) {
+  const FormerRun former = find_former_run(folder);
   std::error_code error;
-  if (fs::is_directory(file, error))
-    throw InputError(option + ": " + file.string() + " is a folder; the name of a file is wanted");
-  if (!fs::is_regular_file(file, error)) return;
-  // Behind a link, as that is what will be written. Where a folder lets no name go, its content
-  // goes.
-  if (fs::remove(fs::canonical(file, error), error); error) io::OutputFile(file).close();
+  // Until the last image is gone a report says whose they are, but none as of a whole run.
+  if (former.has_report) fs::rename(former.report, former.part, error);
+  const bool is_renamed = former.has_report && !error;
+  if (former.has_report && error) remove_file(former.report);
+  for (const fs::path& image : former.images) remove_file(image);
+  if (is_renamed || former.has_part) remove_file(former.part);
 }
 
 UnfinishedRun::~UnfinishedRun() {

@@ -5,17 +5,32 @@
 #include <string>
 #include <utility>
 
+#include <penumbra/base/error.hpp>
+
 namespace penumbra::app {
 
-/// Removes what an earlier `run` wrote into a folder: report.json and images by frame number. What
-/// is not there is no fault. Throws InputError, with nothing removed, where such images stand
-/// without a report that says that they are a run's, lie behind a link, or report.json is not
-/// Penumbra's; and where something cannot be removed, or `folder` is no folder.
+/// Looks at what an earlier `run` wrote into a folder: report.json and images by frame number. What
+/// is not there is no fault. Throws InputError where such images stand without a report that says
+/// that they are a run's, lie behind a link, or report.json is not Penumbra's; and where `folder`
+/// is no folder. Touches nothing.
+void check_former_run(const std::filesystem::path& folder);
+
+/// Removes it. Throws as check_former_run() does, with nothing removed, and where something cannot
+/// be removed.
 void remove_former_run(const std::filesystem::path& folder);
 
-/// Removes the file that `option` is to write; what is no regular file (/dev/null) stays. Throws
-/// InputError for a folder.
-void remove_former_file(const std::string& option, const std::filesystem::path& file);
+/// Runs a command: to the message of what it throws `left()` is added, which says what of earlier
+/// results still stands.
+template <typename Run, typename Left>
+int run_or_tell_left(const Run& run, const Left& left) {
+  try {
+    return run();
+  } catch (const InputError& error) {
+    throw InputError(error.what() + left());
+  } catch (const DeviceError& error) {
+    throw DeviceError(error.what() + left());
+  }
+}
 
 /// Removes the images of a run that throws: as there will be no report, nothing would tell whose
 /// they are. The folder is one that remove_former_run() was called for.

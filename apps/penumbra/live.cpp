@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/run_input.hpp>
@@ -23,6 +25,7 @@
 #include <io/dds/receive_buffers.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/live/name_resolver.hpp>
+#include <io/pending_file.hpp>
 #include <io/printable.hpp>
 #include <io/ros/message_encoder.hpp>
 
@@ -239,6 +242,37 @@ class Live {
   std::unique_ptr<LiveSubscriptions> subscriptions_;
 };
 
+/// Takes its name once it is written: a run that fails leaves an earlier one's as it was.
+class SummaryFile {
+ public:
+  explicit SummaryFile(const std::filesystem::path& file) : file_(file), pending_(file) {
+    io::check_is_no_folder("--summary", file);
+    stream_.open(pending_.part());
+    if (!stream_) refuse();
+  }
+
+  void write(const std::string& summary) {
+    stream_ << summary << '\n';
+    stream_.close();
+    if (!stream_) refuse();
+    pending_.finish();
+  }
+
+  void tell_unwritten() const {
+    tell_notes(
+        std::vector{"no camera was found, and no summary is written" + io::left_as_it_was(file_)});
+  }
+
+ private:
+  [[noreturn]] void refuse() const {
+    throw InputError("--summary " + file_.string() + ": cannot be written");
+  }
+
+  std::filesystem::path file_;
+  io::PendingFile pending_;
+  std::ofstream stream_;
+};
+
 void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "live on domain " << domain << ", until Ctrl-C\n";
   if (!options.robot.given) std::cout << "robot: " << options.description_topic << '\n';
@@ -253,19 +287,13 @@ void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
-}  // namespace
-
-int execute(const LiveArguments& arguments) {
+int label_live(const LiveArguments& arguments) {
   const io::NameResolver names = resolver_of(arguments);
   io::LiveOptions options = options_of(arguments, names);
   const io::LiveCameraOptions common = camera_options(arguments);
   options.cameras = named_cameras(arguments, names, common);
-  std::ofstream summary;
-  if (arguments.summary) {
-    summary.open(*arguments.summary);
-    if (!summary)
-      throw InputError("--summary " + arguments.summary->string() + ": cannot be written");
-  }
+  std::optional<SummaryFile> summary;
+  if (arguments.summary) summary.emplace(*arguments.summary);
   StopSignal stop;
   const auto graph = io::join_graph(arguments.graph);
   if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
@@ -275,21 +303,28 @@ int execute(const LiveArguments& arguments) {
   if (options.cameras.empty()) {
     CameraSearch search(*graph, camera_wishes(arguments, names));
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
-    if (!camera) return 0;
+    if (!camera) {
+      if (summary) summary->tell_unwritten();
+      return 0;
+    }
     options.cameras.push_back(std::move(*camera));
   }
   tell_topics(options, graph->domain());
   Live live(arguments, names, *graph, options);
   const bool stopped = live.run(*graph, diagnostics, stop);
   tell_notes(graph->take_complaints());
-  if (arguments.summary) {
-    summary << live.summary() << '\n';
-    if (!summary.flush())
-      throw InputError("--summary " + arguments.summary->string() + ": cannot be written");
-  }
+  if (summary) summary->write(live.summary());
   if (stopped || live.judged() > 0) return 0;
   std::cerr << "penumbra: no image was judged\n";
   return 2;
+}
+
+}  // namespace
+
+int execute(const LiveArguments& arguments) {
+  return run_or_tell_left(
+      [&] { return label_live(arguments); },
+      [&] { return arguments.summary ? io::left_as_it_was(*arguments.summary) : std::string(); });
 }
 
 }  // namespace penumbra::app

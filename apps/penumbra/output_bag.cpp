@@ -1,25 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include <penumbra/base/error.hpp>
+
 #include <apps/penumbra/output_bag.hpp>
+#include <io/mcap/reader.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::app {
+namespace {
+
+constexpr std::string_view topics_start = "/penumbra/";
+
+/// Why what is there may not be replaced; empty: it is a bag of results.
+std::string why_kept(const std::filesystem::path& file) {
+  try {
+    const io::mcap::Reader reader(file);
+    const auto& channels = reader.channels();
+    const bool is_ours = reader.library().starts_with("penumbra ") && !channels.empty() &&
+                         std::all_of(channels.begin(), channels.end(), [](const auto& channel) {
+                           return channel.second.topic.starts_with(topics_start);
+                         });
+    return is_ours ? std::string() : file.string() + ": is no bag of results of penumbra";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
 
 OutputBag::OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root)
-    : file_(file), writer_(file, {.profile = "ros2"}), encoder_(camera, std::move(root)) {
+    : file_(file),
+      pending_(file),
+      writer_(pending_.part(), {.profile = "ros2"}),
+      encoder_(camera, std::move(root)) {
   for (const io::ResultTopic& topic : io::result_topics) {
     const std::uint16_t schema = writer_.add_schema(std::string(topic.type), "ros2msg",
                                                     std::string(io::definition_of(topic.type)));
     channels_[static_cast<std::size_t>(topic.result)].id =
-        writer_.add_channel("/penumbra/" + std::string(topic.name), "cdr", schema);
+        writer_.add_channel(std::string(topics_start).append(topic.name), "cdr", schema);
   }
-}
-
-OutputBag::~OutputBag() {
-  std::error_code ignored;
-  if (!finished_) std::filesystem::remove(file_, ignored);
 }
 
 void OutputBag::write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) {
@@ -39,7 +62,7 @@ void OutputBag::save(const FrameReport& report, const io::FrameData& frame,
 
 void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::string> /*notes*/) {
   writer_.close();
-  finished_ = true;
+  pending_.finish();
 }
 
 std::vector<std::string> OutputBag::notes() const {
@@ -51,6 +74,18 @@ std::vector<std::string> OutputBag::notes() const {
     lines.push_back(file_.string() + ": its mask trusts nothing, and it holds no points: link '" +
                     missing_link_ + "' is not drawn and may stand anywhere");
   return lines;
+}
+
+void check_former_bag(const std::filesystem::path& file) {
+  io::check_is_no_folder("--output", file);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) ||
+      std::filesystem::file_size(file, error) == 0)
+    return;
+  if (const std::string why = why_kept(file); !why.empty())
+    throw InputError(why +
+                     ", and only a bag of results is replaced; move it away, or choose another "
+                     "name with -o");
 }
 
 bool is_output_bag(const std::filesystem::path& output) { return output.extension() == ".mcap"; }

@@ -12,6 +12,7 @@
 
 #include <apps/penumbra/run_output.hpp>
 #include <io/mcap/writer.hpp>
+#include <io/pending_file.hpp>
 #include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
@@ -20,11 +21,9 @@ namespace penumbra::app {
 /// recorded, too. Frames without a stamp have no place in it.
 class OutputBag final : public RunOutput, private io::ResultSink {
  public:
-  /// `camera`: of the judged images; `root`: the robot's root link. Throws InputError where the
-  /// file cannot be written.
+  /// `camera`: of the judged images; `root`: the robot's root link. `file` itself is not touched
+  /// before finish(). Throws InputError where nothing can be written beside it.
   OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
-  /// Removes a bag that is not finished.
-  ~OutputBag() override;
 
   void begin(const io::ReportHead&) override {}
   void save(const FrameReport& report, const io::FrameData& frame,
@@ -42,13 +41,17 @@ class OutputBag final : public RunOutput, private io::ResultSink {
   void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
 
   std::filesystem::path file_;
+  io::PendingFile pending_;
   io::mcap::Writer writer_;
   io::ResultEncoder encoder_;
   std::array<Channel, io::result_topics.size()> channels_;  // by Result
   std::size_t without_stamp_ = 0;
   std::string missing_link_;
-  bool finished_ = false;
 };
+
+/// Whether `file` may take a bag of results: it is no folder, and what is there is empty or
+/// such a bag. Throws InputError where not; touches nothing.
+void check_former_bag(const std::filesystem::path& file);
 
 /// Whether results go into a bag of that name.
 [[nodiscard]] bool is_output_bag(const std::filesystem::path& output);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@
 #include <io/camera_info.hpp>
 #include <io/names.hpp>
 #include <io/npy.hpp>
+#include <io/pending_file.hpp>
 #include <io/png.hpp>
 #include <io/pose_file.hpp>
 #include <io/report_json.hpp>
@@ -64,7 +66,7 @@ Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Came
   return app::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
 }
 
-/// Throws before anything is removed where `file` is one that is read, or written otherwise.
+/// Throws where `file` is one that is read, or written otherwise.
 void check_own(const std::string& option, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::filesystem::path>>& others) {
   std::error_code error;
@@ -85,8 +87,7 @@ void check_ending(const std::string& option, const std::filesystem::path& file,
   throw InputError(message);
 }
 
-/// What an earlier call wrote must not be taken for this one's, should it fail.
-void remove_former_files(const RenderArguments& arguments) {
+void check_outputs(const RenderArguments& arguments) {
   std::vector<std::pair<std::string, std::filesystem::path>> others = {
       {"--robot", arguments.robot},
       {"--camera", arguments.camera_info},
@@ -96,8 +97,14 @@ void remove_former_files(const RenderArguments& arguments) {
   if (arguments.links) check_own("--links", *arguments.links, others);
   check_ending("-o", arguments.output, ".npy", "NumPy's format (float32 metres)");
   if (arguments.links) check_ending("--links", *arguments.links, ".png", "a 16-bit PNG");
-  remove_former_file("-o", arguments.output);
-  if (arguments.links) remove_former_file("--links", *arguments.links);
+  io::check_is_no_folder("-o", arguments.output);
+  if (arguments.links) io::check_is_no_folder("--links", *arguments.links);
+}
+
+/// Of an error's message: what still stands of an earlier call.
+std::string left_of(const RenderArguments& arguments) {
+  return io::left_as_it_was(arguments.output) +
+         (arguments.links ? io::left_as_it_was(*arguments.links) : std::string());
 }
 
 void append(std::vector<std::string>& notes, const std::vector<std::string>& more) {
@@ -111,13 +118,29 @@ Image<float> copy(ImageView<const float> from) {
   return image;
 }
 
-void write_images(const RenderArguments& arguments, const FrameReport& report) {
-  if (!has_pose(report.status)) throw InputError("--joint or --pose: " + report.message);
-  if (report.status == FrameStatus::missing_link)
-    std::cerr << "penumbra: " << to_string(report.status) << ": " << report.message << '\n';
-  io::write_npy(arguments.output, report.virtual_depth.depth);
-  if (arguments.links) io::write_png(*arguments.links, report.virtual_depth.links);
-}
+/// The images that are asked for; they take their names in finish().
+class RenderedImages {
+ public:
+  RenderedImages(const RenderArguments& arguments, const FrameReport& report)
+      : depth_(arguments.output) {
+    if (!has_pose(report.status)) throw InputError("--joint or --pose: " + report.message);
+    if (report.status == FrameStatus::missing_link)
+      std::cerr << "penumbra: " << to_string(report.status) << ": " << report.message << '\n';
+    io::write_npy(depth_.part(), report.virtual_depth.depth);
+    if (!arguments.links) return;
+    links_.emplace(*arguments.links);
+    io::write_png(links_->part(), report.virtual_depth.links);
+  }
+
+  void finish() {
+    if (links_) links_->finish();
+    depth_.finish();
+  }
+
+ private:
+  io::PendingFile depth_;
+  std::optional<io::PendingFile> links_;
+};
 
 void print_text(const RenderArguments& arguments, const io::RenderResult& result) {
   std::cout << arguments.output.string() << ": " << result.robot_pixels << " robot pixels of "
@@ -128,10 +151,7 @@ void print_text(const RenderArguments& arguments, const io::RenderResult& result
                 << fixed(q->median, 3) << " ms, p99 " << fixed(q->p99, 3) << " ms\n";
 }
 
-}  // namespace
-
-int execute(const RenderArguments& arguments) {
-  remove_former_files(arguments);
+int render(const RenderArguments& arguments) {
   Robot robot = Robot::load(arguments.robot, arguments.options);
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
@@ -140,7 +160,7 @@ int execute(const RenderArguments& arguments) {
   // Any depth will do: nothing of what is written comes of it.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
   const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
-  write_images(arguments, first);
+  RenderedImages images(arguments, first);
   tell_notes(pipeline.robot().notes());
   tell_choice(pipeline.renderer_choice());
   std::vector<std::string> notes = notes_of(pipeline);
@@ -163,6 +183,7 @@ int execute(const RenderArguments& arguments) {
   const Image<float> seen = copy(first.virtual_depth.depth);
   for (int i = 0; i < arguments.repeat; ++i)
     result.statistics.add(pipeline.process({.depth = seen.view(), .joints = positions}));
+  images.finish();
 
   if (arguments.json) {
     std::cout << io::render_json(result) << '\n';
@@ -170,6 +191,13 @@ int execute(const RenderArguments& arguments) {
     print_text(arguments, result);
   }
   return 0;
+}
+
+}  // namespace
+
+int execute(const RenderArguments& arguments) {
+  check_outputs(arguments);
+  return run_or_tell_left([&] { return render(arguments); }, [&] { return left_of(arguments); });
 }
 
 }  // namespace penumbra::app

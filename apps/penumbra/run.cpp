@@ -19,6 +19,7 @@
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/pending_file.hpp>
 #include <io/report_json.hpp>
 #include <io/targets_file.hpp>
 
@@ -27,11 +28,16 @@ namespace {
 
 constexpr int device_failed = 1;  // exit status
 
-/// What an earlier run wrote is removed from the output folder: it must be no recording.
+/// What an earlier run wrote will be removed or replaced: nothing else may stand there.
 void check_output(const RunArguments& arguments) {
   std::error_code error;
   const std::filesystem::path input = std::filesystem::absolute(arguments.input);
   const std::filesystem::path& output = arguments.output;
+  if (is_output_bag(output)) {
+    if (std::filesystem::equivalent(output, input, error))
+      throw InputError("--output: " + output.string() + " is the input; choose another name");
+    return check_former_bag(output);
+  }
   const bool is_own = std::filesystem::equivalent(output, input, error) ||
                       (std::filesystem::is_regular_file(input, error) &&
                        std::filesystem::equivalent(output, input.parent_path(), error));
@@ -41,24 +47,24 @@ void check_output(const RunArguments& arguments) {
   if (std::filesystem::exists(output / "recording.yaml", error))
     throw InputError("--output: " + output.string() +
                      " is a recording (it has a recording.yaml); choose another folder");
+  check_former_run(output);
 }
 
-/// Makes room for the results: takes away an earlier run's.
-void clear_output(const RunArguments& arguments) {
-  check_output(arguments);
-  if (is_output_bag(arguments.output))
-    remove_former_file("--output", arguments.output);
-  else
-    remove_former_run(arguments.output);
+/// Of an error's message: that an earlier run's results still stand.
+std::string left_of(const RunArguments& arguments) {
+  const bool is_bag = is_output_bag(arguments.output);
+  return io::left_as_it_was(is_bag ? arguments.output : arguments.output / "report.json");
 }
 
+/// Makes room for the results in a folder; a bag takes the place of an earlier one at the end.
 std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunInput& input,
                                        const Pipeline& pipeline) {
-  if (!is_output_bag(arguments.output))
-    return std::make_unique<OutputFolder>(arguments.output, arguments.saves,
-                                          pipeline.rectification());
-  return std::make_unique<OutputBag>(arguments.output, input.camera,
-                                     pipeline.robot().links().front());
+  if (is_output_bag(arguments.output))
+    return std::make_unique<OutputBag>(arguments.output, input.camera,
+                                       pipeline.robot().links().front());
+  remove_former_run(arguments.output);
+  return std::make_unique<OutputFolder>(arguments.output, arguments.saves,
+                                        pipeline.rectification());
 }
 
 /// The camera whose images the report is of.
@@ -155,17 +161,7 @@ std::vector<std::string> notes_of_frames(const io::FrameSource& source, const Se
   return lines;
 }
 
-}  // namespace
-
-LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
-  LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
-  if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
-  if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
-  return rule;
-}
-
-int execute(const RunArguments& arguments) {
-  clear_output(arguments);
+int judge_all(const RunArguments& arguments) {
   RunInput input = open_input(arguments);
   const Camera camera = camera_of_report(arguments, input.camera);
   auto targets = open_targets(arguments, input, camera);
@@ -212,6 +208,20 @@ int execute(const RunArguments& arguments) {
   tell_summary(statistics, output->where());
   if (!lost.empty()) return device_failed;
   return statistics.usable_frames() > 0 ? 0 : 2;
+}
+
+}  // namespace
+
+LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
+  LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
+  if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
+  if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
+  return rule;
+}
+
+int execute(const RunArguments& arguments) {
+  check_output(arguments);
+  return run_or_tell_left([&] { return judge_all(arguments); }, [&] { return left_of(arguments); });
 }
 
 }  // namespace penumbra::app

@@ -6,34 +6,31 @@
 #include <fstream>
 #include <string>
 
+#include <io/pending_file.hpp>
 #include <sim/experiments/results.hpp>
 
 namespace penumbra::sim {
 
-/// metrics.json and report.html of a folder. They are opened, and former ones emptied, before the
-/// runs, so that a folder that cannot be written costs no time; what is not written in the end is
-/// removed.
+/// metrics.json and report.html of a folder. They are opened under other names before the runs, so
+/// that a folder that cannot be written costs no time; former ones stay until both are written.
 class ReportFiles {
  public:
   /// Throws InputError where they cannot be opened.
   explicit ReportFiles(const std::filesystem::path& folder);
-  ~ReportFiles();
-  ReportFiles(const ReportFiles&) = delete;
-  ReportFiles& operator=(const ReportFiles&) = delete;
 
   /// Throws InputError where it cannot.
   void write(const ExperimentResult& result);
 
  private:
   struct Opened {
+    Opened(const std::filesystem::path& path_of_it, std::string (*write)(const ExperimentResult&));
     std::filesystem::path path;
+    io::PendingFile pending;
     std::ofstream file;
     std::string (*text)(const ExperimentResult&);
   };
-  void remove_all();
 
   std::array<Opened, 2> files_;
-  bool is_written_ = false;
 };
 
 /// Settings, each method's measures over all seeds with confidence, and each seed's.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <system_error>
-
 #include <penumbra/base/error.hpp>
 
 #include <sim/experiments/report.hpp>
@@ -14,31 +12,23 @@ namespace {
 
 }  // namespace
 
-ReportFiles::ReportFiles(const std::filesystem::path& folder)
-    : files_{{{folder / "metrics.json", {}, metrics_json},
-              {folder / "report.html", {}, report_html}}} {
-  for (Opened& one : files_) {
-    one.file.open(one.path, std::ios::binary);
-    if (one.file) continue;
-    remove_all();
-    refuse(one.path);
-  }
+ReportFiles::Opened::Opened(const std::filesystem::path& path_of_it,
+                            std::string (*write)(const ExperimentResult&))
+    : path(path_of_it), pending(path), file(pending.part(), std::ios::binary), text(write) {
+  if (!file) refuse(path);
 }
 
-ReportFiles::~ReportFiles() {
-  if (!is_written_) remove_all();
-}
+ReportFiles::ReportFiles(const std::filesystem::path& folder)
+    : files_{Opened(folder / "metrics.json", metrics_json),
+             Opened(folder / "report.html", report_html)} {}
 
 void ReportFiles::write(const ExperimentResult& result) {
-  for (Opened& one : files_)
-    if (!(one.file << one.text(result)) || !one.file.flush()) refuse(one.path);
-  is_written_ = true;
-}
-
-void ReportFiles::remove_all() {
-  std::error_code ignored;
-  for (Opened& one : files_)
-    if (one.file.is_open()) std::filesystem::remove(one.path, ignored);
+  for (Opened& one : files_) {
+    one.file << one.text(result);
+    one.file.close();
+    if (!one.file) refuse(one.path);
+  }
+  for (Opened& one : files_) one.pending.finish();
 }
 
 }  // namespace penumbra::sim

@@ -62,34 +62,36 @@ TEST_F(BadOutputTest, AnOldReportDoesNotOutliveAFailedRun) {
   expect_refused(output, "000001.png");
 }
 
-TEST_F(BadOutputTest, AFormerRunIsGoneHoweverEarlyTheNextFails) {
+TEST_F(BadOutputTest, AFormerRunStaysUntilAllOfTheNextsInputIsRead) {
   const fs::path output = folder_.path() / "out";
   const std::vector<std::string> again = {"run",  folder_.path(), "-o",
                                           output, "--save",       "vdi,labels,links,overlay"};
-  const auto expect_gone = [&](const std::vector<std::string>& line) {
+  ASSERT_EQ(penumbra(again).status, 0);
+  const std::string former = read_file(output / "report.json");
+  const auto expect_left = [&](std::vector<std::string> line) {
+    line.insert(line.end(), {"-o", output});
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_FALSE(fs::exists(output / "report.json")) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("report.json is left as it was"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(read_file(output / "report.json") == former);
     for (const char* kind : {"vdi", "labels", "links", "overlay"})
-      EXPECT_TRUE(fs::is_empty(output / kind)) << kind << outcome.err;
+      EXPECT_FALSE(fs::is_empty(output / kind)) << kind << outcome.err;
   };
-  ASSERT_EQ(penumbra(again).status, 0);
-  write_file(output / "report.json.part", "");  // a run that was killed early
-  expect_gone({"run", folder_.path() / "nowhere", "-o", output});
-  EXPECT_FALSE(fs::exists(output / "report.json.part"));
-  ASSERT_EQ(penumbra(again).status, 0);
-  expect_gone({"run", "x.mcap", "-o", output});
-  ASSERT_EQ(penumbra(again).status, 0);
+  expect_left({"run", folder_.path() / "nowhere"});
+  expect_left({"run", "x.mcap"});
+  expect_left({"run", folder_.path(), "--targets", folder_.path() / "nowhere.yaml"});
+  expect_left({"run", folder_.path(), "--frames", "1:4"});
   fs::rename(folder_.path() / "board.stl", folder_.path() / "board.away");
-  expect_gone(again);
+  expect_left({"run", folder_.path()});
   fs::rename(folder_.path() / "board.away", folder_.path() / "board.stl");
 
-  ASSERT_EQ(penumbra(again).status, 0);
   write_file(output / "labels/notes.txt", "the user's own");
-  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--labels", "half"}).status, 2);
-  EXPECT_TRUE(fs::exists(output / "report.json")) << "the arguments are not understood";
-  EXPECT_EQ(penumbra({"run", folder_.path() / "nowhere", "-o", output}).status, 2);
-  EXPECT_TRUE(fs::exists(output / "labels/notes.txt"));
+  write_file(output / "report.json.part", "");  // a run that was killed early
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
+  EXPECT_FALSE(fs::exists(output / "report.json.part"));
+  EXPECT_TRUE(fs::is_empty(output / "vdi")) << "the former run's";
+  EXPECT_EQ(read_file(output / "labels/notes.txt"), "the user's own");
 }
 
 TEST_F(BadOutputTest, ARecordingIsNoOutputFolder) {

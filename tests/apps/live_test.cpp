@@ -61,5 +61,17 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   EXPECT_NE(read_file(summary).find("\"received\": 0"), std::string::npos);
 }
 
+TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
+  if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
+  const TemporaryFolder folder;
+  const std::string summary = folder.path() / "live.json";
+  write_file(summary, "former");
+  const Outcome outcome = penumbra({"live", "--duration", "0.3", "--summary", summary},
+                                   {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("live.json is left as it was"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_file(summary), "former");
+}
+
 }  // namespace
 }  // namespace penumbra::test

@@ -88,6 +88,19 @@ class OutputBagTest : public testing::Test {
     EXPECT_EQ(std::memcmp(message.data.data(), wanted.data(), message.data.size()), 0) << encoding;
   }
 
+  /// The first frame then is an error, once results are being written.
+  void put_camera_inside_of_the_board() {
+    bag_.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+      state.positions.at(1) = -1.0;  // as RunTest has it
+    });
+  }
+  [[nodiscard]] std::size_t names_with(const std::string& start) const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_.path()))
+      if (entry.path().filename().string().starts_with(start)) ++count;
+    return count;
+  }
+
   TemporaryFolder folder_;
   TinyBag bag_;
 };
@@ -254,10 +267,84 @@ TEST_F(OutputBagTest, RefusesWhatABagCannotHold) {
 }
 
 TEST_F(OutputBagTest, WhatIsNotFinishedIsTakenAway) {
-  write_file(folder_.path() / "results.mcap", "an earlier one");
-  bag_.edit<io::StringMessage>("/robot_description", [](auto& text) { text.data = "no robot"; });
+  put_camera_inside_of_the_board();
   EXPECT_EQ(run("results.mcap").status, 2);
-  EXPECT_FALSE(fs::exists(folder_.path() / "results.mcap"));
+  EXPECT_EQ(names_with("results.mcap"), 0U);
+}
+
+TEST_F(OutputBagTest, AFormerBagStaysUntilTheNextIsWhole) {
+  const fs::path results = folder_.path() / "results.mcap";
+  ASSERT_EQ(run("results.mcap").status, 0);
+  const std::string former = read_file(results);
+  const auto expect_left = [&](const Outcome& outcome) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("results.mcap is left as it was"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(read_file(results) == former);
+    EXPECT_EQ(names_with("results.mcap"), 1U);
+  };
+  expect_left(penumbra({"run", folder_.path() / "nowhere.mcap", "-o", results}));
+  expect_left(run("results.mcap", {"--targets", folder_.path() / "nowhere.yaml"}));
+  const TinyBag good = bag_;
+  put_camera_inside_of_the_board();
+  expect_left(run("results.mcap"));
+
+  bag_ = good;
+  write_file(results.string() + ".penumbra.part", "of a run that was killed");
+  EXPECT_EQ(run("results.mcap", {"--frames", "0:1"}).status, 0);
+  EXPECT_LT(fs::file_size(results), former.size());
+  EXPECT_EQ(names_with("results.mcap"), 1U);
+}
+
+TEST_F(OutputBagTest, OnlyABagOfResultsIsReplaced) {
+  ASSERT_EQ(run("results.mcap").status, 0);
+  const fs::path keep = folder_.path() / "keep.mcap";
+  const auto expect_kept = [&](const std::string& input) {
+    const std::string before = read_file(keep);
+    const Outcome outcome = penumbra({"run", folder_.path() / input, "-o", keep});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("keep.mcap: is "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("only a bag of results is replaced"), std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(read_file(keep) == before);
+  };
+  bag_.write_mcap(keep);
+  expect_kept("tiny.mcap");
+  expect_kept("nowhere.mcap");
+  expect_kept("results.mcap");  // input and output swapped
+  write_file(keep, read_file(keep).substr(0, 5000));
+  expect_kept("tiny.mcap");
+  write_file(keep, "another program's");
+  expect_kept("tiny.mcap");
+  bag_.rename("/joint_states", "/penumbra/joint_states");
+  bag_.write_mcap(keep);
+  expect_kept("tiny.mcap");
+
+  write_file(keep, "");
+  EXPECT_EQ(penumbra({"run", folder_.path() / "tiny.mcap", "-o", keep}).status, 0);
+  EXPECT_GT(fs::file_size(keep), 0U);
+}
+
+TEST_F(OutputBagTest, TheInputIsNoOutputByAnyName) {
+  ASSERT_EQ(run("results.mcap").status, 0);
+  const fs::path alias = folder_.path() / "alias.mcap";
+  fs::create_symlink("results.mcap", alias);
+  const std::string before = read_file(alias);
+  for (const fs::path& output : {alias, folder_.path() / "results.mcap"}) {
+    const Outcome outcome = penumbra({"run", folder_.path() / "results.mcap", "-o", output});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("is the input"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(read_file(alias) == before);
+  }
+}
+
+TEST_F(OutputBagTest, ADeviceIsWrittenToAsItIs) {
+  fs::create_symlink("/dev/full", folder_.path() / "results.mcap");
+  const Outcome outcome = run("results.mcap");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("/dev/full: cannot be written"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(fs::is_symlink(folder_.path() / "results.mcap"));
 }
 
 /// Frames of a folder without stamps have no place in time.

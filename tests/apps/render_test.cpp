@@ -118,6 +118,7 @@ TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
   EXPECT_NE(outcome.err.find("nowhere"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "vdi.npy")) << "both or none";
 }
 
 TEST_F(RenderTest, RefusesNamesOfOtherFormats) {
@@ -163,17 +164,27 @@ TEST_F(RenderTest, RefusesEmptyNamesAndFolders) {
   expect_refused(render({"--links", folder_.path() / "links.png"}), "is a folder");
 }
 
-TEST_F(RenderTest, FormerImagesAreGoneHoweverEarlyTheNextCallFails) {
-  const fs::path links = folder_.path() / "links.png";
-  const std::vector<std::string> good = {"--links", links};
-  ASSERT_EQ(render(good).status, 0);
-  write_file(folder_.path() / "other.npy", read_file(folder_.path() / "vdi.npy"));
-  fs::remove(folder_.path() / "vdi.npy");
-  fs::create_symlink("other.npy", folder_.path() / "vdi.npy");
-  fs::remove(folder_.path() / "board.stl");
-  expect_refused(render(good), "board.stl");
-  EXPECT_FALSE(fs::exists(links));
-  EXPECT_FALSE(fs::exists(folder_.path() / "other.npy")) << "the file behind the link";
+TEST_F(RenderTest, FormerImagesStayWhereTheCallFails) {
+  const fs::path vdi = folder_.path() / "vdi.npy", links = folder_.path() / "links.png";
+  write_file(vdi, "measured");
+  write_file(links, "drawn");
+  const auto expect_left = [&](const std::vector<std::string>& options) {
+    const Outcome outcome = render(options);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("vdi.npy is left as it was"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read_file(vdi), "measured");
+    EXPECT_EQ(read_file(links), "drawn");
+  };
+  expect_left({"--joint", "slid=0.1"});
+  expect_left({"--joint", "slide=-1", "--links", links});
+  expect_left({"--links", folder_.path() / "nowhere/links.png"});
+  fs::rename(folder_.path() / "board.stl", folder_.path() / "board.away");
+  expect_left({"--links", links});
+  fs::rename(folder_.path() / "board.away", folder_.path() / "board.stl");
+  EXPECT_EQ(render({"--links", links}).status, 0);
+  EXPECT_NE(read_file(vdi), "measured");
+  EXPECT_NE(read_file(links), "drawn");
 }
 
 TEST_F(RenderTest, TheInputIsNoOutput) {

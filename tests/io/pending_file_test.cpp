@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../support/temporary_folder.hpp"
+#include "files.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <io/pending_file.hpp>
+
+namespace penumbra::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PendingFileTest : public testing::Test {
+ protected:
+  static void write(const PendingFile& file) { std::ofstream(file.part()) << "new"; }
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
+  }
+
+  test::TemporaryFolder folder_;
+  fs::path file_ = folder_.write("a.npy", "old");
+};
+
+TEST_F(PendingFileTest, TakesThePlaceOnlyWhenItIsFinished) {
+  PendingFile pending(file_);
+  EXPECT_EQ(files(), 1U) << "nothing is made yet";
+  write(pending);
+  EXPECT_EQ(test::read_bytes(file_), "old") << "as SIGKILL would leave it";
+  pending.finish();
+  EXPECT_EQ(test::read_bytes(file_), "new");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(PendingFileTest, LeavesNothingUnfinished) {
+  write(PendingFile(file_));
+  {
+    const PendingFile pending(file_);
+    write(pending);
+  }
+  EXPECT_EQ(test::read_bytes(file_), "old");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(PendingFileTest, ReplacesWhatALinkLeadsTo) {
+  fs::create_symlink("a.npy", folder_.path() / "b.npy");
+  fs::create_symlink(folder_.path() / "b.npy", folder_.path() / "c.npy");
+  PendingFile pending(folder_.path() / "c.npy");
+  write(pending);
+  pending.finish();
+  EXPECT_EQ(test::read_bytes(file_), "new");
+  EXPECT_TRUE(fs::is_symlink(folder_.path() / "b.npy"));
+  EXPECT_TRUE(fs::is_symlink(folder_.path() / "c.npy"));
+
+  fs::create_symlink("not_yet.npy", folder_.path() / "d.npy");
+  PendingFile first(folder_.path() / "d.npy");
+  write(first);
+  first.finish();
+  EXPECT_EQ(test::read_bytes(folder_.path() / "not_yet.npy"), "new");
+}
+
+TEST_F(PendingFileTest, APartThatIsALinkIsNotFollowed) {
+  const fs::path other = folder_.write("other", "the user's own");
+  const fs::path part = PendingFile(file_).part();
+  fs::create_symlink(other, part);
+  PendingFile pending(file_);
+  write(pending);
+  pending.finish();
+  EXPECT_EQ(test::read_bytes(other), "the user's own");
+  EXPECT_EQ(test::read_bytes(file_), "new");
+}
+
+TEST_F(PendingFileTest, DevicesAreWrittenToAsTheyAre) {
+  PendingFile pending("/dev/null");
+  EXPECT_EQ(pending.part(), "/dev/null");
+  pending.finish();
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(PendingFileTest, SaysWhereThePlaceCannotBeTaken) {
+  PendingFile pending(folder_.path() / "late");
+  write(pending);
+  fs::create_directory(folder_.path() / "late");
+  EXPECT_HAS(test::input_error([&] { pending.finish(); }), "late: cannot be replaced: ");
+}
+
+TEST_F(PendingFileTest, TellsWhatIsLeft) {
+  EXPECT_EQ(left_as_it_was(file_), "; " + file_.string() + " is left as it was");
+  EXPECT_EQ(left_as_it_was(folder_.path() / "none"), "");
+  EXPECT_EQ(left_as_it_was("/dev/null"), "");
+  EXPECT_HAS(test::input_error([&] { check_is_no_folder("-o", folder_.path()); }), " is a folder");
+}
+
+}  // namespace
+}  // namespace penumbra::io
