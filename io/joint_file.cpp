@@ -16,6 +16,8 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::uint64_t max_joint_bytes = std::uint64_t{1} << 30;
+/// The number behind a frame's is one, too: ranges end there.
+constexpr std::int64_t largest_frame = std::numeric_limits<std::int64_t>::max() - 1;
 
 // What each column of the file is.
 struct Columns {
@@ -110,6 +112,9 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     if (!index || *index < 0)
       throw InputError(place(lines.line()) + "'" + printable(lines.cells()[0]) +
                        "' is no frame number; a whole number from 0 is wanted");
+    if (*index > largest_frame)
+      throw InputError(place(lines.line()) + "frame number " + std::to_string(*index) +
+                       " is too large; at most " + std::to_string(largest_frame) + " is wanted");
     row.index = *index;
     const auto [first, is_new] = line_of_frame.emplace(row.index, lines.line());
     if (!is_new)

@@ -108,6 +108,8 @@ TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
   for (const std::string number : {"-1", "1.0", "x", "", "9223372036854775808"})
     EXPECT_HAS(fault("frame,shoulder,elbow\n" + number + ",1,2\n"),
                ":2: '" + number + "' is no frame number");
+  EXPECT_HAS(fault("frame,shoulder,elbow\n0,1,2\n9223372036854775807,1,2\n"),
+             ":3: frame number 9223372036854775807 is too large; at most 9223372036854775806");
   EXPECT_HAS(
       input_error([&] { static_cast<void>(read_joint_file(folder_.path() / "none.csv", robot_)); }),
       "none.csv: cannot be read: No such file or directory");
