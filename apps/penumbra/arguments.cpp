@@ -69,6 +69,13 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
   app.add_flag("--json", doctor.json, "print JSON instead of text");
 }
 
+/// Where the options are told: the command's own help, if one is given.
+std::string help_hint(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+  return " (penumbra " + command + "--help tells the options)";
+}
+
 }  // namespace
 
 std::optional<Command> parse_arguments(int argc, const char* const* argv) {
@@ -113,7 +120,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     app.exit(answered, std::cout, std::cerr);
     return std::nullopt;
   } catch (const CLI::Error& error) {
-    throw InputError(std::string(error.what()) + " (penumbra --help tells the options)");
+    throw InputError(std::string(error.what()) + help_hint(app));
   }
   check_run(run);
   check_live(live);

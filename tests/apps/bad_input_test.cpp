@@ -279,7 +279,10 @@ TEST(BadCommandLine, IsOneLineAndStatus2) {
       {{"run", "", "-o", "out"}, "INPUT: '' is not a path"},
       {{"render", "--robot", "x.urdf", "--camera", "c.yaml", "--pose", "p.csv", "-o", ""},
        "-o,--output: '' is not a path"},
-      {{"inspect", ""}, "URDF: '' is not a path"}};
+      {{"inspect", ""}, "URDF: '' is not a path"},
+      {{"walk"}, "(penumbra --help tells the options)"},
+      {{"run", "recording", "-o", "out", "--speed"}, "(penumbra run --help tells the options)"},
+      {{"render"}, "(penumbra render --help tells the options)"}};
   for (const auto& [line, word] : lines) {
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(line) << outcome.err;
