@@ -6,15 +6,32 @@
 #include <io/bag_frames/bag_scene.hpp>
 
 namespace penumbra::io {
+namespace {
+
+/// For the end of an error's message: what of the bag is damaged may be what is missing.
+std::string damages_of(const BagInbox& inbox) {
+  std::string damages;
+  for (const std::string& note : inbox.notes()) damages += "; " + note;
+  return damages;
+}
+
+BagTopics topics_of(const BagInbox& inbox, const TopicWishes& wishes) {
+  try {
+    return choose_topics(inbox.name(), inbox.topics(), wishes);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + damages_of(inbox));
+  }
+}
+
+}  // namespace
 
 BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const TopicWishes& wishes)
-    : inbox_(bag), topics_(choose_topics(inbox_.name(), inbox_.topics(), wishes)) {}
+    : inbox_(bag), topics_(topics_of(inbox_, wishes)) {}
 
 void BagSceneReader::read_robot_and_camera() {
   if (read_until([this](const BagScene&) { return lacking().empty(); })) return;
-  std::string damages;
-  for (const std::string& note : inbox_.notes()) damages += "; " + note;
-  throw InputError(inbox_.name() + ": " + lacking() + " has no message that can be read" + damages);
+  throw InputError(inbox_.name() + ": " + lacking() + " has no message that can be read" +
+                   damages_of(inbox_));
 }
 
 bool BagSceneReader::read_until(const std::function<bool(const BagScene&)>& found) {

@@ -206,6 +206,9 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   add_tally(status, inbox.tally(number));
   if (camera.camera_changes() > 0)
     add_count(status, "camera_info changed", camera.camera_changes());
+  if (camera.targets_without_setup() > 0)
+    add_count(status, "target messages before robot and camera were known",
+              camera.targets_without_setup());
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
     if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
       add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));

@@ -22,6 +22,9 @@ std::vector<std::string> refusals_of(const PoseHistory& history) {
   if (history.joint_states_without_stamp() > 0)
     lines.push_back(std::to_string(history.joint_states_without_stamp()) +
                     " joint states without a stamp are not used");
+  if (const std::size_t refused = history.joints().refused_values(); refused > 0)
+    lines.push_back("joint positions not used: " + std::to_string(refused) +
+                    " (absent, not finite, beyond 1e9, or of a quaternion not of length 1)");
   if (history.transforms().refused() > 0)
     lines.push_back("transforms are not used, the last: " + history.transforms().last_refusal());
   return lines;

@@ -5,6 +5,7 @@
 #include "tiny_recording.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -180,6 +181,20 @@ TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
   EXPECT_NE(outcome.err.find("1 message of /joint_states"), std::string::npos) << outcome.err;
 }
 
+TEST_F(BagTest, JointPositionsThatAreNoNumbersAreTold) {
+  int state = 0;
+  bag_.edit<io::JointStateMessage>("/joint_states", [&](auto& joints) {
+    if (++state == 3) joints.positions.at(1) = std::numeric_limits<double>::quiet_NaN();
+    if (state == 4) joints.positions.resize(1);
+  });
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("tiny.mcap: joint positions not used: 2 "), std::string::npos)
+      << outcome.err;
+  const std::string notes = report()["summary"]["notes"].dump();
+  EXPECT_NE(notes.find("joint positions not used: 2 "), std::string::npos) << notes;
+}
+
 TEST_F(BagTest, AnotherCamerasInfoIsNotTaken) {
   int info = 0;
   bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
@@ -219,6 +234,17 @@ TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
   EXPECT_NE(outcome.err.find("cut.mcap: byte "), std::string::npos) << outcome.err;
   EXPECT_NE(report()["summary"]["notes"].dump().find("cut.mcap: byte "), std::string::npos);
   expect_recorded_labels(0, 1);
+}
+
+TEST_F(BagTest, DamageIsToldWhereNothingIsLeft) {
+  bag_.write_mcap(folder_.path() / "whole.mcap");
+  const std::string whole = read_file(folder_.path() / "whole.mcap");
+  write_file(folder_.path() / "cut.mcap", whole.substr(0, 300));  // in the first chunk
+  const Outcome outcome = run({}, "cut.mcap");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("holds no messages; "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("cut.mcap: byte "), std::string::npos) << outcome.err;
 }
 
 TEST_F(BagTest, TakesPosesFromTransforms) {

@@ -87,6 +87,38 @@ TEST_F(LiveDiagnosticsTest, TellsUnreadableMessages) {
   expect_says(camera(), Status::stale, "1 messages cannot be read");
 }
 
+TEST_F(LiveDiagnosticsTest, TellsWhatWasNotUsed) {
+  const auto value_of = [](const Status& status, const std::string& key) -> std::string {
+    for (const auto& value : status.values)
+      if (value.key == key && value.value.find("transforms") == std::string::npos)
+        return value.value;
+    return {};
+  };
+  io::LiveOptions options = LiveBench::one_camera();
+  options.target_topics = {"/wrist"};
+  LiveBench bench(options);
+  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
+    if (bench.inbox.topics()[i].role == io::LiveRole::targets)
+      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+  const auto report_of = [&] {
+    bench.now += seconds / 100;
+    const std::vector<io::LiveLink> links(bench.inbox.topics().size());
+    return io::LiveDiagnostics(bench.now).report(bench.inbox, links, {bench.now, bench.now});
+  };
+  const char* const early = "target messages before robot and camera were known";
+  EXPECT_EQ(value_of(report_of().status.at(1), early), "");
+  bench.tell("/wrist", encoded(io::PoseStampedMessage{.header = {bench.now, "optical"}}));
+  bench.tell_all();
+  EXPECT_EQ(value_of(report_of().status.at(1), early), "1");
+
+  EXPECT_EQ(value_of(report_of().status.at(0), "note"), "");
+  bench.tell("/joint_states",
+             encoded(io::JointStateMessage{
+                 .header = {bench.now, ""}, .names = {"spin"}, .positions = {std::nan("")}}));
+  EXPECT_NE(value_of(report_of().status.at(0), "note").find("joint positions not used: 1 "),
+            std::string::npos);
+}
+
 TEST_F(LiveDiagnosticsTest, IsAMessage) {
   bench_.tell_all();
   judge();
