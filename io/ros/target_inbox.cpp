@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <io/printable.hpp>
@@ -51,48 +53,65 @@ TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& head
   return told;
 }
 
-std::string TargetInbox::name_of(const std::string& topic, const std::string& id,
-                                 std::span<const HypothesisMessage> results,
-                                 std::span<const std::string> taken) const {
-  std::string base = topic + "/" + (id.empty() ? best_class(results) : id);
+TargetInbox::Label TargetInbox::label_of(const std::string& topic, const std::string& id,
+                                         std::span<const HypothesisMessage> results) {
+  Label label{topic + "/" + (id.empty() ? best_class(results) : id), !id.empty()};
   std::replace_if(
-      base.begin(), base.end(), [](char c) { return is_control(c); }, '?');
-  std::string name = base;
-  for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
-    name = base + " " + std::to_string(i);
-  return name;
+      label.text.begin(), label.text.end(), [](char c) { return is_control(c); }, '?');
+  return label;
+}
+
+std::vector<TargetInbox::Told*> TargetInbox::told(const std::vector<Label>& labels,
+                                                  const MessageHeader& header) {
+  std::unordered_map<std::string_view, std::size_t> uses;
+  for (const Label& label : labels) ++uses[label.text];
+  std::unordered_set<std::string> taken;
+  std::unordered_map<std::string_view, int> last;
+  std::vector<Told*> all;
+  for (const Label& label : labels) {
+    std::string name = label.text;
+    for (int& i = last.try_emplace(label.text, 1).first->second; !taken.insert(name).second;)
+      name = label.text + " " + std::to_string(++i);
+    all.push_back(&told(name, header));
+    all.back()->target.has_identity = label.is_id && uses[label.text] == 1 && name == label.text;
+  }
+  return all;
 }
 
 void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& message) {
-  std::vector<std::string> taken;
-  for (const Detection2DMessage& detection : message.detections) {
-    taken.push_back(name_of(topic, detection.id, detection.results, taken));
-    Told& one = told(taken.back(), message.header);
-    auto& shape = one.target.shape.emplace<RegionTarget>();
-    shape.region = region_of(detection.bbox, one.corners);
+  std::vector<Label> labels;
+  for (const Detection2DMessage& detection : message.detections)
+    labels.push_back(label_of(topic, detection.id, detection.results));
+  const std::vector<Told*> all = told(labels, message.header);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    auto& shape = all[i]->target.shape.emplace<RegionTarget>();
+    shape.region = region_of(message.detections[i].bbox, all[i]->corners);
     shape.extent = Extent::modal;
   }
 }
 
 void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& message) {
-  std::vector<std::string> taken;
-  for (const Detection3DMessage& detection : message.detections) {
-    taken.push_back(name_of(topic, detection.id, detection.results, taken));
-    Told& one = told(taken.back(), message.header);
-    const LinkFrame frame = frame_of(one);
-    one.target.shape =
-        BoxTarget{.pose = detection.bbox.centre, .size = detection.bbox.size, .frame = frame};
+  std::vector<Label> labels;
+  for (const Detection3DMessage& detection : message.detections)
+    labels.push_back(label_of(topic, detection.id, detection.results));
+  const std::vector<Told*> all = told(labels, message.header);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BoundingBox3D& box = message.detections[i].bbox;
+    const LinkFrame frame = frame_of(*all[i]);
+    all[i]->target.shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
   }
 }
 
 void TargetInbox::add(const std::string& topic, const KeypointsMessage& message) {
-  std::vector<std::string> taken;
-  for (const KeypointMessage& keypoint : message.keypoints) {
-    taken.push_back(name_of(topic, keypoint.name, {}, taken));
-    Told& one = told(taken.back(), message.header);
+  std::vector<Label> labels;
+  for (const KeypointMessage& keypoint : message.keypoints)
+    labels.push_back(label_of(topic, keypoint.name, {}));
+  const std::vector<Told*> all = told(labels, message.header);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const KeypointMessage& keypoint = message.keypoints[i];
     KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};
     if (keypoint.depth > 0) shape.expected_depth = keypoint.depth;
-    one.target.shape = shape;
+    all[i]->target.shape = shape;
   }
 }
 

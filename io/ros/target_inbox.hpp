@@ -19,6 +19,8 @@ namespace penumbra::io {
 ///
 /// Names: the topic, "/" and a detection's id; without ids its best class, numbered from the second
 /// of a message on ("/detections/person", "/detections/person 2"). A pose has its topic's name.
+/// What has no id, or one that is there twice in its message, has no identity: detectors sort by
+/// score, so that such a name goes from object to object.
 class TargetInbox {
  public:
   /// `camera_frame`: of the judged images. `robot` must outlive this.
@@ -47,12 +49,19 @@ class TargetInbox {
     Target target;
   };
 
+  /// What a name is made of, without its number.
+  struct Label {
+    std::string text;
+    bool is_id = false;
+  };
+
   Told& told(std::string name, const MessageHeader& header);
+  /// The same for each of a message's detections.
+  std::vector<Told*> told(const std::vector<Label>& labels, const MessageHeader& header);
   /// Of a 3-D target: the link that its frame is, or the camera.
   LinkFrame frame_of(Told& told) const;
-  [[nodiscard]] std::string name_of(const std::string& topic, const std::string& id,
-                                    std::span<const HypothesisMessage> results,
-                                    std::span<const std::string> taken) const;
+  static Label label_of(const std::string& topic, const std::string& id,
+                        std::span<const HypothesisMessage> results);
 
   const Robot& robot_;
   std::string camera_frame_;

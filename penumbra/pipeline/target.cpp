@@ -88,6 +88,8 @@ void check_shape(const TargetShape& shape) { std::visit(ShapeCheck{}, shape); }
 
 void check_target(const Target& target) {
   if (target.name.empty()) throw InputError("has no name");
+  if (!target.has_identity && !std::holds_alternative<std::monostate>(target.handling))
+    throw InputError("handling needs a name that stays with its object: give it an identity");
   target.thresholds.check();
   if (is_rendered(target.shape) && target.thresholds.min_inside > 0)
     throw InputError(

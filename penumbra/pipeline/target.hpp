@@ -93,6 +93,9 @@ using TargetHandling = std::variant<std::monostate, PoseTrackerConfig, PointTrac
 /// Whatever is wrong with a target makes its verdict unknown and is said in the report's reason.
 struct Target {
   std::string_view name;  ///< not empty; once per frame: by it verdicts and tracks are remembered
+  /// False: the name may be another object's in the next frame, as one made of a detection's place
+  /// in its message. It is judged as if for the first time in each frame, and cannot be handled.
+  bool has_identity = true;
   TargetShape shape = {};
   std::string_view frame_id = {};  ///< of its image; if given, the camera's: others are refused
   std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; nothing: the frame's

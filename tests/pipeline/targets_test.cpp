@@ -364,7 +364,12 @@ TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
       {{.name = "v",
         .shape = BoxTarget{Eigen::Isometry3d::Identity(), {0.1, 0.1, 0.1}, {}},
         .thresholds = inside},
-       "min_inside"}};
+       "min_inside"},
+      {{.name = "w",
+        .has_identity = false,
+        .shape = RegionTarget{beside_slab},
+        .handling = PointTrackerConfig{}},
+       "identity"}};
   for (const Case& one : cases) {
     const TargetReport& report = judge(1, one.target);
     EXPECT_EQ(report.verdict, Verdict::unknown) << one.target.name;
@@ -421,6 +426,33 @@ TEST_F(TargetsTest, KeypointsInMetresDoNotTakeTheRobotsDepth) {
   EXPECT_NE(report.reason.find("the robot is measured"), std::string_view::npos) << report.reason;
   shape.expected_depth = 2.0;
   EXPECT_EQ(judge(2, {.name = "k", .shape = shape}).verdict, Verdict::hidden);
+}
+
+/// A detector's two cups, named by their place in its message, which goes by score. A large one
+/// that the slab hides half would be taken for the small one, seen whole.
+TEST_F(TargetsTest, ANameOfNoObjectRemembersNone) {
+  const PixelBox large{5, 92, 36, 20}, small{142, 105, 12, 8};
+  const PixelBox remnant{28, 47, 20, 20};  // what is left of the large one beside the slab
+  std::int64_t stamp = 0;
+  const auto verdicts = [&](bool has_identity, const PixelBox& first, const PixelBox& second) {
+    const Target targets[] = {
+        {.name = "cup", .has_identity = has_identity, .shape = RegionTarget{first, Extent::modal}},
+        {.name = "cup 2",
+         .has_identity = has_identity,
+         .shape = RegionTarget{second, Extent::modal}}};
+    const FrameReport& report = process(stamp += 33 * ms, targets);
+    return std::pair(report.targets[0].verdict, report.targets[1].verdict);
+  };
+  const auto both = [](Verdict first, Verdict second) { return std::pair(first, second); };
+  EXPECT_EQ(verdicts(false, large, small), both(Verdict::visible, Verdict::visible));
+  EXPECT_EQ(verdicts(false, remnant, small), both(Verdict::unknown, Verdict::visible));
+  EXPECT_EQ(verdicts(false, large, small), both(Verdict::visible, Verdict::visible));
+  EXPECT_EQ(verdicts(false, small, remnant), both(Verdict::visible, Verdict::unknown));
+  EXPECT_EQ(verdicts(false, small, large), both(Verdict::visible, Verdict::visible));
+  EXPECT_EQ(verdicts(true, remnant, small), both(Verdict::unknown, Verdict::visible));
+  EXPECT_EQ(verdicts(true, large, small), both(Verdict::visible, Verdict::visible));
+  EXPECT_EQ(verdicts(true, small, remnant).second, Verdict::visible)
+      << "names that lie: without this the test shows nothing";
 }
 
 }  // namespace
