@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -19,7 +21,6 @@ namespace {
 
 constexpr std::uint64_t max_yaml_bytes = 1 << 20;
 constexpr std::size_t max_depth = 16;
-constexpr std::size_t max_keys = 1024;  // of one map: every new key is compared with all before it
 constexpr std::size_t max_quoted = 60;  // letters of the file that a message repeats
 
 std::string quoted(const std::string& text) {
@@ -58,7 +59,7 @@ class YamlBuilder : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& value) override {
-    if (!open_.empty() && open_.back()->is_map() && !key_) {
+    if (!open_.empty() && open_.back().node->is_map() && !key_) {
       take_key(mark, value);
     } else {
       add(mark, YamlNode::Kind::scalar, value, tag == "!");
@@ -82,13 +83,12 @@ class YamlBuilder : public YAML::EventHandler {
   }
 
   void take_key(const YAML::Mark& mark, const std::string& key) {
-    if (const YamlNode* first = open_.back()->find(key))
-      fail(mark, "key " + quoted(key) + " is there already, in line " +
-                     std::to_string(first->line_) + "; keep one");
-    if (open_.back()->children_.size() == max_keys)
-      fail(mark, "a map of more than " + std::to_string(max_keys) + " keys");
-    key_ = key;
     key_line_ = mark.line + 1;
+    const auto [first, is_new] = open_.back().key_lines.emplace(key, key_line_);
+    if (!is_new)
+      fail(mark, "key " + quoted(key) + " is there already, in line " +
+                     std::to_string(first->second) + "; keep one");
+    key_ = key;
   }
 
   // Parents stay where they are: a list of children only grows while its last child is closed.
@@ -96,7 +96,7 @@ class YamlBuilder : public YAML::EventHandler {
                 bool is_quoted) {
     YamlNode* node = &root_;
     if (!open_.empty()) {
-      YamlNode& parent = *open_.back();
+      YamlNode& parent = *open_.back().node;
       if (parent.is_map() && !key_) fail(mark, "a key must be a plain text");
       node = &parent.children_.emplace_back();
       node->path_ = parent.path_;
@@ -119,12 +119,18 @@ class YamlBuilder : public YAML::EventHandler {
   void enter(const YAML::Mark& mark, YamlNode::Kind kind) {
     if (open_.size() == max_depth)
       fail(mark, "values are nested more than " + std::to_string(max_depth) + " deep");
-    open_.push_back(&add(mark, kind, "", false));
+    open_.push_back({&add(mark, kind, "", false), {}});
   }
+
+  /// A map or list whose end is not there yet.
+  struct Open {
+    YamlNode* node = nullptr;
+    std::unordered_map<std::string, int> key_lines;  // of a map
+  };
 
   std::shared_ptr<const std::string> file_;
   YamlNode root_;
-  std::vector<YamlNode*> open_;
+  std::vector<Open> open_;
   std::optional<std::string> key_;
   int key_line_ = 0;
   YAML::Mark start_;
