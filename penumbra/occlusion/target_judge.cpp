@@ -128,11 +128,7 @@ void TargetJudge::begin(const JudgedImages& images) {
 
 Judgement TargetJudge::judge(const TargetView& target) {
   if (state_->number == 0) throw std::logic_error("TargetJudge::judge() before begin()");
-  try {
-    return state_->judge(target);
-  } catch (const InputError& error) {
-    region_fault("target '", target.name, "': ", error.what());
-  }
+  return state_->judge(target);
 }
 
 void TargetJudge::forget(std::string_view name) {

@@ -142,9 +142,9 @@ class TargetJudge {
   void begin(const JudgedImages& images);
 
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
-  /// InputError, which names the target and what is wrong, for a region that is none (not finite,
-  /// of zero area, a polygon that crosses itself, a mask of another size), for numbers out of
-  /// bounds and for a name that was judged in this frame already.
+  /// InputError, which says what is wrong and not of which target, for a region that is none (not
+  /// finite, of zero area, a polygon that crosses itself, a mask of another size), for numbers out
+  /// of bounds and for a name that was judged in this frame already.
   [[nodiscard]] Judgement judge(const TargetView& target);
 
   /// Forgets what was remembered of a target (a new object under an old name).

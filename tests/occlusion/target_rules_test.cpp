@@ -362,8 +362,8 @@ const double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(BadTargets, AreRefusedByName) {
   EXPECT_EQ(fault_of(box_target("cup", {1, 2, 0, 3})),
-            "target 'cup': box 1, 2, 0 x 3: has no area: width and height must be above 0");
-  EXPECT_EQ(fault_of(box_target("", box)), "target '': needs a name");
+            "box 1, 2, 0 x 3: has no area: width and height must be above 0");
+  EXPECT_EQ(fault_of(box_target("", box)), "needs a name");
 }
 
 TEST(BadTargets, NumbersOutOfBounds) {
@@ -374,16 +374,16 @@ TEST(BadTargets, NumbersOutOfBounds) {
   };
   EXPECT_EQ(fault([](TargetView&) {}), "no fault");
   EXPECT_EQ(fault([](TargetView& t) { t.expected_depth = -1; }),
-            "target 'cup': expected depth -1 m: must be above 0 and up to 1e+06");
+            "expected depth -1 m: must be above 0 and up to 1e+06");
   EXPECT_NE(fault([](TargetView& t) { t.expected_depth = nan; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.depth_margin = nan; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.depth_margin = -0.1; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.point_pixel = {nan, 3}; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.motion = {nan, 3}; }), "no fault");
   EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_enter = 1.1; }),
-            "target 'cup': partial_enter 1.1: must be 0 to 1");
+            "partial_enter 1.1: must be 0 to 1");
   EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_leave = 0.06; }),
-            "target 'cup': partial_leave 0.06: must not exceed partial_enter 0.05");
+            "partial_leave 0.06: must not exceed partial_enter 0.05");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.partial_enter = 0.95; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.95; }), "no fault");
   EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.01; }), "no fault");
