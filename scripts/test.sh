@@ -74,6 +74,15 @@ run_tests() {
     "($((SECONDS - start)) s)"
 }
 
+# fuzz NAME [SEEDS]: a minute of libFuzzer without crash, hang or great allocation.
+fuzz() {
+  local folder=build/fuzz/found/$1
+  mkdir -p "$folder"
+  build/fuzz/tests/io/"$1_fuzzer" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 \
+    -malloc_limit_mb=512 "-artifact_prefix=$folder-" "$folder" "${@:2}" >"$folder.log" 2>&1 ||
+    { tail -n 30 "$folder.log"; false; }
+}
+
 check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror; }
 
 # check_tidy FOLDERS [CMAKE OPTION...]: clang-tidy on the targets of folders joined by |. Sources are
@@ -158,3 +167,11 @@ if ! $full; then
 fi
 check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" &&
   run_tests tsan -L threaded -E "$one_thread"
+if $full && check "build (fuzz)" build fuzz fuzzers "${everything[@]}" "$avx512"; then
+  seeds=build/fuzz/seeds
+  mkdir -p "$seeds"
+  check "files of the reference library" node build/release/reference/generate.mjs "$seeds" &&
+    check "fuzz mcap" fuzz mcap "$seeds"
+  check "fuzz bag" fuzz bag
+  check "fuzz ros" fuzz ros
+fi

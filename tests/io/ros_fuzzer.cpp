@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer's entry: the first byte says what the others are read as. Built where CMake is given
-// -DPENUMBRA_BUILD_FUZZERS=ON -DCMAKE_CXX_COMPILER=clang++
-// -DPENUMBRA_SANITIZE=fuzzer-no-link,address,undefined.
+// libFuzzer on ROS 2's messages, definitions and images: the first byte says what the others are
+// read as.
 #include <array>
 #include <cstddef>
 #include <cstdint>
