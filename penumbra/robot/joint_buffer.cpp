@@ -44,9 +44,8 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
   std::size_t taken = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto at = index_.find(names[i]);
-    if (at == index_.end()) {
-      ++skipped_names_;
-    } else if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
+    if (at == index_.end()) continue;
+    if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
       ++refused_values_;
     } else {
       tracks_[at->second].put({stamp, positions[i]});

@@ -52,7 +52,7 @@ class JointBuffer {
   explicit JointBuffer(const Robot& robot, JointBufferOptions options = {});
 
   /// Adds one joint state. Names that are no variable of the robot (mimicking joints, other
-  /// devices) are skipped and counted; names without a position, values that are not finite or lie
+  /// devices) are skipped; names without a position, values that are not finite or lie
   /// beyond +-1e9, and quaternions whose length is off 1 by more than 1 % are refused and counted.
   /// A second value for one joint and stamp replaces the first. Returns the number of values taken.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
@@ -71,7 +71,7 @@ class JointBuffer {
   /// Forgets every state, as after a jump of the clock; the counts stay.
   void clear();
 
-  [[nodiscard]] std::size_t skipped_names() const { return skipped_names_; }
+  /// Positions of the robot's joints that insert() did not take.
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
@@ -105,7 +105,6 @@ class JointBuffer {
   std::vector<Kind> kinds_;                                // of each variable
   std::vector<std::size_t> quaternions_;                   // first variable of each
   std::optional<std::int64_t> newest_;
-  std::size_t skipped_names_ = 0;
   std::size_t refused_values_ = 0;
 };
 

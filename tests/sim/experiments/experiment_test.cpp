@@ -175,6 +175,8 @@ TEST(Experiment, AFolderThatCannotBeWrittenIsRefusedAtOnce) {
       std::ofstream(folder / taken) << "mine";
     else
       std::filesystem::create_directories(folder / taken / "mine");
+    const bool has_former = std::string(taken) == "report.html";
+    if (has_former) std::ofstream(folder / "metrics.json") << "former";
     std::size_t steps = 0;
     EXPECT_THROW(sim::run_experiment(
                      {.experiment = "handover",
@@ -186,6 +188,9 @@ TEST(Experiment, AFolderThatCannotBeWrittenIsRefusedAtOnce) {
                  InputError)
         << taken;
     EXPECT_EQ(steps, 0U) << taken;
+    if (has_former) {
+      EXPECT_EQ(text_of(folder / "metrics.json"), "former");
+    }
     const auto left = std::filesystem::directory_iterator(folder);
     for (const auto& entry : left) EXPECT_FALSE(entry.is_regular_file() && entry.file_size() == 0);
   }
