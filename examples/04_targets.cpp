@@ -3,6 +3,7 @@
 // object meanwhile?
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <variant>
 
 #include <penumbra/base/error.hpp>
@@ -18,24 +19,28 @@ namespace {
 constexpr PixelBox detected{460, 172, 38, 98};  // a detector's answer: a cylinder on the table
 
 /// Stands in for a perception system that believes its depth image: the point at the box's middle,
-/// in the optical frame. While the robot hides the object, that is a point of the robot.
-Eigen::Vector3d perceive(const io::FrameData& frame, const Intrinsics& camera) {
+/// in the optical frame. While the robot hides the object, that is a point of the robot. Nothing
+/// where the image has a hole: depth 0 is no depth.
+std::optional<Eigen::Vector3d> perceive(const io::FrameData& frame, const Intrinsics& camera) {
   const int u = 479, v = 221;
   const double z = 1e-3 * std::get<Image<std::uint16_t>>(frame.depth)(u, v);
-  return {(u - camera.cx()) / camera.fx() * z, (v - camera.cy()) / camera.fy() * z, z};
+  if (z == 0.0) return std::nullopt;
+  return Eigen::Vector3d{(u - camera.cx()) / camera.fx() * z, (v - camera.cy()) / camera.fy() * z,
+                         z};
 }
 
-Target target_of(const Eigen::Vector3d& point) {
+Target target_of(const std::optional<Eigen::Vector3d>& point) {
   Target target;
   target.name = "cylinder";
   target.shape = RegionTarget{.region = detected, .expected_depth = 1.87};
   target.depth_margin = 0.10;              // metres: the depth is of its middle
   target.handling = PointTrackerConfig{};  // held while it is hidden
-  target.estimate = TargetEstimate{.value = point};
+  target.estimate = TargetEstimate{.value = std::monostate()};  // there is none in this frame
+  if (point) target.estimate->value = *point;
   return target;
 }
 
-void tell(const FrameReport& report, const Eigen::Vector3d& raw) {
+void tell(const FrameReport& report, const std::optional<Eigen::Vector3d>& raw) {
   const TargetReport& target = report.targets[0];
   std::cout << "frame " << report.index << ": " << to_string(target.verdict);
   if (target.judgement && !target.judgement->blame.empty()) {
@@ -43,8 +48,10 @@ void tell(const FrameReport& report, const Eigen::Vector3d& raw) {
     std::cout << ", " << std::lround(100 * blame.fraction) << " % behind "
               << report.links[blame.link];
   }
-  if (target.estimate) std::cout << "; estimate " << to_string(*target.estimate);
-  std::cout << " (" << raw.z() << " m away)";
+  if (target.estimate)
+    std::cout << "; estimate " << to_string(*target.estimate) << " (" << raw->z() << " m away)";
+  else
+    std::cout << "; no estimate";
   if (target.handled && target.handled->position)
     std::cout << "; " << to_string(target.handled->source) << " at "
               << target.handled->position->transpose() << ", " << target.handled->age << " s old";
@@ -61,7 +68,7 @@ void run(const std::filesystem::path& folder) {
   int refused = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames.read(i, /*with_color=*/false, frame);
-    const Eigen::Vector3d raw = perceive(frame, recording.camera.camera.intrinsics);
+    const std::optional<Eigen::Vector3d> raw = perceive(frame, recording.camera.camera.intrinsics);
     const Target target = target_of(raw);
     const FrameReport& report = pipeline.process({.stamp = frame.stamp,
                                                   .depth = frame.depth_view(),

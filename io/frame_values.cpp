@@ -55,8 +55,9 @@ void ValueTables::Table::read_header(const CsvLines& lines) {
   header = lines.cells();
   header_line = lines.line();
   if (header[0] != "frame")
-    throw InputError(place(lines.line()) + "the first column is '" + printable(header[0]) +
-                     "'; the header must be frame,... with commas between");
+    throw InputError(
+        place(lines.line()) + "the first column is '" + printable(header[0]) +
+        "'; the header must be frame and then, in any order, the others, with commas between");
   for (auto at = header.begin(); at != header.end(); ++at)
     if (std::find(header.begin(), at, *at) != at)
       throw InputError(place(lines.line()) + "column '" + printable(*at) +
@@ -108,8 +109,9 @@ ValueColumns columns_of(const ValueTables::Table& table, const ValueFormat& form
   for (const std::string_view name : format.columns) {
     const auto column = table.find(name);
     if (!column)
-      throw InputError(header + std::string(name) + "'; the header must be frame,[name,][stamp]" +
-                       list_of(format.columns) + " in any order");
+      throw InputError(header + std::string(name) +
+                       "'; the header must be frame and then, in any order, [name,][stamp]" +
+                       list_of(format.columns));
     columns.numbers.push_back(*column);
   }
   for (const std::string_view name : format.optional_columns)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -229,12 +230,37 @@ ShapeSource read_object_box(const TargetReader& reader, const YamlNode& node) {
   });
 }
 
+/// Farther out, or smaller, float32 depths of it would mean nothing.
+void check_extent(const TriangleMesh& mesh, const YamlNode& blamed) {
+  constexpr double least = 1e-6;  // metres
+  double farthest = 0.0;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    if (!vertex.allFinite())
+      blamed.fail(
+          "makes the mesh larger than numbers of 32 bits; its extent must be 1e-6 to 1e6 m");
+    farthest = std::max(farthest, static_cast<double>(vertex.cwiseAbs().maxCoeff()));
+    box.extend(vertex.cast<double>());
+  }
+  const double extent = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (extent >= least && extent <= max_target_distance && farthest <= max_target_distance) return;
+  std::ostringstream text;
+  text << "makes a mesh of " << extent << " m that reaches " << farthest
+       << " m from its origin; an extent of 1e-6 to 1e6 m, as far out at the most, is wanted";
+  blamed.fail(text.str());
+}
+
 std::shared_ptr<const TriangleMesh> mesh_of(const TargetReader& reader) {
   const YamlNode& file = reader.node.at("file");
   TriangleMesh mesh;
   file.blamed_for([&] { mesh = load_mesh(reader.folder / file.text()); });
-  if (const YamlNode* scale = reader.node.find("scale"))
-    for (Eigen::Vector3f& vertex : mesh.vertices) vertex *= static_cast<float>(positive(*scale));
+  const YamlNode* scale = reader.node.find("scale");
+  if (scale != nullptr) {
+    const double factor = positive(*scale);
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = (factor * vertex.cast<double>()).cast<float>();
+  }
+  check_extent(mesh, scale != nullptr ? *scale : file);
   return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 

@@ -54,6 +54,18 @@ void check_name(const YamlNode& node) {
     node.fail("has a control character; letters, digits and signs are wanted");
 }
 
+std::string frame_id_of(const YamlNode& node, const TargetsContext& context) {
+  const YamlNode* frame_id = node.find("frame_id");
+  if (frame_id == nullptr) return {};
+  const std::string& name = frame_id->text();
+  if (name != context.camera_frame)
+    frame_id->fail("is '" + printable(name) + "', " +
+                   (context.camera_frame.empty()
+                        ? "but the camera's frame has no name; leave it out"
+                        : "the camera's is '" + printable(context.camera_frame) + "'"));
+  return name;
+}
+
 TargetSource source_of(const YamlNode& node, const TargetsContext& context,
                        const std::filesystem::path& folder, ValueTables& tables) {
   TargetSource source;
@@ -61,7 +73,7 @@ TargetSource source_of(const YamlNode& node, const TargetsContext& context,
   check_name(node.at("name"));
   const TargetReader reader{node, source.name, context, folder, tables};
   source.shape = read_shape(reader);
-  if (const YamlNode* frame_id = node.find("frame_id")) source.frame_id = frame_id->text();
+  source.frame_id = frame_id_of(node, context);
   if (const YamlNode* estimate = node.find("estimate"))
     source.estimate = read_estimate(reader, *estimate);
   return source;

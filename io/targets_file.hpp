@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <penumbra/camera/camera.hpp>
@@ -23,6 +24,7 @@ struct TargetsContext {
   bool is_bent;          ///< the camera's raw images have lens distortion
   bool beyond_hides;     ///< of targets that do not say it
   double history = 0.5;  ///< seconds that frames are kept for late targets, if there are any
+  std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
 };
 
 /// A targets.yaml (docs/targets.md): which targets each frame has.

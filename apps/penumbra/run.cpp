@@ -90,7 +90,8 @@ std::optional<io::TargetsFile> open_targets(const RunArguments& arguments, const
                                        .image = arguments.image,
                                        .images = camera.intrinsics,
                                        .is_bent = !input.camera.distortion.is_none(),
-                                       .beyond_hides = input.beyond != io::BeyondMeans::visible});
+                                       .beyond_hides = input.beyond != io::BeyondMeans::visible,
+                                       .camera_frame = camera.frame_id});
 }
 
 /// Takes the input's robot.

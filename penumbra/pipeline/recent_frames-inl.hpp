@@ -67,7 +67,7 @@ class RecentPoses {
 class RecentFrames {
  public:
   static constexpr std::size_t max_frames = 1024;
-  static constexpr std::size_t max_bytes = std::size_t{1} << 30;  // 106 frames of 1280x720
+  static constexpr std::size_t max_bytes = std::size_t{1} << 30;  // 105 frames of 1280x720
 
   /// `span`: nanoseconds that frames are kept for; 0: none is.
   explicit RecentFrames(std::int64_t span) : span_(span) {}

@@ -6,6 +6,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {
 namespace {
@@ -73,9 +74,24 @@ struct ShapeCheck {
 };
 
 struct EstimateCheck {
+  bool has_frame;  ///< other than the camera's
+
   void operator()(const std::monostate&) const {}
-  void operator()(const Eigen::Vector3d& position) const { check_position(position); }
-  void operator()(const Eigen::Isometry3d& pose) const { check_pose(pose); }
+  void operator()(const Eigen::Vector3d& position) const {
+    check_position(position);
+    check_distance(position);
+  }
+  void operator()(const Eigen::Isometry3d& pose) const {
+    check_pose(pose);
+    check_distance(pose.translation());
+  }
+  /// Depth 0 is no measurement: what is made of it lies in the camera.
+  void check_distance(const Eigen::Vector3d& position) const {
+    constexpr double least = DepthRenderer::near_plane;
+    if (has_frame || position.norm() >= least) return;
+    throw InputError("position is " + written(position.norm()) + " m from the camera; at least " +
+                     written(least) + " m is wanted: depth 0 is no measurement");
+  }
 };
 
 }  // namespace
@@ -101,6 +117,8 @@ void check_target(const Target& target) {
   check_shape(target.shape);
 }
 
-void check_estimate(const TargetEstimate& estimate) { std::visit(EstimateCheck{}, estimate.value); }
+void check_estimate(const TargetEstimate& estimate) {
+  std::visit(EstimateCheck{estimate.frame.has_value()}, estimate.value);
+}
 
 }  // namespace penumbra

@@ -119,7 +119,8 @@ struct Target {
 void check_shape(const TargetShape& shape);
 void check_target(const Target& target);
 
-/// Throws InputError for a pose that is none, or more than max_target_distance away.
+/// Throws InputError for a pose that is none, or more than max_target_distance away, or in the
+/// camera: given in its frame, and nearer to it than DepthRenderer::near_plane.
 void check_estimate(const TargetEstimate& estimate);
 
 /// Where a handled target is at the frame's stamp, in the root link's frame.

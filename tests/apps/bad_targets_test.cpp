@@ -63,7 +63,9 @@ std::vector<BadTargets> bad_objects() {
       {"KeypointOfRadiusZero", "keypoint: [5, 5]\n  radius: 0\n", {":4: targets[0].radius"}},
       {"KeypointTooLarge", "keypoint: [5, 5]\n  radius: .inf\n", {":4: targets[0].radius"}},
       {"KeypointFileMissing", "keypoint: {csv: no.csv}\n", {"no.csv"}},
-      {"KeypointFileOfOtherColumns", "keypoint: {csv: odd.csv}\n", {"odd.csv:1", "'v'"}},
+      {"KeypointFileOfOtherColumns",
+       "keypoint: {csv: odd.csv}\n",
+       {"odd.csv:1", "'v'", "frame and then, in any order"}},
       {"KeypointFileWithAFrameTwice", "keypoint: {csv: twice.csv}\n", {"twice.csv:3", "frame 0"}},
       {"QuaternionZero",
        "box3d: [0, 0, 1, 0, 0, 0, 0]" + solid,
@@ -78,6 +80,21 @@ std::vector<BadTargets> bad_objects() {
        {":5: targets[0].estimate", "quaternion"}},
       {"PointWithNan", "point: [0, .nan, 1]\n", {":3: targets[0].point", "finite"}},
       {"LinkUnknown", "point: [0, 0, 1]\n  link: bord\n", {":4: targets[0].link", "base, board"}},
+      {"MeshTooLarge",
+       "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: solid.obj\n  scale: 1e30\n",
+       {":5: targets[0].scale", "1e6 m"}},
+      {"MeshTooSmall",
+       "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: solid.obj\n  scale: 1e-30\n",
+       {":5: targets[0].scale", "1e-6"}},
+      {"MeshBeyondNumbers",
+       "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: solid.obj\n  scale: 1e300\n",
+       {":5: targets[0].scale", "32 bits"}},
+      {"KeypointFileWithoutFrames",
+       "keypoint: {csv: late.csv}\n",
+       {"late.csv:1", "frame and then, in any order"}},
+      {"EstimateInTheCamera",
+       "keypoint: [5, 5]\n  handling: point\n  estimate: {point: [0, 0, 0]}\n",
+       {":5: targets[0].estimate", "from the camera"}},
       {"MeshMissing", "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: no.stl\n", {"no.stl"}},
       {"KeyUnknown", "box: [1, 2, 3, 4]\n  extend: modal\n", {":4: targets[0].extend", "extent"}},
       {"KindUnknown", "circle: [1, 2, 3]\n", {":2: targets[0]", "box, polygon"}},
@@ -89,6 +106,9 @@ std::vector<BadTargets> bad_objects() {
 std::vector<BadTargets> bad_settings() {
   const std::string solid = "\n  size: [0.1, 0.1, 0.1]\n";
   return {
+      {"FrameOfAnother",
+       "box: [1, 2, 3, 4]\n  frame_id: other\n",
+       {":4: targets[0].frame_id", "'other'", "the camera's"}},
       {"DepthNegative",
        "box: [1, 2, 3, 4]\n  expected_depth: -1\n",
        {":4: targets[0].expected_depth"}},
@@ -139,6 +159,8 @@ class TargetFaultsTest : public testing::Test {
     io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 5, 1).view());
     io::write_png(folder_.path() / "empty.png", Image<std::uint8_t>(64, 48).view());
     write_file(folder_.path() / "odd.csv", "frame,u,w\n0,1,2\n");
+    write_file(folder_.path() / "late.csv", "u,v,frame\n1,2,0\n");
+    write_file(folder_.path() / "solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write_file(folder_.path() / "twice.csv", "frame,u,v\n0,1,2\n0,1,2\n");
   }
 

@@ -203,6 +203,19 @@ TEST_F(TargetsTest, EstimatesFartherThanAnythingAreInvalid) {
   EXPECT_EQ(judge(100 * ms, target).estimate, penumbra::Outcome::accepted) << "not held against it";
 }
 
+/// Made of a hole in the depth image: depth 0 is no measurement.
+TEST_F(TargetsTest, EstimatesInTheCameraAreInvalid) {
+  Target target = followed(beside_slab);
+  for (const double z : {0.0, 0.009}) {
+    target.estimate = TargetEstimate{.value = Eigen::Vector3d(0, 0, z)};
+    EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::refused_invalid) << z;
+    target.estimate->value = Eigen::Isometry3d(Eigen::Translation3d(0, 0, z));
+    EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::refused_invalid) << z;
+  }
+  target.estimate = TargetEstimate{.value = Eigen::Vector3d(0, 0, 1)};
+  EXPECT_EQ(judge(100 * ms, target).estimate, penumbra::Outcome::accepted) << "not held against it";
+}
+
 TEST_F(TargetsTest, CheckedBeforehandIsAsJudged) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Target box{.name = "box", .shape = BoxTarget{.size = {1e30, 1, 1}, .frame = ""}};
