@@ -219,6 +219,10 @@ const std::vector<std::string>& Simulation::scenes() {
 Simulation::Simulation(const std::string& scene, const SimulationOptions& options) {
   check_options(options);
   state_ = std::make_unique<State>(scene, options);
+  if (frames() == 0)
+    throw InputError("simulation: frame_rate (--rate) is " + std::to_string(options.frame_rate) +
+                     "; at least one frame in the scene's " + std::to_string(state_->duration) +
+                     " s is needed");
   if (options.joint_latency > 0.0 && !state_->scene->description().moves)
     throw InputError("simulation: joint_latency means nothing in the scene '" + scene +
                      "', whose frames have nothing to do with each other; leave it out");

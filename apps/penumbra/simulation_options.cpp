@@ -53,7 +53,13 @@ void add_simulate(CLI::App& app, SimulateArguments& simulate) {
   add_number(app, "--seed", "what differs between runs; default 0", "N", options.seed);
   add_option(app, "--frames", "write only the frames from A up to but without B", "A:B",
              [&](const std::string& text) { simulate.frames = to_range(text); });
-  add_number(app, "--duration", "of the scene; default: its own", "S", options.duration);
+  add_option(app, "--duration", "of the scene; default: its own", "S",
+             [&](const std::string& text) {
+               const auto seconds = io::parse_number<double>(text);
+               if (!seconds || !(*seconds > 0))
+                 refuse_option("--duration", text, "a number of seconds above 0");
+               options.duration = *seconds;
+             });
   add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
   app.add_flag_callback(
       "--no-noise", [&] { options.depth = {}; },

@@ -108,7 +108,9 @@ TEST_F(SimulateCommand, RefusesBadInput) {
   refused({"conveyor", "--frames", "0:151"}, "0:150");
   refused({"conveyor", "--frames", "x"}, "--frames");
   refused({"conveyor", "--duration", "1e99"}, "duration");
+  refused({"conveyor", "--duration", "0"}, "--duration");
   refused({"conveyor", "--rate", "0"}, "frame_rate");
+  refused({"conveyor", "--rate", "0.1"}, "--rate");
   refused({"random", "--joint-latency", "0.1"}, "joint_latency");
   refused({"random", "--belt-jitter", "0.3"}, "belt_jitter");
   refused({"handover", "--belt-jitter", "0.3"}, "belt_jitter");

@@ -140,6 +140,7 @@ TEST(SimulationInput, RefusesWhatMakesNoSense) {
     expect_refused({.depth = {.edge_holes = bad}}, "edge_holes");
   }
   expect_refused({.duration = 0.01}, "one frame");
+  expect_refused({.frame_rate = 0.1}, "frame_rate (--rate)");  // of the scene's own five seconds
   EXPECT_THROW(Simulation("random", {.joint_latency = 0.1}), InputError) << "nothing moves there";
   expect_refused({.depth = {.edge_holes = 0.6, .edge_mixed = 0.6}}, "edge_mixed");
 }
