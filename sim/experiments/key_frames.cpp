@@ -46,10 +46,14 @@ void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Loo
   }
 }
 
+/// Black on a plate of the colour: read on any ground.
 void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb8>& image) {
-  for (const auto& [du, dv] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}, {2, 0}, {0, 2}})
-    io::BitmapFont::draw(text, u + du, v + dv, text_scale, black, image);
-  io::BitmapFont::draw(text, u, v, text_scale, color, image);
+  constexpr int margin = 4, height = text_scale * io::BitmapFont::height + margin;
+  const int width = letter_width * static_cast<int>(text.size()) + margin;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      io::BitmapFont::fill(u + x - margin, v + y - margin, 1, color, image);
+  io::BitmapFont::draw(text, u, v, text_scale, black, image);
 }
 
 std::string error_text(const Sample& sample) {
