@@ -51,10 +51,6 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string list(const Eigen::Vector3d& v) {
-  return "[" + numbers({v.x(), v.y(), v.z()}, ", ") + "]";
-}
-
 std::string joint_row(std::size_t index, std::int64_t stamp, std::span<const double> positions) {
   std::string row = std::to_string(index) + ',' + std::to_string(stamp);
   for (const double position : positions) row += ',' + numbers({position});
@@ -127,28 +123,9 @@ void RecordingFolder::write_camera(const std::string& prefix, const Camera& came
 
 void RecordingFolder::write_scene(const std::string& scene,
                                   const SimulationOptions& options) const {
-  const DepthNoise& depth = options.depth;
-  std::string text =
-      "scene: " + scene + "\nseed: " + std::to_string(options.seed) +
-      "\nduration: " + numbers({simulation_.duration()}) +
-      "\nframe_rate: " + numbers({options.frame_rate}) +
-      "\njoint_sigma: " + numbers({options.joint_sigma}) +
-      "\njoint_latency: " + numbers({options.joint_latency}) +
-      "\nbelt_jitter: " + numbers({options.belt_jitter}) +
-      "\ndepth_noise: {quadratic: " + numbers({depth.quadratic}) +
-      ", disparity_step: " + numbers({depth.disparity_step}) +
-      ", baseline: " + numbers({depth.baseline}) + ", edge_holes: " + numbers({depth.edge_holes}) +
-      ", edge_mixed: " + numbers({depth.edge_mixed}) +
-      ", edge_width: " + numbers({depth.edge_width}) + ", holes: " + numbers({depth.holes}) + "}\n";
-  if (!simulation_.model_image().empty()) {
+  if (!simulation_.model_image().empty())
     io::write_png(folder_ / "model.png", simulation_.model_image().view());
-    text += "object_size: " + list(simulation_.object_size()) +
-            "   # metres; model.png is on the +z face\n" +
-            "conveyor_direction: " + list(simulation_.conveyor_direction()) + '\n';
-  }
-  if (const auto grasp = simulation_.grasp_stamp())
-    text += "grasp_stamp: " + std::to_string(*grasp) + '\n';
-  write_whole(folder_ / "scene.yaml", text);
+  write_whole(folder_ / "scene.yaml", scene_text(simulation_, scene, options));
 }
 
 fs::path RecordingFolder::image(const char* kind, std::size_t index) const {
@@ -161,10 +138,7 @@ void RecordingFolder::add(const SimFrame& frame, std::size_t index) {
   io::write_png(image("color", index), frame.color.view());
   io::write_png(image("depth", index), frame.depth.view());
   if (second_camera_) io::write_png(image("second_depth", index), frame.second_depth.view());
-  if (ids_.size() != frame.ids.size())
-    ids_ = Image<std::uint16_t>(frame.ids.width(), frame.ids.height());
-  for (std::size_t i = 0; i < ids_.size(); ++i)
-    ids_.data()[i] = static_cast<std::uint16_t>(frame.ids.data()[i]);
+  store_ids(frame, ids_);
   io::write_png(image("ids", index), std::as_const(ids_).view());
   joints_ << joint_row(index, frame.stamp, frame.joints);
   true_joints_ << joint_row(index, frame.stamp, frame.true_joints);

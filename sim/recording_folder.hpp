@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <sim/simulation.hpp>
+#include <sim/recording_sink.hpp>
 
 namespace penumbra::sim {
 
@@ -18,18 +18,16 @@ namespace penumbra::sim {
 ///   ids/000000.png     16-bit SimFrame::ids
 ///   truth.csv          poses and pixel counts of every object in every frame
 ///   scene.yaml         seed, options, and what is known of the object and the grasp
-class RecordingFolder {
+class RecordingFolder final : public RecordingSink {
  public:
   /// Throws InputError where the folder is not empty or cannot be made. `simulation` must outlive
   /// this.
   RecordingFolder(const std::filesystem::path& folder, const Simulation& simulation,
                   const std::string& scene, const SimulationOptions& options);
 
-  /// Writes the frame's files. Throws InputError where that fails.
-  void add(const SimFrame& frame, std::size_t index);
-
-  /// Ends the tables. Throws InputError where that fails.
-  void finish();
+  void add(const SimFrame& frame, std::size_t index) override;
+  void finish() override;
+  [[nodiscard]] std::string where() const override { return folder_.string(); }
 
  private:
   void write_robot() const;

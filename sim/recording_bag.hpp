@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <io/mcap/writer.hpp>
+#include <sim/mesh_folder.hpp>
+#include <sim/recording_sink.hpp>
+
+namespace penumbra::sim {
+
+/// Writes a simulation as a bag of ROS 2's messages that `penumbra run` takes, and the URDF's
+/// folder beside it. Messages are recorded at their stamps; topics without a frame at the first
+/// one's:
+///   /robot_description, /tf_static                latched; the cameras' poses
+///   /joint_states                                 as reported
+///   /camera/depth/image_rect_raw, camera_info     16UC1, millimetres; /second_camera/... likewise
+///   /camera/color/image_raw/compressed, camera_info   PNG
+///   /truth/scene, /truth/model/compressed         latched; scene_text() and the object's image
+///   /truth/joint_states, /truth/ids               as they were; 16UC1 SimFrame::ids
+///   /truth/NAME/pose, /truth/targets              of each object; hidden fractions of all
+class RecordingBag final : public RecordingSink {
+ public:
+  /// Throws InputError where something is there or nothing can be written. `simulation` must
+  /// outlive this.
+  RecordingBag(const std::filesystem::path& file, const Simulation& simulation,
+               const std::string& scene, const SimulationOptions& options);
+  /// Leaves nothing of a bag that is not finished.
+  ~RecordingBag() override;
+  RecordingBag(const RecordingBag&) = delete;
+  RecordingBag& operator=(const RecordingBag&) = delete;
+
+  void add(const SimFrame& frame, std::size_t index) override;
+  void finish() override;
+  [[nodiscard]] std::string where() const override;
+
+ private:
+  struct Channel {
+    std::uint16_t id = 0;
+    std::uint32_t messages = 0;
+  };
+  enum class Durability { latched, passing };
+
+  template <typename M>
+  void write(const std::string& topic, std::int64_t stamp, const M& message,
+             Durability durability = Durability::passing);
+  Channel& channel_of(const std::string& topic, const std::string& type, Durability durability);
+  void write_scene(std::int64_t stamp);
+  void write_camera(const SimFrame& frame);
+  void write_second_camera(const SimFrame& frame);
+  void write_truth(const SimFrame& frame);
+
+  std::filesystem::path file_, part_;
+  MeshFolder meshes_;
+  io::mcap::Writer writer_;
+  const Simulation& simulation_;
+  bool second_camera_;
+  std::string root_, scene_;
+  std::map<std::string, std::uint16_t> schemas_;
+  std::map<std::string, Channel> channels_;
+  std::vector<std::byte> payload_, png_;
+  Image<std::uint16_t> ids_;
+  bool finished_ = false;
+};
+
+}  // namespace penumbra::sim
