@@ -84,13 +84,15 @@ Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and gra
 person's hand behind and before the arm), random (targets before, behind and beside an arm in a new
 pose in every frame). MuJoCo places and draws everything. OUT is a recording for penumbra run, with
 the truth beside it: ids/000000.png (0 nothing, 1 + link number, from 10000 objects), truth.csv
-(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. The same seed gives the same
-bytes.
+(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. OUT.mcap is the same as a bag of
+ROS 2, the truth on /truth/..., with the arm's meshes beside it in arm_description/. The same seed
+gives the same bytes.
 
 Examples:
   penumbra simulate conveyor -o belt
   penumbra simulate handover --seed 7 --joint-sigma 0.001 --joint-latency 0.01 -o hand
-  penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets)";
+  penumbra simulate random --seed 3 --no-noise --frames 0:100 -o targets
+  penumbra simulate conveyor -o belt.mcap && penumbra run belt.mcap -o out)";
 
 inline constexpr const char* live_examples = R"(
 Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2's graph, judges each

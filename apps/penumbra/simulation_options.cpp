@@ -48,7 +48,8 @@ void add_simulate(CLI::App& app, SimulateArguments& simulate) {
   app.footer(simulate_examples);
   sim::SimulationOptions& options = simulate.options;
   app.add_option("SCENE", simulate.scene, "conveyor, handover or random")->required();
-  add_path(app, "-o,--output", "folder for the recording; new or empty", "OUT", simulate.output)
+  add_path(app, "-o,--output", "folder for the recording, new or empty; or a new bag NAME.mcap",
+           "OUT", simulate.output)
       ->required();
   add_number(app, "--seed", "what differs between runs; default 0", "N", options.seed);
   add_option(app, "--frames", "write only the frames from A up to but without B", "A:B",
@@ -71,7 +72,7 @@ void add_simulate(CLI::App& app, SimulateArguments& simulate) {
   add_number(app, "--belt-jitter", "unrest of the belt's speed, relative; default 0", "SHARE",
              options.belt_jitter);
   app.add_flag("--second-camera", options.second_camera,
-               "a depth camera on the other side, too: second_depth/");
+               "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
 }
 
 }  // namespace penumbra::app
