@@ -28,8 +28,8 @@ constexpr const char* latched_qos =
     "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
     "  avoid_ros_namespace_conventions: false";
 
-/// The bag's name, if nothing is there.
-fs::path unused(const fs::path& file) {
+/// The bag's name, if nothing is there: nothing would tell whose it is.
+fs::path new_file(const fs::path& file) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error)))
     throw InputError("--output: " + file.string() + " is there; choose another name");
@@ -80,19 +80,14 @@ io::TargetMessage target_of(const ObjectTruth& object, std::int64_t stamp) {
 
 RecordingBag::RecordingBag(const fs::path& file, const Simulation& simulation,
                            const std::string& scene, const SimulationOptions& options)
-    : file_(unused(file)),
-      part_(file.string() + ".penumbra.part"),
+    : file_(new_file(file)),
       meshes_(simulation.urdf().parent_path(), file),
-      writer_(part_, {.profile = "ros2"}),
+      pending_(file),
+      writer_(pending_.part(), {.profile = "ros2"}),
       simulation_(simulation),
       second_camera_(options.second_camera),
       root_(simulation.robot().links().front()),
       scene_(scene_text(simulation, scene, options)) {}
-
-RecordingBag::~RecordingBag() {
-  std::error_code ignored;
-  if (!finished_) fs::remove(part_, ignored);
-}
 
 std::string RecordingBag::where() const {
   return file_.string() + ", its arm's meshes: " + meshes_.path().string();
@@ -187,10 +182,8 @@ void RecordingBag::add(const SimFrame& frame, std::size_t /*index*/) {
 void RecordingBag::finish() {
   writer_.close();
   meshes_.copy();
-  std::error_code error;
-  fs::rename(part_, unused(file_), error);
-  if (error) throw InputError(file_.string() + ": cannot be written: " + error.message());
-  finished_ = true;
+  new_file(file_);  // after all the time that the frames took
+  pending_.finish();
 }
 
 }  // namespace penumbra::sim

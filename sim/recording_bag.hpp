@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <io/mcap/writer.hpp>
+#include <io/pending_file.hpp>
 #include <sim/mesh_folder.hpp>
 #include <sim/recording_sink.hpp>
 
@@ -26,14 +27,10 @@ namespace penumbra::sim {
 ///   /truth/NAME/pose, /truth/targets              of each object; hidden fractions of all
 class RecordingBag final : public RecordingSink {
  public:
-  /// Throws InputError where something is there or nothing can be written. `simulation` must
-  /// outlive this.
+  /// Throws InputError where something is there or nothing can be written. There is no such bag
+  /// before finish(). `simulation` must outlive this.
   RecordingBag(const std::filesystem::path& file, const Simulation& simulation,
                const std::string& scene, const SimulationOptions& options);
-  /// Leaves nothing of a bag that is not finished.
-  ~RecordingBag() override;
-  RecordingBag(const RecordingBag&) = delete;
-  RecordingBag& operator=(const RecordingBag&) = delete;
 
   void add(const SimFrame& frame, std::size_t index) override;
   void finish() override;
@@ -55,8 +52,9 @@ class RecordingBag final : public RecordingSink {
   void write_second_camera(const SimFrame& frame);
   void write_truth(const SimFrame& frame);
 
-  std::filesystem::path file_, part_;
+  std::filesystem::path file_;
   MeshFolder meshes_;
+  io::PendingFile pending_;
   io::mcap::Writer writer_;
   const Simulation& simulation_;
   bool second_camera_;
@@ -65,7 +63,6 @@ class RecordingBag final : public RecordingSink {
   std::map<std::string, Channel> channels_;
   std::vector<std::byte> payload_, png_;
   Image<std::uint16_t> ids_;
-  bool finished_ = false;
 };
 
 }  // namespace penumbra::sim
