@@ -27,7 +27,8 @@ void print_links(const Robot& robot) {
       {"LINK", "DRAWN", "TRIANGLES", "WATERTIGHT", "SIZE (m)", "LOAD (ms)", "WHY / FROM"}};
   for (const LinkReport& link : robot.report()) {
     std::string why = link.reason;
-    for (const std::string& source : link.sources) why += (why.empty() ? "" : ", ") + source;
+    for (const std::string& source : link.sources)
+      if (link.reason.find(source) == std::string::npos) why += (why.empty() ? "" : ", ") + source;
     const char* const watertight = link.watertight ? "yes" : "no";
     rows.push_back({link.link,
                     link.missing ? "MISSING"
@@ -82,7 +83,7 @@ void print_robot(const Robot& robot) {
 
 int execute(const InspectArguments& arguments) {
   RobotOptions options = arguments.options;
-  options.allow_missing_meshes = true;  // to show the other links before it is refused below
+  options.allow_missing_meshes = true;  // to show the other links, too; the fault is told below
   const Robot robot = Robot::load(arguments.robot, options);
   if (arguments.json) {
     std::cout << io::robot_json(robot) << '\n';
@@ -91,8 +92,7 @@ int execute(const InspectArguments& arguments) {
   }
   if (arguments.options.allow_missing_meshes) return 0;
   for (const LinkReport& link : robot.report())
-    if (link.missing)
-      throw InputError(arguments.robot.string() + ": link '" + link.link + "': " + link.reason);
+    if (!link.fault.empty()) throw InputError(link.fault);
   return 0;
 }
 

@@ -37,7 +37,8 @@ void add_renderer(CLI::App& app, RendererArguments& renderer) {
 
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
   app.add_flag("--allow-missing-meshes", allow_missing_meshes,
-               "go on without meshes that cannot be read; every result names the missing links");
+               "go on without meshes that cannot be read and links that have only the other "
+               "geometry; every result names the missing links");
   app.add_flag("--geometry-fallback", geometry_fallback,
                "draw links that have only the other geometry by that; inspect says which");
 }

@@ -20,11 +20,11 @@ struct LinkChoice {
 
 /// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for
 /// two patterns that say different things of one link (a plain name goes before patterns), for a
-/// margin that is no sensible number, and where no link has the chosen geometry but some have the
-/// other.
+/// margin that is no sensible number, and, unless missing meshes are allowed, for links that have
+/// geometry, but none of the chosen kind: what stands behind them would look visible.
 [[nodiscard]] std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options);
 
-/// Which links lack the chosen geometry but have the other, a line for each kind.
+/// Which links lack the chosen geometry but have the other, and the ways out, a line for each kind.
 [[nodiscard]] std::vector<std::string> lacking_notes(const Urdf& urdf,
                                                      const std::vector<LinkChoice>& choices);
 

@@ -11,6 +11,7 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kLargestMargin = 1.0;  // metres; more was meant in another unit
+constexpr std::size_t kMostNames = 5;   // of links in a message
 
 void require_match(const Urdf& urdf, const std::string& pattern, const std::string& option) {
   const bool matches = std::any_of(urdf.links.begin(), urdf.links.end(), [&](const auto& link) {
@@ -78,27 +79,40 @@ void check_options(const Urdf& urdf, const RobotOptions& options) {
   }
 }
 
-// A robot of which nothing is drawn would make every pixel look clear.
-void require_geometry(const Urdf& urdf, const RobotOptions& options) {
-  std::size_t wanted = 0;
-  std::size_t any = 0;
-  for (const UrdfLink& link : urdf.links) {
-    any += link.visuals.size() + link.collisions.size();
-    wanted +=
-        link.elements(setting_of(options.geometry_of_links, urdf, link.name, options.geometry))
-            .size();
-  }
-  if (wanted == 0 && any > 0 && !options.geometry_fallback)
-    throw InputError(urdf.file + ": no link has " + to_string(options.geometry) +
-                     " elements; choose " + to_string(other(options.geometry)) +
-                     " geometry, or allow it as a fallback");
+/// Links that have geometry, but none of the kind that is wanted of them.
+std::vector<const UrdfLink*> lacking(const Urdf& urdf, const std::vector<LinkChoice>& choices,
+                                     Geometry wanted) {
+  std::vector<const UrdfLink*> links;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (choices[i].lacks_geometry && choices[i].geometry == wanted) links.push_back(&urdf.links[i]);
+  return links;
+}
+
+std::string lacking_line(const std::vector<const UrdfLink*>& links, Geometry wanted) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(links.size(), kMostNames); ++i)
+    names += (i == 0 ? "" : ", ") + in_quotes(links[i]->name);
+  if (links.size() > kMostNames) names += ", ...";
+  const std::string kind = to_string(other(wanted));
+  return std::to_string(links.size()) + (links.size() == 1 ? " link has no " : " links have no ") +
+         to_string(wanted) + " geometry, only " + kind + ": " + names + "; draw " +
+         (links.size() == 1 ? "it" : "them") +
+         " by that (--geometry-fallback, or geometry: {LINK: " + kind + "}), take " + kind +
+         " for all (--geometry " + kind +
+         "), or leave out what is not on the real robot (ignore_links)";
+}
+
+void refuse_lacking(const Urdf& urdf, const std::vector<LinkChoice>& choices) {
+  for (const Geometry wanted : {Geometry::collision, Geometry::visual})
+    if (const auto links = lacking(urdf, choices, wanted); !links.empty())
+      throw InputError(urdf.file + ":" + std::to_string(links.front()->line) + ": " +
+                       lacking_line(links, wanted));
 }
 
 }  // namespace
 
 std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options) {
   check_options(urdf, options);
-  require_geometry(urdf, options);
   std::vector<LinkChoice> choices;
   for (const UrdfLink& link : urdf.links) {
     LinkChoice choice;
@@ -114,20 +128,15 @@ std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& optio
     }
     choices.push_back(std::move(choice));
   }
+  if (!options.allow_missing_meshes) refuse_lacking(urdf, choices);
   return choices;
 }
 
 std::vector<std::string> lacking_notes(const Urdf& urdf, const std::vector<LinkChoice>& choices) {
   std::vector<std::string> notes;
-  for (const Geometry wanted : {Geometry::collision, Geometry::visual}) {
-    std::string names;
-    for (std::size_t i = 0; i < choices.size(); ++i)
-      if (choices[i].lacks_geometry && choices[i].geometry == wanted)
-        names += (names.empty() ? "" : ", ") + urdf.links[i].name;
-    if (!names.empty())
-      notes.push_back("not drawn, as they have no " + to_string(wanted) + ", only " +
-                      to_string(other(wanted)) + ": " + names);
-  }
+  for (const Geometry wanted : {Geometry::collision, Geometry::visual})
+    if (const auto links = lacking(urdf, choices, wanted); !links.empty())
+      notes.push_back(lacking_line(links, wanted));
   return notes;
 }
 

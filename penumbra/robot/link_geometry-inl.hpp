@@ -36,6 +36,8 @@ class GeometryLoader {
 
  private:
   void add(const UrdfElement& element, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
+  /// Where a fault is, for messages.
+  [[nodiscard]] std::string at(const UrdfElement& element, const std::string& link) const;
   void note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin);
   TriangleMesh make_mesh(const UrdfElement& element, std::string& source);
   TriangleMesh read_mesh(const UrdfMesh& mesh, std::string& source);

@@ -93,6 +93,7 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
   LinkGeometry out;
   out.report.link = link.name;
   out.report.reason = choice.reason;
+  out.report.missing = choice.lacks_geometry;
   if (!choice.draw) return out;
   out.report.margin = choice.margin;
   Eigen::AlignedBox3d without_margin;
@@ -100,14 +101,17 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
     try {
       add(element, out, without_margin);
     } catch (const InputError& error) {
-      throw InputError(file_ + ":" + std::to_string(element.line) + ": link " +
-                       in_quotes(link.name) + ": " + error.what());
+      throw InputError(at(element, link.name) + error.what());
     }
   }
   measure(out);
   note_size(out.report, without_margin);
   out.report.load_ms = milliseconds_since(start);
   return out;
+}
+
+std::string GeometryLoader::at(const UrdfElement& element, const std::string& link) const {
+  return file_ + ":" + std::to_string(element.line) + ": link " + in_quotes(link) + ": ";
 }
 
 void GeometryLoader::note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin) {
@@ -129,6 +133,7 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out,
   } catch (const InputError& error) {
     if (!allow_missing_) throw;
     out.report.missing = true;
+    if (out.report.fault.empty()) out.report.fault = at(element, out.report.link) + error.what();
     out.report.reason += std::string("; missing: ") + error.what();
     return;
   }

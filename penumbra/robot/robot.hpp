@@ -30,14 +30,18 @@ struct RobotOptions {
   std::vector<std::string> ignore_links = {};  ///< patterns of links that are not drawn
   std::vector<std::string> only_links = {};    ///< if not empty: patterns of the links drawn
   std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
-  bool allow_missing_meshes = false;  ///< go on without unreadable meshes; the report names them
+
+  /// Go on without meshes that cannot be read and without links that have only the other geometry:
+  /// their links are missing, in the report and in every frame.
+  bool allow_missing_meshes = false;
 };
 
 /// What became of a link's geometry.
 struct LinkReport {
   std::string link;
   bool drawn = false;
-  bool missing = false;  ///< geometry was wanted and could not be read (allow_missing_meshes)
+  bool missing = false;  ///< it has geometry that should be drawn and is not (allow_missing_meshes)
+  std::string fault;     ///< of a mesh that could not be read: file, line and reason; else empty
   std::string reason;    ///< why it is not drawn, or what was chosen; one line
   std::vector<std::string> sources;  ///< each element's file or primitive
   std::size_t triangles = 0;
@@ -81,7 +85,8 @@ struct Joint {
 class Robot {
  public:
   /// Reads a URDF and its meshes. Throws InputError naming file, line and element for anything that
-  /// is neither understood nor known to be irrelevant, and for a mesh that cannot be read.
+  /// is neither understood nor known to be irrelevant, for a mesh that cannot be read, and for
+  /// links that have geometry, but none of the chosen kind.
   [[nodiscard]] static Robot load(const std::filesystem::path& urdf,
                                   const RobotOptions& options = {});
 
@@ -119,8 +124,8 @@ class Robot {
 
   /// What a user should know though nothing is wrong, a line each: where a package was found that
   /// was not given ("package NAME: taken from ..."), what is odd about mesh files, which links are
-  /// so small that their unit is in doubt, and which have geometry, but none of the chosen kind,
-  /// and so are not drawn.
+  /// so small that their unit is in doubt, and, where missing meshes are allowed, which have
+  /// geometry, but none of the chosen kind, and so are missing.
   [[nodiscard]] std::span<const std::string> notes() const;
 
   /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, within

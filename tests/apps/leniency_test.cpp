@@ -88,14 +88,41 @@ TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreDrawnWhereThatIsAskedFor) {
   const auto robot_pixels = [&](const std::vector<std::string>& options) {
     return Json::parse(render(options).out)["robot_pixels"].get<int>();
   };
-  EXPECT_GT(robot_pixels(fallback), robot_pixels({}));
+  EXPECT_GT(robot_pixels(fallback), robot_pixels({"--allow-missing-meshes"}));
   const std::string told = run(fallback).err;
-  EXPECT_EQ(told.find("not drawn"), std::string::npos) << told;
   EXPECT_NE(told.find("% beyond: "), std::string::npos) << "no depth image shows the sphere";
-  EXPECT_NE(run({}).err.find("not drawn"), std::string::npos);
+  EXPECT_EQ(told.find("only visual"), std::string::npos) << told;
   const Json link = Json::parse(inspect(fallback).out)["links"][2];
   EXPECT_EQ(link["drawn"], true);
   EXPECT_EQ(link["reason"], "visual, as it has no collision");
+}
+
+TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreNeverLeftOutInSilence) {
+  add_link("<visual><origin xyz=\"0 0 2\"/><geometry><sphere radius=\"1\"/></geometry></visual>");
+  const std::string words = "1 link has no collision geometry, only visual: \"more\"";
+  for (const Outcome& outcome : {run({}), render({})}) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    for (const char* way : {"--geometry-fallback", "--geometry visual", "ignore_links"})
+      EXPECT_NE(outcome.err.find(way), std::string::npos) << outcome.err;
+  }
+  const Outcome ran = run({"--allow-missing-meshes"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("missing_link in 3 of 3 frames"), std::string::npos) << ran.err;
+  const Json report = Json::parse(read_file(file("out/report.json")));
+  EXPECT_EQ(report["summary"]["missing_links"], Json{"more"});
+  EXPECT_NE(report["summary"]["notes"].dump().find("only visual"), std::string::npos);
+}
+
+TEST_F(LeniencyTest, InspectShowsLinksOfTheOtherGeometryAsMissing) {
+  add_link("<visual><geometry><sphere radius=\"1\"/></geometry></visual>");
+  const Outcome json = inspect({});
+  ASSERT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(Json::parse(json.out)["links"][2]["missing"], true);
+  const Outcome table = penumbra({"inspect", file("tiny.urdf")});
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_NE(table.out.find("MISSING"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("note: 1 link has no collision geometry"), std::string::npos);
 }
 
 }  // namespace

@@ -238,8 +238,11 @@ TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
   const Outcome outcome = inspect();
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("tiny.urdf: link 'board'"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err, render({}).err) << "with the line, too";
   EXPECT_NE(outcome.out.find("MISSING"), std::string::npos) << outcome.out;
+  const std::size_t named = outcome.out.find("board.stl");
+  ASSERT_NE(named, std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("board.stl", named + 1), std::string::npos) << outcome.out;
 }
 
 }  // namespace

@@ -239,18 +239,6 @@ TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
   EXPECT_TRUE(report()["frames"][1]["joint_age_ms"].is_null()) << "of joints that are missing";
 }
 
-TEST_F(RunTest, TellsLinksThatLackTheChosenGeometry) {
-  edit_file(folder_.path() / "tiny.urdf", "<link name=\"base\"/>",
-            "<link name=\"base\"><visual><origin xyz=\"5 5 5\"/><geometry><sphere "
-            "radius=\"0.1\"/></geometry></visual></link>");
-  const Outcome outcome = run();
-  EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.err,
-            "penumbra: note: not drawn, as they have no collision, only visual: base\n");
-  EXPECT_EQ(report()["summary"]["notes"],
-            Json{"not drawn, as they have no collision, only visual: base"});
-}
-
 TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {
   const auto front = [&] { return report()["frames"][0]["pixels"]["front"].get<int>(); };
   edit_file(folder_.path() / "recording.yaml",

@@ -51,8 +51,8 @@ std::string drawn(const RobotOptions& options) {
 }
 
 TEST(LinkChoice, GeometryIsTheOneAskedFor) {
-  EXPECT_EQ(drawn({}), "ad");
-  EXPECT_EQ(drawn({.geometry = Geometry::visual}), "ab");
+  EXPECT_EQ(drawn({.ignore_links = {"b"}}), "ad");
+  EXPECT_EQ(drawn({.geometry = Geometry::visual, .ignore_links = {"d"}}), "ab");
   EXPECT_EQ(drawn({.geometry_of_links = {{"b", Geometry::visual}}}), "abd");
 }
 
@@ -63,7 +63,7 @@ TEST(LinkChoice, FallsBackOnlyWhenAsked) {
 }
 
 TEST(LinkChoice, ReportSaysWhyALinkIsNotDrawn) {
-  const Robot robot = parse(four_links(), {.ignore_links = {"d"}});
+  const Robot robot = parse(four_links(), {.ignore_links = {"d"}, .allow_missing_meshes = true});
   EXPECT_EQ(report_of(robot, "a").reason, "collision");
   EXPECT_EQ(report_of(robot, "b").reason, "has no collision, only visual");
   EXPECT_EQ(report_of(robot, "c").reason, "has no geometry");
@@ -72,24 +72,55 @@ TEST(LinkChoice, ReportSaysWhyALinkIsNotDrawn) {
   EXPECT_TRUE(report_of(robot, "d").bounds.isEmpty());
 }
 
-TEST(LinkChoice, NotesTellLinksThatLackTheChosenGeometry) {
-  const auto notes = [](const RobotOptions& options) {
-    const Robot robot = parse(four_links(), options);
-    return std::vector<std::string>(robot.notes().begin(), robot.notes().end());
+TEST(LinkChoice, LinksThatLackTheChosenGeometryAreRefusedWithTheWaysOut) {
+  const auto refused = [](const RobotOptions& options) {
+    return message_of([&] { (void)parse(four_links(), options); });
   };
-  using Notes = std::vector<std::string>;
-  EXPECT_EQ(notes({}), Notes{"not drawn, as they have no collision, only visual: b"});
-  EXPECT_EQ(notes({.geometry = Geometry::visual}),
-            Notes{"not drawn, as they have no visual, only collision: d"});
-  EXPECT_EQ(notes({.ignore_links = {"b"}}), Notes{});
-  EXPECT_EQ(notes({.geometry_of_links = {{"b", Geometry::visual}}}), Notes{});
-  EXPECT_EQ(notes({.geometry_fallback = true}), Notes{});
+  const std::string collision = refused({});
+  for (const char* part :
+       {"robot_description:3: 1 link has no collision geometry, only visual: \"b\"; ",
+        "--geometry-fallback", "geometry: {LINK: visual}", "--geometry visual", "ignore_links"})
+    EXPECT_TRUE(holds(collision, part));
+  EXPECT_TRUE(holds(refused({.geometry = Geometry::visual}),
+                    ":5: 1 link has no visual geometry, only collision: \"d\"; "));
+  EXPECT_TRUE(holds(refused({.geometry_of_links = {{"d", Geometry::visual}}}), "\"b\""))
+      << "both kinds are lacked: collision is told first";
+  for (const RobotOptions& way :
+       {RobotOptions{.geometry_of_links = {{"b", Geometry::visual}}},
+        RobotOptions{.geometry_fallback = true}, RobotOptions{.ignore_links = {"b"}},
+        RobotOptions{.only_links = {"a", "c", "d"}}}) {
+    const Robot robot = parse(four_links(), way);
+    EXPECT_TRUE(robot.notes().empty());
+    for (const LinkReport& report : robot.report()) EXPECT_FALSE(report.missing) << report.link;
+  }
+}
+
+TEST(LinkChoice, ManyLinksThatLackTheChosenGeometryAreCounted) {
+  std::string links = link_xml("l0", collision_xml("<sphere radius=\"1\"/>"));
+  for (int i = 1; i <= 7; ++i) {
+    const std::string name = "l" + std::to_string(i);
+    links += link_xml(name, visual_xml("<sphere radius=\"1\"/>")) +
+             joint_xml("j" + name, "fixed", "l0", name);
+  }
+  const std::string told = message_of([&] { (void)parse(robot_xml(links)); });
+  EXPECT_TRUE(holds(told, ":3: 7 links have no collision geometry, only visual: "));
+  EXPECT_TRUE(holds(told, "\"l1\", \"l2\", \"l3\", \"l4\", \"l5\", ...; draw them by that"));
+}
+
+TEST(LinkChoice, LinksThatLackTheChosenGeometryAreMissingWhereThatIsAllowed) {
+  const Robot robot = parse(four_links(), {.allow_missing_meshes = true});
+  for (const LinkReport& report : robot.report())
+    EXPECT_EQ(report.missing, report.link == "b") << report.link;
+  EXPECT_FALSE(report_of(robot, "b").drawn);
+  EXPECT_EQ(report_of(robot, "b").fault, "");
+  ASSERT_EQ(robot.notes().size(), 1U);
+  EXPECT_TRUE(holds(robot.notes()[0], "1 link has no collision geometry, only visual: \"b\""));
 }
 
 TEST(LinkChoice, IgnoreAndOnlyTakePatterns) {
   EXPECT_EQ(drawn({.ignore_links = {"[ab]"}}), "d");
   EXPECT_EQ(drawn({.only_links = {"a", "c"}}), "a");
-  EXPECT_EQ(drawn({.ignore_links = {"a"}, .only_links = {"*"}}), "d");
+  EXPECT_EQ(drawn({.ignore_links = {"a", "b"}, .only_links = {"*"}}), "d");
 }
 
 TEST(LinkChoice, PatternWithoutALinkIsAnError) {
@@ -102,7 +133,7 @@ TEST(LinkChoice, PatternWithoutALinkIsAnError) {
 }
 
 TEST(LinkChoice, NameGoesBeforePatternsAndPatternsMustAgree) {
-  RobotOptions options{.margins = {{"*", 0.01}, {"a", 0.02}}};
+  RobotOptions options{.geometry_fallback = true, .margins = {{"*", 0.01}, {"a", 0.02}}};
   EXPECT_EQ(report_of(parse(four_links(), options), "a").margin, 0.02);
   EXPECT_EQ(report_of(parse(four_links(), options), "d").margin, 0.01);
   options.margins = {{"*", 0.01}, {"[ad]", 0.02}};
@@ -120,7 +151,8 @@ TEST(LinkChoice, SenselessMarginIsAnError) {
 
 TEST(LinkChoice, RobotWithoutTheChosenGeometryIsAnError) {
   const std::string xml = robot_xml(link_xml("a", visual_xml("<sphere radius=\"1\"/>")));
-  EXPECT_TRUE(holds(message_of([&] { (void)parse(xml); }), "no link has collision elements"));
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(xml); }),
+                    "1 link has no collision geometry, only visual"));
   EXPECT_NO_THROW((void)parse(xml, {.geometry = Geometry::visual}));
   EXPECT_NO_THROW((void)parse(xml, {.geometry_fallback = true}));
 }
@@ -273,6 +305,7 @@ TEST_F(MeshFiles, MissingMeshMayBeAllowedAndIsReported) {
   EXPECT_FALSE(b.drawn);
   EXPECT_TRUE(b.missing);
   EXPECT_TRUE(holds(b.reason, "package \"q\" was not found"));
+  EXPECT_TRUE(holds(b.fault, "r.urdf:3: link \"b\": package \"q\" was not found"));
 }
 
 TEST_F(MeshFiles, UnusedGeometryIsNotRead) {
