@@ -19,4 +19,16 @@ namespace penumbra::io {
   return text.size() > longest ? shown + "..." : shown;
 }
 
+/// A text for a table or a note: question marks for what ends a line or steers a terminal, C1 in
+/// UTF-8 too; names of any language and long paths stay.
+[[nodiscard]] inline std::string without_controls(std::string_view text) {
+  std::string shown(text);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (is_control(shown[i])) shown[i] = '?';
+    const bool may_be_c1 = shown[i] == '\xC2' && i + 1 < shown.size();
+    if (may_be_c1 && static_cast<unsigned char>(shown[i + 1]) < 0xA0) shown.replace(i, 2, "?");
+  }
+  return shown;
+}
+
 }  // namespace penumbra::io

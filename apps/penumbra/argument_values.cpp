@@ -109,6 +109,15 @@ std::pair<std::string, std::string> to_pair(const std::string& option, const std
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+void take_package(const std::string& text, std::map<std::string, std::filesystem::path>& packages) {
+  const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    refuse_option("--package", text, "NAME=DIR with a folder that exists");
+  if (!packages.emplace(name, folder).second)
+    refuse_option("--package", text, "the only one of " + name + "; give each name once");
+}
+
 std::pair<std::string, double> to_joint(const std::string& text) {
   const char* const wanted = "NAME=VALUE with a number (radians or metres)";
   const auto [name, value] = to_pair("--joint", text, wanted);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,5 +33,8 @@ namespace penumbra::app {
                                                           const std::string& text,
                                                           const std::string& wanted);
 [[nodiscard]] std::pair<std::string, double> to_joint(const std::string& text);
+
+/// Adds NAME=DIR, a folder that is there, under a name that is not there yet.
+void take_package(const std::string& text, std::map<std::string, std::filesystem::path>& packages);
 
 }  // namespace penumbra::app

@@ -18,10 +18,7 @@ constexpr int most_repeats = 1'000'000;
 
 void add_robot(CLI::App& app, RobotOptions& options) {
   add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
-           [&](const std::string& text) {
-             const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
-             options.packages[name] = folder;
-           });
+           [&](const std::string& text) { take_package(text, options.packages); });
   add_option(app, "--geometry", "collision or visual; default collision", "NAME",
              [&](const std::string& text) { options.geometry = to_geometry(text); });
   add_leniency(app, options.allow_missing_meshes, options.geometry_fallback);

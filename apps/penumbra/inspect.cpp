@@ -9,6 +9,7 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/printable.hpp>
 #include <io/report_json.hpp>
 
 namespace penumbra::app {
@@ -75,7 +76,8 @@ void print_robot(const Robot& robot) {
   print_links(robot);
   std::cout << '\n';
   print_joints(robot);
-  for (const std::string& note : robot.notes()) std::cout << "\nnote: " << note;
+  for (const std::string& note : robot.notes())
+    std::cout << "\nnote: " << io::without_controls(note);
   if (!robot.notes().empty()) std::cout << '\n';
 }
 

@@ -108,10 +108,7 @@ void add_bag(CLI::App& app, BagArguments& bag) {
   add_bag_text(app, bag, "--robot", "the robot, in place of the robot_description", "URDF",
                bag.robot);
   add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
-               "NAME=DIR", [&](const std::string& text) {
-                 const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
-                 bag.packages[name] = folder;
-               });
+               "NAME=DIR", [&](const std::string& text) { take_package(text, bag.packages); });
   add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
                "FRAME", bag.camera_frame);
   add_bag_text(app, bag, "--parent",

@@ -7,6 +7,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/text.hpp>
+#include <io/printable.hpp>
 
 namespace penumbra::app {
 
@@ -27,7 +28,9 @@ std::string fixed(double value, int digits) {
   return {buffer, result.ptr};
 }
 
-void print_table(const std::vector<std::vector<std::string>>& rows) {
+void print_table(std::vector<std::vector<std::string>> rows) {
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = io::without_controls(cell);
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
@@ -54,7 +57,8 @@ std::string without_device(const DeviceError& error) {
 }
 
 void tell_notes(std::span<const std::string> notes) {
-  for (const std::string& note : notes) std::cerr << "penumbra: note: " << note << '\n';
+  for (const std::string& note : notes)
+    std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }
 
 void tell_choice(const RendererChoice& choice) {

@@ -28,8 +28,8 @@ namespace penumbra::app {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
-/// Prints rows of equal length on stdout, columns aligned.
-void print_table(const std::vector<std::vector<std::string>>& rows);
+/// Prints rows of equal length on stdout, columns aligned, without control characters.
+void print_table(std::vector<std::vector<std::string>> rows);
 
 /// Makes a pipeline; a fault of the lens is blamed on the camera_info file.
 [[nodiscard]] Pipeline make_pipeline(Robot robot, const Camera& camera,

@@ -111,6 +111,10 @@ TEST_F(RenderTest, RefusesBadInput) {
       << "render takes none";
   expect_refused(render({"--repeat", "0"}), "--repeat");
   expect_refused(render({"--package", "name"}), "--package");
+  expect_refused(render({"--package", "name=" + (folder_.path() / "nowhere").string()}),
+                 "a folder that exists");
+  const std::string package = "name=" + folder_.path().string();
+  expect_refused(render({"--package", package, "--package", package}), "the only one of name");
 }
 
 TEST_F(RenderTest, RefusesAnOutputThatCannotBeWritten) {
@@ -243,6 +247,15 @@ TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
   const std::size_t named = outcome.out.find("board.stl");
   ASSERT_NE(named, std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("board.stl", named + 1), std::string::npos) << outcome.out;
+}
+
+TEST_F(InspectTest, PathsNeverSteerTheTerminal) {
+  edit_file(folder_.path() / "tiny.urdf", "board.stl", "\x1b[31m\u009b31mred.stl");
+  const Outcome outcome = inspect({"--allow-missing-meshes"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("\u009b"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("?[31m?31mred.stl"), std::string::npos) << outcome.out;
 }
 
 }  // namespace
