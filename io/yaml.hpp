@@ -33,7 +33,6 @@ class YamlNode {
   [[nodiscard]] bool is_null() const { return kind_ == Kind::null; }
   [[nodiscard]] bool is_map() const { return kind_ == Kind::map; }
   [[nodiscard]] bool is_list() const { return kind_ == Kind::list; }
-  [[nodiscard]] bool is_scalar() const { return kind_ == Kind::scalar; }
 
   /// A map's value of `key`; at() throws if there is none, find() answers null.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;

@@ -85,43 +85,41 @@ auto accepted_wrong(double distance) {
 bool refused(const Event& event) { return !event.accepted; }
 
 std::vector<Measure> conveyor_measures() {
-  return {{"translation_median_mm", "Position error while hidden, median", "mm", 1, false,
+  return {{"translation_median_mm", "Position error while hidden, median", "mm", 1,
            hidden_error(&Sample::translation_error, 0.5, millimetres)},
-          {"translation_p95_mm", "Position error while hidden, p95", "mm", 1, false,
+          {"translation_p95_mm", "Position error while hidden, p95", "mm", 1,
            hidden_error(&Sample::translation_error, 0.95, millimetres)},
-          {"rotation_median_deg", "Rotation error while hidden, median", "deg", 2, false,
+          {"rotation_median_deg", "Rotation error while hidden, median", "deg", 2,
            hidden_error(&Sample::rotation_error, 0.5, degrees)},
-          {"rotation_p95_deg", "Rotation error while hidden, p95", "deg", 2, false,
+          {"rotation_p95_deg", "Rotation error while hidden, p95", "deg", 2,
            hidden_error(&Sample::rotation_error, 0.95, degrees)},
-          {"wrong_accepted", "Poses off by > 2 cm accepted, per run", "", 2, false,
+          {"wrong_accepted", "Poses off by > 2 cm accepted, per run", "", 2,
            events_per_seed(accepted_wrong(wrong_pose)), Spread::count},
-          {"wrong_accepted_hidden", "Of these, while the robot hid part", "", 2, false,
+          {"wrong_accepted_hidden", "Of these, while the robot hid part", "", 2,
            events_per_seed(
                [](const Event& event) { return !event.seen && accepted_wrong(wrong_pose)(event); }),
            Spread::count},
-          {"without_pose_s", "Time without a pose, per run", "s", 2, false, seconds_without_pose},
-          {"success_percent", "Pick within 1 cm and 5 degrees", "%", 0, true, successes,
-           Spread::seeds}};
+          {"without_pose_s", "Time without a pose, per run", "s", 2, seconds_without_pose},
+          {"success_percent", "Pick within 1 cm and 5 degrees", "%", 0, successes, Spread::seeds}};
 }
 
 std::vector<Measure> handover_measures() {
-  return {
-      {"translation_median_mm", "Wrist error while hidden, median", "mm", 1, false,
-       hidden_error(&Sample::translation_error, 0.5, millimetres)},
-      {"translation_p95_mm", "Wrist error while hidden, p95", "mm", 1, false,
-       hidden_error(&Sample::translation_error, 0.95, millimetres)},
-      {"on_robot_accepted", "Positions on the robot's body accepted, per run", "", 2, false,
-       events_per_seed([](const Event& event) { return event.accepted && event.on_robot; }),
-       Spread::count},
-      {"wrong_accepted", "Positions off by > 10 cm accepted, per run", "", 2, false,
-       events_per_seed(accepted_wrong(wrong_wrist)), Spread::count},
-      {"refused_visible_percent", "Refused although visible", "%", 1, false,
-       share_of_events([](const Event& event) { return event.seen; }, refused), Spread::events},
-      {"refused_before_robot_percent", "Refused although visible, hand before the arm", "%", 1,
-       false, share_of_events([](const Event& event) { return event.before_robot; }, refused),
-       Spread::events},
-      {"without_pose_s", "Time without a position, per run", "s", 2, false, seconds_without_pose},
-      {"success_percent", "Hand reached within 5 cm", "%", 0, true, successes, Spread::seeds}};
+  return {{"translation_median_mm", "Wrist error while hidden, median", "mm", 1,
+           hidden_error(&Sample::translation_error, 0.5, millimetres)},
+          {"translation_p95_mm", "Wrist error while hidden, p95", "mm", 1,
+           hidden_error(&Sample::translation_error, 0.95, millimetres)},
+          {"on_robot_accepted", "Positions on the robot's body accepted, per run", "", 2,
+           events_per_seed([](const Event& event) { return event.accepted && event.on_robot; }),
+           Spread::count},
+          {"wrong_accepted", "Positions off by > 10 cm accepted, per run", "", 2,
+           events_per_seed(accepted_wrong(wrong_wrist)), Spread::count},
+          {"refused_visible_percent", "Refused although visible", "%", 1,
+           share_of_events([](const Event& event) { return event.seen; }, refused), Spread::events},
+          {"refused_before_robot_percent", "Refused although visible, hand before the arm", "%", 1,
+           share_of_events([](const Event& event) { return event.before_robot; }, refused),
+           Spread::events},
+          {"without_pose_s", "Time without a position, per run", "s", 2, seconds_without_pose},
+          {"success_percent", "Hand reached within 5 cm", "%", 0, successes, Spread::seeds}};
 }
 
 std::optional<Confidence> bootstrap(const Measure& measure, Runs seeds) {

@@ -35,7 +35,6 @@ struct Measure {
   std::string name;  ///< in the report
   std::string unit;  ///< mm, deg, s, %, or empty for a count
   int digits = 1;
-  bool more_is_better = false;
   std::function<std::optional<double>(std::span<const Watched>)> value;
   Spread spread = Spread::resampled;
 };
