@@ -21,6 +21,9 @@ inline constexpr std::string_view white_space = " \t\r\n";
 /// Where the text stops to be UTF-8 (RFC 3629); npos if all of it is.
 [[nodiscard]] std::size_t find_not_utf8(std::string_view text);
 
+/// Whether a text in UTF-8 holds characters that end a line or steer a terminal: C0, DEL or C1.
+[[nodiscard]] bool holds_control(std::string_view text);
+
 /// A number printed without trailing zeros.
 [[nodiscard]] std::string printed(double number);
 

@@ -14,7 +14,8 @@
 namespace penumbra::detail {
 
 /// What an element of a URDF may hold. Names with a namespace prefix (drake:..., xsi:...) are other
-/// tools' extensions and need no entry; what is in no list is an error.
+/// tools' extensions and need no entry, unless the name behind the prefix is one that is read: such
+/// an element may well be meant for us, so it is an error, as is what is in no list.
 struct ElementRule {
   std::span<const std::string_view> attributes;          ///< that are read
   std::span<const std::string_view> ignored_attributes;  ///< known to change nothing that is drawn
@@ -41,7 +42,9 @@ class UrdfNode {
 
   [[nodiscard]] bool has(std::string_view key) const { return xml_->attribute(key) != nullptr; }
   [[nodiscard]] const std::string& text(std::string_view key) const;  ///< present and not empty
-  [[nodiscard]] double number(std::string_view key) const;            ///< finite
+  [[nodiscard]] const std::string& identifier(
+      std::string_view key) const;                          ///< text that can be shown
+  [[nodiscard]] double number(std::string_view key) const;  ///< finite
   [[nodiscard]] double number_or(std::string_view key, double absent) const;
   [[nodiscard]] double positive(std::string_view key, double at_most) const;
   [[nodiscard]] Eigen::Vector3d vector(std::string_view key) const;

@@ -17,6 +17,19 @@ bool is_extension(std::string_view name) {
   return name.find(':') != std::string_view::npos || name == "xmlns";
 }
 
+// "u:origin", where "origin" is read; "xmlns:origin" only declares a prefix.
+bool is_disguised(std::span<const std::string_view> read, std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon != std::string_view::npos && !name.starts_with("xmlns:") &&
+         contains(read, name.substr(colon + 1));
+}
+
+std::string without_prefix(std::string_view name) {
+  const std::string local(name.substr(name.find(':') + 1));
+  return "would be skipped, as it has a prefix, and " + local +
+         " is read; write it without the prefix, or remove it";
+}
+
 std::string listed(std::span<const std::string_view> names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -37,6 +50,8 @@ void UrdfNode::expect(const ElementRule& rule) const {
   for (const auto& [key, value] : xml_->attributes) {
     if (key.starts_with("xacro:") || is_macro_text(value))
       fail("attribute " + key + "=" + in_quotes(value) + ": " + kExpandXacro);
+    if (is_disguised(rule.attributes, key))
+      fail("attribute " + in_quotes(key) + " " + without_prefix(key));
     if (!is_extension(key) && !contains(rule.attributes, key) &&
         !contains(rule.ignored_attributes, key))
       fail("unknown attribute " + in_quotes(key) + "; expected " + listed(rule.attributes));
@@ -44,6 +59,8 @@ void UrdfNode::expect(const ElementRule& rule) const {
   for (const XmlElement& c : xml_->children) {
     const UrdfNode child(c, *file_, where_);
     if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + kExpandXacro);
+    if (is_disguised(rule.children, c.name))
+      child.fail("<" + c.name + "> " + without_prefix(c.name));
     if (!is_extension(c.name) && !contains(rule.children, c.name) &&
         !contains(rule.ignored_children, c.name))
       child.fail("unknown element <" + c.name + ">; expected " + listed(rule.children));
@@ -80,6 +97,14 @@ const std::string& UrdfNode::text(std::string_view key) const {
   if (value == nullptr) fail("the attribute " + in_quotes(key) + " is missing");
   if (value->empty()) fail("the attribute " + in_quotes(key) + " is empty");
   return *value;
+}
+
+const std::string& UrdfNode::identifier(std::string_view key) const {
+  const std::string& value = text(key);
+  if (holds_control(value))
+    fail(std::string(key) + "=" + in_quotes(value) +
+         " holds control characters; a name of visible characters is expected");
+  return value;
 }
 
 double UrdfNode::number(std::string_view key) const {

@@ -147,7 +147,7 @@ UrdfElement read_element(const UrdfNode& node) {
 }
 
 UrdfLink read_link(const UrdfNode& unnamed) {
-  const std::string& name = unnamed.text("name");
+  const std::string& name = unnamed.identifier("name");
   const UrdfNode node = unnamed.named("link " + in_quotes(name));
   node.expect(kLinkRule);
   UrdfLink link{name, node.line(), {}, {}};
@@ -214,7 +214,7 @@ std::optional<UrdfMimic> read_mimic(const UrdfNode& joint) {
 }
 
 UrdfJoint read_joint(const UrdfNode& unnamed) {
-  const std::string& name = unnamed.text("name");
+  const std::string& name = unnamed.identifier("name");
   const UrdfNode node = unnamed.named("joint " + in_quotes(name));
   node.expect(kJointRule);
   UrdfJoint joint;
@@ -252,7 +252,7 @@ Urdf read_urdf(std::string_view xml, const std::string& file) {
   node.expect(kRobotRule);
   if (node.has("version") && !node.text("version").starts_with("1"))
     node.fail("version=" + in_quotes(node.text("version")) + " is unknown; expected 1.0");
-  Urdf urdf{file, node.text("name"), {}, {}};
+  Urdf urdf{file, node.identifier("name"), {}, {}};
   for (const UrdfNode& child : node.children()) {
     if (child.name() == "link") urdf.links.push_back(read_link(child));
     if (child.name() == "joint") urdf.joints.push_back(read_joint(child));

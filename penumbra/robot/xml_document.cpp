@@ -9,6 +9,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/robot/text-inl.hpp>
 #include <penumbra/robot/xml_document-inl.hpp>
+#include <penumbra/robot/xml_references-inl.hpp>
 
 namespace penumbra::detail {
 namespace {
@@ -17,10 +18,20 @@ namespace {
   throw InputError(file + ":" + std::to_string(line) + ": " + what);
 }
 
-std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml) {
+// tinyxml2 would take a reference that it does not know for text.
+std::string read_text(const char* raw, int line, const std::string& file) {
+  try {
+    return without_references(raw);
+  } catch (const InputError& error) {
+    fail(file, line, error.what());
+  }
+}
+
+std::vector<XmlAttribute> read_attributes(const tinyxml2::XMLElement& xml,
+                                          const std::string& file) {
   std::vector<XmlAttribute> attributes;
   for (const auto* a = xml.FirstAttribute(); a != nullptr; a = a->Next())
-    attributes.push_back({a->Name(), a->Value()});
+    attributes.push_back({a->Name(), read_text(a->Value(), a->GetLineNum(), file)});
   return attributes;
 }
 
@@ -34,13 +45,14 @@ void check_known(const tinyxml2::XMLNode& node, const std::string& file) {
 
 // The depth is bounded by the parser, so that recursion is safe.
 XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file) {
-  XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml), {}, {}};
+  XmlElement element{xml.Name(), xml.GetLineNum(), read_attributes(xml, file), {}, {}};
   for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) {
       element.children.push_back(read_element(*child, file));
     } else if (const auto* text = node->ToText()) {
       if (!element.text.empty()) element.text += ' ';
-      element.text += trimmed(text->Value());
+      element.text += trimmed(text->CData() ? text->Value()
+                                            : read_text(text->Value(), text->GetLineNum(), file));
     } else {
       check_known(*node, file);
     }
@@ -96,10 +108,16 @@ std::string reason_of(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "a closing tag is missing or belongs to another element";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "a tag has no name or no '>', or the file ends within it";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is not of the form name=\"value\", or is given twice";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "text after which no tag follows";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section is not closed";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "a '<?' declaration is not closed, or stands behind an element";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
       return "a comment is not closed";
     case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
@@ -107,7 +125,7 @@ std::string reason_of(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested more than 100 deep";
     default:
-      return document.ErrorName();
+      return "the file ends too early, or holds something else than elements";
   }
 }
 
@@ -133,7 +151,7 @@ void require_utf8(const XmlElement& element, const std::string& file) {
 XmlElement read_xml(std::string_view xml, const std::string& file) {
   check_start(xml, file);
   check_prolog(xml, file);
-  tinyxml2::XMLDocument document;
+  tinyxml2::XMLDocument document(false);  // references are left to read_text
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
     fail(file, document.ErrorLineNum(), "is not well-formed XML: " + reason_of(document));
   const tinyxml2::XMLElement* root = nullptr;

@@ -236,12 +236,18 @@ std::size_t spare_bytes(const std::string& name) {
   return 0;
 }
 
+/// A refusal that names nothing of a library.
+bool is_in_words(const std::string& refusal) {
+  return !refusal.empty() && refusal.find("XML_") == std::string::npos;
+}
+
 TEST_F(MeshBadFile, TruncationIsAnErrorAtEveryByte) {
   folder_.write("a.bin", test::gltf_buffer());
   for (const auto& [name, bytes] : test::samples()) {
     if (name == "a.obj") continue;  // see below
     for (std::size_t size = 0; size < bytes.size() - spare_bytes(name); ++size)
-      EXPECT_NE(refusal(folder_.write(name, bytes.substr(0, size))), "") << name << " " << size;
+      EXPECT_TRUE(is_in_words(refusal(folder_.write(name, bytes.substr(0, size)))))
+          << name << " " << size;
   }
 }
 

@@ -250,6 +250,100 @@ INSTANTIATE_TEST_SUITE_P(
                 {"1e6 m"}}),
     name_of_case);
 
+std::string in_link(const std::string& body) { return robot_xml("\n" + link_xml("a", body)); }
+
+// Each would be read without its prefix; a prefix must not make it vanish.
+INSTANTIATE_TEST_SUITE_P(
+    Prefixed, UrdfError,
+    ::testing::Values(
+        BadUrdf{"link", robot_xml("<u:link name=\"b\"/>" + link_xml("a")), {":2: ", "<u:link>"}},
+        BadUrdf{"joint",
+                robot_xml(link_xml("a") + "<drake:joint name=\"j\" type=\"planar\"/>"),
+                {":3: ", "<drake:joint> would be skipped", "without the prefix"}},
+        BadUrdf{"collision", in_link("<u:collision/>"), {":3: link \"a\": <u:collision>"}},
+        BadUrdf{"visual", in_link("<u:visual/>"), {":3: link \"a\": <u:visual>"}},
+        BadUrdf{"origin",
+                in_link(collision_xml("<sphere radius=\"1\"/>", "<u:origin xyz=\"5 0 0\"/>")),
+                {":3: ", "<u:origin>"}},
+        BadUrdf{"geometry", in_link("<collision><u:geometry/></collision>"), {"<u:geometry>"}},
+        BadUrdf{"capsule", shaped("<drake:capsule radius=\"1\" length=\"1\"/>"), {"capsule"}},
+        BadUrdf{"mesh", shaped("<sphere radius=\"1\"/><u:mesh filename=\"x\"/>"), {"<u:mesh>"}},
+        BadUrdf{"mimic",
+                joint_with("revolute", "<drake:mimic joint=\"k\"/>"),
+                {"joint \"j\": <drake:mimic>"}},
+        BadUrdf{"attribute",
+                in_link(collision_xml("<sphere radius=\"1\"/>", "<origin u:xyz=\"5 0 0\"/>")),
+                {":3: ", "\"u:xyz\""}}),
+    name_of_case);
+
+TEST(UrdfFile, OtherToolsElementsAreAccepted) {
+  const std::string link =
+      link_xml("a",
+               "<visual><geometry><sphere radius=\"1\"/></geometry><drake:diffuse_map v=\"x\"/>"
+               "</visual><collision><geometry><sphere radius=\"1\"/></geometry>"
+               "<drake:proximity_properties><drake:mu_static value=\"1\"/>"
+               "</drake:proximity_properties></collision><drake:linear_bushing_rpy/>");
+  const std::string more =
+      "<drake:collision_filter_group name=\"g\"><drake:member link=\"a\"/>"
+      "</drake:collision_filter_group><gazebo><sensor:camera name=\"c\"/><geom:box/>"
+      "<body:origin u:xyz=\"1 1 1\"/><joint:hinge/></gazebo>";
+  const Robot robot = parse(
+      "<robot name=\"r\" xmlns:drake=\"http://d\" xmlns:name=\"http://n\" xmlns=\"http://u\">" +
+      link + more + "</robot>");
+  EXPECT_EQ(robot.links().size(), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, UrdfError,
+    ::testing::Values(
+        BadUrdf{"link_steers", robot_xml("\n" + link_xml("a\x1b[31mRED")), {":3: ", "control"}},
+        BadUrdf{"link_of_two_lines", robot_xml("\n" + link_xml("a&#10;b")), {":3: ", "control"}},
+        BadUrdf{"link_deletes", robot_xml("\n" + link_xml("a\x7f")), {":3: ", "control"}},
+        BadUrdf{"link_c1", robot_xml("\n" + link_xml("a&#x9b;31m")), {":3: ", "control"}},
+        BadUrdf{
+            "joint_steers", two_links(joint_xml("j\x1b", "fixed", "a", "b")), {":4: ", "control"}},
+        BadUrdf{"robot_steers", "<robot name=\"\x1b\"/>", {":1: robot: ", "control"}}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
+    References, UrdfError,
+    ::testing::Values(
+        BadUrdf{"undefined",
+                robot_xml("\n" + link_xml("&foo;")),
+                {":3: is not well-formed XML: the entity \"&foo;\" is not defined", "&amp;"}},
+        BadUrdf{"undefined_in_text", robot_xml("\n<material>&foo;</material>"), {":3: ", "&foo;"}},
+        BadUrdf{"bare", robot_xml("\n" + link_xml("a & b")), {":3: ", "an & itself is"}},
+        BadUrdf{"unended", robot_xml("\n" + link_xml("a&amp")), {":3: ", "begins no entity"}},
+        BadUrdf{"nameless", robot_xml("\n" + link_xml("a&;")), {":3: ", "begins no entity"}},
+        BadUrdf{"control", robot_xml("\n" + link_xml("a&#27;[31m")), {":3: ", "no character"}},
+        BadUrdf{"zero", robot_xml("\n" + link_xml("a&#0;")), {":3: ", "no character"}},
+        BadUrdf{"surrogate", robot_xml("\n" + link_xml("&#xD800;")), {":3: ", "no character"}},
+        BadUrdf{"too_high", robot_xml("\n" + link_xml("&#x110000;")), {":3: ", "no character"}},
+        BadUrdf{"far_too_high",
+                robot_xml("\n" + link_xml("&#99999999999999999999;")),
+                {":3: ", "no character"}},
+        BadUrdf{"no_digits", robot_xml("\n" + link_xml("&#x;")), {":3: ", "no character"}},
+        BadUrdf{"no_number", robot_xml("\n" + link_xml("&#-5;")), {":3: ", "no character"}}),
+    name_of_case);
+
+TEST(UrdfFile, ReferencesStandForTheirCharacters) {
+  const std::string written =
+      "&lt;&gt;&amp;&quot;&apos;&amp;foo;&#65;&#x42;&#xe9;&#x8155;&#x1F916;&#x10FFFF;";
+  EXPECT_EQ(parse(robot_xml(link_xml(written))).links()[0],
+            "<>&\"'&foo;AB\u00e9\u8155\U0001F916\U0010FFFF");
+  EXPECT_NO_THROW((void)parse("<!-- &foo; & -->" + robot_xml(link_xml("a"))));
+}
+
+TEST(UrdfFile, CutAnywhereItIsRefusedInWords) {
+  const std::string whole =
+      "<?xml version=\"1.0\"?>" + robot_xml("<!-- c --><material><![CDATA[x]]>&amp;</material>" +
+                                            link_xml("a", collision_xml("<sphere radius='1'/>")));
+  for (std::size_t size = 0; size < whole.find("</robot>") + 8; ++size) {
+    const std::string message = message_of([&] { (void)parse(whole.substr(0, size)); });
+    EXPECT_EQ(message.find("XML_"), std::string::npos) << size << ": " << message;
+  }
+}
+
 TEST(UrdfFile, NamesMayBeOfAnyLanguageAndCommentsOfAnyBytes) {
   const std::string names[] = {"caf\u00e9", "\u0800",     "\u8155",
                                "\ufffd",    "\U0001F916", "\U0010FFFF"};
