@@ -50,6 +50,18 @@ void check_link(const LinkFrame& frame, const Robot& robot) {
                    robot.name() + "'");
 }
 
+/// Where estimates lie that were made of depth 0.
+bool is_in_camera(const TargetEstimate& estimate, const Eigen::Isometry3d& T_camera_frame) {
+  Eigen::Vector3d position;
+  if (const auto* point = std::get_if<Eigen::Vector3d>(&estimate.value))
+    position = *point;
+  else if (const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value))
+    position = pose->translation();
+  else
+    return false;
+  return (T_camera_frame * position).norm() < DepthRenderer::near_plane;
+}
+
 /// Whether it counts as seen, though hardly any of that was measured: with an expected depth it is
 /// unknown then.
 bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
@@ -264,8 +276,10 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
   const auto poses = recent_poses_.find(stamp);
   if (!poses) return Outcome::refused_verdict;
   if (!is_known(estimate.frame, robot_)) return Outcome::refused_invalid;
-  return memory.track->update(estimate, stamp, pose_of(estimate.frame, *poses, robot_),
-                              verdict->verdict);
+  const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, *poses, robot_);
+  if (is_in_camera(estimate, poses->T_root_camera.inverse() * T_root_frame))
+    return Outcome::refused_invalid;
+  return memory.track->update(estimate, stamp, T_root_frame, verdict->verdict);
 }
 
 void TargetStage::forget(std::string_view name) {

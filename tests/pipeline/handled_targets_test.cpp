@@ -211,6 +211,8 @@ TEST_F(TargetsTest, EstimatesInTheCameraAreInvalid) {
     EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::refused_invalid) << z;
     target.estimate->value = Eigen::Isometry3d(Eigen::Translation3d(0, 0, z));
     EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::refused_invalid) << z;
+    target.estimate->frame = "";  // the root, where the camera is
+    EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::refused_invalid) << z;
   }
   target.estimate = TargetEstimate{.value = Eigen::Vector3d(0, 0, 1)};
   EXPECT_EQ(judge(100 * ms, target).estimate, penumbra::Outcome::accepted) << "not held against it";
