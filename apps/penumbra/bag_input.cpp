@@ -44,9 +44,7 @@ Robot load_robot(const RunArguments& arguments, const io::BagSceneReader& reader
                  const RobotOptions& options) {
   if (arguments.bag.robot) return Robot::load(*arguments.bag.robot, options);
   try {
-    // A bag in the working folder has packages beside it, too.
-    return Robot::parse(*reader.scene().description,
-                        std::filesystem::absolute(arguments.input).parent_path(), options);
+    return Robot::parse(*reader.scene().description, arguments.input.parent_path(), options);
   } catch (const InputError& error) {
     throw InputError(arguments.input.string() + ": " + error.what());
   }

@@ -12,13 +12,13 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of the cone's reach: the outermost rays of pixels that it does cover.
-constexpr double slack = 1e-3;
+constexpr double outermost_rays = 1e-3;
 
 }  // namespace
 
 UncoveredView::UncoveredView(const Camera& raw, const Rectification& rectification)
     : reach_(std::min(std::tan(rectification.half_angle()), raw.distortion.max_radius()) *
-             (1.0 - slack)) {
+             (1.0 - outermost_rays)) {
   const auto covered = rectification.raw_to_pinhole();
   for (int v = 0; v < covered.height; ++v) {
     for (int u = 0; u < covered.width; ++u) {

@@ -97,7 +97,7 @@ std::map<std::string, fs::path> crawl_ros_packages() {
 std::vector<fs::path> folders_near(const fs::path& start, const std::string& name) {
   std::vector<fs::path> out;
   std::error_code error;
-  const fs::path absolute = fs::weakly_canonical(start, error);
+  const fs::path absolute = fs::weakly_canonical(start.empty() ? fs::path(".") : start, error);
   for (fs::path at = error ? start : absolute; !at.empty(); at = at.parent_path()) {
     if (at.filename() == name || package_name(at) == name) out.push_back(at);
     if (fs::is_directory(at / name, error)) out.push_back(at / name);

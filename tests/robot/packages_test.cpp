@@ -109,6 +109,15 @@ TEST_F(Packages, FoundBesideTheUrdf) {
   EXPECT_TRUE(holds(robot.notes()[0], "found beside or above the URDF"));
 }
 
+TEST_F(Packages, FoundBesideAUrdfOfTheWorkingFolder) {
+  add_mesh("work/robots/p/t.stl", 8);
+  static_cast<void>(load("package://p/t.stl"));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(in("work/robots"));
+  EXPECT_EQ(size_of(Robot::load("r.urdf")), 8.0);
+  std::filesystem::current_path(before);
+}
+
 TEST_F(Packages, FoundAboveTheUrdfWhereTheFileIs) {
   add_mesh("p/t.stl", 9);
   folder_.write("work/p/another.txt", "");
