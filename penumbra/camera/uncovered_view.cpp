@@ -59,12 +59,13 @@ bool UncoveredView::holds_part_of(const Vector3d& a, const Vector3d& b) const {
   std::sort(at.begin(), at.end());
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     if (is_covered(a + 0.5 * (at[i] + at[i + 1]) * step)) continue;
-    const int first = sector_of(a + at[i] * step);
-    const int turn = (sector_of(a + at[i + 1] * step) - first + sectors) % sectors;
-    const bool forward = turn <= sectors / 2;  // a line is seen within half a turn about the axis
-    for (int k = 0; k <= (forward ? turn : sectors - turn); ++k) {
-      const int sector = (first + (forward ? k : sectors - k)) % sectors;
+    const Vector3d from = a + at[i] * step, to = a + at[i + 1] * step;
+    const int first = sector_of(from);
+    // A line is seen within half a turn about the axis, the way that its ends say.
+    const int way = from.x() * to.y() >= from.y() * to.x() ? 1 : sectors - 1;
+    for (int sector = first;; sector = (sector + way) % sectors) {
       if (sectors_.test(static_cast<std::size_t>(sector))) return true;
+      if (sector == sector_of(to)) break;
     }
   }
   return false;
