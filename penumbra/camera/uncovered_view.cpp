@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <penumbra/camera/uncovered_view.hpp>
@@ -13,6 +14,24 @@ using Eigen::Vector3d;
 
 /// Of the cone's reach: the outermost rays of pixels that it does cover.
 constexpr double outermost_rays = 1e-3;
+
+/// Whether the box holds any of the optical axis from the camera backwards.
+bool is_behind(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& T_camera_box) {
+  const Eigen::Isometry3d T_box_camera = T_camera_box.inverse();
+  const Vector3d eye = T_box_camera.translation(), back = -T_box_camera.linear().col(2);
+  double from = 0.0, to = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (back[i] == 0.0) {
+      if (eye[i] < box.min()[i] || eye[i] > box.max()[i]) return false;
+      continue;
+    }
+    const auto [enter, leave] =
+        std::minmax({(box.min()[i] - eye[i]) / back[i], (box.max()[i] - eye[i]) / back[i]});
+    from = std::max(from, enter);
+    to = std::min(to, leave);
+  }
+  return from <= to;
+}
 
 }  // namespace
 
@@ -71,11 +90,12 @@ bool UncoveredView::holds_part_of(const Vector3d& a, const Vector3d& b) const {
   return false;
 }
 
-/// What lies beyond the cone is on the same sides as what of the box's edges and of its faces'
-/// diagonals lies there.
+/// In each half plane from the optical axis, what of the box lies furthest beyond the cone is on
+/// one of its edges, or on the axis behind the camera, which is on all sides.
 bool UncoveredView::holds_part_of(const Eigen::AlignedBox3d& box,
                                   const Eigen::Isometry3d& T_camera_box) const {
   if (sectors_.none()) return false;
+  if (is_behind(box, T_camera_box)) return true;
   std::array<Vector3d, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i)
     corners[i] = T_camera_box * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
@@ -83,8 +103,8 @@ bool UncoveredView::holds_part_of(const Eigen::AlignedBox3d& box,
                   [this](const Vector3d& corner) { return is_covered(corner); }))
     return false;  // and so is what is between them, as the cone is convex
   for (unsigned i = 0; i < corners.size(); ++i)
-    for (unsigned k = i + 1; k < corners.size(); ++k)
-      if (holds_part_of(corners[i], corners[k])) return true;
+    for (const unsigned axis : {1U, 2U, 4U})  // a corner's bits: its side of each axis
+      if ((i & axis) == 0 && holds_part_of(corners[i], corners[i | axis])) return true;
   return false;
 }
 
