@@ -81,11 +81,6 @@ std::optional<io::TargetsFile> open_targets(const RunArguments& arguments, const
                                             const Camera& camera) {
   const auto& file = arguments.targets ? arguments.targets : input.targets;
   if (!file || arguments.no_targets) return std::nullopt;
-  if (arguments.gl_labels)
-    throw InputError(
-        file->string() +
-        ": targets cannot be judged with --gl-labels; leave that out, or add --targets "
-        "none");
   return io::TargetsFile::open(*file, {.robot = input.robot,
                                        .image = arguments.image,
                                        .images = camera.intrinsics,

@@ -27,10 +27,6 @@ void check_gl_labels(const RunArguments& run) {
     throw InputError(
         "--gl-labels: vdi and links stay on the OpenGL device; --save labels and "
         "overlay, or leave --gl-labels out");
-  if (run.targets || !run.bag.target_topics.empty())
-    throw InputError(
-        "--gl-labels: targets cannot be judged on labels that are made on the device; "
-        "leave --gl-labels out, or say --targets none");
 }
 
 /// Adds an option for bags whose text `take` reads.
@@ -173,7 +169,8 @@ void add_run(CLI::App& app, RunArguments& run) {
              });
   app.add_flag(
       "--gl-labels", run.gl_labels,
-      "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay");
+      "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay, names "
+      "no link that hides a target, and targets with expected depths are unknown");
   add_bag(app, run.bag);
   add_unbuilt(app);
 }

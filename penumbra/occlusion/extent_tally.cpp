@@ -227,7 +227,8 @@ bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   u0 = std::max(u0, 0), v0 = std::max(v0, 0);
   u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
   if (u0 > u1 || v0 > v1) return false;
-  const TileMask* const tiles = images.virtual_depth.touched;
+  const TileMask* const tiles =
+      images.are_labels_alone ? images.labels.touched : images.virtual_depth.touched;
   if (tiles == nullptr) return true;
   const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tiles->tile_width);
   const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));

@@ -144,6 +144,10 @@ TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
 Judgement TargetJudge::State::judge(const TargetView& target) {
   check_target(target);
   const ExpectedDepth expected = expected_of(target);
+  if (expected.known() && frame.images.are_labels_alone)
+    region_fault(
+        "its expected depth is compared with the robot's, which stays on the device that makes the "
+        "labels");
   sights.fill(target.region);
   TargetMemory& memory = memory_of(target.name);
   if (memory.frame == number) region_fault("its name is used twice in a frame");

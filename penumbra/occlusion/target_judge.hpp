@@ -25,6 +25,9 @@ struct JudgedImages {
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by others
   bool is_blind = false;  ///< the sensor saw nothing: what the robot does not hide is unknown
+  /// The pose is known, but virtual depth stayed where the labels were made. Then expected depths
+  /// are refused, no link is blamed, and points are of depths far enough from all robot.
+  bool are_labels_alone = false;
 };
 
 /// A target as it is judged in one frame.
@@ -121,7 +124,8 @@ struct Judgement {
 ///
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
-/// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f).
+/// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f);
+/// of robot whose virtual depths are not at hand, none at all.
 /// Verdicts other than visible and partial have none.
 class TargetJudge {
  public:
@@ -144,7 +148,8 @@ class TargetJudge {
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
   /// InputError, which says what is wrong and not of which target, for a region that is none (not
   /// finite, of zero area, a polygon that crosses itself, a mask of another size), for numbers out
-  /// of bounds and for a name that was judged in this frame already.
+  /// of bounds, for an expected depth where labels came alone and for a name that was judged in
+  /// this frame already.
   [[nodiscard]] Judgement judge(const TargetView& target);
 
   /// Forgets what was remembered of a target (a new object under an old name).

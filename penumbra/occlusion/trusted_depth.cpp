@@ -10,6 +10,9 @@ namespace {
 
 constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 
+/// Of robot whose virtual depth is not at hand.
+constexpr float any_depth = std::numeric_limits<float>::infinity();
+
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
 
 /// Floats, 0 or more, by their bits: their order is that of the floats.
@@ -92,6 +95,14 @@ const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
   const int u1 = std::min(u0 + LabelRule::cell, frame_->width);
   const int v1 = std::min(v0 + LabelRule::cell, frame_->height);
   if (!frame_->robot_may_lie_in(u0, u0, v0, v0)) return cell;  // tiles are of whole cells
+  if (frame_->images.are_labels_alone) {
+    const auto shows_robot = [&](int v) {
+      return first_set(frame_->images.labels.labels.row(v) + u0, u1 - u0) < u1 - u0;
+    };
+    for (int v = v0; v < v1; ++v)
+      if (shows_robot(v)) cell.nearest = 0.0f, cell.farthest = any_depth;
+    return cell;
+  }
   for (int v = v0; v < v1; ++v) {
     const float* const z = frame_->images.virtual_depth.depth.row(v);
     for (int u = u0; u < u1; ++u) {
@@ -116,7 +127,9 @@ const RobotSurroundings::Depths& RobotSurroundings::around(int cell_u, int cell_
       all.nearest = std::min(all.nearest, one.nearest);
       all.farthest = std::max(all.farthest, one.farthest);
     }
-  if (all.farthest > 0.0f) {
+  if (all.farthest == any_depth) {
+    result.depths = {0.0f, any_depth};
+  } else if (all.farthest > 0.0f) {
     const LimitRule rule(*frame_->rule, 0);
     result.depths.from = rule.at(all.nearest).near;
     result.depths.to = all.farthest + beyond_factor_ * (rule.at(all.farthest).far - all.farthest);

@@ -289,7 +289,8 @@ LabelView Pipeline::State::label_on_device(std::span<const Eigen::Isometry3d> T_
   {
     const StageTimer timer(report.timing.render);
     look_around_camera(T_camera_link);
-    labeller->submit(T_camera_link, seen_depth(measured));
+    seen = seen_depth(measured);
+    labeller->submit(T_camera_link, seen);
   }
   const StageTimer timer(report.timing.classify);
   return labeller->collect().image;
@@ -363,13 +364,12 @@ void Pipeline::State::judge_targets(std::span<const Target> given) {
 JudgedFrame Pipeline::State::judged_frame() const {
   JudgedFrame frame{report.stamp, report.status, report.message, {}, {}};
   if (report.T_root_camera) frame.poses = {report.T_root_link, *report.T_root_camera};
-  if (labeller)
-    frame.message = "labels are made on the device: no target can be judged on them";
-  else if (has_pose(report.status))
+  if (has_pose(report.status))
     frame.images = {.labels = labels,
                     .virtual_depth = report.virtual_depth,
                     .measured = has_depth(report.status) ? seen : DepthView{},
-                    .is_blind = !has_depth(report.status)};
+                    .is_blind = !has_depth(report.status),
+                    .are_labels_alone = labeller != nullptr};
   return frame;
 }
 

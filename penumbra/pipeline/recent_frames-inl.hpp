@@ -99,6 +99,7 @@ class RecentFrames {
 
   [[nodiscard]] Copy& place_for(std::int64_t stamp);
   void copy_images(const JudgedImages& from, Copy& to);
+  void copy_virtual_depth(const VirtualDepthView& from, Copy& to);
 
   std::int64_t span_;
   std::size_t pixels_ = 1;   // of a frame: the most so far

@@ -109,41 +109,49 @@ RecentFrames::Copy& RecentFrames::place_for(std::int64_t stamp) {
 }
 
 void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
-  const VirtualDepthView& virtual_depth = from.virtual_depth;
   const int width = from.labels.labels.width, height = from.labels.labels.height;
-  if (to.labels.width() != width || to.labels.height() != height) {
-    to.labels = Image<std::uint8_t>(width, height);
-    to.depth = Image<float>(width, height);
-    to.links = Image<std::uint16_t>(width, height);
-    to.touched = to.labels_touched = TileMask(width, height);
-  }
   if (everything_.width != width || everything_.height != height) {
     everything_ = TileMask(width, height);
     everything_.mark(0, 0, width - 1, height - 1);
     left_ = TileMask(width, height);
   }
-  const TileMask& touched = virtual_depth.touched ? *virtual_depth.touched : everything_;
+  if (to.labels.width() != width || to.labels.height() != height) {
+    to.labels = Image<std::uint8_t>(width, height);
+    to.labels_touched = TileMask(width, height);
+  }
   const TileMask& labelled = from.labels.touched ? *from.labels.touched : everything_;
-  find_left(to.touched, touched, left_);
-  copy_tiles(virtual_depth.depth, left_, touched, to.depth);
-  copy_tiles(virtual_depth.links, left_, touched, to.links);
   find_left(to.labels_touched, labelled, left_);
   copy_tiles(from.labels.labels, left_, labelled, to.labels);
-  to.touched.rows = touched.rows;
   to.labels_touched.rows = labelled.rows;
 
   JudgedImages& images = to.frame.images;
+  images = {};
   images.labels = {std::as_const(to.labels).view(), from.labels.pixels,
                    from.labels.touched ? &to.labels_touched : nullptr};
-  images.virtual_depth = {std::as_const(to.depth).view(), std::as_const(to.links).view(),
-                          &to.touched};
+  images.are_labels_alone = from.are_labels_alone;
+  if (!from.are_labels_alone) copy_virtual_depth(from.virtual_depth, to);
   images.is_blind = from.is_blind;
-  images.measured = {};
   if (from.is_blind) return;
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&from.measured))
     images.measured = copy_all(*millimetres, to.millimetres);
   else
     images.measured = copy_all(std::get<ImageView<const float>>(from.measured), to.metres);
+}
+
+void RecentFrames::copy_virtual_depth(const VirtualDepthView& from, Copy& to) {
+  const int width = from.depth.width, height = from.depth.height;
+  if (to.depth.width() != width || to.depth.height() != height) {
+    to.depth = Image<float>(width, height);
+    to.links = Image<std::uint16_t>(width, height);
+    to.touched = TileMask(width, height);
+  }
+  const TileMask& touched = from.touched ? *from.touched : everything_;
+  find_left(to.touched, touched, left_);
+  copy_tiles(from.depth, left_, touched, to.depth);
+  copy_tiles(from.links, left_, touched, to.links);
+  to.touched.rows = touched.rows;
+  to.frame.images.virtual_depth = {std::as_const(to.depth).view(), std::as_const(to.links).view(),
+                                   &to.touched};
 }
 
 const JudgedFrame* RecentFrames::find(std::int64_t stamp) const {

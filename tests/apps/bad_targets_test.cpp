@@ -251,9 +251,5 @@ TEST_F(TargetFaultsTest, BadRowsAreFaultsOfTheirFrames) {
       << outcome.err;
 }
 
-TEST_F(TargetFaultsTest, LabelsOnTheDeviceHaveNoTargets) {
-  expect_fault(run("targets: []\n", {"--renderer", "gl", "--gl-labels"}), {"--gl-labels"});
-}
-
 }  // namespace
 }  // namespace penumbra::test
