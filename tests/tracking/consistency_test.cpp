@@ -3,6 +3,7 @@
 // follow chi^2 (Bar-Shalom, Li, Kirubarajan 2001, section 5.4: NEES of states, NIS of estimates).
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
+#include "algebra.hpp"
 #include "random_motion.hpp"
 #include "tracks.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr int frames = 40;
 constexpr double frame = 0.05;
 constexpr double deviations = 4.5;  // 1 of 150,000 sound filters would fail by chance
-
-double in_sigmas(const Vector6d& error, const Matrix6d& covariance) {
-  return error.dot(covariance.llt().solve(error));
-}
 
 /// Sums of chi^2 of n degrees have mean n and variance 2 n.
 struct ChiSquare {
@@ -51,7 +48,7 @@ void follow(PoseTrackerConfig config, std::mt19937_64& random, Statistics& stati
     if (i > 0) {
       const auto expected = tracker.at(estimate.stamp);
       const Vector6d innovation = difference(estimate.pose, expected.pose);
-      const double nis = in_sigmas(innovation, expected.covariance + noise);
+      const double nis = squared_sigmas(innovation, expected.covariance + noise);
       statistics.estimates.add(nis, 6);
       statistics.outside_gate += nis > gate ? 1 : 0;
       ++statistics.taken;
@@ -60,10 +57,11 @@ void follow(PoseTrackerConfig config, std::mt19937_64& random, Statistics& stati
     if (i + 1 < frames) target.advance(frame);
   }
   const auto now = tracker.at(stamp_at((frames - 1) * frame));
-  statistics.state.add(in_sigmas(difference(target.pose(), now.pose), now.covariance), 6);
+  statistics.state.add(squared_sigmas(difference(target.pose(), now.pose), now.covariance), 6);
   target.advance(0.5);
   const auto later = tracker.at(stamp_at((frames - 1) * frame + 0.5));
-  statistics.predicted.add(in_sigmas(difference(target.pose(), later.pose), later.covariance), 6);
+  statistics.predicted.add(squared_sigmas(difference(target.pose(), later.pose), later.covariance),
+                           6);
 }
 
 class Consistency : public testing::TestWithParam<PoseTrackerConfig> {};
@@ -103,14 +101,14 @@ TEST(PointConsistency, ErrorsFollowChiSquare) {
         const Eigen::Vector3d innovation = seen.pose.translation() - expected.position;
         const Eigen::Matrix3d total =
             expected.covariance + config.sigma * config.sigma * Eigen::Matrix3d::Identity();
-        estimates.add(innovation.dot(total.inverse() * innovation), 3);
+        estimates.add(squared_sigmas(innovation, total), 3);
       }
       tracker.update({seen.stamp, seen.pose.translation()}, Verdict::visible);
       if (i + 1 < frames) target.advance(frame);
     }
     const auto now = tracker.at(stamp_at((frames - 1) * frame));
     const Eigen::Vector3d error = target.pose().translation() - now.position;
-    state.add(error.dot(now.covariance.inverse() * error), 3);
+    state.add(squared_sigmas(error, now.covariance), 3);
   }
   EXPECT_LT(std::abs(state.off()), deviations);
   EXPECT_LT(std::abs(estimates.off()), deviations);
@@ -129,7 +127,7 @@ TEST(PointConsistency, HeldPointsSigmaIsThatOfASteadyHand) {
     const double hidden = 0.02 + 0.001 * run;
     const auto held = tracker.at(stamp_at(hidden));
     const Eigen::Vector3d error = start + hidden * velocity - held.position;
-    errors.add(error.dot(held.covariance.inverse() * error), 3);
+    errors.add(squared_sigmas(error, held.covariance), 3);
   }
   EXPECT_LT(std::abs(errors.off()), deviations);
 }

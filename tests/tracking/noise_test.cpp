@@ -2,6 +2,7 @@
 // The parts of the filter against their definitions: Jacobians by differences, noise by the matrix
 // exponential.
 #include "../support/random.hpp"
+#include "algebra.hpp"
 #include "smoother.hpp"
 #include "tracks.hpp"
 
@@ -137,11 +138,11 @@ TEST(Correction, IsTheInformationFormsOne) {
   noise *= 1e-4;
   const Vector6d residual = 0.01 * normal<6>(random);
   const Vector12d change = detail::kalman_correction<12, 6>(covariance, noise, residual);
-  Matrix12d information = state.covariance.inverse();
-  information.topLeftCorner<6, 6>() += noise.inverse();
-  const Matrix12d expected = information.inverse();
+  Eigen::MatrixXd information = inverse(state.covariance);
+  information.topLeftCorner<6, 6>() += inverse(noise);
+  const Matrix12d expected = inverse(information);
   EXPECT_LT((covariance - expected).norm(), tolerance * expected.norm());
-  const Vector12d step = expected.leftCols<6>() * noise.inverse() * residual;
+  const Vector12d step = expected.leftCols<6>() * (inverse(noise) * residual);
   EXPECT_LT((change - step).norm(), tolerance);
 }
 

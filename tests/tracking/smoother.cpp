@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "smoother.hpp"
 
+#include "algebra.hpp"
 #include "tracks.hpp"
 
 #include <functional>
@@ -76,7 +77,7 @@ class Problem {
 
   [[nodiscard]] Matrix12d last_covariance() const {
     const auto n = static_cast<Eigen::Index>(active_.size());
-    const Matrix all = information_.inverse();
+    const Matrix all = inverse(information_);
     Matrix12d covariance = Matrix12d::Zero();
     covariance(active_, active_) = all.bottomRightCorner(n, n);
     return covariance;

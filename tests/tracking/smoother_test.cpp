@@ -4,6 +4,7 @@
 #include "smoother.hpp"
 
 #include "../support/random.hpp"
+#include "algebra.hpp"
 #include "tracks.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +64,7 @@ std::vector<SeenPose> seen_poses(const Vector6d& scale, bool apart, std::mt19937
     SeenPose one;
     one.seconds = std::round(t * 1e9) / 1e9;
     one.covariance = random_covariance(scale, apart, random);
-    one.pose = moved(truth.at(t), one.covariance.llt().matrixL() * normal<6>(random));
+    one.pose = moved(truth.at(t), root(one.covariance) * normal<6>(random));
     all.push_back(one);
   }
   return all;
@@ -150,8 +151,8 @@ TEST(PoseSmoother, FilterIsNearlyItsEnd) {
     const auto smoothed = smooth(model_of({}), seen);
     const Vector6d off = difference(pose.pose, smoothed.nodes.back().pose);
     const Matrix6d expected = smoothed.last_covariance.topLeftCorner<6, 6>();
-    EXPECT_LT(std::sqrt(off.dot(expected.llt().solve(off))), distance);
-    const Matrix6d whitener = expected.llt().matrixL().solve(Matrix6d::Identity());
+    EXPECT_LT(std::sqrt(squared_sigmas(off, expected)), distance);
+    const Matrix6d whitener = inverse(root(expected));
     const Matrix6d white = whitener * pose.covariance * whitener.transpose();
     EXPECT_LT((white - Matrix6d::Identity()).norm(), spread);
   }
