@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
@@ -12,11 +13,21 @@ namespace fs = std::filesystem;
 
 constexpr int most_links = 40;  // Linux follows no more either
 
-/// Where a chain of links ends, whether or not anything is there.
-fs::path behind_links(fs::path file) {
+/// Whether a link is the kernel's, to what a process has open (/proc/self/fd/1): what it says is
+/// not always a path, and where it is one, others hold that file open.
+bool is_of_open_file(const fs::path& link) {
   std::error_code error;
-  for (int i = 0; i < most_links && fs::is_symlink(file, error); ++i)
+  const fs::path folder = link.has_parent_path() ? link.parent_path() : ".";
+  return fs::canonical(folder, error).native().starts_with("/proc/");
+}
+
+/// Where a chain of links ends, whether or not anything is there; nothing if that is an open file.
+std::optional<fs::path> behind_links(fs::path file) {
+  std::error_code error;
+  for (int i = 0; i < most_links && fs::is_symlink(file, error); ++i) {
+    if (is_of_open_file(file)) return std::nullopt;
     file = file.parent_path() / fs::read_symlink(file, error);
+  }
   return file;
 }
 
@@ -41,9 +52,12 @@ std::string left_as_it_was(const fs::path& file) {
                                           : std::string();
 }
 
-PendingFile::PendingFile(const fs::path& file) : file_(behind_links(file)), part_(file_) {
+PendingFile::PendingFile(const fs::path& file) : file_(file), part_(file) {
   std::error_code error;
-  if (fs::exists(file_, error) && !fs::is_regular_file(file_, error)) return;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) return;
+  const auto found = behind_links(file);
+  if (!found) return;
+  file_ = part_ = *found;
   part_ += ".penumbra.part";
   if (is_removable(part_)) fs::remove(part_, error);
 }

@@ -2,10 +2,14 @@
 #include "../support/temporary_folder.hpp"
 #include "files.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <io/pending_file.hpp>
 
@@ -78,6 +82,27 @@ TEST_F(PendingFileTest, DevicesAreWrittenToAsTheyAre) {
   EXPECT_EQ(pending.part(), "/dev/null");
   pending.finish();
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+/// As /dev/stdout is, behind a link of the user's.
+TEST_F(PendingFileTest, OpenFilesAreWrittenToAsTheyAre) {
+  std::array<int, 2> pipe_ends{};
+  ASSERT_EQ(pipe(pipe_ends.data()), 0);
+  const int open_file = open(file_.c_str(), O_WRONLY);
+  const fs::path link = folder_.path() / "link.npy";
+  for (const int descriptor : {pipe_ends[1], open_file}) {
+    fs::remove(link);
+    fs::create_symlink("/proc/self/fd/" + std::to_string(descriptor), link);
+    PendingFile pending(link);
+    EXPECT_EQ(pending.part(), link);
+    write(pending);
+    pending.finish();
+  }
+  std::array<char, 3> through_the_pipe{};
+  EXPECT_EQ(read(pipe_ends[0], through_the_pipe.data(), 3), 3);
+  EXPECT_EQ(std::string(through_the_pipe.data(), 3), "new");
+  EXPECT_EQ(test::read_bytes(file_), "new");
+  for (const int descriptor : {pipe_ends[0], pipe_ends[1], open_file}) close(descriptor);
 }
 
 TEST_F(PendingFileTest, SaysWhereThePlaceCannotBeTaken) {
