@@ -49,7 +49,10 @@ struct ShapeCheck {
 
   void operator()(const KeypointTarget& target) const {
     if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
-    if (!target.pixel.allFinite()) throw InputError("pixel is not finite");
+    for (const double at : target.pixel)
+      if (!(std::abs(at) <= max_coordinate))
+        throw InputError("pixel is " + written(at) + "; up to " + written(max_coordinate) +
+                         " are possible");
     for (const double semi_axis : target.semi_axes)
       if (target.in_metres)
         check_metres(semi_axis, "semi-axis");

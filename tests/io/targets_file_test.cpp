@@ -152,6 +152,7 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
        "plain.csv:1: has no column 'score'"},
       {head + "keypoint: [1, 1]\n  expected_depth: 1e30\n", ":3: targets[0].keypoint: expected"},
       {head + "keypoint: [1, 1]\n  radius: 1e12\n", "semi-axis is 1e+12"},
+      {head + "keypoint: [1, 1e300]\n", ":3: targets[0].keypoint: pixel is 1e+300"},
       {head + "keypoint: [1, 1]\n  radius_m: 1e9\n", "semi-axis is 1e+09"},
       {head + "keypoint: [1, 1]\n  ellipse: [1, 1, 1e308]\n", "angle is"},
       {head + "box: [1, 2, 3, 4]\n  depth_margin: 1e30\n", ":4: targets[0].depth_margin: "},
