@@ -73,7 +73,8 @@ bool UncoveredView::holds_part_of(const Vector3d& a, const Vector3d& b) const {
   const double linear = form.dot(a.cwiseProduct(step));
   const double constant = form.dot(a.cwiseAbs2());
   const double root = std::sqrt(std::max(linear * linear - square * constant, 0.0));
-  std::array<double, 4> at{0.0, 1.0, (-linear - root) / square, (-linear + root) / square};
+  const double outer = -linear - std::copysign(root, linear);  // of both signs without cancellation
+  std::array<double, 4> at{0.0, 1.0, outer / square, constant / outer};
   for (double& t : at) t = std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0;
   std::sort(at.begin(), at.end());
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {

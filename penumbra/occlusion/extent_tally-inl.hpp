@@ -92,7 +92,9 @@ class Measured {
 
 /// A frame as targets are judged on it.
 struct LabelledFrame {
-  LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule);
+  /// `has_outside`: what was not drawn is outside of what the camera saw (rectified images); else
+  /// the robot may lie there.
+  LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule, bool has_outside);
 
   [[nodiscard]] bool has_pose() const {
     return images.are_labels_alone || !images.virtual_depth.depth.empty();
@@ -101,12 +103,15 @@ struct LabelledFrame {
     return std::visit([](const auto& depth) { return !depth.empty(); }, images.measured);
   }
   /// Whether some of the robot may lie in the pixels [u0, u1] x [v0, v1], which may reach past the
-  /// image.
+  /// image. It may wherever the lens model does not reach.
   [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
+  /// Whether some of it does, or may where it cannot be drawn: in pixels of the image.
+  [[nodiscard]] bool robot_lies_in(int u0, int u1, int v) const;
 
   JudgedImages images;
   const labelling::Rule* rule;
   int width, height;
+  bool is_outside_undrawn;
 };
 
 /// Where the run of equal values ends that begins at p.

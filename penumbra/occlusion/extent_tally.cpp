@@ -217,23 +217,34 @@ void with_depths(const LabelledFrame& frame, F&& f) {
 
 }  // namespace
 
-LabelledFrame::LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule)
+LabelledFrame::LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule,
+                             bool has_outside)
     : images(judged),
       rule(&label_rule),
       width(judged.labels.labels.width),
-      height(judged.labels.labels.height) {}
+      height(judged.labels.labels.height),
+      is_outside_undrawn(has_outside) {}
 
 bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   u0 = std::max(u0, 0), v0 = std::max(v0, 0);
   u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
   if (u0 > u1 || v0 > v1) return false;
-  const TileMask* const tiles =
-      images.are_labels_alone ? images.labels.touched : images.virtual_depth.touched;
+  const TileMask* const tiles = images.labels.touched;
   if (tiles == nullptr) return true;
   const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tiles->tile_width);
   const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));
   for (int j = v0 / TileMask::tile_height; j <= v1 / TileMask::tile_height; ++j)
     if ((tiles->rows[static_cast<std::size_t>(j)] & columns) != 0) return true;
+  return false;
+}
+
+bool LabelledFrame::robot_lies_in(int u0, int u1, int v) const {
+  const std::uint8_t* const labels = images.labels.labels.row(v);
+  const float* const z = is_outside_undrawn ? images.virtual_depth.depth.row(v) : nullptr;
+  for (int u = u0; u <= u1; ++u) {
+    u += first_set(labels + u, u1 + 1 - u);
+    if (u <= u1 && (z == nullptr || z[u] > 0.0f)) return true;
+  }
   return false;
 }
 

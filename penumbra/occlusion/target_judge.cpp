@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -53,7 +56,22 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds) {
+/// Whether more of what is unknown lies where the lens model does not reach than on the robot.
+bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent) {
+  if (frame.images.virtual_depth.depth.empty()) return false;
+  std::ptrdiff_t uncovered = 0, robot = 0;
+  for (const RowSpan& span : extent) {
+    const std::uint8_t* const labels = frame.images.labels.labels.row(span.v);
+    const float* const z = frame.images.virtual_depth.depth.row(span.v);
+    for (int u = span.u0; u < span.u1; ++u)
+      if (labels[u] == static_cast<std::uint8_t>(Label::unknown))
+        (z[u] > 0.0f ? robot : uncovered) += 1;
+  }
+  return uncovered > robot;
+}
+
+std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds,
+                                    bool is_uncovered) {
   if (!sight.has_pose) return "the robot's pose is not known in this frame";
   if (sight.is_cut)
     return "seen at the image's border alone: how much of it the robot beside it hides is not "
@@ -65,6 +83,7 @@ std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& 
     return "the sensor looks past where most of it is expected";
   if (sight.is_expected && sight.is_unmeasured(thresholds.min_measured))
     return "hardly anything is measured where it is expected";
+  if (is_uncovered) return "too much of it lies where the lens model does not reach";
   if (sight.is_expected)
     return "too much of it is robot without measurement, or at the robot's own depth";
   return "too much of it is robot without measurement";
@@ -95,7 +114,7 @@ TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, st
                           ImageView<const std::uint8_t> unseen)
     : camera(checked_camera(camera_)),
       rule(checked_rule(label_rule)),
-      frame({}, rule),
+      frame({}, rule, !unseen.empty()),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
       sights(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
   blame.reserve(links);
@@ -121,7 +140,7 @@ void TargetJudge::begin(const JudgedImages& images) {
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
-  state_->frame = LabelledFrame(images, state_->rule);
+  state_->frame = LabelledFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
   ++state_->number;
 }
@@ -169,7 +188,8 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   }
   judgement.blame = sight.links->write(sight.inside, blame);
   if (judgement.verdict == Verdict::unknown)
-    judgement.reason = reason_for_unknown(sight, target.thresholds);
+    judgement.reason =
+        reason_for_unknown(sight, target.thresholds, is_uncovered(frame, sights.seen().spans()));
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

@@ -125,7 +125,8 @@ struct Judgement {
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
 /// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f);
-/// of robot whose virtual depths are not at hand, none at all.
+/// near robot whose virtual depths are not at hand, and near pixels that the lens model does not
+/// reach, none at all.
 /// Verdicts other than visible and partial have none.
 class TargetJudge {
  public:

@@ -48,10 +48,8 @@ bool holds_robot(const LabelledFrame& frame, const SpanBox& box) {
   const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
   const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
   if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;
-  for (int v = v0; v <= v1; ++v) {
-    const int count = u1 - u0 + 1;
-    if (first_set(frame.images.labels.labels.row(v) + u0, count) < count) return true;
-  }
+  for (int v = v0; v <= v1; ++v)
+    if (frame.robot_lies_in(u0, u1, v)) return true;
   return false;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 
-/// Of robot whose virtual depth is not at hand.
+/// Of robot whose virtual depth is not at hand, or that cannot be drawn, as the lens model does not
+/// reach there.
 constexpr float any_depth = std::numeric_limits<float>::infinity();
 
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
@@ -95,20 +96,16 @@ const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
   const int u1 = std::min(u0 + LabelRule::cell, frame_->width);
   const int v1 = std::min(v0 + LabelRule::cell, frame_->height);
   if (!frame_->robot_may_lie_in(u0, u0, v0, v0)) return cell;  // tiles are of whole cells
-  if (frame_->images.are_labels_alone) {
-    const auto shows_robot = [&](int v) {
-      return first_set(frame_->images.labels.labels.row(v) + u0, u1 - u0) < u1 - u0;
-    };
-    for (int v = v0; v < v1; ++v)
-      if (shows_robot(v)) cell.nearest = 0.0f, cell.farthest = any_depth;
-    return cell;
-  }
+  const bool has_depth = !frame_->images.are_labels_alone;
   for (int v = v0; v < v1; ++v) {
-    const float* const z = frame_->images.virtual_depth.depth.row(v);
+    const std::uint8_t* const labels = frame_->images.labels.labels.row(v);
+    const float* const z = has_depth ? frame_->images.virtual_depth.depth.row(v) : nullptr;
     for (int u = u0; u < u1; ++u) {
-      if (!(z[u] > 0.0f)) continue;
-      cell.nearest = std::min(cell.nearest, z[u]);
-      cell.farthest = std::max(cell.farthest, z[u]);
+      if (labels[u] == static_cast<std::uint8_t>(Label::clear)) continue;
+      const bool is_drawn = has_depth && z[u] > 0.0f;
+      if (!is_drawn && frame_->is_outside_undrawn) continue;
+      cell.nearest = std::min(cell.nearest, is_drawn ? z[u] : 0.0f);
+      cell.farthest = std::max(cell.farthest, is_drawn ? z[u] : any_depth);
     }
   }
   return cell;

@@ -63,8 +63,8 @@ class UncoveredPixels {
  public:
   explicit UncoveredPixels(ImageView<const std::int32_t> map);
 
-  /// The labels with every uncovered pixel unknown; counts leave those out that were clear. Without
-  /// a tile mask, if there are such pixels. Valid until the next call.
+  /// The labels with every uncovered pixel unknown; counts leave those out that were clear. Its
+  /// tiles are those of such pixels too. Valid until the next call.
   LabelView mark(const LabelView& labels);
 
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -76,7 +76,9 @@ class UncoveredPixels {
  private:
   Image<std::uint8_t> mask_;  // Label::unknown where not covered, else Label::clear
   Image<std::uint8_t> labels_;
-  TileMask touched_;  // tiles of labels_ that hold other than mask_
+  TileMask uncovered_;  // tiles of mask_ that hold such pixels
+  TileMask touched_;    // tiles of labels_ that hold other than mask_
+  TileMask shown_;      // both
   std::size_t count_ = 0, marked_ = 0;
 };
 

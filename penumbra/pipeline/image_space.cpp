@@ -48,11 +48,15 @@ VirtualDepthView RawImages::virtual_depth(const VirtualDepthView& pinhole) {
 }
 
 UncoveredPixels::UncoveredPixels(ImageView<const std::int32_t> map)
-    : mask_(map.width, map.height), touched_(map.width, map.height) {
+    : mask_(map.width, map.height),
+      uncovered_(map.width, map.height),
+      touched_(map.width, map.height),
+      shown_(map.width, map.height) {
   for (int v = 0; v < map.height; ++v) {
     for (int u = 0; u < map.width; ++u) {
       if (map(u, v) != Rectification::no_pixel) continue;
       mask_(u, v) = static_cast<std::uint8_t>(Label::unknown);
+      uncovered_.mark(u, v, u, v);
       ++count_;
     }
   }
@@ -83,7 +87,9 @@ LabelView UncoveredPixels::mark(const LabelView& labels) {
     }
   });
   touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
-  LabelView covered{labels_.view(), labels.pixels, nullptr};
+  for (std::size_t j = 0; j < shown_.rows.size(); ++j)
+    shown_.rows[j] = touched_.rows[j] | uncovered_.rows[j];
+  LabelView covered{labels_.view(), labels.pixels, &shown_};
   covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_;
   return covered;
 }

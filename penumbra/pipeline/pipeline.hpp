@@ -31,7 +31,8 @@ struct PipelineConfig {
   RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
   /// With backend gl: label there too (GlLabeller). Reports then hold labels and counts, but no
   /// virtual depth: no link is blamed for what it hides, targets with an expected depth and 3-D
-  /// ones are unknown (JudgedImages::are_labels_alone). Images with lens distortion are refused.
+  /// ones are unknown, or out of view (JudgedImages::are_labels_alone). Images with lens distortion
+  /// are refused.
   bool labels_on_device = false;
   LabelRule rule;  ///< its range and the camera's both apply
   ImageSpace image = ImageSpace::raw;

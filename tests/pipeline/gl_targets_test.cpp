@@ -128,14 +128,15 @@ TEST_F(GlTargets, OfKnownDepthAreUnknown) {
   std::get<BoxTarget>(box.shape).pose.translation() = Eigen::Vector3d(0, 0, 2);
   const Target expected{.name = "expected",
                         .shape = RegionTarget{PixelBox{10, 10, 5, 5}, Extent::amodal, 2.0}};
-  Target beside{.name = "beside", .shape = PointTarget{.position = {9, 0, 2}}};
-  const std::vector<Target> targets{point, box, expected, beside};
+  Target behind{.name = "behind", .shape = PointTarget{.position = {0, 0, -2}}};
+  const std::vector<Target> targets{point, box, expected, behind};
   const FrameReport& report = process(device, targets);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(report.targets[i].verdict, Verdict::unknown) << report.targets[i].name;
     EXPECT_NE(report.targets[i].reason.find("stays on the device"), std::string_view::npos)
         << report.targets[i].reason;
   }
+  EXPECT_EQ(report.targets[3].verdict, Verdict::out_of_view);
 }
 
 /// A key point behind the slab holds the point that was measured before.

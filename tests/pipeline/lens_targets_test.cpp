@@ -154,6 +154,40 @@ TEST(TargetsOfAFisheye, AreOutOfViewBesideANarrowOne) {
   EXPECT_GT(counts.whole, 20);
 }
 
+/// A plate of the robot that none of a fisheye's drawn pixels shows may hide what ends beside them.
+TEST(TargetsOfAFisheye, BesideWhatCannotBeDrawnAreAsBesideTheRobot) {
+  Camera camera = slab_camera();
+  const int width = camera.intrinsics.width(), height = camera.intrinsics.height();
+  camera.intrinsics = Intrinsics(width, height, 40.0, 40.0, width / 2.0, height / 2.0);
+  const double coefficients[] = {0, 0, 0, 0};
+  camera.distortion = Distortion("equidistant", coefficients);
+  const auto drawn = Rectification(camera).raw_to_pinhole();
+  int end = width / 2;  // of the drawn pixels in the middle row
+  while (drawn(end, height / 2) != Rectification::no_pixel) ++end;
+  ASSERT_LT(end, width - 5);
+  Pipeline pipeline(slab_robot(), camera, plain_config());
+  const Image<float> depth(width, height, static_cast<float>(wall_depth));
+  const auto box = [&](double u) { return PixelBox{u, height / 2.0 - 4, 6, 8}; };
+  const double beside = end - 7.0;
+  Target modal = region("modal", box(beside)), far = region("far", PixelBox{77, 78, 6, 8});
+  std::get<RegionTarget>(modal.shape).extent = Extent::modal;
+  const std::vector<Target> targets{modal, far, region("beside", box(beside)),
+                                    region("in it", box(end + 1.0))};
+  const std::vector<double> positions{0.9};  // the slab is small, in the middle
+  const FrameReport& report = pipeline.process(
+      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
+  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+  EXPECT_NE(report.targets[0].reason.find("first seen beside"), std::string_view::npos)
+      << report.targets[0].reason;
+  EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
+  EXPECT_TRUE(report.targets[1].point);
+  EXPECT_EQ(report.targets[2].verdict, Verdict::visible) << "amodal: all of it is seen";
+  EXPECT_FALSE(report.targets[2].point) << "depths there may be of robot that is not drawn";
+  EXPECT_EQ(report.targets[3].verdict, Verdict::unknown);
+  EXPECT_NE(report.targets[3].reason.find("lens model"), std::string_view::npos)
+      << report.targets[3].reason;
+}
+
 /// A lens whose pinhole image reaches far beyond what the camera saw.
 class RectifiedTargetsTest : public testing::Test {
  protected:
@@ -197,6 +231,21 @@ TEST_F(RectifiedTargetsTest, WhereTheCameraSawNothingAreOutOfView) {
   EXPECT_EQ(black.judgement->inside, 0U);
   EXPECT_EQ(black.judgement->covered, static_cast<std::size_t>(seen_columns));
   EXPECT_EQ(black.judgement->clear, 0.0);
+}
+
+/// What the camera did not see is no robot that is not drawn.
+TEST_F(RectifiedTargetsTest, AtItsEdgeAreFirstSeenAsAtTheImagesBorder) {
+  Pipeline rectified = pipeline(ImageSpace::rectified);
+  const auto to_raw = rectified.rectification()->pinhole_to_raw();
+  const int row = to_raw.height - 5;
+  int first = 0;
+  while (to_raw(first, row) == Rectification::no_pixel) ++first;
+  ASSERT_GT(first, 1);
+  Target modal = region("modal", PixelBox{first + 6.0, row - 2.0, 6, 4});
+  std::get<RegionTarget>(modal.shape).extent = Extent::modal;
+  const TargetReport report = judge(rectified, modal);
+  EXPECT_EQ(report.verdict, Verdict::visible) << report.reason;
+  EXPECT_TRUE(report.point);
 }
 
 TEST_F(RectifiedTargetsTest, AtItsEdgeAreJudgedByWhatTheCameraSaw) {
