@@ -131,11 +131,12 @@ fi
 
 check format check_format
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
+waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 # The experiments once more, on other numbers of threads.
 once_more='^Experiment[.]DoesNotDependOnTheNumberOfThreads$'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" \
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && run_tests release -E "$once_more"
+  -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && run_tests release -j "$waiting" -E "$once_more"
 if $full; then
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Covariances are true: over many samples of the model, squared errors in units of the covariance
 // follow chi^2 (Bar-Shalom, Li, Kirubarajan 2001, section 5.4: NEES of states, NIS of estimates).
+#include "../support/algebra.hpp"
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
-#include "algebra.hpp"
 #include "random_motion.hpp"
 #include "tracks.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever comes in whatever order: results stay finite and honest.
+#include "../support/algebra.hpp"
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
-#include "algebra.hpp"
 #include "random_motion.hpp"
 #include "tracks.hpp"
 

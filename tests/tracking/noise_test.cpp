@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the filter against their definitions: Jacobians by differences, noise by the matrix
 // exponential.
+#include "../support/algebra.hpp"
 #include "../support/random.hpp"
-#include "algebra.hpp"
 #include "smoother.hpp"
 #include "tracks.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "smoother.hpp"
 
-#include "algebra.hpp"
+#include "../support/algebra.hpp"
 #include "tracks.hpp"
 
 #include <functional>

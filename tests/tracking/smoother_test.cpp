@@ -3,8 +3,8 @@
 // the model is linear, and nearly so on SO(3).
 #include "smoother.hpp"
 
+#include "../support/algebra.hpp"
 #include "../support/random.hpp"
-#include "algebra.hpp"
 #include "tracks.hpp"
 
 #include <gtest/gtest.h>

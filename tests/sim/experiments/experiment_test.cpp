@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both experiments in small, through the door that the command line uses.
+#include "../../support/run_length.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -90,7 +92,8 @@ TEST(Experiment, ConveyorFollowsWhatTheArmHides) {
 }
 
 TEST(Experiment, HandoverKeepsTheHandBeforeTheArm) {
-  const Results results = run({.experiment = "handover", .end_seed = 2, .output = {}});
+  const std::uint64_t seeds = is_full_run() ? 2 : 1;
+  const Results results = run({.experiment = "handover", .end_seed = seeds, .output = {}});
   EXPECT_EQ(results.steps, results.total);
   const json lane = json::parse(results.metrics).at("detections").at("keypoint");
   EXPECT_EQ(value(lane, "penumbra", "on_robot_accepted"), 0.0);
