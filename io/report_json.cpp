@@ -6,8 +6,7 @@
 #include <penumbra/base/version.hpp>
 
 #include <io/disk_file.hpp>
-#include <io/json-inl.hpp>
-#include <io/report_json.hpp>
+#include <io/renderer_json-inl.hpp>
 #include <io/target_json-inl.hpp>
 
 namespace penumbra::io {
@@ -25,16 +24,6 @@ Json list(std::span<const std::string> names) {
   Json array = Json::array();
   for (const std::string& name : names) array.push_back(name);
   return array;
-}
-
-Json renderer_json(const UsedRenderer& used) {
-  const RendererInfo& info = used.info;
-  return {{"backend", to_string(info.backend)},
-          {"isa", or_null(info.isa)},
-          {"threads", info.backend == Backend::gl ? Json(nullptr) : Json(info.threads)},
-          {"device", or_null(info.device)},
-          {"requested", used.requested ? to_string(*used.requested) : "auto"},
-          {"reason", or_null(used.reason)}};
 }
 
 std::string_view name_of(Geometry geometry) {
@@ -159,6 +148,20 @@ Json joint_json(const Robot& robot, const Joint& joint) {
 }
 
 }  // namespace
+
+Json renderer_json(const UsedRenderer& used) {
+  const RendererInfo& info = used.info;
+  return {{"backend", to_string(info.backend)},
+          {"isa", or_null(info.isa)},
+          {"threads", info.backend == Backend::gl ? Json(nullptr) : Json(info.threads)},
+          {"device", or_null(info.device)},
+          {"requested", used.requested ? to_string(*used.requested) : "auto"},
+          {"reason", or_null(used.reason)}};
+}
+
+UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requested) {
+  return {pipeline.renderer(), requested, pipeline.renderer_choice().reason};
+}
 
 struct ReportWriter::State {
   explicit State(std::filesystem::path file_)

@@ -26,6 +26,10 @@ struct UsedRenderer {
   std::string reason;                ///< RendererChoice::reason
 };
 
+/// Of a pipeline, whose configuration asked for `requested`.
+[[nodiscard]] UsedRenderer used_renderer(const Pipeline& pipeline,
+                                         std::optional<Backend> requested);
+
 /// By which choices results were made.
 struct UsedSettings {
   LabelRule rule;

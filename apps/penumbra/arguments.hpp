@@ -47,9 +47,12 @@ struct BagArguments {
   std::optional<std::string> parent;          ///< link that the camera sits on
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
-  double time_offset = 0.0;       ///< FrameQueueOptions::time_offset
-  std::string given;              ///< one of the options that were given; empty: none
-  std::string group = "Of bags";  ///< of these options in --help
+  double time_offset = 0.0;  ///< FrameQueueOptions::time_offset
+  std::string given;         ///< one of the options that were given; empty: none
+  // What --help says of these options.
+  std::string group = "Of bags";
+  std::string joints_default = "/joint_states, or the only one";
+  std::string poses_default = "joints, else tf";
 };
 
 struct RunArguments {
@@ -57,6 +60,7 @@ struct RunArguments {
   std::filesystem::path output;
   RendererArguments renderer;
   std::optional<Geometry> geometry;
+  std::string geometry_default = "the recording's, else collision";  ///< in --help
   bool geometry_fallback = false;     ///< as in RobotOptions, on top of the recording's
   bool allow_missing_meshes = false;  ///< likewise
   std::optional<Tolerance> tolerance;

@@ -68,7 +68,8 @@ void print_choice(const io::MachineReport& machine) {
 void print_network(const io::MachineReport& machine) {
   std::cout << "\nLive topics of ROS 2\n";
   if (!machine.build.dds)
-    std::cout << "  not built in: install cyclonedds-dev and build Penumbra again\n";
+    std::cout << "  not built in: install cyclonedds-dev and build Penumbra again with "
+                 "-DPENUMBRA_WITH_DDS=ON\n";
   std::cout << "  a socket may hold "
             << (machine.receive_buffer_limit
                     ? std::to_string(*machine.receive_buffer_limit / 1024) + " KiB"

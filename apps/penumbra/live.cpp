@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -19,6 +20,7 @@
 #include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
+#include <apps/penumbra/live_renderer.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
@@ -59,6 +61,14 @@ bool is_published(const LiveArguments& arguments, const io::ResultTopic& topic) 
   for (const std::string& name : split(*arguments.publish, ','))
     if (topic.name.substr(0, topic.name.find('/')) == name) return true;
   return false;
+}
+
+std::string words_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 /// Publishes what is said of how it goes.
@@ -168,12 +178,11 @@ class Live {
   bool run(io::Participant& graph, Diagnostics& diagnostics, StopSignal& stop) {
     runner_->start();
     std::atomic<bool> ends = false;
-    std::exception_ptr fault;
     std::thread receiving([&] {
       try {
         while (!ends) subscriptions_->receive(longest_receive);
       } catch (...) {
-        fault = std::current_exception();
+        fault_ = std::current_exception();
         ends = true;
       }
     });
@@ -182,12 +191,15 @@ class Live {
     graph.wake();
     receiving.join();
     runner_->stop();
-    if (fault) std::rethrow_exception(fault);
-    runner_->rethrow();
+    if (!fault_) fault_ = runner_->fault();
+    tell_renderers();
     return stopped;
   }
 
-  /// After run(), as what follows: images whose labels were published.
+  /// After run(), as what follows: what ended it before its time; null: nothing did.
+  [[nodiscard]] const std::exception_ptr& fault() const { return fault_; }
+
+  /// Images whose labels were published.
   [[nodiscard]] std::size_t judged() {
     return runner_->with_inbox([&](const io::LiveInbox& inbox) {
       std::size_t images = 0;
@@ -198,6 +210,7 @@ class Live {
 
   [[nodiscard]] std::string summary() {
     io::LiveRun run{.seconds = seconds(), .cpu_seconds = cpu_seconds() - cpu_at_start_};
+    if (fault_) run.fault = words_of(fault_);
     for (const auto& results : results_) run.not_written += results->not_written();
     const auto links = subscriptions_->links();
     return runner_->with_inbox(
@@ -207,6 +220,13 @@ class Live {
  private:
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  /// stderr may be slow: not while the inbox is held.
+  void tell_renderers() {
+    const auto news =
+        runner_->with_inbox([&](const io::LiveInbox& inbox) { return renderers_.look(inbox); });
+    for (const std::string& line : news) std::cerr << "penumbra: " << line << '\n';
   }
 
   bool report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
@@ -224,6 +244,7 @@ class Live {
         return words.report(inbox, links,
                             {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
       }));
+      tell_renderers();
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -240,9 +261,11 @@ class Live {
   std::vector<std::unique_ptr<GraphResults>> results_;
   std::unique_ptr<io::LiveRunner> runner_;
   std::unique_ptr<LiveSubscriptions> subscriptions_;
+  RendererNews renderers_;
+  std::exception_ptr fault_;
 };
 
-/// Takes its name once it is written: a run that fails leaves an earlier one's as it was.
+/// Takes its name once it is written: a run that fails before leaves an earlier one's as it was.
 class SummaryFile {
  public:
   explicit SummaryFile(const std::filesystem::path& file) : file_(file), pending_(file) {
@@ -287,7 +310,9 @@ void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
-int label_live(const LiveArguments& arguments) {
+/// `fault` gets what ended it before its time, when all is told that is known until then.
+int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
+  check_draws(arguments.judging.renderer);
   const io::NameResolver names = resolver_of(arguments);
   io::LiveOptions options = options_of(arguments, names);
   const io::LiveCameraOptions common = camera_options(arguments);
@@ -314,7 +339,8 @@ int label_live(const LiveArguments& arguments) {
   const bool stopped = live.run(*graph, diagnostics, stop);
   tell_notes(graph->take_complaints());
   if (summary) summary->write(live.summary());
-  if (stopped || live.judged() > 0) return 0;
+  fault = live.fault();
+  if (fault || stopped || live.judged() > 0) return 0;
   std::cerr << "penumbra: no image was judged\n";
   return 2;
 }
@@ -322,9 +348,12 @@ int label_live(const LiveArguments& arguments) {
 }  // namespace
 
 int execute(const LiveArguments& arguments) {
-  return run_or_tell_left(
-      [&] { return label_live(arguments); },
+  std::exception_ptr fault;  // a summary is then none from before
+  const int status = run_or_tell_left(
+      [&] { return label_live(arguments, fault); },
       [&] { return arguments.summary ? io::left_as_it_was(*arguments.summary) : std::string(); });
+  if (fault) std::rethrow_exception(fault);
+  return status;
 }
 
 }  // namespace penumbra::app

@@ -73,8 +73,11 @@ void add_live(CLI::App& app, LiveArguments& live) {
                live.summary = text;
              });
   add_graph(app, live);
+  live.judging.geometry_default = "collision";
   add_judging(app, live.judging);
   live.judging.bag.group = "Of topics";
+  live.judging.bag.joints_default = "joint_states";
+  live.judging.bag.poses_default = "joints, never tf by itself";
   add_bag(app, live.judging.bag);
 }
 

@@ -156,34 +156,38 @@ int render(const RenderArguments& arguments) {
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
+  const RendererChoice choice = pipeline.renderer_choice();  // before its device can fail
 
   // Any depth will do: nothing of what is written comes of it.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
   const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
   RenderedImages images(arguments, first);
   tell_notes(pipeline.robot().notes());
-  tell_choice(pipeline.renderer_choice());
-  std::vector<std::string> notes = notes_of(pipeline);
-  const std::size_t told = notes.size();
-  append(notes, rest_notes(pipeline.robot(), arguments));
+  tell_choice(choice);
+  std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
   SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
-  append(notes, doubts.lines());
-  tell_notes(std::span(notes).subspan(told));
+  append(of_pose, doubts.lines());
+  tell_notes(of_pose);
 
   io::RenderResult result{.triangles = pipeline.triangle_count(),
                           .robot_pixels = first.pixels.robot.value_or(0),
                           .uncovered_pixels = first.pixels.uncovered,
-                          .renderer = used_renderer(pipeline, arguments.renderer.backend),
+                          .renderer = {},
                           .variables = pipeline.robot().variables(),
                           .positions = positions,
                           .missing_links = pipeline.missing_links(),
-                          .notes = notes,
+                          .notes = {},
                           .statistics = {}};
   const Image<float> seen = copy(first.virtual_depth.depth);
   for (int i = 0; i < arguments.repeat; ++i)
     result.statistics.add(pipeline.process({.depth = seen.view(), .joints = positions}));
   images.finish();
+  tell_notes(std::span(pipeline.renderer_choice().warnings).subspan(choice.warnings.size()));
+  std::vector<std::string> notes = notes_of(pipeline);
+  append(notes, of_pose);
+  result.notes = notes;
+  result.renderer = io::used_renderer(pipeline, arguments.renderer.backend);
 
   if (arguments.json) {
     std::cout << io::render_json(result) << '\n';

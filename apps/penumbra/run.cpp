@@ -168,7 +168,7 @@ int judge_all(const RunArguments& arguments) {
   const std::vector<std::string> notes = notes_of(pipeline);
 
   const auto output = open_output(arguments, input, pipeline);
-  output->begin({arguments.input.string(), used_renderer(pipeline, arguments.renderer.backend),
+  output->begin({arguments.input.string(), io::used_renderer(pipeline, arguments.renderer.backend),
                  settings_of(arguments, input, pipeline, targets), pipeline.robot().links(),
                  pipeline.missing_links(), notes});
   Statistics statistics;

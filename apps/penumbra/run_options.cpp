@@ -91,16 +91,17 @@ void add_bag(CLI::App& app, BagArguments& bag) {
                "judge in this camera's image: depth is brought there by tf, if it is another's",
                "TOPIC", bag.color_topic);
   add_bag_list(app, bag, "--joint-topic",
-               "default: /joint_states, or the only one; may be given several times", "TOPIC",
+               "default: " + bag.joints_default + "; may be given several times", "TOPIC",
                [&](const std::string& text) { bag.joint_topics.push_back(text); });
   add_bag_list(
       app, bag, "--target-topic",
       "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
       "several times",
       "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
-  add_bag_option(app, bag, "--poses",
-                 "where links are: joints, tf, or both, which must agree; default: joints, else tf",
-                 "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
+  add_bag_option(
+      app, bag, "--poses",
+      "where links are: joints, tf, or both, which must agree; default: " + bag.poses_default,
+      "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
   add_bag_text(app, bag, "--robot", "the robot, in place of the robot_description", "URDF",
                bag.robot);
   add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
@@ -128,8 +129,8 @@ void add_bag(CLI::App& app, BagArguments& bag) {
 
 void add_judging(CLI::App& app, RunArguments& run) {
   add_renderer(app, run.renderer);
-  add_option(app, "--geometry", "collision or visual; default: the recording's, else collision",
-             "NAME", [&](const std::string& text) { run.geometry = to_geometry(text); });
+  add_option(app, "--geometry", "collision or visual; default: " + run.geometry_default, "NAME",
+             [&](const std::string& text) { run.geometry = to_geometry(text); });
   add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
   add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
              [&](const std::string& text) { run.tolerance = to_tolerance(text); });

@@ -61,15 +61,14 @@ void tell_notes(std::span<const std::string> notes) {
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }
 
-void tell_choice(const RendererChoice& choice) {
-  if (!choice.reason.empty())
-    std::cerr << "penumbra: --renderer auto takes " << to_string(choice.backend) << ": "
-              << choice.reason << '\n';
-  tell_notes(choice.warnings);
+std::string words_of_choice(Backend backend, const std::string& reason) {
+  return "--renderer auto takes " + std::string(to_string(backend)) + ": " + reason;
 }
 
-io::UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requested) {
-  return {pipeline.renderer(), requested, pipeline.renderer_choice().reason};
+void tell_choice(const RendererChoice& choice) {
+  if (!choice.reason.empty())
+    std::cerr << "penumbra: " << words_of_choice(choice.backend, choice.reason) << '\n';
+  tell_notes(choice.warnings);
 }
 
 std::vector<std::string> notes_of(const Pipeline& pipeline) {

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,8 +12,6 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
-
-#include <io/report_json.hpp>
 
 namespace penumbra::app {
 
@@ -42,12 +39,11 @@ void print_table(std::vector<std::vector<std::string>> rows);
 /// Prints on stderr, a line each.
 void tell_notes(std::span<const std::string> notes);
 
+/// What auto took and why, one line.
+[[nodiscard]] std::string words_of_choice(Backend backend, const std::string& reason);
+
 /// Prints on stderr what auto took and why, and its warnings; nothing for a backend by name.
 void tell_choice(const RendererChoice& choice);
-
-/// What the report says of the pipeline's renderer.
-[[nodiscard]] io::UsedRenderer used_renderer(const Pipeline& pipeline,
-                                             std::optional<Backend> requested);
 
 /// Robot::notes() and RendererChoice::warnings.
 [[nodiscard]] std::vector<std::string> notes_of(const Pipeline& pipeline);

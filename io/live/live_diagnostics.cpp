@@ -8,6 +8,7 @@
 
 #include <io/live/live_diagnostics.hpp>
 #include <io/printable.hpp>
+#include <io/renderer_json-inl.hpp>
 #include <io/ros_frames/pose_messages.hpp>
 
 namespace penumbra::io {
@@ -107,6 +108,15 @@ void add_tally(Status& status, const LiveTally& tally) {
       add(status, "last " + std::string(stage.name), decimal(*time, " ms"));
 }
 
+/// With the names that report.json has.
+void add_renderer(Status& status, const LiveRenderer& renderer) {
+  const Json json = renderer_json(renderer.used);
+  for (const auto& [key, value] : json.items())
+    if (!value.is_null())
+      add(status, "renderer " + key, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const std::string& warning : renderer.warnings) add(status, "note", warning);
+}
+
 bool is_of_robot(LiveRole role) {
   return role == LiveRole::description || role == LiveRole::joints ||
          role == LiveRole::transforms || role == LiveRole::static_transforms ||
@@ -202,6 +212,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   if (camera.setup() != nullptr)
     add(status, "camera on link",
         camera.setup()->mount.parent + ", by " + camera.setup()->mount.told);
+  if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
   add_tally(status, inbox.tally(number));
   if (camera.camera_changes() > 0)

@@ -64,7 +64,9 @@ struct LiveTally {
   LatencyHistogram processing;   ///< from arrival to published, ms
   std::size_t beyond_clock = 0;  ///< images stamped by another clock than the system's: no latency
   LiveOutcome last;
-  std::optional<std::int64_t> last_published;  ///< on the caller's clock
+  std::shared_ptr<const LiveRenderer> renderer;  ///< that drew last; null: none yet
+  std::vector<std::string> renderer_warnings;    ///< of all that drew, each once
+  std::optional<std::int64_t> last_published;    ///< on the caller's clock
 };
 
 /// All that was told on the graph: one robot, its cameras. Knows no transport, no thread and no

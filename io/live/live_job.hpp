@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
@@ -13,6 +14,7 @@
 #include <penumbra/robot/transform_buffer.hpp>
 
 #include <io/live/live_robot.hpp>
+#include <io/report_json.hpp>
 #include <io/ros/target_inbox.hpp>
 #include <io/ros_frames/camera_mount.hpp>
 #include <io/ros_frames/color_images.hpp>
@@ -51,6 +53,12 @@ struct LiveJob {
   std::optional<KeptImage> color;   ///< for the overlay
 };
 
+/// What draws the robot for a camera.
+struct LiveRenderer {
+  UsedRenderer used;
+  std::vector<std::string> warnings;  ///< RendererChoice::warnings
+};
+
 /// What became of it.
 struct LiveOutcome {
   bool is_published = false;
@@ -60,6 +68,8 @@ struct LiveOutcome {
   StageTimes timing;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
+  /// Another one once there is anything new to say of it; null: none could be made.
+  std::shared_ptr<const LiveRenderer> renderer;
 };
 
 }  // namespace penumbra::io

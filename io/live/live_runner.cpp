@@ -55,9 +55,9 @@ void LiveRunner::receive(std::size_t topic, const LiveMessage& message) {
   changed_.notify_all();
 }
 
-void LiveRunner::rethrow() {
+std::exception_ptr LiveRunner::fault() {
   const std::lock_guard lock(mutex_);
-  if (fault_) std::rethrow_exception(fault_);
+  return fault_;
 }
 
 void LiveRunner::wait(std::size_t camera, std::unique_lock<std::mutex>& lock) {

@@ -52,9 +52,9 @@ class LiveRunner {
   [[nodiscard]] static std::int64_t steady_now();
   [[nodiscard]] static std::int64_t system_now();
 
-  /// Whether a thread ended by an exception, which rethrow() throws.
+  /// Whether a thread ended by an exception, which is fault().
   [[nodiscard]] bool has_failed() const { return has_failed_; }
-  void rethrow();
+  [[nodiscard]] std::exception_ptr fault();
 
  private:
   struct CameraThread {

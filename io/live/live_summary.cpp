@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <io/json-inl.hpp>
 #include <io/live/live_summary.hpp>
+#include <io/renderer_json-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -20,6 +20,7 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
   for (const auto& [status, number] : tally.statuses) frames[status] = number;
   return {{"name", camera.options().name},
           {"depth_topic", camera.options().depth_topic},
+          {"renderer", tally.renderer ? renderer_json(tally.renderer->used) : Json(nullptr)},
           {"received", counts.received},
           {"judged", counts.judged},
           {"failed", counts.failed},
@@ -29,7 +30,8 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
           {"stamp_to_published_ms", quantiles_json(tally.latency)},
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
           {"stamps_of_another_clock", tally.beyond_clock},
-          {"camera_info_changes", camera.camera_changes()}};
+          {"camera_info_changes", camera.camera_changes()},
+          {"notes", tally.renderer_warnings}};
 }
 
 }  // namespace
@@ -53,8 +55,9 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
               {"results_not_written", run.not_written},
               {"robots", inbox.robot().robots()},
               {"cameras", cameras},
-              {"topics", topics}}
-      .dump(2);
+              {"topics", topics},
+              {"fault", or_null(run.fault)}}
+      .dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace penumbra::io

@@ -14,6 +14,7 @@ struct LiveRun {
   double seconds = 0.0;
   double cpu_seconds = 0.0;     ///< of all threads
   std::size_t not_written = 0;  ///< results that slow subscribers kept from being published
+  std::string fault = {};       ///< what ended it before its time; empty: nothing did
 };
 
 /// What came of all messages, as JSON. `links`: one for each of inbox.topics().

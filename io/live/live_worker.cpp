@@ -41,6 +41,7 @@ LiveWorker::Tools::Tools(const LiveSetup& setup, const PipelineConfig& config)
 bool LiveWorker::follow(const std::shared_ptr<LiveSetup>& setup) {
   if (setup == setup_) return tools_ != nullptr;
   tools_.reset();
+  renderer_.reset();
   setup_ = setup;
   fault_.clear();
   try {
@@ -69,6 +70,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   }
   frame.source_message = message_;
   const FrameReport& report = process(frame);
+  note_renderer();
   WithoutOverlay without_overlay(sink);
   ResultSink& taken = job.with_overlay ? sink : without_overlay;
   show_color(job, taken.wants(Result::overlay));
@@ -79,6 +81,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;
+  outcome.renderer = renderer_;
   return outcome;
 }
 
@@ -115,13 +118,11 @@ void LiveWorker::show_color(const LiveJob& job, bool wanted) {
   if (!shown) color_ = {};
 }
 
-std::vector<std::string> LiveWorker::notes() const {
-  if (!tools_) return {};
-  const auto of_robot = tools_->pipeline.robot().notes();
-  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
-  const RendererChoice& choice = tools_->pipeline.renderer_choice();
-  notes.insert(notes.end(), choice.warnings.begin(), choice.warnings.end());
-  return notes;
+void LiveWorker::note_renderer() {
+  const std::vector<std::string>& warnings = tools_->pipeline.renderer_choice().warnings;
+  if (renderer_ && renderer_->warnings.size() == warnings.size()) return;
+  renderer_ = std::make_shared<const LiveRenderer>(
+      LiveRenderer{used_renderer(tools_->pipeline, config_.backend), warnings});
 }
 
 }  // namespace penumbra::io

@@ -24,9 +24,6 @@ class LiveWorker {
   /// setup than before renderer and all are made anew. Throws DeviceError as Pipeline does.
   LiveOutcome judge(LiveJob& job, ResultSink& sink);
 
-  /// What a user should know of the setup's robot and renderer, a line each.
-  [[nodiscard]] std::vector<std::string> notes() const;
-
  private:
   /// What is made for a setup.
   struct Tools {
@@ -40,13 +37,15 @@ class LiveWorker {
   [[nodiscard]] std::string read_depth(const LiveJob& job, DepthView& depth);
   const FrameReport& process(Frame frame);
   void show_color(const LiveJob& job, bool wanted);
+  void note_renderer();
 
   PipelineConfig config_;
   std::shared_ptr<LiveSetup> setup_;
   std::unique_ptr<Tools> tools_;
-  std::string fault_;    // why there are no tools
-  std::string message_;  // of the frame
-  DepthView no_depth_;   // of the images' kind
+  std::shared_ptr<const LiveRenderer> renderer_;  // of the tools, once they have drawn
+  std::string fault_;                             // why there are no tools
+  std::string message_;                           // of the frame
+  DepthView no_depth_;                            // of the images' kind
   Image<Rgb8> color_;
 };
 

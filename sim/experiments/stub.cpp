@@ -14,7 +14,8 @@ void run_experiment(const ExperimentOptions&, const std::function<void(std::size
                     const std::function<void()>&) {
   throw InputError(
       "this build has no experiments; install libmujoco-dev, libopencv-calib3d-dev, "
-      "libopencv-features2d-dev and libwebp-dev and build again (scripts/packages.sh build sim)");
+      "libopencv-features2d-dev and libwebp-dev (scripts/packages.sh --install build sim) "
+      "and build with -DPENUMBRA_WITH_SIMULATION=ON");
 }
 
 }  // namespace penumbra::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What penumbra live refuses, and how it ends; what it publishes is tested against Fast DDS.
+#include "../support/opengl.hpp"
 #include "program.hpp"
 
 #include <filesystem>
@@ -48,6 +49,44 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
   }
 }
 
+TEST(LiveCommand, ADeviceThatCannotDrawIsRefusedBeforeTheGraphIsJoined) {
+  const auto expect_refused = [](std::vector<std::string> renderer, const std::string& words,
+                                 std::vector<std::string> environment = {}) {
+    renderer.insert(renderer.begin(), {"live", "--depth-topic", "/depth", "--duration", "0.5"});
+    environment.emplace_back("ROS_LOCALHOST_ONLY=1");
+    environment.emplace_back("ROS_DOMAIN_ID=231");
+    const Outcome outcome = penumbra(renderer, environment);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  expect_refused({"--renderer", "gl"}, "renderer 'gl'", no_egl_driver);
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  expect_refused({"--renderer", "gl", "--gl-device", "99"}, "there is no device 99");
+  expect_refused({"--renderer", "auto", "--gl-device", "99"}, "there is no device 99");
+}
+
+TEST(LiveCommand, HelpNamesItsOwnDefaults) {
+  const auto line_of = [](const std::string& command, const std::string& option) {
+    const std::string help = penumbra({command, "--help"}).out;
+    const std::size_t begin = help.find("\n  " + option + " ");
+    EXPECT_NE(begin, std::string::npos) << option;
+    return help.substr(begin, help.find('\n', begin + 1) - begin);
+  };
+  struct Default {
+    std::string option, of_run, of_live;
+  };
+  const std::vector<Default> all = {
+      {"--poses", "default: joints, else tf", "default: joints, never tf by itself"},
+      {"--joint-topic", "default: /joint_states, or the only one;", "default: joint_states;"},
+      {"--geometry", "default: the recording's, else collision", "default: collision"}};
+  for (const Default& one : all) {
+    EXPECT_NE(line_of("run", one.option).find(one.of_run), std::string::npos) << one.option;
+    EXPECT_NE(line_of("live", one.option).find(one.of_live), std::string::npos) << one.option;
+  }
+}
+
 TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
   const TemporaryFolder folder;
@@ -59,6 +98,7 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   EXPECT_NE(outcome.err.find("no image was judged"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("no publisher of /nobody/depth"), std::string::npos) << outcome.err;
   EXPECT_NE(read_file(summary).find("\"received\": 0"), std::string::npos);
+  EXPECT_NE(read_file(summary).find("\"renderer\": null"), std::string::npos);
 }
 
 TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {

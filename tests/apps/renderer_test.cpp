@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // --renderer and --gl-device: what is taken, what the report says of it, what is refused.
-#include "../support/required.hpp"
+#include "../support/opengl.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::test {
@@ -20,24 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-std::optional<std::size_t> find_device() {
-  try {
-    const auto devices = gl_devices();
-    for (std::size_t i = 0; i < devices.size(); ++i)
-      if (devices[i].fault.empty()) return i;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-/// The first OpenGL device that works.
-std::optional<std::size_t> working_device() {
-  const auto device = find_device();
-  static_cast<void>(is_there(device.has_value(), "opengl"));
-  return device;
-}
 
 class RendererTest : public testing::Test {
  protected:

@@ -112,6 +112,48 @@ TEST(Upkeep, PackagesAreListed) {
   }
 }
 
+std::string text_of(const SourceFile& file) {
+  std::string text;
+  for (const std::string& line : file.lines) text += line + '\n';
+  return text;
+}
+
+// What was not found at the first configuration stays off, whatever is installed later.
+TEST(Upkeep, WhoeverIsToldToBuildAgainIsToldTheOption) {
+  std::size_t messages = 0;
+  for (const auto& file : source_files({"penumbra", "io", "sim", "apps"}, {".cpp"})) {
+    const std::string text = text_of(file);
+    if (text.find("\"this build has no ") == std::string::npos &&
+        text.find(": this build has no ") == std::string::npos &&
+        text.find("not built in: ") == std::string::npos)
+      continue;
+    ++messages;
+    EXPECT_NE(text.find("-DPENUMBRA_WITH_"), std::string::npos) << file.path;
+  }
+  EXPECT_GE(messages, 5U);
+}
+
+// A folder keeps the switches of the script that configured it before.
+TEST(Upkeep, ScriptsThatShareABuildFolderSetTheSameSwitches) {
+  const std::regex folder(R"(-B (build/\w+))"), name(R"(-D(PENUMBRA_\w+)=)");
+  std::map<std::string, std::map<std::string, std::set<std::string>>> switches;
+  for (const auto& file : source_files({"scripts"}, {".sh"})) {
+    const std::string text = std::regex_replace(text_of(file), std::regex("\\\\\n"), " ");
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, folder)) continue;
+      auto& of_script = switches[match[1]][file.path];
+      for (std::sregex_iterator it(line.begin(), line.end(), name), end; it != end; ++it)
+        of_script.insert((*it)[1]);
+    }
+  }
+  EXPECT_EQ(switches["build/demo"].size(), 2U);
+  for (const auto& [built_in, scripts] : switches)
+    for (const auto& [script, set] : scripts)
+      EXPECT_EQ(set, scripts.begin()->second) << built_in << ": " << script;
+}
+
 TEST(Upkeep, LinksInDocumentsLeadSomewhere) {
   const std::filesystem::path root = PENUMBRA_SOURCE_DIR;
   auto documents = source_files({"docs", "examples"}, {".md"});

@@ -3,7 +3,8 @@
 
 #include "required.hpp"
 
-#include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <penumbra/base/error.hpp>
@@ -12,20 +13,28 @@
 
 namespace penumbra::test {
 
+/// The first of gl_devices() that can draw.
+inline std::optional<std::size_t> find_device() {
+  try {
+    const std::vector<GlDevice> devices = gl_devices();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+      if (devices[i].fault.empty()) return i;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// The same, which is there if OpenGL is_required().
+inline std::optional<std::size_t> working_device() {
+  static const std::optional<std::size_t> device = find_device();
+  static_cast<void>(is_there(device.has_value(), "opengl"));
+  return device;
+}
+
 /// Whether some device of gl_devices() can draw; where none does, the tests that ask are skipped or
 /// try less, unless OpenGL is_required().
-inline bool has_opengl() {
-  static const bool answer = [] {
-    try {
-      const std::vector<GlDevice> devices = gl_devices();
-      return std::any_of(devices.begin(), devices.end(),
-                         [](const GlDevice& device) { return device.fault.empty(); });
-    } catch (const InputError&) {
-      return false;
-    }
-  }();
-  return is_there(answer, "opengl");
-}
+inline bool has_opengl() { return working_device().has_value(); }
 
 /// Whether this machine can draw with the backend; if not, it is for want of OpenGL.
 inline bool can_draw(Backend backend) { return backend != Backend::gl || has_opengl(); }

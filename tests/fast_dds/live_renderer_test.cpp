@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `penumbra live` says of its renderer, and what stays of a run whose graphics device fails.
+#include "../apps/program.hpp"
+#include "../apps/tiny_bag.hpp"
+#include "../apps/tiny_recording.hpp"
+#include "../support/opengl.hpp"
+#include "../support/run_length.hpp"
+#include "lone_domain.hpp"
+
+#include <cstdlib>
+#include <future>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class LiveRenderers : public testing::Test {
+ protected:
+  LiveRenderers() {
+    write_tiny_recording(folder_.path());
+    tiny_bag(folder_.path()).write_mcap(folder_.path() / "bag.mcap");
+  }
+
+  /// `penumbra live` while a bag is played; it ends by itself.
+  [[nodiscard]] Outcome live(std::vector<std::string> options,
+                             const std::vector<std::string>& environment) const {
+    const std::string id = std::to_string(domain_.id());
+    const std::string play = "timeout --preserve-status -s INT 8 '" PENUMBRA_PROGRAM
+                             "' play --loop --restamp --domain " +
+                             id + " '" + (folder_.path() / "bag.mcap").string() + "' >/dev/null";
+    const auto player = std::async(std::launch::async, [&] { return std::system(play.c_str()); });
+    options.insert(
+        options.begin(),
+        {"live", "--domain", id, "--depth-topic", "/camera/depth/image_rect_raw", "--robot",
+         folder_.path() / "tiny.urdf", "--duration", "7", "--summary", summary()});
+    return penumbra(options, environment);
+  }
+  [[nodiscard]] std::string summary() const { return folder_.path() / "live.json"; }
+  [[nodiscard]] Json told() const { return Json::parse(read_file(summary())); }
+
+  static std::size_t count(const std::string& text, const std::string& words) {
+    std::size_t number = 0;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+      ++number;
+    return number;
+  }
+
+  TemporaryFolder folder_;
+  LoneDomain domain_;
+};
+
+TEST_F(LiveRenderers, WhatAutoTookAndWhyIsToldOnce) {
+  if (sanitized) GTEST_SKIP() << "the program is slow under sanitizers";
+  const Outcome outcome = live({"--renderer", "auto"}, no_egl_driver);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json camera = told()["cameras"][0];
+  EXPECT_GT(camera["judged"], 1);
+  EXPECT_EQ(camera["renderer"]["backend"], "cpu");
+  EXPECT_EQ(camera["renderer"]["requested"], "auto");
+  const std::string reason = camera["renderer"]["reason"];
+  EXPECT_EQ(count(outcome.err, "penumbra: --renderer auto takes cpu: " + reason + "\n"), 1U)
+      << outcome.err;
+  ASSERT_FALSE(camera["notes"].empty());
+  for (const std::string note : camera["notes"])
+    EXPECT_EQ(count(outcome.err, "penumbra: note: " + note + "\n"), 1U) << outcome.err;
+  EXPECT_TRUE(told()["fault"].is_null());
+}
+
+#ifdef PENUMBRA_FAILING_DEVICE
+TEST_F(LiveRenderers, ADeviceThatFailsLeavesTheSummary) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // what fails wants to be the first library
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  write_file(summary(), "former");
+  const Outcome outcome =
+      live({"--renderer", "gl"},
+           {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=6"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "penumbra: OpenGL: the graphics device was reset"), 1U)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("left as it was"), std::string::npos) << outcome.err;
+  const Json json = told();
+  const std::string fault = json["fault"];
+  EXPECT_TRUE(fault.starts_with("OpenGL: the graphics device was reset")) << fault;
+  EXPECT_GT(json["cameras"][0]["judged"], 0);
+  EXPECT_EQ(json["cameras"][0]["renderer"]["backend"], "gl");
+  EXPECT_TRUE(json["cameras"][0]["renderer"]["device"].is_string());
+}
+#endif
+
+}  // namespace
+}  // namespace penumbra::test
