@@ -343,7 +343,7 @@ TEST_F(OutputBagTest, ADeviceIsWrittenToAsItIs) {
   fs::create_symlink("/dev/full", folder_.path() / "results.mcap");
   const Outcome outcome = run("results.mcap");
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("/dev/full: cannot be written"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("results.mcap: cannot be written"), std::string::npos) << outcome.err;
   EXPECT_TRUE(fs::is_symlink(folder_.path() / "results.mcap"));
 }
 
