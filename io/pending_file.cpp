@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <optional>
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
@@ -13,22 +12,20 @@ namespace fs = std::filesystem;
 
 constexpr int most_links = 40;  // Linux follows no more either
 
-/// Whether a link is the kernel's, to what a process has open (/proc/self/fd/1): what it says is
-/// not always a path, and where it is one, others hold that file open.
-bool is_of_open_file(const fs::path& link) {
+/// Where a chain of links ends, whether or not anything is there.
+fs::path behind_links(fs::path file) {
   std::error_code error;
-  const fs::path folder = link.has_parent_path() ? link.parent_path() : ".";
-  return fs::canonical(folder, error).native().starts_with("/proc/");
+  for (int i = 0; i < most_links && fs::is_symlink(file, error); ++i)
+    file = file.parent_path() / fs::read_symlink(file, error);
+  return file;
 }
 
-/// Where a chain of links ends, whether or not anything is there; nothing if that is an open file.
-std::optional<fs::path> behind_links(fs::path file) {
+/// Whether `file` is there and no regular file that has the name `found`: a pipe, a device, or what
+/// was removed while it is open, behind a link of the kernel's (/proc/self/fd/1), which says none.
+bool is_without_name(const fs::path& file, const fs::path& found) {
   std::error_code error;
-  for (int i = 0; i < most_links && fs::is_symlink(file, error); ++i) {
-    if (is_of_open_file(file)) return std::nullopt;
-    file = file.parent_path() / fs::read_symlink(file, error);
-  }
-  return file;
+  if (!fs::exists(file, error)) return false;
+  return !fs::is_regular_file(file, error) || !fs::equivalent(file, found, error);
 }
 
 /// Whether `file` is a file or a link of its own, not a folder or a device.
@@ -53,12 +50,11 @@ std::string left_as_it_was(const fs::path& file) {
 }
 
 PendingFile::PendingFile(const fs::path& file) : file_(file), part_(file) {
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) return;
-  const auto found = behind_links(file);
-  if (!found) return;
-  file_ = part_ = *found;
+  const fs::path found = behind_links(file);
+  if (is_without_name(file, found)) return;
+  file_ = part_ = found;
   part_ += ".penumbra.part";
+  std::error_code error;
   if (is_removable(part_)) fs::remove(part_, error);
 }
 

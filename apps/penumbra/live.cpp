@@ -310,6 +310,16 @@ void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
+/// A summary that cannot be written does not hide what ended the run before its time.
+void write_summary(SummaryFile& file, Live& live, bool has_fault) {
+  try {
+    file.write(live.summary());
+  } catch (const InputError& error) {
+    if (!has_fault) throw;
+    tell_notes(std::vector<std::string>{error.what()});
+  }
+}
+
 /// `fault` gets what ended it before its time, when all is told that is known until then.
 int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   check_draws(arguments.judging.renderer);
@@ -338,8 +348,8 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   Live live(arguments, names, *graph, options);
   const bool stopped = live.run(*graph, diagnostics, stop);
   tell_notes(graph->take_complaints());
-  if (summary) summary->write(live.summary());
   fault = live.fault();
+  if (summary) write_summary(*summary, live, fault != nullptr);
   if (fault || stopped || live.judged() > 0) return 0;
   std::cerr << "penumbra: no image was judged\n";
   return 2;

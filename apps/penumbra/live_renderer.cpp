@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <penumbra/base/error.hpp>
 #include <penumbra/robot/primitives.hpp>
 
 #include <apps/penumbra/live_renderer.hpp>
@@ -11,10 +12,16 @@ void check_draws(const RendererArguments& renderer) {
   const TriangleMesh mesh = make_box({0.1, 0.1, 0.1});
   const Body box{"box", {&mesh, 1}};
   const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
-  if (renderer.backend)
-    static_cast<void>(make_depth_renderer(*renderer.backend, small, {&box, 1}, renderer.options));
-  else
-    static_cast<void>(choose_backend(small, {&box, 1}, renderer.options));
+  const Eigen::Isometry3d before(Eigen::Translation3d(0, 0, 1));
+  try {
+    if (renderer.backend)
+      static_cast<void>(make_depth_renderer(*renderer.backend, small, {&box, 1}, renderer.options)
+                            ->render({&before, 1}));
+    else
+      static_cast<void>(choose_backend(small, {&box, 1}, renderer.options));
+  } catch (const DeviceError& fault) {
+    throw InputError(fault.what());
+  }
 }
 
 std::vector<std::string> RendererNews::look(const io::LiveInbox& inbox) {

@@ -11,7 +11,7 @@
 namespace penumbra::app {
 
 /// Draws a small box by the renderer that is asked for: a device that is not there would be a fault
-/// of every image to come. Throws as make_depth_renderer() and choose_backend() do.
+/// of every image to come. Throws InputError where it cannot.
 void check_draws(const RendererArguments& renderer);
 
 /// What stderr gets to know of the cameras' renderers, each thing once.

@@ -56,22 +56,25 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-/// Whether more of what is unknown lies where the lens model does not reach than on the robot.
-bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent) {
+/// Whether more than half of the unknown pixels lie where the lens model does not reach.
+bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
+                  std::size_t unknown) {
   if (frame.images.virtual_depth.depth.empty()) return false;
-  std::ptrdiff_t uncovered = 0, robot = 0;
+  std::size_t uncovered = 0;
   for (const RowSpan& span : extent) {
     const std::uint8_t* const labels = frame.images.labels.labels.row(span.v);
     const float* const z = frame.images.virtual_depth.depth.row(span.v);
     for (int u = span.u0; u < span.u1; ++u)
-      if (labels[u] == static_cast<std::uint8_t>(Label::unknown))
-        (z[u] > 0.0f ? robot : uncovered) += 1;
+      if (labels[u] == static_cast<std::uint8_t>(Label::unknown) && !(z[u] > 0.0f)) ++uncovered;
   }
-  return uncovered > robot;
+  return 2 * uncovered > unknown;
 }
 
 std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds,
                                     bool is_uncovered) {
+  if (sight.lacks_robot_depth)
+    return "its expected depth is compared with the robot's, which stays on the device that makes "
+           "the labels";
   if (!sight.has_pose) return "the robot's pose is not known in this frame";
   if (sight.is_cut)
     return "seen at the image's border alone: how much of it the robot beside it hides is not "
@@ -140,6 +143,8 @@ void TargetJudge::begin(const JudgedImages& images) {
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
+  if (images.are_labels_alone && state_->frame.is_outside_undrawn)
+    region_fault("labels alone do not tell what the camera did not see from robot");
   state_->frame = LabelledFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
   ++state_->number;
@@ -163,10 +168,6 @@ TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
 Judgement TargetJudge::State::judge(const TargetView& target) {
   check_target(target);
   const ExpectedDepth expected = expected_of(target);
-  if (expected.known() && frame.images.are_labels_alone)
-    region_fault(
-        "its expected depth is compared with the robot's, which stays on the device that makes the "
-        "labels");
   sights.fill(target.region);
   TargetMemory& memory = memory_of(target.name);
   if (memory.frame == number) region_fault("its name is used twice in a frame");
@@ -181,7 +182,7 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   judgement.front = sight.fraction(Seen::front);
   judgement.unknown = sight.fraction(Seen::unknown);
   judgement.clear = sight.fraction(Seen::clear);
-  if (frame.is_measured() && frame.has_pose()) {
+  if (frame.is_measured() && sight.has_pose) {
     judgement.measured = sight.share(sight.measured);
     if (expected.known()) judgement.hidden_by_other = sight.fraction(Seen::other);
     if (expected.known()) judgement.seen_past = sight.share(sight.past);
@@ -189,7 +190,8 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   judgement.blame = sight.links->write(sight.inside, blame);
   if (judgement.verdict == Verdict::unknown)
     judgement.reason =
-        reason_for_unknown(sight, target.thresholds, is_uncovered(frame, sights.seen().spans()));
+        reason_for_unknown(sight, target.thresholds,
+                           is_uncovered(frame, sights.seen().spans(), sight.pixels[Seen::unknown]));
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

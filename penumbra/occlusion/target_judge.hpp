@@ -25,8 +25,9 @@ struct JudgedImages {
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by others
   bool is_blind = false;  ///< the sensor saw nothing: what the robot does not hide is unknown
-  /// The pose is known, but virtual depth stayed where the labels were made. Then expected depths
-  /// are refused, no link is blamed, and points are of depths far enough from all robot.
+  /// The pose is known, but virtual depth stayed where the labels were made. Then targets with an
+  /// expected depth are unknown, no link is blamed, and points are of depths far enough from all
+  /// robot.
   bool are_labels_alone = false;
 };
 
@@ -120,7 +121,8 @@ struct Judgement {
 /// carries out of the image is missing too, unless the mask lies at that border and is no larger
 /// than what is left. A target that is first seen near the robot is unknown. So is one whose last
 /// good extent reaches the image's border, or that of what the camera saw, where the robot is as
-/// near as the target may be large: there is more of it than was seen.
+/// near as the target may be large: there is more of it than was seen. Raw pixels that a lens's
+/// pinhole image does not cover may be robot.
 ///
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
@@ -143,14 +145,14 @@ class TargetJudge {
   TargetJudge(TargetJudge&&) noexcept;
   TargetJudge& operator=(TargetJudge&&) noexcept;
 
-  /// Names the frame that is judged next. Throws InputError for images not of the camera's size.
+  /// Names the frame that is judged next. Throws InputError for images not of the camera's size,
+  /// and for labels alone where pixels are `unseen`.
   void begin(const JudgedImages& images);
 
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
   /// InputError, which says what is wrong and not of which target, for a region that is none (not
   /// finite, of zero area, a polygon that crosses itself, a mask of another size), for numbers out
-  /// of bounds, for an expected depth where labels came alone and for a name that was judged in
-  /// this frame already.
+  /// of bounds and for a name that was judged in this frame already.
   [[nodiscard]] Judgement judge(const TargetView& target);
 
   /// Forgets what was remembered of a target (a new object under an old name).

@@ -96,12 +96,14 @@ Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& ta
 }
 
 Sight Sights::look(const Look& at, const TargetMemory& memory) {
-  if (!at.frame.has_pose()) {
+  const bool lacks_depth = at.frame.images.are_labels_alone && at.expected.known();
+  if (!at.frame.has_pose() || lacks_depth) {
     seen_tally_.clear();
     Sight none{.covered = seen_.covered(),
                .inside = seen_.inside(),
                .links = &seen_tally_.links,
-               .has_pose = false};
+               .has_pose = false,
+               .lacks_robot_depth = lacks_depth};
     none.pixels[Seen::unknown] = seen_.inside();
     return none;
   }

@@ -84,25 +84,51 @@ TEST_F(PendingFileTest, DevicesAreWrittenToAsTheyAre) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-/// As /dev/stdout is, behind a link of the user's.
-TEST_F(PendingFileTest, OpenFilesAreWrittenToAsTheyAre) {
-  std::array<int, 2> pipe_ends{};
-  ASSERT_EQ(pipe(pipe_ends.data()), 0);
-  const int open_file = open(file_.c_str(), O_WRONLY);
-  const fs::path link = folder_.path() / "link.npy";
-  for (const int descriptor : {pipe_ends[1], open_file}) {
+/// As /dev/stdout is: behind a link of the kernel's, whose text need not be a path.
+class OpenFile : public PendingFileTest {
+ protected:
+  PendingFile pending(int descriptor) const {
+    const fs::path link = folder_.path() / "link.npy";
     fs::remove(link);
     fs::create_symlink("/proc/self/fd/" + std::to_string(descriptor), link);
-    PendingFile pending(link);
-    EXPECT_EQ(pending.part(), link);
-    write(pending);
-    pending.finish();
+    return PendingFile(link);
   }
-  std::array<char, 3> through_the_pipe{};
-  EXPECT_EQ(read(pipe_ends[0], through_the_pipe.data(), 3), 3);
-  EXPECT_EQ(std::string(through_the_pipe.data(), 3), "new");
+};
+
+TEST_F(OpenFile, ThatIsAPipeIsWrittenToAsItIs) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  PendingFile file = pending(ends[1]);
+  write(file);
+  file.finish();
+  std::array<char, 3> text{};
+  EXPECT_EQ(read(ends[0], text.data(), 3), 3);
+  EXPECT_EQ(std::string(text.data(), 3), "new");
+  for (const int end : ends) close(end);
+}
+
+/// What is written to the descriptor meanwhile, as to stdout, must not get into the file.
+TEST_F(OpenFile, ThatHasANameIsReplaced) {
+  const int descriptor = open(file_.c_str(), O_WRONLY);
+  PendingFile file = pending(descriptor);
+  write(file);
+  EXPECT_EQ(::write(descriptor, "a line", 6), 6);
+  file.finish();
   EXPECT_EQ(test::read_bytes(file_), "new");
-  for (const int descriptor : {pipe_ends[0], pipe_ends[1], open_file}) close(descriptor);
+  close(descriptor);
+}
+
+TEST_F(OpenFile, ThatWasRemovedIsWrittenToAsItIs) {
+  const int descriptor = open(file_.c_str(), O_RDWR);
+  fs::remove(file_);
+  PendingFile file = pending(descriptor);
+  write(file);
+  file.finish();
+  std::array<char, 3> text{};
+  EXPECT_EQ(pread(descriptor, text.data(), 3, 0), 3);
+  EXPECT_EQ(std::string(text.data(), 3), "new");
+  EXPECT_EQ(files(), 1U) << "the link";
+  close(descriptor);
 }
 
 TEST_F(PendingFileTest, SaysWhereThePlaceCannotBeTaken) {
