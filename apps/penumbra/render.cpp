@@ -170,25 +170,25 @@ int render(const RenderArguments& arguments) {
   append(of_pose, doubts.lines());
   tell_notes(of_pose);
 
-  io::RenderResult result{.triangles = pipeline.triangle_count(),
-                          .robot_pixels = first.pixels.robot.value_or(0),
-                          .uncovered_pixels = first.pixels.uncovered,
-                          .renderer = {},
-                          .variables = pipeline.robot().variables(),
-                          .positions = positions,
-                          .missing_links = pipeline.missing_links(),
-                          .notes = {},
-                          .statistics = {}};
+  const PixelCounts pixels = first.pixels;
   const Image<float> seen = copy(first.virtual_depth.depth);
+  Statistics repeats;
   for (int i = 0; i < arguments.repeat; ++i)
-    result.statistics.add(pipeline.process({.depth = seen.view(), .joints = positions}));
+    repeats.add(pipeline.process({.depth = seen.view(), .joints = positions}));
   images.finish();
   tell_notes(std::span(pipeline.renderer_choice().warnings).subspan(choice.warnings.size()));
   std::vector<std::string> notes = notes_of(pipeline);
   append(notes, of_pose);
-  result.notes = notes;
-  result.renderer = io::used_renderer(pipeline, arguments.renderer.backend);
 
+  const io::RenderResult result{.triangles = pipeline.triangle_count(),
+                                .robot_pixels = pixels.robot.value_or(0),
+                                .uncovered_pixels = pixels.uncovered,
+                                .renderer = io::used_renderer(pipeline, arguments.renderer.backend),
+                                .variables = pipeline.robot().variables(),
+                                .positions = positions,
+                                .missing_links = pipeline.missing_links(),
+                                .notes = notes,
+                                .statistics = repeats};
   if (arguments.json) {
     std::cout << io::render_json(result) << '\n';
   } else {

@@ -58,8 +58,8 @@ TEST_F(GlTargets, AreJudgedAsOnLabelsOfTheCpu) {
   int verdicts[5] = {}, points = 0, host_points = 0;
   for (int i = 0; i < 40; ++i) {
     frame(i);
-    std::vector<std::string> names;
-    for (int k = 0; k < 30; ++k) names.push_back("target " + std::to_string(k));
+    std::vector<std::string> names(30);
+    for (std::size_t k = 0; k < names.size(); ++k) names[k] = "target " + std::to_string(k);
     std::vector<Target> targets;
     for (int k = 0; k < 30; ++k) {
       Target target{.name = names[static_cast<std::size_t>(k)]};
