@@ -32,8 +32,7 @@ enum class FrameStatus {
   missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
                       ///< a link, no rigid transform
   stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
-  poses_disagree,     ///< joint states and TF differ, or joint states among themselves: the
-                      ///< robot's pose is unknown
+  poses_disagree,     ///< joint states and TF differ: the robot's pose is unknown
 };
 
 /// The status's name in report.json.

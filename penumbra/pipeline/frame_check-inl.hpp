@@ -38,10 +38,7 @@ class FrameCheck {
   std::string missing_links_;
 };
 
-/// Of a frame whose joints have that status.
-[[nodiscard]] FrameStatus status_of(JointStatus joints);
-
-/// What is wrong with joints, in one line.
+/// What is missing or stale, in one line.
 [[nodiscard]] std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps);
 
 /// Whether the frame's depth image can be compared.

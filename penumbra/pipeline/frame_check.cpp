@@ -40,19 +40,6 @@ bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
   return false;
 }
 
-std::string_view words_of(JointStatus gap) {
-  switch (gap) {
-    case JointStatus::stale:
-      return "has no position near the stamp";
-    case JointStatus::contradictory:
-      return "leaps as no joint moves: do two programs publish it?";
-    case JointStatus::ok:
-    case JointStatus::missing:
-      break;
-  }
-  return "was never seen";
-}
-
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 FrameStatus worse(FrameStatus a, FrameStatus b) {
   constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
@@ -122,7 +109,8 @@ FrameStatus FrameCheck::check_links(std::span<const Eigen::Isometry3d> T_root_li
 FrameStatus FrameCheck::check_joints(const JointInput& joints, std::string& message) const {
   if (joints.status != JointStatus::ok) {
     add_line(message, describe_gaps(robot_, joints.gaps));
-    return status_of(joints.status);
+    return joints.status == JointStatus::stale ? FrameStatus::stale_joints
+                                               : FrameStatus::missing_joints;
   }
   const auto variables = robot_.variables();
   if (joints.positions.size() != variables.size()) {
@@ -174,27 +162,13 @@ std::string FrameCheck::without_measurement() const {
   return text.str();
 }
 
-FrameStatus status_of(JointStatus joints) {
-  switch (joints) {
-    case JointStatus::ok:
-      return FrameStatus::ok;
-    case JointStatus::missing:
-      return FrameStatus::missing_joints;
-    case JointStatus::stale:
-      return FrameStatus::stale_joints;
-    case JointStatus::contradictory:
-      return FrameStatus::poses_disagree;
-  }
-  return FrameStatus::missing_joints;
-}
-
 std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps) {
   if (gaps.empty()) return "no joint positions";
   std::string text;
   for (const JointGap& gap : gaps) {
     text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
             "' ";
-    text += words_of(gap.why);
+    text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
     if (gap.last_seen) text += " (last seen at " + std::to_string(*gap.last_seen) + " ns)";
   }
   return text;

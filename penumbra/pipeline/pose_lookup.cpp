@@ -71,7 +71,8 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
   history.joints().at(stamp, answer.joints);
   answer.age = answer.joints.age;
   if (answer.joints.status == JointStatus::ok) return;
-  answer.status = status_of(answer.joints.status);
+  answer.status = answer.joints.status == JointStatus::stale ? FrameStatus::stale_joints
+                                                             : FrameStatus::missing_joints;
   answer.message = describe_gaps(robot_, answer.joints.gaps);
 }
 

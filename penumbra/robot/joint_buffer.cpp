@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kLargestValue = 1e9;    // as forward_kinematics has it
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
-constexpr double kTurnJitter = 0.03;     // rad: 3 rad/s, stamped 10 ms off
-constexpr double kLinearJitter = 0.01;   // m: 1 m/s, likewise
 
 double short_way(double from, double to) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -26,17 +24,12 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
     : max_gap_(span_nanoseconds(options.max_gap, "joint buffer: max_gap")),
       history_(span_nanoseconds(options.history, "joint buffer: history")),
       max_states_(options.max_states),
-      max_acceleration_(options.max_acceleration),
       tracks_(robot.variables().size()),
       kinds_(robot.variables().size(), Kind::linear) {
   if (max_states_ == 0) throw InputError("joint buffer: max_states is 0; expected at least 1");
-  if (!(max_acceleration_ >= 0.0))
-    throw InputError("joint buffer: max_acceleration is " + std::to_string(max_acceleration_) +
-                     "; expected 0 or more");
   for (std::size_t i = 0; i < tracks_.size(); ++i) index_.emplace(robot.variables()[i], i);
   for (const Joint& joint : robot.joints()) {
     if (!joint.variable || joint.mimics) continue;
-    if (joint.type == JointType::revolute) kinds_[*joint.variable] = Kind::revolute;
     if (joint.type == JointType::continuous) kinds_[*joint.variable] = Kind::turning;
     if (joint.type == JointType::planar) kinds_[*joint.variable + 2] = Kind::turning;
     if (joint.type != JointType::floating) continue;
@@ -87,21 +80,14 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   answer.gaps.clear();
   answer.age = 0;
   answer.positions.resize(tracks_.size());
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (kinds_[i] == Kind::quaternion) continue;
-    if (!interpolate(i, stamp, answer))
-      add_gap(i, stamp, JointStatus::stale, answer);
-    else if (contradict(i, stamp))
-      add_gap(i, stamp, JointStatus::contradictory, answer);
-  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (kinds_[i] != Kind::quaternion && !interpolate(i, stamp, answer)) add_gap(i, stamp, answer);
   for (const std::size_t first : quaternions_)
     if (!interpolate_quaternion(first, stamp, answer))
-      for (std::size_t i = first; i < first + 4; ++i) add_gap(i, stamp, JointStatus::stale, answer);
-  answer.status = JointStatus::ok;
-  for (const JointStatus status :
-       {JointStatus::contradictory, JointStatus::stale, JointStatus::missing})
-    for (const JointGap& gap : answer.gaps)
-      if (gap.why == status) answer.status = status;
+      for (std::size_t i = first; i < first + 4; ++i) add_gap(i, stamp, answer);
+  answer.status = answer.gaps.empty() ? JointStatus::ok : JointStatus::stale;
+  for (const JointGap& gap : answer.gaps)
+    if (gap.why == JointStatus::missing) answer.status = JointStatus::missing;
 }
 
 bool JointBuffer::near(std::int64_t before, std::int64_t after) const {
@@ -118,43 +104,11 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
   if (before.size() == all.size()) return false;
   const auto& b = all[before.size()];
   if (!near(a.stamp, b.stamp)) return false;
-  answer.positions[variable] +=
-      stamp_share(a.stamp, stamp, b.stamp) * way(variable, a.value, b.value);
+  const double way =
+      kinds_[variable] == Kind::turning ? short_way(a.value, b.value) : b.value - a.value;
+  answer.positions[variable] += stamp_share(a.stamp, stamp, b.stamp) * way;
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
-}
-
-double JointBuffer::way(std::size_t variable, double from, double to) const {
-  return kinds_[variable] == Kind::turning ? short_way(from, to) : to - from;
-}
-
-/// Whether a state lies too far from the straight way between its neighbours. A constant
-/// acceleration a bends the way by a h k / 2 at h and k seconds from them.
-bool JointBuffer::leaps(std::size_t variable, std::size_t state) const {
-  const auto all = tracks_[variable].states();
-  if (state == 0 || state + 1 >= all.size()) return false;
-  const auto &before = all[state - 1], &middle = all[state], &after = all[state + 1];
-  if (!near(before.stamp, middle.stamp) || !near(middle.stamp, after.stamp)) return false;
-  const double bend =
-      way(variable, before.value, middle.value) -
-      stamp_share(before.stamp, middle.stamp, after.stamp) *
-          (way(variable, before.value, middle.value) + way(variable, middle.value, after.value));
-  const double h = 1e-9 * static_cast<double>(middle.stamp - before.stamp);
-  const double k = 1e-9 * static_cast<double>(after.stamp - middle.stamp);
-  const double jitter = kinds_[variable] == Kind::linear ? kLinearJitter : kTurnJitter;
-  return std::abs(bend) > jitter + 0.5 * max_acceleration_ * h * k;
-}
-
-/// Whether any state that decides about the stamp leaps: the ones beside it or on it, or, if one of
-/// them is the newest, whose way on is not known, the one before.
-bool JointBuffer::contradict(std::size_t variable, std::int64_t stamp) const {
-  const auto all = tracks_[variable].states();
-  const std::size_t split = tracks_[variable].up_to(stamp).size();
-  const std::size_t first = split - 1, last = all[first].stamp == stamp ? first : split;
-  if (last + 1 == all.size() && last > 0 && leaps(variable, last - 1)) return true;
-  for (std::size_t i = first; i <= last; ++i)
-    if (leaps(variable, i)) return true;
-  return false;
 }
 
 std::optional<Eigen::Quaterniond> JointBuffer::quaternion(std::size_t first,
@@ -204,10 +158,9 @@ bool JointBuffer::interpolate_quaternion(std::size_t first, std::int64_t stamp,
   return true;
 }
 
-void JointBuffer::add_gap(std::size_t variable, std::int64_t stamp, JointStatus why,
-                          JointAnswer& answer) const {
+void JointBuffer::add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
   JointGap gap{variable, JointStatus::missing, std::nullopt};
-  if (!tracks_[variable].states().empty()) gap.why = why;
+  if (!tracks_[variable].states().empty()) gap.why = JointStatus::stale;
   if (const auto before = tracks_[variable].up_to(stamp); !before.empty())
     gap.last_seen = before.back().stamp;
   answer.gaps.push_back(gap);

@@ -21,25 +21,19 @@ struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
   std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
-  /// rad/s^2 or m/s^2: states that only a joint of more could reach contradict each other. Arms
-  /// have some 40. Infinite: none do.
-  double max_acceleration = 400.0;
 };
 
-enum class JointStatus { ok, missing, stale, contradictory };
+enum class JointStatus { ok, missing, stale };
 
 /// A variable that has no position at the stamp that was asked for.
 struct JointGap {
-  std::size_t variable = 0;  ///< index into Robot::variables()
-  /// missing: never seen; stale: no state near the stamp; contradictory: the states there cannot
-  /// be one joint's.
-  JointStatus why = JointStatus::missing;
-  std::optional<std::int64_t> last_seen;  ///< stamp of its latest state at or before, nanoseconds
+  std::size_t variable = 0;                ///< index into Robot::variables()
+  JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
+  std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
 };
 
 struct JointAnswer {
-  /// Missing before stale before contradictory, where several occur.
-  JointStatus status = JointStatus::missing;
+  JointStatus status = JointStatus::missing;  ///< missing before stale, where both occur
   std::vector<double> positions;  ///< order of Robot::variables(); valid only if status is ok
   std::int64_t age = 0;           ///< nanoseconds from the stamp to the farthest used state
   std::vector<JointGap> gaps;     ///< empty if status is ok
@@ -52,16 +46,9 @@ struct JointAnswer {
 /// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
 /// round. The quaternion of a floating joint is interpolated on the sphere, between stamps at which
 /// all four of its parts are known.
-///
-/// States that two programs publish of one joint (a driver, and joint_state_publisher beside it)
-/// leap between two poses, and anything between them would be wrong. Where a state lies farther
-/// from the straight way between its neighbours, no more than max_gap apart, than max_acceleration
-/// and the jitter of stamps explain (0.03 rad or 0.01 m), the answer is "contradictory". The
-/// rotation of floating joints is not looked at.
 class JointBuffer {
  public:
-  /// Throws InputError for spans that are negative, not finite or above 1e9 s, max_states 0, and a
-  /// max_acceleration that is negative or not a number.
+  /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
   explicit JointBuffer(const Robot& robot, JointBufferOptions options = {});
 
   /// Adds one joint state. Names that are no variable of the robot (mimicking joints, other
@@ -88,7 +75,7 @@ class JointBuffer {
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
-  enum class Kind { linear, revolute, turning, quaternion };
+  enum class Kind { linear, turning, quaternion };
 
   /// Two known stamps around another; equal where a state lies on it.
   struct Bracket {
@@ -96,9 +83,6 @@ class JointBuffer {
   };
 
   [[nodiscard]] bool near(std::int64_t before, std::int64_t after) const;
-  [[nodiscard]] double way(std::size_t variable, double from, double to) const;
-  [[nodiscard]] bool leaps(std::size_t variable, std::size_t state) const;
-  [[nodiscard]] bool contradict(std::size_t variable, std::int64_t stamp) const;
   [[nodiscard]] bool interpolate(std::size_t variable, std::int64_t stamp,
                                  JointAnswer& answer) const;
   [[nodiscard]] bool interpolate_quaternion(std::size_t first, std::int64_t stamp,
@@ -110,14 +94,12 @@ class JointBuffer {
   [[nodiscard]] std::optional<std::int64_t> last_quaternion(std::size_t first,
                                                             std::int64_t stamp) const;
   [[nodiscard]] std::size_t refuse_quaternions(std::int64_t stamp);
-  void add_gap(std::size_t variable, std::int64_t stamp, JointStatus why,
-               JointAnswer& answer) const;
+  void add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
   void prune();
 
   std::int64_t max_gap_;  // nanoseconds
   std::int64_t history_;  // nanoseconds
   std::size_t max_states_;
-  double max_acceleration_;                                // per second squared
   std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
   std::vector<StampedTrack<double>> tracks_;               // of each variable
   std::vector<Kind> kinds_;                                // of each variable

@@ -86,23 +86,6 @@ TEST_F(LiveInboxTest, WithoutJointStatesAllIsUnknown) {
   expect_nothing_trusted();
 }
 
-TEST_F(LiveInboxTest, JointStatesOfTwoProgramsAreTakenForNoPose) {
-  bench_.tell_all();
-  for (std::int64_t ago = 100; ago >= -20; ago -= 20) {
-    bench_.tell_joints(start - ago * milliseconds);
-    // As joint_state_publisher beside the driver: turned half over, always.
-    bench_.tell("/joint_states",
-                encoded(io::JointStateMessage{.header = {start - (ago - 7) * milliseconds, ""},
-                                              .names = {"spin"},
-                                              .positions = {spin_at(start) + 2.0}}));
-  }
-  bench_.tell_depth(start);
-  ASSERT_EQ(bench_.work(), 1U);
-  EXPECT_EQ(status(), "poses_disagree");
-  expect_nothing_trusted();
-  EXPECT_EQ(bench_.results.count(io::Result::virtual_depth), 0U);
-}
-
 TEST_F(LiveInboxTest, WithoutTheCamerasTransformAllIsUnknown) {
   bench_.tell_robot();
   bench_.tell_info(0);

@@ -61,16 +61,6 @@ TEST_F(PoseLookupTest, ByJoints) {
   EXPECT_FALSE(answer_.T_parent_camera);
 }
 
-/// A driver, and joint_state_publisher, which knows of zeros alone.
-TEST_F(PoseLookupTest, JointsThatTwoProgramsTell) {
-  for (int i = 0; i < 10; ++i) add_joint(10 * ms * i, 0.5);
-  EXPECT_EQ(at(65 * ms, {}).status, FrameStatus::ok);
-  add_joint(67 * ms, 0.0);
-  at(65 * ms, {});
-  expect(FrameStatus::poses_disagree, "'slide' leaps as no joint moves: do two programs publish");
-  EXPECT_EQ(at(35 * ms, {}).status, FrameStatus::ok);
-}
-
 TEST_F(PoseLookupTest, ByTransforms) {
   const PoseOptions options{.source = PoseSource::transforms};
   add_joint(10 * ms, 0.1);

@@ -200,10 +200,7 @@ class Fuzz {
 
   Random& random_;
   Robot robot_ = every_kind();
-  JointBuffer buffer_{robot_,
-                      {.max_gap = static_cast<double>(kMaxGap) * 1e-9,
-                       .history = 1.0,
-                       .max_acceleration = std::numeric_limits<double>::infinity()}};
+  JointBuffer buffer_{robot_, {.max_gap = static_cast<double>(kMaxGap) * 1e-9, .history = 1.0}};
   Oracle oracle_;
   std::size_t answered_ = 0;
 };

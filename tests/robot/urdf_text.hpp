@@ -42,13 +42,6 @@ inline Robot parse(const std::string& xml, const RobotOptions& options = {}) {
   return Robot::parse(xml, ".", options);
 }
 
-/// A slide "p" that carries joint "q".
-inline Robot arm(const std::string& second_type = "revolute", const std::string& body = "") {
-  return parse(robot_xml(link_xml("a") + link_xml("b") + link_xml("c") +
-                         joint_xml("p", "prismatic", "a", "b") +
-                         joint_xml("q", second_type, "b", "c", body)));
-}
-
 /// The message of the InputError that f throws; a failure of the test if it throws none.
 template <typename F>
 std::string message_of(F&& f) {
