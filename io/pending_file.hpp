@@ -16,7 +16,7 @@ void check_is_no_folder(const std::string& option, const std::filesystem::path& 
 /// A file that is written whole or not at all: under another name beside it, FILE.penumbra.part,
 /// which takes its place in finish(). Behind a link it is what the link leads to that is replaced.
 /// What is there and no regular file (/dev/stdout on a pipe), or has no name any more, is written
-/// to as it is.
+/// to as it is. What has a file open that is replaced (as its stdout) goes on with the old one.
 class PendingFile {
  public:
   /// Removes the part of an earlier program that was killed; creates nothing.

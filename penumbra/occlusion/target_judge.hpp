@@ -71,7 +71,7 @@ struct Judgement {
   /// By something that is not the robot; nothing where no expected depth or no image is there.
   std::optional<double> hidden_by_other;
   /// Share of pixels, clear or front ones, where the sensor measures anything; nothing where no
-  /// image is there, or no pose.
+  /// image is there, or no pose, or no robot's depth to compare an expected one with.
   std::optional<double> measured;
   /// Share of pixels, clear or front ones, where the sensor measures past the expected depth: the
   /// target is not seen there. Nothing as hidden_by_other.
