@@ -21,8 +21,9 @@ class DdsTopic {
  public:
   DdsTopic(std::shared_ptr<GraphSession> session, const std::string& topic, const std::string& type,
            std::shared_ptr<ArrivalCounts> counts)
-      : session_(std::move(session)), type_(make_cdr_type(dds_type(type), std::move(counts))) {
-    const std::string name = dds_topic(topic);
+      : session_(std::move(session)) {
+    const std::string name = dds_topic(topic);  // throws, so before there is a type
+    type_ = make_cdr_type(dds_type(type), std::move(counts));
     entity_ = dds_create_topic_sertype(session_->participant(), name.c_str(), &type_, nullptr,
                                        nullptr, nullptr);
     if (entity_ < 0) ddsi_sertype_unref(type_);
@@ -38,7 +39,7 @@ class DdsTopic {
 
  private:
   std::shared_ptr<GraphSession> session_;
-  ddsi_sertype* type_;  // owned by the entity, once there is one
+  ddsi_sertype* type_ = nullptr;  // owned by the entity, once there is one
   dds_entity_t entity_ = 0;
 };
 

@@ -33,13 +33,19 @@ Json array_of(const Json& root, const char* name) {
   return root.contains(name) ? root.at(name) : Json::array();
 }
 
+/// Of an array of the file.
+std::size_t index_in(const Json& value) {
+  if (!value.is_number_unsigned()) damaged("glTF: " + value.dump().substr(0, 60) + " is no index");
+  return value.get<std::size_t>();
+}
+
 /// Nodes must be trees: Assimp would follow a cycle until the stack ends.
 void check_nodes(const Json& root) {
   std::set<std::uint64_t> reached;
   const auto reach = [&](const Json& owner, const char* key) {
     if (!owner.contains(key)) return;
     for (const Json& node : owner.at(key))
-      if (!reached.insert(node.get<std::uint64_t>()).second)
+      if (!reached.insert(index_in(node)).second)
         damaged("glTF: node " + node.dump() + " has two parents");
   };
   for (const Json& node : array_of(root, "nodes")) reach(node, "children");
@@ -47,7 +53,7 @@ void check_nodes(const Json& root) {
   std::set<std::uint64_t> roots;
   for (const Json& scene : array_of(root, "scenes"))
     if (scene.contains("nodes"))
-      for (const Json& node : scene.at("nodes")) roots.insert(node.get<std::uint64_t>());
+      for (const Json& node : scene.at("nodes")) roots.insert(index_in(node));
   for (const std::uint64_t node : roots)
     if (reached.count(node) == 1)
       damaged("glTF: node " + std::to_string(node) + " is a scene's root and has a parent");
@@ -136,12 +142,12 @@ void check_accessor(const Json& root, const Json& accessor) {
     throw FormatError("glTF: it has a sparse accessor, which is not read; export it without");
   const std::size_t element = size_of_element(accessor);
   if (!accessor.contains("bufferView")) return;  // zeros
-  const Json& view = root.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+  const Json& view = root.at("bufferViews").at(index_in(accessor.at("bufferView")));
   const std::uint64_t stride = size_in(view, "byteStride", element);
   const std::uint64_t count = size_in(accessor, "count", 0);
   const std::uint64_t needed = size_in(accessor, "byteOffset", 0) + stride * count;
   const std::uint64_t length = size_in(view, "byteLength", 0);
-  const Json& buffer = root.at("buffers").at(view.at("buffer").get<std::size_t>());
+  const Json& buffer = root.at("buffers").at(index_in(view.at("buffer")));
   if (stride < element) damaged("glTF: an element reaches into the next: " + view.dump());
   if (count > 0 && needed - stride + element > length)
     damaged("glTF: an accessor reaches beyond its bufferView of " + std::to_string(length) +
@@ -166,10 +172,10 @@ void check_positions(const Json& accessor) {
 std::size_t triangles_of(const Json& root, const Json& primitive) {
   const Json& accessors = root.at("accessors");
   const Json& positions = primitive.at("attributes").at("POSITION");
-  check_positions(accessors.at(positions.get<std::size_t>()));
+  check_positions(accessors.at(index_in(positions)));
   const Json& corners = primitive.contains("indices") ? primitive.at("indices") : positions;
-  const auto count = accessors.at(corners.get<std::size_t>()).at("count").get<std::size_t>();
-  switch (primitive.value("mode", 4)) {
+  const auto count = size_in(accessors.at(index_in(corners)), "count", 0);
+  switch (size_in(primitive, "mode", 4)) {
     case 4:
       return count / 3;
     case 5:

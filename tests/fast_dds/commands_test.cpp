@@ -183,7 +183,7 @@ TEST_F(Commands, PlayTellsWhatItLeavesOut) {
   bag_.add("no_slash", first_log, io::StringMessage{"x"});
   bag_.write_mcap(file());
   const Outcome outcome = play({"--delay", "0"});
-  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("no_slash is not played"), std::string::npos) << outcome.err;
   EXPECT_EQ(play({"--topics", "no_slash"}).status, 2);
 }

@@ -50,7 +50,8 @@ TEST(Restamp, FindsHeadersInSequences) {
   io::TfMessage tf;
   for (int i = 0; i < 3; ++i) {
     io::TransformMessage& transform = tf.transforms.emplace_back();
-    transform.header = {1'000'000'007 * (i + 1), std::string(static_cast<std::size_t>(i), 'p')};
+    transform.header = {std::int64_t{1'000'000'007} * (i + 1),
+                        std::string(static_cast<std::size_t>(i), 'p')};
     transform.child_frame_id = std::string(static_cast<std::size_t>(2 * i + 1), 'c');
   }
   expect_as_encoded(tf, [](io::TfMessage& message) {

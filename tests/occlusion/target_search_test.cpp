@@ -229,7 +229,7 @@ void TargetSearch::run(World world) {
 }
 
 TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
-  const int sequences = test::is_full_run() ? 5000 : test::samples(100);
+  const int sequences = test::measures_in_full() ? 5000 : test::samples(100);
   for (int i = 0; i < sequences; ++i) {
     SCOPED_TRACE("sequence " + std::to_string(i));
     run(world());

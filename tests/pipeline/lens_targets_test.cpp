@@ -161,7 +161,8 @@ TEST(TargetsOfAFisheye, BesideWhatCannotBeDrawnAreAsBesideTheRobot) {
   camera.intrinsics = Intrinsics(width, height, 40.0, 40.0, width / 2.0, height / 2.0);
   const double coefficients[] = {0, 0, 0, 0};
   camera.distortion = Distortion("equidistant", coefficients);
-  const auto drawn = Rectification(camera).raw_to_pinhole();
+  const Rectification rectification(camera);
+  const auto drawn = rectification.raw_to_pinhole();
   int end = width / 2;  // of the drawn pixels in the middle row
   while (drawn(end, height / 2) != Rectification::no_pixel) ++end;
   ASSERT_LT(end, width - 5);
