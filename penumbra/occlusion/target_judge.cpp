@@ -188,10 +188,12 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
     if (expected.known()) judgement.seen_past = sight.share(sight.past);
   }
   judgement.blame = sight.links->write(sight.inside, blame);
-  if (judgement.verdict == Verdict::unknown)
-    judgement.reason =
-        reason_for_unknown(sight, target.thresholds,
-                           is_uncovered(frame, sights.seen().spans(), sight.pixels[Seen::unknown]));
+  if (judgement.verdict == Verdict::unknown) {
+    const bool has_lens = !camera.distortion.is_none();
+    judgement.reason = reason_for_unknown(
+        sight, target.thresholds,
+        has_lens && is_uncovered(frame, sights.seen().spans(), sight.pixels[Seen::unknown]));
+  }
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     sights.remember(target.motion, number, memory);
   add_point(target, expected, judgement);

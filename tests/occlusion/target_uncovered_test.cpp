@@ -3,6 +3,8 @@
 // but its depth is not at hand.
 #include "target_frame.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include <penumbra/base/error.hpp>
@@ -14,6 +16,12 @@ using test::box_target;
 using test::TargetFrame;
 
 constexpr int uncovered_from = 120;  // columns from there on
+
+Camera lens_camera() {
+  Camera camera = TargetFrame::camera();
+  camera.distortion = Distortion("plumb_bob", std::array{1e-3, 0.0, 0.0, 0.0});
+  return camera;
+}
 
 class UncoveredTargets : public testing::Test {
  protected:
@@ -39,7 +47,7 @@ class UncoveredTargets : public testing::Test {
 
   TargetFrame frame_;
   Image<std::uint8_t> labels_{TargetFrame::width, TargetFrame::height};
-  TargetJudge judge_{TargetFrame::camera(), frame_.rule, 3};
+  TargetJudge judge_{lens_camera(), frame_.rule, 3};
 };
 
 TEST_F(UncoveredTargets, FirstSeenBesideAreUnknown) {
