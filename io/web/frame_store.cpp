@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <utility>
+
+#include <io/ros/jpeg.hpp>
+#include <io/web/frame_store.hpp>
+#include <io/web/metres-inl.hpp>
+#include <io/web/scene.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr int jpeg_quality = 90;
+
+/// The image in the report's space.
+template <typename T>
+ImageView<const T> rectified(const Rectification* rectification, ImageView<const T> raw,
+                             Image<T>& image) {
+  if (rectification == nullptr || raw.empty()) return raw;
+  const Intrinsics& pinhole = rectification->pinhole();
+  if (image.empty()) image = Image<T>(pinhole.width(), pinhole.height());
+  remap(rectification->pinhole_to_raw(), raw, T{}, image.view());
+  return std::as_const(image).view();
+}
+
+}  // namespace
+
+/// One frame of the store.
+class FrameStore::StoredFrame final : public PacketFrame {
+ public:
+  StoredFrame(const FrameStore& store, std::string report, const Entry& entry)
+      : store_(store), report_(std::move(report)), entry_(entry) {}
+
+  [[nodiscard]] std::string report() const override { return report_; }
+  [[nodiscard]] std::string poses() const override { return store_.spool_.read(entry_.poses); }
+  [[nodiscard]] std::optional<PartBytes> part(Part part) const override {
+    const Kept& kept = entry_.parts[static_cast<std::size_t>(part)];
+    if (kept.type == nullptr) return std::nullopt;
+    return PartBytes{kept.type, kept.width, kept.height,
+                     shared_bytes(store_.spool_.read(kept.place))};
+  }
+
+ private:
+  const FrameStore& store_;
+  std::string report_;
+  Entry entry_;
+};
+
+FrameStore::FrameStore(const Rectification* rectification)
+    : rectification_(rectification), painter_(rectification) {}
+
+void FrameStore::begin(const ReportHead& head) {
+  missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
+  notes_.assign(head.notes.begin(), head.notes.end());
+  const std::lock_guard lock(mutex_);
+  text_ = report_start(head);
+}
+
+void FrameStore::add(const FrameReport& report, const FrameData& data,
+                     const ShownTargets& targets) {
+  Entry entry;
+  const std::string frame = report_frame(report);
+  const std::string poses =
+      poses_json(report.T_root_link, report.T_root_camera, report.links.size());
+  entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
+  add_images(report, data, targets, entry);
+
+  const std::lock_guard lock(mutex_);
+  text_ += entries_.empty() ? "\n" : ",\n";
+  entry.report_offset = text_.size();
+  entry.report_size = frame.size();
+  text_ += frame;
+  entries_.push_back(entry);
+  if (data.color_message.empty()) return;
+  if (without_color_++ == 0) first_without_color_ = data.color_message;
+}
+
+void FrameStore::add_images(const FrameReport& report, const FrameData& data,
+                            const ShownTargets& targets, Entry& entry) {
+  const auto at = [&](Part part) -> Kept& { return entry.parts[static_cast<std::size_t>(part)]; };
+  at(Part::labels) = keep(report.labels, "u8");
+  at(Part::links) = keep(report.virtual_depth.links, "u16");
+  at(Part::vdi) = keep(report.virtual_depth.depth, "f32");
+  at(Part::depth) = keep_depth(data.depth_view());
+  at(Part::color) = keep_color(data);
+  const auto overlay = painter_.draw(report, {data.depth_view(), data.color.view()}, targets);
+  encode_png(overlay, file_);
+  at(Part::overlay) = keep_file(file_, "image/png", overlay.width, overlay.height);
+}
+
+template <typename T>
+FrameStore::Kept FrameStore::keep(ImageView<const T> image, const char* type) {
+  if (image.empty()) return {};
+  const std::size_t row = sizeof(T) * static_cast<std::size_t>(image.width);
+  pixels_.resize(row * static_cast<std::size_t>(image.height));
+  for (int v = 0; v < image.height; ++v)
+    std::memcpy(pixels_.data() + row * static_cast<std::size_t>(v), image.row(v), row);
+  return {spool_.append(std::as_bytes(std::span(pixels_)), true), type, image.width, image.height};
+}
+
+FrameStore::Kept FrameStore::keep_depth(const DepthView& depth) {
+  const bool is_empty = std::visit([](const auto& image) { return image.empty(); }, depth);
+  if (is_empty) return {};
+  std::visit([&](const auto& image) { fill_metres(image, metres_); }, depth);
+  return keep(rectified(rectification_, std::as_const(metres_).view(), rectified_), "f32");
+}
+
+FrameStore::Kept FrameStore::keep_color(const FrameData& data) {
+  const auto image = rectified(rectification_, data.color.view(), color_);
+  if (image.empty()) return {};
+  encode_jpeg(image, jpeg_quality, file_);
+  return keep_file(file_, "image/jpeg", image.width, image.height);
+}
+
+FrameStore::Kept FrameStore::keep_file(std::span<const std::byte> file, const char* type, int width,
+                                       int height) {
+  return {spool_.append(file, false), type, width, height};
+}
+
+void FrameStore::finish(const Statistics& statistics, std::span<const std::string> notes) {
+  notes_.insert(notes_.end(), notes.begin(), notes.end());
+  const std::lock_guard lock(mutex_);
+  end_ = report_end(statistics, missing_links_, notes_);
+}
+
+std::size_t FrameStore::size() const {
+  const std::lock_guard lock(mutex_);
+  return entries_.size();
+}
+
+bool FrameStore::is_complete() const {
+  const std::lock_guard lock(mutex_);
+  return !end_.empty();
+}
+
+SharedBytes FrameStore::report() const {
+  const std::lock_guard lock(mutex_);
+  return shared_bytes(text_ + (end_.empty() ? unfinished_report_end() : end_));
+}
+
+std::unique_ptr<PacketFrame> FrameStore::frame(std::size_t i) const {
+  const std::lock_guard lock(mutex_);
+  if (i >= entries_.size()) return nullptr;
+  const Entry& entry = entries_[i];
+  return std::make_unique<StoredFrame>(*this, text_.substr(entry.report_offset, entry.report_size),
+                                       entry);
+}
+
+std::vector<std::string> FrameStore::missing() const {
+  std::vector<std::string> lines;
+  for (const std::string& link : missing_links_)
+    lines.push_back("link " + link + " is drawn without its geometry, which could not be read");
+  const std::lock_guard lock(mutex_);
+  if (without_color_ > 0)
+    lines.push_back("no colour in " + std::to_string(without_color_) +
+                    " frames, first: " + first_without_color_);
+  return lines;
+}
+
+}  // namespace penumbra::io

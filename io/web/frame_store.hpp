@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/statistics.hpp>
+
+#include <io/frame_reader.hpp>
+#include <io/overlay_painter.hpp>
+#include <io/report_json.hpp>
+#include <io/web/frame_archive.hpp>
+#include <io/web/spool_file.hpp>
+
+namespace penumbra::io {
+
+/// Keeps frames as they are judged: the report in memory, the images compressed in a temporary
+/// file, so that recordings may be longer than the memory, and bags be looked at in any order.
+class FrameStore final : public FrameArchive {
+ public:
+  /// `rectification` brings recorded images to the report's; null where they fit, else it must
+  /// outlive this. Throws InputError where no temporary file can be made.
+  explicit FrameStore(const Rectification* rectification);
+
+  // By one thread; add() throws InputError where the disk is full.
+  void begin(const ReportHead& head);
+  void add(const FrameReport& report, const FrameData& data, const ShownTargets& targets);
+  void finish(const Statistics& statistics, std::span<const std::string> notes);
+
+  // By any thread.
+  [[nodiscard]] std::size_t size() const override;
+  [[nodiscard]] bool is_complete() const override;
+  [[nodiscard]] SharedBytes report() const override;
+  [[nodiscard]] std::unique_ptr<PacketFrame> frame(std::size_t i) const override;
+  [[nodiscard]] std::vector<std::string> missing() const override;
+
+ private:
+  class StoredFrame;
+  /// An image's place, and what it is.
+  struct Kept {
+    SpoolPlace place;
+    const char* type = nullptr;  // null: there is none
+    int width = 0, height = 0;
+  };
+  struct Entry {
+    std::size_t report_offset = 0, report_size = 0;  // in text_
+    SpoolPlace poses;
+    std::array<Kept, part_count> parts;
+  };
+
+  template <typename T>
+  [[nodiscard]] Kept keep(ImageView<const T> image, const char* type);
+  [[nodiscard]] Kept keep_depth(const DepthView& depth);
+  [[nodiscard]] Kept keep_color(const FrameData& data);
+  [[nodiscard]] Kept keep_file(std::span<const std::byte> file, const char* type, int width,
+                               int height);
+  void add_images(const FrameReport& report, const FrameData& data, const ShownTargets& targets,
+                  Entry& entry);
+
+  const Rectification* rectification_;
+  OverlayPainter painter_;
+  SpoolFile spool_;
+  std::vector<std::string> missing_links_, notes_;
+
+  // Of the thread that adds.
+  Image<Rgb8> color_;
+  Image<float> metres_, rectified_;
+  std::vector<std::byte> file_;
+  std::string pixels_;
+
+  mutable std::mutex mutex_;
+  std::string text_;  // of the report so far
+  std::string end_;   // of the report; empty until it is known
+  std::vector<Entry> entries_;
+  std::size_t without_color_ = 0;
+  std::string first_without_color_;
+};
+
+}  // namespace penumbra::io

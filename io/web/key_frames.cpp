@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <io/base64.hpp>
+#include <io/ros/jpeg.hpp>
+#include <io/web/key_frames.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr int key_frame_quality = 80;  // of JPEG
+
+std::vector<std::string> state_of(const FrameReport& report) {
+  std::vector<std::string> state{std::string(to_string(report.status))};
+  for (const TargetReport& target : report.targets) {
+    state.emplace_back(target.name);
+    state.emplace_back(to_string(target.verdict));
+  }
+  return state;
+}
+
+std::vector<std::byte> jpeg_of(ImageView<const Rgb8> image) {
+  std::vector<std::byte> bytes;
+  encode_jpeg(image, key_frame_quality, bytes);
+  return bytes;
+}
+
+void append_frame(std::string& json, std::size_t frame, const std::vector<std::byte>& jpeg) {
+  json += (json.size() > 1 ? ",\n" : "") + std::string("{\"index\": ") + std::to_string(frame) +
+          ", \"image\": \"data:image/jpeg;base64," + base64(jpeg) + "\"}";
+}
+
+}  // namespace
+
+void KeyFrames::add(const FrameReport& report, ImageView<const Rgb8> overlay) {
+  if (last_.width() != overlay.width || last_.height() != overlay.height)
+    last_ = Image<Rgb8>(overlay.width, overlay.height);
+  for (int v = 0; v < overlay.height; ++v)
+    std::copy_n(overlay.row(v), overlay.width, last_.view().row(v));
+  const std::size_t frame = frames_++;
+  std::vector<std::string> state = state_of(report);
+  if (frame > 0 && state == state_) return;
+  state_ = std::move(state);
+  pictures_.push_back({frame, jpeg_of(overlay)});
+  if (pictures_.size() == most_frames) thin_out();  // the last frame needs a place
+}
+
+void KeyFrames::thin_out() {
+  std::size_t closest = 1;
+  const auto gap = [&](std::size_t i) { return pictures_[i].frame - pictures_[i - 1].frame; };
+  for (std::size_t i = 2; i < pictures_.size(); ++i)
+    if (gap(i) < gap(closest)) closest = i;
+  pictures_.erase(pictures_.begin() + static_cast<std::ptrdiff_t>(closest));
+}
+
+std::string KeyFrames::json() const {
+  std::string json = "[";
+  for (const Picture& picture : pictures_) append_frame(json, picture.frame, picture.jpeg);
+  const bool has_last = pictures_.empty() || pictures_.back().frame + 1 == frames_;
+  if (!has_last) append_frame(json, frames_ - 1, jpeg_of(std::as_const(last_).view()));
+  return json + "]";
+}
+
+}  // namespace penumbra::io

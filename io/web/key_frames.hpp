@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/pipeline/frame.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::io {
+
+/// The frames that a report shows: the first, the last, and those where a verdict or the frame's
+/// status changes. Of more than most_frames those that follow closest on another are left out.
+class KeyFrames {
+ public:
+  static constexpr std::size_t most_frames = 24;
+
+  /// `overlay`: the frame's augmented view.
+  void add(const FrameReport& report, ImageView<const Rgb8> overlay);
+
+  /// [{"index": i, "image": "data:image/jpeg;base64,..."}], i counted from 0.
+  [[nodiscard]] std::string json() const;
+
+ private:
+  struct Picture {
+    std::size_t frame;
+    std::vector<std::byte> jpeg;
+  };
+  void thin_out();
+
+  std::vector<Picture> pictures_;
+  std::vector<std::string> state_;  // of the last frame: its status, its targets and verdicts
+  Image<Rgb8> last_;
+  std::size_t frames_ = 0;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/robot/robot.hpp>
+
+#include <io/web/web_types.hpp>
+
+namespace penumbra::io {
+
+/// What is drawn of a robot: the very triangles of its renderer.
+struct Scene {
+  std::uint64_t version = 1;
+  SharedBytes json;      ///< {"version", "root", "links": [{"name", "meshes": [...]}]}
+  SharedBytes geometry;  ///< float32 x y z in the link's frame, metres, and uint32 indices
+};
+
+[[nodiscard]] Scene make_scene(const Robot& robot, std::uint64_t version = 1);
+
+/// Of links whose geometry is not known.
+[[nodiscard]] Scene make_scene(std::span<const std::string> links);
+
+/// "link_poses": [[x, y, z, qx, qy, qz, qw]...], "camera_pose": [...], all in the root link's
+/// frame; null where the robot's pose is not known.
+[[nodiscard]] std::string poses_json(std::span<const Eigen::Isometry3d> T_root_link,
+                                     const std::optional<Eigen::Isometry3d>& T_root_camera,
+                                     std::size_t links);
+
+}  // namespace penumbra::io

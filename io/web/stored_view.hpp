@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/web/frame_archive.hpp>
+#include <io/web/scene.hpp>
+
+namespace penumbra::io {
+
+/// What a page is told of what it shows.
+struct SessionInfo {
+  std::string mode = "stored";  ///< or live
+  std::string input;
+  std::vector<std::string> links;
+  std::optional<Camera> camera = {};  ///< of the parts' images
+  ImageSpace image = ImageSpace::raw;
+  std::vector<Part> parts = {};  ///< that can be had
+};
+
+/// GET /api/session.
+[[nodiscard]] std::string session_json(const SessionInfo& info, std::size_t frames,
+                                       std::optional<std::size_t> expected, bool is_complete,
+                                       std::uint64_t scene_version,
+                                       const std::vector<std::string>& missing);
+
+/// The page's files; nothing where it has none of this path.
+[[nodiscard]] std::optional<WebAnswer> page_answer(const std::string& path);
+
+/// Serves the page and frames of an archive.
+class StoredView final : public WebHandler {
+ public:
+  /// `archive` must outlive this. `expected`: how many frames there will be, where it is known.
+  StoredView(SessionInfo info, Scene scene, const FrameArchive& archive,
+             std::optional<std::size_t> expected);
+
+  [[nodiscard]] WebAnswer answer(const WebRequest& request) override;
+  [[nodiscard]] std::unique_ptr<WebChannel> open_channel(const std::string& path) override;
+
+ private:
+  [[nodiscard]] WebAnswer packet(const WebRequest& request) const;
+
+  SessionInfo info_;
+  Scene scene_;
+  const FrameArchive& archive_;
+  std::optional<std::size_t> expected_;
+  std::optional<CloudMaker> cloud_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <io/web/web_types.hpp>
+
+namespace penumbra::io {
+
+/// Path and query of a request's target ("/api/x?with=a%2Cb"); nothing for what is none: no '/' at
+/// its start, '%' without two digits, control characters, also encoded ones.
+[[nodiscard]] std::optional<WebRequest> parse_target(std::string_view target);
+
+}  // namespace penumbra::io

@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one file that knows Boost.Beast and Asio.
+#include <array>
+#include <atomic>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <unistd.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/web/web_guard.hpp>
+#include <io/web/web_request.hpp>
+#include <io/web/web_server.hpp>
+
+namespace penumbra::io {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+
+constexpr std::uint32_t most_header_bytes = 8 * 1024;
+constexpr std::size_t most_message_bytes = 4 * 1024;  // of a WebSocket client
+constexpr int send_buffer_bytes = 512 * 1024;         // of the kernel, for each connection
+constexpr std::size_t most_refused = 64;  // connections over the limit that still get their 503
+constexpr auto refusal_time = std::chrono::seconds(2);
+constexpr auto accept_pause = std::chrono::milliseconds(100);
+
+// Scripts, styles and images come from here alone; nothing frames the page or is sent elsewhere.
+constexpr const char* content_policy =
+    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
+    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+using Request = http::request<http::empty_body>;
+using Head = http::response_header<http::fields>;
+
+std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+beast::string_view beast_view(std::string_view text) { return {text.data(), text.size()}; }
+
+std::size_t size_of(const std::vector<SharedBytes>& body) {
+  std::size_t bytes = 0;
+  for (const SharedBytes& part : body) bytes += part->size();
+  return bytes;
+}
+
+WebSender sender_of(const Request& request) {
+  WebSender sender;
+  if (const auto at = request.find(http::field::host); at != request.end())
+    sender.host = view_of(at->value());
+  if (const auto at = request.find(http::field::origin); at != request.end())
+    sender.origin = view_of(at->value());
+  sender.cookies = view_of(request[http::field::cookie]);
+  return sender;
+}
+
+std::string machine_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
+  return name.data();
+}
+
+/// The answers that wait for their clients. When they are too many, the oldest is given up: who is
+/// that slow must not cost the others their memory.
+class WaitingAnswers {
+ public:
+  explicit WaitingAnswers(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  struct Answer {
+    std::size_t bytes;
+    std::function<void()> give_up;  // may be called by any thread
+  };
+  using Place = std::list<Answer>::iterator;
+
+  Place add(Answer answer) {
+    const std::lock_guard lock(mutex_);
+    bytes_ += answer.bytes;
+    for (auto old = answers_.begin(); bytes_ > most_bytes_ && old != answers_.end(); ++old) {
+      if (old->bytes == 0) continue;
+      bytes_ -= std::exchange(old->bytes, 0);
+      old->give_up();
+    }
+    return answers_.insert(answers_.end(), std::move(answer));
+  }
+
+  void remove(Place place) {
+    const std::lock_guard lock(mutex_);
+    bytes_ -= place->bytes;
+    answers_.erase(place);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::list<Answer> answers_;  // oldest first
+  std::size_t bytes_ = 0;
+  std::size_t most_bytes_;
+};
+
+class Channel;
+
+/// What the connections share.
+struct Shared {
+  Shared(const WebOptions& options_, WebHandler& handler_, WebGuard guard_)
+      : options(options_),
+        handler(handler_),
+        guard(std::move(guard_)),
+        waiting(options.max_waiting_bytes) {}
+
+  WebOptions options;
+  WebHandler& handler;
+  WebGuard guard;
+  WaitingAnswers waiting;
+  std::atomic<std::size_t> connections{0};
+  std::mutex channels_mutex;
+  std::list<std::weak_ptr<Channel>> channels;
+};
+
+/// Counts a connection as long as it lives.
+class Counted {
+ public:
+  explicit Counted(std::atomic<std::size_t>& count) : count_(&count), before_(count++) {}
+  Counted(Counted&& other) noexcept
+      : count_(std::exchange(other.count_, nullptr)), before_(other.before_) {}
+  Counted& operator=(Counted&&) = delete;
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  ~Counted() {
+    if (count_ != nullptr) --*count_;
+  }
+  [[nodiscard]] std::size_t before() const { return before_; }
+
+ private:
+  std::atomic<std::size_t>* count_;
+  std::size_t before_;
+};
+
+/// A WebSocket client. One message is on its way at a time; what to send next is asked for when it
+/// has gone, so that a slow client holds one message and misses those in between.
+class Channel : public std::enable_shared_from_this<Channel> {
+ public:
+  Channel(beast::tcp_stream stream, Shared& shared, Counted counted,
+          std::unique_ptr<WebChannel> channel)
+      : counted_(std::move(counted)),
+        shared_(shared),
+        stream_(std::move(stream)),
+        channel_(std::move(channel)) {}
+
+  void run(const Request& request) {
+    beast::get_lowest_layer(stream_).expires_never();
+    auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    times.idle_timeout = std::chrono::seconds(30);
+    times.keep_alive_pings = true;
+    stream_.set_option(times);
+    stream_.read_message_max(most_message_bytes);
+    stream_.auto_fragment(false);  // into 4 KB
+    stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+      if (error) return;
+      {
+        const std::lock_guard lock(self->shared_.channels_mutex);
+        self->shared_.channels.remove_if([](const auto& other) { return other.expired(); });
+        self->shared_.channels.push_back(self);
+      }
+      self->read();
+      self->send();
+    });
+  }
+
+  void wake() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] { self->send(); });
+  }
+
+ private:
+  void read() {
+    stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (!error) self->take();
+    });
+  }
+
+  void take() {
+    const std::string text = beast::buffers_to_string(buffer_.data());
+    buffer_.consume(buffer_.size());
+    if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
+    if (!channel_->take(text)) return close(websocket::close_code::policy_error);
+    read();
+    send();
+  }
+
+  void close(websocket::close_code code) {
+    closing_ = true;
+    if (sending_) return beast::get_lowest_layer(stream_).close();
+    stream_.async_close(code, [self = shared_from_this()](beast::error_code) {});
+  }
+
+  void send() {
+    if (sending_ || closing_ || !stream_.is_open()) return;
+    auto message = channel_->next();
+    if (!message) return;
+    message_ = std::move(*message);
+    sending_ = true;
+    std::vector<asio::const_buffer> buffers;
+    for (const SharedBytes& part : message_) buffers.emplace_back(part->data(), part->size());
+    stream_.binary(true);
+    stream_.async_write(buffers, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      self->sending_ = false;
+      self->message_.clear();
+      if (!error) self->send();
+    });
+  }
+
+  Counted counted_;
+  Shared& shared_;
+  websocket::stream<beast::tcp_stream> stream_;
+  std::unique_ptr<WebChannel> channel_;
+  beast::flat_buffer buffer_;
+  std::vector<SharedBytes> message_;  // on its way
+  bool sending_ = false, closing_ = false;
+};
+
+/// An HTTP client: reads a request, answers it, reads the next.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(tcp::socket socket, Shared& shared, Counted counted)
+      : counted_(std::move(counted)),
+        shared_(shared),
+        is_over_limit_(counted_.before() >= shared.options.max_connections),
+        stream_(std::move(socket)),
+        buffer_(most_header_bytes + 1024) {
+    beast::error_code ignored;
+    stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
+    stream_.socket().set_option(tcp::no_delay(true), ignored);
+  }
+
+  void run() {
+    asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
+  }
+
+ private:
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(most_header_bytes);
+    if (is_over_limit_)
+      stream_.expires_after(refusal_time);
+    else
+      stream_.expires_after(shared_.options.request_time);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](beast::error_code error, std::size_t) {
+                       if (error) return self->refuse_malformed(error);
+                       self->handle();
+                     });
+  }
+
+  void refuse_malformed(beast::error_code error) {
+    if (error == http::error::end_of_stream || error == beast::error::timeout ||
+        error.category() != http::make_error_code(http::error::bad_method).category())
+      return close();
+    keep_alive_ = false;
+    version_ = 11;
+    if (error == http::error::header_limit || error == http::error::buffer_overflow)
+      return answer(web_error(431, "the request's header is larger than 8 KiB"));
+    if (error == http::error::unexpected_body || error == http::error::body_limit)
+      return answer(web_error(413, "requests have no body here"));
+    answer(web_error(400, "the request is no HTTP"));
+  }
+
+  void handle() {
+    const Request request = parser_->release();
+    keep_alive_ = request.keep_alive() && !is_over_limit_;
+    is_head_ = request.method() == http::verb::head;
+    version_ = request.version();
+    if (is_over_limit_)
+      return answer(web_error(503, "too many connections; try again in a moment"));
+    const WebSender sender = sender_of(request);
+    if (const auto refusal = shared_.guard.refuse(sender)) return answer(*refusal);
+    if (request.method() != http::verb::get && !is_head_)
+      return answer(web_error(405, "only GET and HEAD are served"));
+    const auto target = parse_target(view_of(request.target()));
+    if (!target) return answer(web_error(400, "the request's path is none"));
+    if (shared_.guard.brings_token(*target)) return admit(*target);
+    if (!shared_.guard.knows_token(sender))
+      return answer(web_error(401, "the token is missing; open the address that was printed"));
+    if (websocket::is_upgrade(request)) return upgrade(request, *target);
+    answer(made_answer(*target));
+  }
+
+  /// The token goes into a cookie and out of the address, where histories would keep it.
+  void admit(const WebRequest& request) {
+    extra_.emplace_back(http::field::location, request.path.starts_with("//") ? "/" : request.path);
+    extra_.emplace_back(http::field::set_cookie, shared_.guard.cookie());
+    answer({.status = 303, .type = "text/plain", .body = {}});
+  }
+
+  WebAnswer made_answer(const WebRequest& request) {
+    try {
+      return shared_.handler.answer(request);
+    } catch (const InputError& error) {
+      return web_error(404, error.what());
+    } catch (const std::exception& error) {
+      return web_error(500, error.what());
+    }
+  }
+
+  void upgrade(const Request& request, const WebRequest& target) {
+    auto channel = shared_.handler.open_channel(target.path);
+    if (!channel) return answer(web_error(404, "there is no WebSocket at " + target.path));
+    std::make_shared<Channel>(std::move(stream_), shared_, std::move(counted_), std::move(channel))
+        ->run(request);
+  }
+
+  Head head_of(const WebAnswer& answer) {
+    Head head;
+    head.version(version_);
+    head.result(static_cast<unsigned>(answer.status));
+    head.set(http::field::content_type, beast_view(answer.type));
+    head.set(http::field::content_length, std::to_string(size_of(answer.body)));
+    head.set(http::field::connection, keep_alive_ ? "keep-alive" : "close");
+    head.set(http::field::cache_control,
+             answer.keeps ? "private, max-age=31536000, immutable" : "no-store");
+    head.set("Content-Security-Policy", content_policy);
+    head.set("X-Content-Type-Options", "nosniff");
+    head.set("Cross-Origin-Resource-Policy", "same-origin");
+    head.set("Referrer-Policy", "no-referrer");
+    if (answer.status == 503) head.set(http::field::retry_after, "1");
+    if (answer.status == 405) head.set(http::field::allow, "GET, HEAD");
+    for (const auto& [field, value] : std::exchange(extra_, {})) head.set(field, value);
+    return head;
+  }
+
+  void answer(const WebAnswer& answer) {
+    std::ostringstream head;
+    head << head_of(answer);
+    body_ = {shared_bytes(head.str())};
+    if (!is_head_) body_.insert(body_.end(), answer.body.begin(), answer.body.end());
+    std::vector<asio::const_buffer> buffers;
+    for (const SharedBytes& part : body_) buffers.emplace_back(part->data(), part->size());
+    const auto place = shared_.waiting.add({size_of(body_), [weak = weak_from_this()] {
+                                              if (const auto self = weak.lock())
+                                                asio::post(self->stream_.get_executor(),
+                                                           [self] { self->stream_.close(); });
+                                            }});
+    stream_.expires_after(shared_.options.answer_time);
+    asio::async_write(stream_, buffers,
+                      [self = shared_from_this(), place](beast::error_code error, std::size_t) {
+                        self->shared_.waiting.remove(place);
+                        self->body_.clear();
+                        if (error) return self->stream_.close();
+                        if (!self->keep_alive_) return self->close();
+                        self->read();
+                      });
+  }
+
+  void close() {
+    beast::error_code ignored;
+    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    drain();
+  }
+
+  /// Closing over bytes that were not read would take the answer back from the client.
+  void drain() {
+    stream_.expires_after(refusal_time);
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(most_header_bytes),
+                            [self = shared_from_this()](beast::error_code error, std::size_t got) {
+                              self->drained_ += got;
+                              constexpr std::size_t most = std::size_t{1} << 20U;
+                              if (!error && self->drained_ < most) self->drain();
+                            });
+  }
+
+  Counted counted_;
+  Shared& shared_;
+  bool is_over_limit_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::vector<SharedBytes> body_;  // on its way
+  std::vector<std::pair<http::field, std::string>> extra_;
+  std::size_t drained_ = 0;
+  unsigned version_ = 11;
+  bool keep_alive_ = true, is_head_ = false;
+};
+
+asio::ip::address address_of(const std::string& text) {
+  beast::error_code error;
+  auto address = asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
+  if (error)
+    throw InputError("--address " + text + ": is no IP address; 127.0.0.1 serves this machine, " +
+                     "0.0.0.0 all that reach it");
+  return address;
+}
+
+tcp::acceptor listener_of(asio::io_context& context, const WebOptions& options) {
+  const tcp::endpoint place(address_of(options.address), options.port);
+  tcp::acceptor acceptor(context);
+  beast::error_code error;
+  acceptor.open(place.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(place, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error)
+    throw InputError("--port " + std::to_string(options.port) + ": " + options.address +
+                     " cannot be listened on (" + error.message() +
+                     "); --port 0 takes any port that is free");
+  return acceptor;
+}
+
+WebGuard guard_of(const WebOptions& options, std::uint16_t port) {
+  const bool is_loopback = address_of(options.address).is_loopback();
+  return {{.address = options.address,
+           .port = port,
+           .is_loopback = is_loopback,
+           .machine = machine_name()},
+          is_loopback ? "" : random_token()};
+}
+
+}  // namespace
+
+struct WebServer::State {
+  State(const WebOptions& options, WebHandler& handler)
+      : context(options.threads), acceptor(listener_of(context, options)), pause(context) {
+    shared = std::make_unique<Shared>(options, handler,
+                                      guard_of(options, acceptor.local_endpoint().port()));
+  }
+
+  void accept() {
+    acceptor.async_accept(
+        asio::make_strand(context), [this](beast::error_code error, tcp::socket socket) {
+          if (error) return wait_to_accept();
+          Counted counted(shared->connections);
+          if (counted.before() < shared->options.max_connections + most_refused)
+            std::make_shared<Connection>(std::move(socket), *shared, std::move(counted))->run();
+          accept();
+        });
+  }
+
+  /// Where the system has no descriptors left, for one.
+  void wait_to_accept() {
+    pause.expires_after(accept_pause);
+    pause.async_wait([this](beast::error_code error) {
+      if (!error) accept();
+    });
+  }
+
+  std::unique_ptr<Shared> shared;  // before the context: connections live as long as that
+  asio::io_context context;
+  tcp::acceptor acceptor;
+  asio::steady_timer pause;
+  std::vector<std::thread> threads;
+};
+
+WebServer::WebServer(const WebOptions& options, WebHandler& handler)
+    : state_(std::make_unique<State>(options, handler)) {
+  state_->accept();
+  for (int i = 0; i < options.threads; ++i)
+    state_->threads.emplace_back([this] { state_->context.run(); });
+}
+
+WebServer::~WebServer() {
+  state_->context.stop();
+  for (std::thread& thread : state_->threads) thread.join();
+}
+
+std::string WebServer::url() const { return state_->shared->guard.url(); }
+std::uint16_t WebServer::port() const { return state_->acceptor.local_endpoint().port(); }
+
+void WebServer::wake() {
+  std::vector<std::shared_ptr<Channel>> awake;
+  {
+    const std::lock_guard lock(state_->shared->channels_mutex);
+    for (const auto& weak : state_->shared->channels)
+      if (auto channel = weak.lock()) awake.push_back(std::move(channel));
+  }
+  for (const auto& channel : awake) channel->wake();
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penumbra run --report`, and what goes into its page.
+#include "../apps/program.hpp"
+#include "../apps/tiny_recording.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <penumbra/pipeline/frame.hpp>
+
+#include <io/base64.hpp>
+#include <io/web/key_frames.hpp>
+#include <io/web/report_page.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using nlohmann::json;
+
+/// The JSON in a page's script.
+json embedded(const std::string& page, const std::string& id) {
+  const std::string tag = "id=\"" + id + "\">";
+  const auto start = page.find(tag) + tag.size();
+  return json::parse(page.substr(start, page.find("</script", start) - start));
+}
+
+TEST(ReportPage, HoldsReportAndKeyFrames) {
+  const TemporaryFolder folder;
+  write_tiny_recording(folder.path());
+  const auto out = folder.path() / "out";
+  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out, "--report"}).status, 0);
+  const std::string page = read_file(out / "report.html");
+  EXPECT_EQ(embedded(page, "penumbra-report"), json::parse(read_file(out / "report.json")));
+  const json frames = embedded(page, "penumbra-frames");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0]["index"], 0);
+  EXPECT_EQ(frames[1]["index"], 2);
+  EXPECT_EQ(frames[0]["image"].get<std::string>().substr(0, 27), "data:image/jpeg;base64,/9j/");
+
+  // The next run takes it away, and does not take another's.
+  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(out / "report.html"));
+  write_file(out / "report.html", "<!doctype html><p>mine");
+  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+  const Outcome refused = penumbra({"run", folder.path(), "-o", out, "--report"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("report.html"), std::string::npos) << refused.err;
+}
+
+TEST(ReportPage, NamesCannotEndItsScripts) {
+  const json report{{"input", "</script><script>alert(1)</script><!-- "}};
+  const std::string page = io::report_page(report.dump(), "[]");
+  EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
+  EXPECT_EQ(embedded(page, "penumbra-report"), report);
+}
+
+/// A report whose verdict changes every `period` frames.
+json key_frames_of(std::size_t frames, std::size_t period) {
+  io::KeyFrames key_frames;
+  const Image<io::Rgb8> picture(16, 8);
+  for (std::size_t i = 0; i < frames; ++i) {
+    TargetReport target;
+    target.name = "cup";
+    target.verdict = i / period % 2 == 0 ? Verdict::visible : Verdict::hidden;
+    FrameReport report;
+    report.targets = {&target, 1};
+    key_frames.add(report, picture.view());
+  }
+  return json::parse(key_frames.json());
+}
+
+TEST(KeyFrames, AreFirstLastAndChanges) {
+  std::vector<std::size_t> indices;
+  for (const json& frame : key_frames_of(100, 30)) indices.push_back(frame["index"]);
+  EXPECT_EQ(indices, (std::vector<std::size_t>{0, 30, 60, 90, 99}));
+  EXPECT_EQ(key_frames_of(1, 1).size(), 1U);
+  EXPECT_EQ(key_frames_of(0, 1).size(), 0U);
+}
+
+TEST(KeyFrames, AreNeverMoreThan24AndKeepTheFirstAndTheLast) {
+  const json frames = key_frames_of(1000, 1);
+  EXPECT_EQ(frames.size(), io::KeyFrames::most_frames);
+  EXPECT_EQ(frames.front()["index"], 0);
+  EXPECT_EQ(frames.back()["index"], 999);
+}
+
+// RFC 4648, section 10.
+TEST(Base64, IsThatOfTheStandard) {
+  const auto encoded = [](const std::string& text) {
+    return io::base64(std::as_bytes(std::span(text)));
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `penumbra view` serves of the shipped example, against what `penumbra run` writes of it.
+#include "../apps/program.hpp"
+#include "viewer_process.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <io/npy.hpp>
+#include <io/png.hpp>
+#include <io/ros/jpeg.hpp>
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string example = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
+constexpr std::size_t example_frames = 12;
+
+json without_times(json report) {
+  for (auto& frame : report["frames"]) frame.erase("timing_ms");
+  report["summary"].erase("timing_ms");
+  return report;
+}
+
+template <typename T>
+std::string bytes_of(const Image<T>& image) {
+  return {reinterpret_cast<const char*>(image.data()), image.size() * sizeof(T)};
+}
+
+class ViewExampleTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    const Outcome run =
+        penumbra({"run", example, "-o", out(), "--save", "vdi,labels,links,overlay"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    viewer_ = std::make_unique<ViewerProcess>(std::vector<std::string>{example});
+    ASSERT_NE(viewer_->port(), 0);
+    session_ = viewer_->complete_session();
+  }
+  static void TearDownTestSuite() {
+    viewer_.reset();
+    folder_.reset();
+  }
+
+  static fs::path out() { return folder_->path() / "out"; }
+  static fs::path saved(const std::string& kind, std::size_t i, const std::string& ending) {
+    return out() / kind / ((i < 10 ? "00000" : "0000") + std::to_string(i) + ending);
+  }
+  static Packet packet(std::size_t i, const std::string& with) {
+    const HttpReply reply =
+        viewer_->client().get("/api/frames/" + std::to_string(i) + "/packet?with=" + with);
+    EXPECT_EQ(reply.headers.at("content-type"), "application/octet-stream");
+    return Packet(reply.body);
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::unique_ptr<ViewerProcess> viewer_;
+  static inline json session_;
+};
+
+TEST_F(ViewExampleTest, ReportIsThatOfRun) {
+  json written = without_times(json::parse(read_file(out() / "report.json")));
+  EXPECT_EQ(without_times(viewer_->get_json("/api/report")), written);
+  EXPECT_EQ(session_["frames"], example_frames);
+  EXPECT_EQ(session_["links"], written["links"]);
+  EXPECT_EQ(session_["missing"], json::array());
+}
+
+TEST_F(ViewExampleTest, ImagesAreThoseOfRunByteForByte) {
+  const json report = json::parse(read_file(out() / "report.json"));
+  for (std::size_t i = 0; i < example_frames; ++i) {
+    Packet served = packet(i, "labels,links,vdi,overlay");
+    served.json["frame"].erase("timing_ms");
+    json frame = report["frames"][i];
+    frame.erase("timing_ms");
+    EXPECT_EQ(served.json["frame"], frame);
+    Image<std::uint8_t> labels;
+    Image<std::uint16_t> links;
+    Image<float> depth;
+    ASSERT_TRUE(io::read_png(saved("labels", i, ".png"), labels).ok());
+    ASSERT_TRUE(io::read_png(saved("links", i, ".png"), links).ok());
+    ASSERT_TRUE(io::read_npy(saved("vdi", i, ".npy"), depth).ok());
+    EXPECT_EQ(served.parts["labels"], bytes_of(labels)) << i;
+    EXPECT_EQ(served.parts["links"], bytes_of(links)) << i;
+    EXPECT_EQ(served.parts["vdi"], bytes_of(depth)) << i;
+    EXPECT_EQ(served.parts["overlay"], read_file(saved("overlay", i, ".png"))) << i;
+  }
+}
+
+TEST_F(ViewExampleTest, DepthAndColorAreTheRecordings) {
+  // JPEG at quality 90: mean difference of a channel, of 255.
+  constexpr double color_tolerance = 4.0;
+  const Packet served = packet(5, "color,depth");
+  Image<std::uint16_t> millimetres;
+  ASSERT_TRUE(io::read_png(example + "/depth/5.png", millimetres).ok());
+  std::string metres;
+  for (std::size_t i = 0; i < millimetres.size(); ++i) {
+    const float z = 0.001F * static_cast<float>(millimetres.data()[i]);
+    metres.append(reinterpret_cast<const char*>(&z), sizeof z);
+  }
+  EXPECT_EQ(served.parts.at("depth"), metres);
+
+  Image<io::Rgb8> recorded, shown;
+  ASSERT_TRUE(io::read_png(example + "/color/5.png", recorded).ok());
+  const std::string& jpeg = served.parts.at("color");
+  ASSERT_FALSE(io::decode_jpeg(std::as_bytes(std::span(jpeg)), shown));
+  ASSERT_EQ(shown.size(), recorded.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    sum += std::abs(shown.data()[i].g - recorded.data()[i].g);
+  EXPECT_LT(sum / static_cast<double>(shown.size()), color_tolerance);
+}
+
+TEST_F(ViewExampleTest, CloudIsTheDepthUnprojected) {
+  constexpr float tolerance = 1e-5F;  // of float32 at a few metres
+  struct Point {
+    float x, y, z;
+    std::uint8_t label, r, g, b;
+  };
+  const Packet served = packet(5, "depth,labels,cloud&step=3");
+  const json& camera = session_["camera"];
+  const int width = camera["width"], height = camera["height"];
+  const float fx = camera["fx"], fy = camera["fy"], cx = camera["cx"], cy = camera["cy"];
+  const std::string& cloud = served.parts.at("cloud");
+  std::size_t at = 0;
+  for (int v = 0; v < height; v += 3)
+    for (int u = 0; u < width; u += 3) {
+      const auto i = static_cast<std::size_t>(v * width + u);
+      float z = 0;
+      std::memcpy(&z, served.parts.at("depth").data() + i * sizeof z, sizeof z);
+      if (z == 0) continue;
+      Point point{};
+      ASSERT_LE(at + sizeof point, cloud.size());
+      std::memcpy(&point, cloud.data() + at, sizeof point);
+      at += sizeof point;
+      ASSERT_EQ(point.z, z);
+      ASSERT_NEAR(point.x, (static_cast<float>(u) - cx) / fx * z, tolerance);
+      ASSERT_NEAR(point.y, (static_cast<float>(v) - cy) / fy * z, tolerance);
+      ASSERT_EQ(point.label, static_cast<std::uint8_t>(served.parts.at("labels")[i]));
+    }
+  EXPECT_EQ(at, cloud.size());
+}
+
+// The scene, posed and projected by this test alone, covers the robot's pixels of the VDI.
+TEST_F(ViewExampleTest, ScenePosedAndProjectedLiesOnTheRobot) {
+  const json scene = viewer_->get_json("/api/scene");
+  const std::string bytes = viewer_->client().get("/api/scene.bin").body;
+  const Packet served = packet(5, "links,vdi");
+  const json& camera = session_["camera"];
+  const auto pose_of = [](const json& p) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << p[0], p[1], p[2];
+    pose.linear() = Eigen::Quaterniond(p[6], p[3], p[4], p[5]).toRotationMatrix();
+    return pose;
+  };
+  const Eigen::Isometry3d T_camera_root = pose_of(served.json["camera_pose"]).inverse();
+  std::size_t seen = 0, nearest = 0;
+  for (std::size_t l = 0; l < scene["links"].size(); ++l)
+    for (const json& mesh : scene["links"][l]["meshes"])
+      for (std::size_t k = 0; k < mesh["vertices"]; ++k) {
+        Eigen::Vector3f vertex;
+        std::memcpy(vertex.data(),
+                    bytes.data() + mesh["position_offset"].get<std::size_t>() + k * sizeof vertex,
+                    sizeof vertex);
+        const Eigen::Vector3d p =
+            T_camera_root * pose_of(served.json["link_poses"][l]) * vertex.cast<double>();
+        const auto u =
+            std::lround(camera["fx"].get<double>() * p.x() / p.z() + camera["cx"].get<double>());
+        const auto v =
+            std::lround(camera["fy"].get<double>() * p.y() / p.z() + camera["cy"].get<double>());
+        if (u < 0 || v < 0 || u >= camera["width"] || v >= camera["height"]) continue;
+        const auto i = static_cast<std::size_t>(v * camera["width"].get<long>() + u);
+        float z = 0;
+        std::memcpy(&z, served.parts.at("vdi").data() + i * sizeof z, sizeof z);
+        if (z == 0) continue;  // a vertex on the silhouette may round off it
+        ++seen;
+        // Nothing of the robot lies before what the VDI shows, but within a slanted pixel.
+        nearest += p.z() > z - 0.02 ? 1 : 0;
+      }
+  EXPECT_GT(seen, 1000U);
+  // Beside a silhouette a vertex may round onto what lies behind it.
+  EXPECT_GT(static_cast<double>(nearest), 0.99 * static_cast<double>(seen));
+}
+
+TEST_F(ViewExampleTest, WhatIsNotThereIsToldInOneLine) {
+  WebClient client = viewer_->client();
+  for (const std::string path :
+       {"/api/frames/12/packet", "/api/frames/-1/packet", "/api/frames/99999999999999999999/packet",
+        "/api/frames/0x1/packet", "/api/frames//packet", "/api/frames/../../etc/passwd",
+        "/assets/../../../etc/passwd", "/%2e%2e/etc/passwd", "/etc/passwd", "/api", "/index.htm"}) {
+    const HttpReply reply = client.get(path);
+    EXPECT_EQ(reply.status, 404) << path;
+    EXPECT_TRUE(json::parse(reply.body)["error"].is_string()) << path;
+  }
+  for (const std::string query : {"with=labels,secrets", "with=labels&step=0", "step=65", "step=x"})
+    EXPECT_EQ(client.get("/api/frames/0/packet?" + query).status, 400) << query;
+  EXPECT_EQ(client.upgrade("/api/live").status, 404);
+}
+
+TEST_F(ViewExampleTest, PageIsServed) {
+  const HttpReply page = viewer_->client().get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+  EXPECT_EQ(page.body, read_file(PENUMBRA_SOURCE_DIR "/web/dist/index.html"));
+}
+
+TEST_F(ViewExampleTest, EndsWithStatus0) {
+  ViewerProcess other({example});
+  EXPECT_EQ(other.end(), 0);
+}
+
+TEST_F(ViewExampleTest, APortInUseIsOneLineAndStatus2) {
+  const Outcome second = penumbra({"view", example, "--port", std::to_string(viewer_->port())});
+  EXPECT_EQ(second.status, 2);
+  EXPECT_EQ(count_lines(second.err), 1U) << second.err;
+  EXPECT_NE(second.err.find("--port"), std::string::npos) << second.err;
+}
+
+TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> faults{
+      {{folder.path()}, "neither a recording"},
+      {{folder.path() / "gone"}, "gone"},
+      {{folder.write("some.txt", "text")}, "some.txt"},
+      {{example, "--port", "70000"}, "--port"},
+      {{example, "--address", "nowhere"}, "--address"},
+      {{example, "--frames", "50:60"}, "--frames"}};
+  for (const auto& [arguments, word] : faults) {
+    std::vector<std::string> all{"view"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = penumbra(all);
+    EXPECT_EQ(outcome.status, 2) << word;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

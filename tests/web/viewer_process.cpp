@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer_process.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace penumbra::test {
+namespace {
+
+constexpr int patience_ms = 30'000;
+
+[[noreturn]] void become_viewer(std::vector<std::string>& arguments,
+                                const std::vector<std::string>& environment, int out) {
+  for (const std::string& variable : environment) ::putenv(const_cast<char*>(variable.c_str()));
+  ::dup2(out, STDOUT_FILENO);
+  ::signal(SIGINT, SIG_DFL);
+  std::vector<char*> texts;
+  for (std::string& argument : arguments) texts.push_back(argument.data());
+  texts.push_back(nullptr);
+  ::execv(texts.front(), texts.data());
+  ::_exit(127);
+}
+
+/// The first line that starts so; empty: none came.
+std::string line_of(int descriptor, const std::string& start) {
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (true) {
+    for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos;
+         at = end + 1)
+      if (text.compare(at, start.size(), start) == 0) return text.substr(at, end - at);
+    pollfd ready{descriptor, POLLIN, 0};
+    if (::poll(&ready, 1, patience_ms) <= 0) return {};
+    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
+    if (got <= 0) return {};
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace
+
+ViewerProcess::ViewerProcess(std::vector<std::string> arguments,
+                             const std::vector<std::string>& environment) {
+  arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, "view"});
+  arguments.insert(arguments.end(), {"--port", "0"});
+  std::array<int, 2> pipe{};
+  EXPECT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+  pid_ = ::fork();
+  if (pid_ == 0) become_viewer(arguments, environment, pipe[1]);
+  ::close(pipe[1]);
+  out_ = pipe[0];
+  url_ = line_of(out_, "http://");
+  const auto colon = url_.rfind(':');
+  if (colon != std::string::npos)
+    port_ = static_cast<std::uint16_t>(std::stoi(url_.substr(colon + 1)));
+}
+
+ViewerProcess::~ViewerProcess() {
+  if (pid_ > 0) end();
+  ::close(out_);
+}
+
+int ViewerProcess::end() {
+  ::kill(pid_, SIGINT);
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+nlohmann::json ViewerProcess::get_json(const std::string& path) const {
+  const HttpReply reply = client().get(path);
+  EXPECT_EQ(reply.status, 200) << path << ": " << reply.body;
+  return nlohmann::json::parse(reply.body);
+}
+
+nlohmann::json ViewerProcess::complete_session() const {
+  constexpr auto step = std::chrono::milliseconds(20);
+  nlohmann::json session = get_json("/api/session");
+  for (int waited = 0; session["complete"] == false && waited < patience_ms; waited += 20) {
+    std::this_thread::sleep_for(step);
+    session = get_json("/api/session");
+  }
+  EXPECT_EQ(session["complete"], true);
+  return session;
+}
+
+Packet::Packet(const std::string& bytes) {
+  std::uint32_t length = 0;
+  if (bytes.size() < sizeof length) {
+    ADD_FAILURE() << "no packet: " << bytes;
+    return;
+  }
+  std::memcpy(&length, bytes.data(), sizeof length);
+  json = nlohmann::json::parse(bytes.substr(sizeof length, length));
+  std::size_t at = sizeof length + length;
+  for (const auto& part : json["parts"]) {
+    const std::size_t size = part["size"];
+    EXPECT_LE(at + size, bytes.size());
+    parts[part["name"]] = bytes.substr(at, size);
+    at += size;
+  }
+  EXPECT_EQ(at, bytes.size());
+}
+
+}  // namespace penumbra::test

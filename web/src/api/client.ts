@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+import { parseJson } from './json';
+import { parsePacket, type Packet } from './packet';
+import type { PartName, Report, SceneIndex, Session } from './types';
+
+/** What the server answered instead of what was asked for, in its own words. */
+export class ApiError extends Error {
+  override name = 'ApiError';
+  constructor(
+    message: string,
+    readonly status: number,
+  ) {
+    super(message);
+  }
+}
+
+/** @param read takes the whole answer: a server may go away in the midst of it */
+async function get<T>(
+  path: string,
+  read: (response: Response) => Promise<T>,
+  signal?: AbortSignal,
+): Promise<T> {
+  try {
+    const response = await fetch(path, signal ? { signal } : {});
+    if (!response.ok) throw new ApiError(await reasonOf(response), response.status);
+    return await read(response);
+  } catch (error) {
+    if (!(error instanceof TypeError)) throw error; // fetch's own way to say that it failed
+    throw new ApiError('the server does not answer: is penumbra view still running?', 0);
+  }
+}
+
+async function reasonOf(response: Response): Promise<string> {
+  try {
+    const body = (await response.json()) as { error?: unknown };
+    if (typeof body.error === 'string') return body.error;
+  } catch {
+    // no JSON: the status says what there is to say
+  }
+  return `the server answered ${response.status} ${response.statusText}`;
+}
+
+const bytes = (response: Response): Promise<ArrayBuffer> => response.arrayBuffer();
+const json = async <T>(path: string): Promise<T> =>
+  parseJson<T>(await get(path, (response) => response.text()));
+
+export const fetchSession = (): Promise<Session> => json<Session>('/api/session');
+export const fetchReport = (): Promise<Report> => json<Report>('/api/report');
+export const fetchScene = (): Promise<SceneIndex> => json<SceneIndex>('/api/scene');
+export const fetchSceneData = (): Promise<ArrayBuffer> => get('/api/scene.bin', bytes);
+
+/** @param step every step-th pixel in both directions becomes a point of the cloud */
+export async function fetchPacket(
+  index: number,
+  wanted: readonly PartName[],
+  step: number,
+  signal?: AbortSignal,
+): Promise<Packet> {
+  const query = `with=${wanted.join(',')}&step=${step}`;
+  return parsePacket(await get(`/api/frames/${index}/packet?${query}`, bytes, signal));
+}

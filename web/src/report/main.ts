@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// One file that tells a run: summary, targets over time, key frames. Opens from the disk, prints.
+import '../styles/base.css';
+import '../styles/timeline.css';
+import '../styles/report.css';
+import { parseJson } from '../api/json';
+import type { Report } from '../api/types';
+import { byId } from '../view/dom';
+import type { KeyFrame } from './key_frames';
+import { ReportPage } from './report_page';
+
+function embedded<T>(id: string): T {
+  return parseJson<T>(byId(id).textContent ?? 'null');
+}
+
+const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const applyTheme = (): void => {
+  document.documentElement.dataset['theme'] = dark.matches ? 'dark' : 'light';
+};
+dark.addEventListener('change', applyTheme);
+applyTheme();
+
+const report = embedded<Report | null>('penumbra-report');
+if (report)
+  new ReportPage(byId('report'), report, embedded<readonly KeyFrame[]>('penumbra-frames'));
+else byId('report').textContent = 'There is no report in this file.';

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { FrameReport, Report } from '../api/types';
+import { count, milliseconds, percent, seconds, stamp } from '../model/format';
+import { secondsOf } from '../model/timeline';
+import { element } from '../view/dom';
+
+export function headOf(report: Report): HTMLElement {
+  const { backend = '?', isa, device } = report.renderer ?? {};
+  const renderer = device ?? [backend, isa].filter(Boolean).join(', ');
+  const first = report.frames.find((frame) => frame.stamp_ns !== null);
+  const when = first ? ` · from ${stamp(first.stamp_ns)}` : '';
+  return element(
+    'header',
+    '',
+    element('h1', '', 'Penumbra report'),
+    element('p', 'input', report.input),
+    element('p', 'hint', `Penumbra ${report.penumbra} · ${renderer}${when}`),
+  );
+}
+
+export function tilesOf({ frames, summary }: Report): HTMLElement {
+  const duration = secondsOf(frames).findLast((time) => time !== null) ?? null;
+  const pixels = summary?.pixels ?? {};
+  const robot = pixels['robot'] ?? 0;
+  const share = (name: string): string => percent(robot > 0 ? (pixels[name] ?? 0) / robot : null);
+  const times = Object.values(summary?.timing_ms ?? {}).map((time) => time.median);
+  const total = times.length ? times.reduce((sum, time) => sum + time, 0) : null;
+  const bad = summary?.bad_frames ?? frames.filter((frame) => frame.status !== 'ok').length;
+  return element(
+    'div',
+    'tiles',
+    tile('frames', count(frames.length), duration === null ? '' : seconds(duration)),
+    tile('bad frames', count(bad), bad ? statuses(frames) : 'all usable', bad > 0),
+    tile('robot pixels', count(robot), `unknown ${share('unknown')}`),
+    tile('seen in front', share('front'), `beyond ${share('beyond')}`),
+    tile('median per frame', milliseconds(total), 'all stages'),
+  );
+}
+
+function statuses(frames: readonly FrameReport[]): string {
+  const counts = new Map<string, number>();
+  for (const { status } of frames)
+    if (status !== 'ok') counts.set(status, (counts.get(status) ?? 0) + 1);
+  return [...counts].map(([status, times]) => `${status} ${times}`).join(', ');
+}
+
+function tile(name: string, value: string, more: string, fault = false): HTMLElement {
+  const strong = element('strong', '', value);
+  const lines = [element('span', 'hint', name), strong, element('span', 'hint', more)];
+  return element('div', `panel tile${fault ? ' fault' : ''}`, ...lines);
+}
+
+/** What the run said of itself: notes, faults, missing links. */
+export function notesOf({ summary }: Report): HTMLElement[] {
+  const sentences = [
+    ...(summary?.notes ?? []).map(textOf),
+    ...(summary?.faults ?? []).map(textOf),
+    ...(summary?.missing_links ?? []).map((link) => `not drawn: ${textOf(link)}`),
+  ];
+  if (sentences.length === 0) return [];
+  const items = sentences.map((sentence) => element('li', '', sentence));
+  return [element('section', 'notes', element('h2', '', 'Notes'), element('ul', '', ...items))];
+}
+
+function textOf(value: unknown): string {
+  if (typeof value !== 'object' || value === null) return String(value);
+  const parts = Object.entries(value).map(([key, part]) => `${key}: ${textOf(part)}`);
+  return parts.join(', ');
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+import { byId, element } from './dom';
+
+/**
+ * Over the page: why there is nothing to see, and a way on.
+ * @param back to what was shown before, where something was
+ */
+export function cover(error: unknown, retry: () => void, back?: () => void): void {
+  const message = error instanceof Error ? error.message : String(error);
+  const button = element('button', 'primary', 'Try again');
+  button.addEventListener('click', retry);
+  const sheet = byId('cover');
+  sheet.replaceChildren(element('p', 'fault', message), button);
+  if (back) {
+    const close = element('button', '', 'Back to the frame before');
+    close.addEventListener('click', back);
+    sheet.append(close);
+  }
+  sheet.hidden = false;
+  sheet.classList.add('failed');
+}
+
+/** Over the page, without fault: something is still to come. */
+export function coverWaiting(text: string): void {
+  const sheet = byId('cover');
+  sheet.replaceChildren(element('p', '', text));
+  sheet.hidden = false;
+}
+
+export function uncover(): void {
+  byId('cover').hidden = true;
+  byId('main').setAttribute('aria-busy', 'false');
+}

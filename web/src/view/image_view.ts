@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colour image and one layer over it, with a divider and the values under the pointer.
+import type { Packet } from '../api/packet';
+import type { PartName } from '../api/types';
+import { depthRange } from '../model/depth_colors';
+import { readoutAt } from '../model/readout';
+import { CompareSlider } from './compare_slider';
+import { byId, setText } from './dom';
+import { layerLegend } from './legend';
+import { Painter, clear, noMeasurement, noRobot } from './painters';
+import { showReadout } from './readout_view';
+
+export type Layer = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth';
+
+/** Layers that can be drawn from the parts that can be had. */
+export function layersOf(parts: readonly string[]): Layer[] {
+  const all: Layer[] = ['overlay', 'labels', 'links', 'vdi', 'depth'];
+  return all.filter(
+    (layer) => parts.includes(layer) || (layer === 'overlay' && parts.includes('labels')),
+  );
+}
+
+export class ImageView {
+  layer: Layer = 'overlay';
+  readonly slider: CompareSlider;
+  private readonly frame = byId('picture-frame');
+  private readonly below = byId<HTMLCanvasElement>('picture-below');
+  private readonly above = byId<HTMLCanvasElement>('picture-above');
+  private readonly note = byId('picture-note');
+  private readonly painter = new Painter();
+  private packet: Packet | null = null;
+  private links: readonly string[] = [];
+  private range: readonly [number, number] = [0, 0];
+  private pointer: { u: number; v: number } | null = null;
+
+  /** @param hovered the pointer came to the image, or left it */
+  constructor(private readonly hovered: (inside: boolean) => void) {
+    this.slider = new CompareSlider(byId('picture-handle'), this.frame, this.above);
+    this.frame.addEventListener('pointermove', (event) => this.point(event));
+    this.frame.addEventListener('pointerdown', (event) => this.point(event));
+    this.frame.addEventListener('pointerleave', (event) => {
+      if (event.pointerType === 'touch') return; // the value stays where the finger was
+      this.pointer = null;
+      this.hovered(false);
+      this.readOut();
+    });
+  }
+
+  /** Parts that the layer is drawn from. */
+  wanted(available: readonly string[]): PartName[] {
+    const layer: PartName =
+      this.layer === 'overlay' && !available.includes('overlay') ? 'labels' : this.layer;
+    return (['color', layer] as PartName[]).filter((part) => available.includes(part));
+  }
+
+  async show(packet: Packet, links: readonly string[]): Promise<void> {
+    this.packet = packet;
+    this.links = links;
+    const [color] = await Promise.all([
+      packet.color ? this.painter.encoded(this.below, packet.color) : null,
+      this.showLayer(packet),
+    ]);
+    if (color === null) clear(this.below);
+    const size = packet.labels ?? packet.vdi ?? packet.depth ?? this.above;
+    if (!packet.color && size.width > 0) this.below.width = size.width;
+    if (!packet.color && size.height > 0) this.below.height = size.height;
+    this.frame.style.setProperty('--ratio', `${this.below.width} / ${this.below.height}`);
+    setText(this.note, this.noteOf(packet));
+    this.readOut();
+  }
+
+  private async showLayer(packet: Packet): Promise<void> {
+    const { above, painter } = this;
+    layerLegend(this.layer, this.links, this.range);
+    if (this.layer === 'overlay' && packet.overlay) return painter.encoded(above, packet.overlay);
+    if (this.layer === 'overlay' && packet.labels) return painter.overlay(above, packet.labels);
+    if (this.layer === 'labels' && packet.labels) return painter.labels(above, packet.labels);
+    if (this.layer === 'links' && packet.links)
+      return painter.links(above, packet.links, this.links.length);
+    const depth = this.layer === 'vdi' ? packet.vdi : this.layer === 'depth' ? packet.depth : null;
+    if (!depth) return clear(above);
+    this.widen(depthRange(depth.values));
+    layerLegend(this.layer, this.links, this.range);
+    painter.depth(above, depth, this.range, this.layer === 'vdi' ? noRobot : noMeasurement);
+  }
+
+  /** One scale for all frames and both depths, so that colours can be compared. */
+  private widen(range: readonly [number, number] | null): void {
+    if (!range) return;
+    const [near, far] = this.range;
+    this.range = far === 0 ? range : [Math.min(near, range[0]), Math.max(far, range[1])];
+  }
+
+  private noteOf(packet: Packet): string {
+    if (!packet.color) return 'no colour image of this frame';
+    const drawn = packet.has.has(this.layer) || (this.layer === 'overlay' && packet.labels);
+    return drawn ? '' : 'this layer is not there for this frame';
+  }
+
+  private point(event: PointerEvent): void {
+    const box = this.frame.getBoundingClientRect();
+    const u = Math.floor(((event.clientX - box.left) / box.width) * this.below.width);
+    const v = Math.floor(((event.clientY - box.top) / box.height) * this.below.height);
+    if (u < 0 || v < 0 || u >= this.below.width || v >= this.below.height) return;
+    if (!this.pointer) this.hovered(true);
+    this.pointer = { u, v };
+    this.readOut();
+  }
+
+  private readOut(): void {
+    const { packet, pointer } = this;
+    if (!packet || !pointer) return showReadout(null);
+    showReadout(readoutAt(packet, this.links, pointer.u, pointer.v, this.below.width));
+  }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Debian's Chromium, drawing WebGL in software, and the program under test.
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { existsSync } from 'node:fs';
+import { createInterface } from 'node:readline';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const root = fileURLToPath(new URL('../../..', import.meta.url));
+export const example = path.join(root, 'examples/arm_over_table');
+export const program =
+  process.env.PENUMBRA ?? path.join(root, 'build/release/apps/penumbra/penumbra');
+
+const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+export function launch() {
+  for (const file of [browserPath, program])
+    if (!existsSync(file)) throw new Error(`${file} is not there`);
+  const args = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+  if (process.getuid?.() === 0) args.push('--no-sandbox'); // Chromium's sandbox refuses root
+  return chromium.launch({ executablePath: browserPath, args });
+}
+
+/** `penumbra view`, once all frames are judged. */
+export async function serve(input) {
+  const child = spawn(program, ['view', input, '--port', '0'], {
+    stdio: ['ignore', 'pipe', 'pipe'],
+  });
+  const lines = createInterface({ input: child.stdout });
+  child.stderr.resume();
+  const [url] = await once(lines, 'line');
+  const stop = async () => {
+    if (child.exitCode !== null) return;
+    child.kill('SIGINT');
+    await once(child, 'exit');
+  };
+  for (let tries = 0; ; ++tries) {
+    const session = await (await fetch(new URL('/api/session', url))).json();
+    if (session.complete) return { url, stop };
+    if (tries > 600) throw new Error('the frames are not judged after a minute');
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
+export const desktop = { viewport: { width: 1440, height: 900 }, colorScheme: 'light' };
+export const phone = {
+  viewport: { width: 390, height: 844 },
+  colorScheme: 'dark',
+  isMobile: true,
+  hasTouch: true,
+};
+
+/** A page that notes what must not happen: errors, and requests to others. */
+export async function open(browser, url, options = desktop) {
+  const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
+  const page = await context.newPage();
+  const faults = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) faults.push(message.text());
+  });
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(new URL(url).origin) && !/^(blob|data):/.test(request.url()))
+      faults.push(`asks another host: ${request.url()}`);
+  });
+  const start = performance.now();
+  await page.goto(url);
+  await page.locator('#cover').waitFor({ state: 'hidden' });
+  await drawn(page);
+  return {
+    page,
+    faults,
+    seconds: (performance.now() - start) / 1000,
+    close: () => context.close(),
+  };
+}
+
+/** Two frames on: what was asked for is on the screen. */
+export const drawn = (page) =>
+  page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))),
+  );
+
+/** Until the page shows a frame, by its number of the report, with all its values. */
+export async function showsFrame(page, number) {
+  await page.waitForFunction((wanted) => {
+    const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
+    return shown === String(wanted) && parts.includes('labels');
+  }, number);
+  await drawn(page);
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is not known looks unknown, and what fails says why.
+import assert from 'node:assert/strict';
+import { cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { desktop, drawn, example, launch, open, serve, showsFrame } from './browser.mjs';
+import { changedShare } from './pictures.mjs';
+
+let browser, server, folder;
+
+/** The example, without joint positions in frame 2 and without a depth image in frame 4. */
+before(async () => {
+  folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-page-'));
+  await cp(example, folder, { recursive: true });
+  const joints = path.join(folder, 'joint_states.csv');
+  const lines = (await readFile(joints, 'utf8')).split('\n');
+  await writeFile(joints, lines.filter((line) => !line.startsWith('2,')).join('\n'));
+  await rm(path.join(folder, 'depth/4.png'));
+  [browser, server] = await Promise.all([launch(), serve(folder)]);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  await rm(folder, { recursive: true });
+});
+
+test('a frame without a pose shows no robot, and says why', async () => {
+  const shown = await open(browser, `${server.url}#frame=1`, desktop);
+  const { page } = shown;
+  await showsFrame(page, 1);
+  for (const part of ['cloud', 'camera', 'targets']) await page.click(`[data-part=${part}]`);
+  await page.waitForLoadState('networkidle');
+  await drawn(page);
+  const canvas = page.locator('#scene-canvas');
+  const robot = await canvas.screenshot();
+  assert.ok(await page.locator('#scene-note').isHidden());
+  await page.keyboard.press('ArrowRight');
+  await showsFrame(page, 2);
+  assert.match(await page.locator('#scene-note').textContent(), /No robot in this frame.*joint/i);
+  assert.match(await page.locator('#frame-status').textContent(), /missing_joints/);
+  assert.match(await page.locator('#frame-details .fault').textContent(), /missing_joints/);
+  await page.mouse.move(5, 5);
+  const empty = await canvas.screenshot();
+  assert.ok((await changedShare(page, robot, empty)) > 0.01, 'the robot is gone');
+  await page.click('[data-part=robot]');
+  await drawn(page);
+  await page.click('[data-part=robot]');
+  await page.mouse.move(5, 5);
+  await drawn(page);
+  assert.ok((await changedShare(page, empty, await canvas.screenshot())) < 0.002, 'and stays so');
+  assert.equal(await page.locator('.row-head.frames .scale').textContent(), '2 bad');
+  assert.deepEqual(shown.faults, []);
+  await shown.close();
+});
+
+test('targets of a bad frame are unknown, not visible', async () => {
+  const shown = await open(browser, `${server.url}#frame=2&target=cube`, desktop);
+  await showsFrame(shown.page, 2);
+  assert.match(
+    await shown.page.locator('#target-details [data-key=verdict]').textContent(),
+    /unknown$/,
+  );
+  assert.equal(await shown.page.locator('[data-key=occluded_fraction]').textContent(), '–');
+  await shown.close();
+});
+
+test('a server that is gone is told, with a way on', async () => {
+  const own = await serve(example);
+  const { page, close } = await open(browser, own.url, desktop);
+  await own.stop();
+  await page.keyboard.press('ArrowRight');
+  await page.locator('#cover .fault').waitFor();
+  assert.match(await page.locator('#cover').textContent(), /does not answer/);
+  assert.ok(await page.locator('#cover button').first().isVisible());
+  await close();
+});
+
+test('a damaged packet is told, and nothing of it shown', async () => {
+  const { page, close } = await open(browser, server.url, desktop);
+  await page.route('**/api/frames/1/packet*', async (route) => {
+    const body = await (await route.fetch()).body();
+    await route.fulfill({ body: body.subarray(0, body.length - 5) });
+  });
+  await page.keyboard.press('ArrowRight');
+  await page.locator('#cover .fault').waitFor();
+  assert.match(await page.locator('#cover').textContent(), /packet: part .* beyond its end/);
+  assert.equal(await page.locator('#frame-number').textContent(), '0');
+  await page.getByText('Back to the frame before').click();
+  await showsFrame(page, 0);
+  await page.locator('#cover').waitFor({ state: 'hidden' });
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  await showsFrame(page, 2);
+  await close();
+});
+
+test('frames appear as they are judged', async () => {
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  let judged = 0;
+  await page.route('**/api/report', async (route) => {
+    const report = JSON.parse((await (await route.fetch()).body()).toString());
+    const frames = report.frames.slice(0, judged);
+    await route.fulfill({
+      json: { ...report, frames, summary: judged < 12 ? null : report.summary },
+    });
+  });
+  await page.goto(server.url);
+  await page.getByText('Judging the first frame').waitFor();
+  judged = 3;
+  await showsFrame(page, 0);
+  assert.match(await page.locator('#mode').textContent(), /3 of 12 frames, judging/);
+  await page.keyboard.press('End');
+  await page.waitForFunction(() => document.getElementById('frame-number').textContent === '2');
+  judged = 12;
+  await page.getByText('12 frames', { exact: true }).waitFor();
+  await page.keyboard.press('End');
+  await showsFrame(page, 11);
+  await context.close();
+});
+
+test('works where no inline style or script is let in', async () => {
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  const faults = [];
+  page.on('console', (message) => faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(error.message));
+  await page.route(server.url, async (route) => {
+    const response = await route.fetch();
+    const policy =
+      "default-src 'self'; style-src 'self'; script-src 'self'; img-src 'self' blob: data:";
+    const headers = { ...response.headers(), 'content-security-policy': policy };
+    await route.fulfill({ response, headers });
+  });
+  await page.goto(server.url);
+  await showsFrame(page, 0);
+  await page.keyboard.press(']');
+  await page.keyboard.press('?');
+  assert.deepEqual(faults, []);
+  await context.close();
+});

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { nextOnset, onsets } from '../../src/model/occlusions';
+import { condense, graver, runsOf, sampleOf, secondsOf, tracksOf } from '../../src/model/timeline';
+import { frame, framesOf, target } from './support';
+
+test('tracks come in order of appearance, with gaps where a target is not told of', () => {
+  const tracks = tracksOf(framesOf({ cup: 'vv.h', wrist: '.p.v' }));
+  assert.deepEqual(
+    tracks.map((track) => track.name),
+    ['cup', 'wrist'],
+  );
+  assert.deepEqual(
+    tracks[0]?.samples.map((sample) => sample?.verdict ?? null),
+    ['visible', 'visible', null, 'hidden'],
+  );
+  assert.equal(tracks[1]?.samples[0], null);
+});
+
+test('the blame is the link that hides most', () => {
+  const blame = [
+    { link: 'wrist', fraction: 0.2 },
+    { link: 'forearm', fraction: 0.5 },
+  ];
+  assert.equal(sampleOf(target('cup', 'hidden', { blame })).blame, 'forearm');
+  assert.equal(sampleOf(target('cup', 'visible')).blame, null);
+  assert.equal(sampleOf(target('cup', 'unknown', { blame: null })).blame, null);
+});
+
+test('a verdict that is not known is unknown', () => {
+  const later = { ...target('cup', 'visible'), verdict: 'shiny' } as unknown as ReturnType<
+    typeof target
+  >;
+  assert.equal(sampleOf(later).verdict, 'unknown');
+});
+
+test('condensing loses no hidden frame', () => {
+  const frames = framesOf({ cup: 'v'.repeat(1000) });
+  frames[617] = frame(617, [target('cup', 'hidden')]);
+  const samples = tracksOf(frames)[0]?.samples ?? [];
+  for (const columns of [1, 7, 100, 999]) {
+    const columnsMade = condense(samples, columns, graver);
+    assert.equal(columnsMade.length, columns);
+    const hidden = columnsMade.flatMap((sample, at) => (sample?.verdict === 'hidden' ? [at] : []));
+    assert.deepEqual(hidden.length, 1);
+    assert.ok(Math.abs((hidden[0] as number) - (617 * columns) / 1000) <= 1);
+  }
+  assert.equal(condense(samples, 2000, graver).length, 1000);
+});
+
+test('runs cover all', () => {
+  assert.deepEqual(runsOf(['a', 'a', 'b', 'a']), [
+    { from: 0, to: 2, value: 'a' },
+    { from: 2, to: 3, value: 'b' },
+    { from: 3, to: 4, value: 'a' },
+  ]);
+  assert.deepEqual(runsOf([]), []);
+});
+
+test('seconds count from the first stamp', () => {
+  const frames = framesOf({ cup: 'vvv' });
+  frames[1] = { ...(frames[1] as (typeof frames)[number]), stamp_ns: null };
+  assert.deepEqual(secondsOf(frames), [0, null, 0.2]);
+});
+
+test('an onset is the first frame of an occlusion, of any target', () => {
+  const tracks = tracksOf(framesOf({ cup: 'vvphhvvuh', wrist: 'pvvvvvpuv' }));
+  assert.deepEqual(onsets(tracks), [0, 2, 6, 8]);
+});
+
+test('jumps go to the nearest onset and end at the last', () => {
+  const tracks = tracksOf(framesOf({ cup: 'vvphhvvuh' }));
+  assert.equal(nextOnset(tracks, 0, 1), 2);
+  assert.equal(nextOnset(tracks, 2, 1), 8);
+  assert.equal(nextOnset(tracks, 8, 1), null);
+  assert.equal(nextOnset(tracks, 8, -1), 2);
+  assert.equal(nextOnset(tracks, 2, -1), null);
+  assert.equal(nextOnset([], 0, 1), null);
+});
