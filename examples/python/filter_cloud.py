@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Point clouds without the robot: python3 filter_cloud.py RECORDING_OR_BAG OUT
+
+Each frame becomes a PLY file of the points that are not the robot's, in the robot's root link, with
+their colours. Where the robot's pose is not known there are no points: they might be the robot's.
+"""
+
+import pathlib
+import sys
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import penumbra
+
+
+def points_of(depth: NDArray[Any], camera: penumbra.Intrinsics) -> NDArray[np.float32]:
+    """(H, W, 3), metres, in the optical frame: pixel (u, v) has its centre at integers."""
+    z = depth * np.float32(0.001) if depth.dtype == np.uint16 else depth
+    u = ((np.arange(camera.width) - camera.cx) / camera.fx).astype(np.float32)
+    v = ((np.arange(camera.height) - camera.cy) / camera.fy).astype(np.float32)
+    points: NDArray[np.float32] = np.stack([u[None, :] * z, v[:, None] * z, z], axis=-1)
+    return points
+
+
+def write_ply(path: pathlib.Path, points: NDArray[np.float32], colors: NDArray[np.uint8]) -> None:
+    vertices = np.empty(len(points), [("p", "<f4", 3), ("c", "u1", 3)])
+    vertices["p"], vertices["c"] = points, colors
+    names = [f"property float {c}" for c in "xyz"]
+    names += [f"property uchar {c}" for c in ("red", "green", "blue")]
+    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(points)}", *names]
+    path.write_bytes("\n".join([*head, "end_header", ""]).encode() + vertices.tobytes())
+
+
+def main(source: str, out: pathlib.Path) -> None:
+    given = penumbra.open_input(source, color=True)
+    if given.camera.distortion.model is not penumbra.DistortionModel.none:
+        sys.exit(f"{source}: points of an image with lens distortion: rectify it first")
+    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    for frame in given:
+        report = pipeline.process(frame.frame)
+        if frame.depth is None or report.T_root_camera is None:
+            print(f"frame {report.index}: no points: {report.message}")
+            continue
+        kept = (report.labels == penumbra.Label.clear) | (report.labels == penumbra.Label.front)
+        kept &= frame.depth > 0
+        points = points_of(frame.depth, pipeline.intrinsics)[kept]
+        points = points @ report.T_root_camera[:3, :3].T + report.T_root_camera[:3, 3]
+        white = np.full((*kept.shape, 3), 255, np.uint8)
+        colors = white if frame.color is None else frame.color
+        write_ply(out / f"{report.index:06d}.ply", points.astype(np.float32), colors[kept])
+        robot = np.count_nonzero(frame.depth) - len(points)
+        print(f"frame {report.index}: {len(points)} points, {robot} of the robot left out")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], pathlib.Path(sys.argv[2]))

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include <python/arrays.hpp>
+#include <python/bindings.hpp>
+
+namespace penumbra::python {
+namespace {
+
+std::string joined(std::span<const PixelType> types) {
+  std::string text;
+  for (std::size_t i = 0; i < types.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == types.size() ? " or " : ", ") + std::string(types[i].name);
+  return text;
+}
+
+/// What keeps a row's pixels from lying side by side in whole steps, or nothing.
+std::string layout_fault(const py::array& array) {
+  const py::ssize_t size = array.itemsize();
+  if (array.shape(1) > 1 && array.strides(1) != size)
+    return "the pixels of a row do not lie side by side: take numpy.ascontiguousarray";
+  if (array.strides(0) % size != 0 ||
+      reinterpret_cast<std::uintptr_t>(array.data()) % static_cast<std::uintptr_t>(size) != 0)
+    return "its pixels are not aligned: take a copy";
+  return {};
+}
+
+}  // namespace
+
+std::string description_of(py::handle object) {
+  if (object.is_none()) return "None";
+  if (!py::isinstance<py::array>(object))
+    return py::cast<std::string>(py::type::of(object).attr("__qualname__"));
+  return "numpy.ndarray of " + py::cast<std::string>(py::str(object.attr("dtype"))) +
+         " with shape " + py::cast<std::string>(py::str(object.attr("shape")));
+}
+
+py::array read_only(py::array array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+py::object keeper_of(std::shared_ptr<const void> owner) {
+  auto* const kept = new std::shared_ptr<const void>(std::move(owner));
+  return py::capsule(kept, [](void* of) { delete static_cast<std::shared_ptr<const void>*>(of); });
+}
+
+std::size_t check_image(py::handle source, const char* argument, std::span<const PixelType> types) {
+  const auto complain = [&](const std::string& fault) {
+    return std::string(argument) + ": expected numpy.ndarray of " + joined(types) +
+           " with shape (H, W); got " + description_of(source) + fault;
+  };
+  if (!py::isinstance<py::array>(source)) throw py::type_error(complain(""));
+  const auto array = py::reinterpret_borrow<py::array>(source);
+  const py::dtype dtype = array.dtype();
+  const bool is_native = dtype.byteorder() == '=' || dtype.byteorder() == '|';
+  std::size_t type = 0;
+  while (type < types.size() && dtype.num() != types[type].number) ++type;
+  if (!is_native || type == types.size()) throw py::type_error(complain(""));
+  if (array.ndim() != 2 || array.shape(0) < 1 || array.shape(1) < 1 ||
+      std::max(array.shape(0), array.shape(1)) > std::numeric_limits<int>::max())
+    throw py::value_error(complain(""));
+  if (const std::string fault = layout_fault(array); !fault.empty())
+    throw py::value_error(complain(": " + fault));
+  return type;
+}
+
+void check_size(const py::array& image, const char* argument, int width, int height) {
+  if (image.shape(0) == height && image.shape(1) == width) return;
+  throw py::value_error(std::string(argument) + ": expected shape (" + std::to_string(height) +
+                        ", " + std::to_string(width) + "); got " + description_of(image));
+}
+
+ColorResult array_of(ImageView<io::Rgb8> view, py::object base) {
+  static_assert(sizeof(io::Rgb8) == 3);
+  return {py::array(
+      py::dtype::of<std::uint8_t>(),
+      {static_cast<py::ssize_t>(view.height), static_cast<py::ssize_t>(view.width), py::ssize_t{3}},
+      {3 * view.stride, py::ssize_t{3}, py::ssize_t{1}}, &view.data->r, base)};
+}
+
+void Lease::end(const char* call, const char* images) const {
+  if (token_.expired()) return;
+  throw py::value_error(std::string(call) + ": an array upon " + images +
+                        " is still in use and would be overwritten: keep a copy of it (.copy()), "
+                        "or del it, before the next call");
+}
+
+py::object Lease::base(const std::shared_ptr<const void>& owner) {
+  auto token = token_.lock();
+  if (!token) {
+    token = std::make_shared<Token>(Token{owner});
+    token_ = token;
+  }
+  return keeper_of(std::move(token));
+}
+
+OneThread::Use::Use(OneThread& object, const char* what) : lock_(object.mutex_, std::try_to_lock) {
+  if (!lock_)
+    throw py::value_error(std::string(what) +
+                          ": another thread is using it; it serves one thread at a time: make one "
+                          "for each thread");
+}
+
+}  // namespace penumbra::python

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images between NumPy and C++: looked at where they lie, never copied.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <pybind11/numpy.h>
+#include <python/values.hpp>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/png.hpp>
+
+namespace penumbra::python {
+
+namespace py = pybind11;
+
+/// "numpy.ndarray of float64 with shape (3, 3)", or the name of another type.
+[[nodiscard]] std::string description_of(py::handle object);
+
+[[nodiscard]] py::array read_only(py::array array);
+
+/// A Python object that keeps `owner`: the base of arrays upon its memory.
+[[nodiscard]] py::object keeper_of(std::shared_ptr<const void> owner);
+
+/// A pixel's type in NumPy.
+struct PixelType {
+  const char* name;
+  int number;
+};
+template <typename T>
+constexpr PixelType pixel_type{};
+template <>
+inline constexpr PixelType pixel_type<float>{"float32", py::detail::npy_api::NPY_FLOAT_};
+template <>
+inline constexpr PixelType pixel_type<std::uint8_t>{"uint8", py::detail::npy_api::NPY_UBYTE_};
+template <>
+inline constexpr PixelType pixel_type<std::uint16_t>{"uint16", py::detail::npy_api::NPY_USHORT_};
+
+/// Throws TypeError or ValueError unless `source` is an array of one of `types` in native byte
+/// order, two-dimensional, not empty, aligned, the pixels of a row side by side. `argument` names
+/// it. Answers which of the types.
+[[nodiscard]] std::size_t check_image(py::handle source, const char* argument,
+                                      std::span<const PixelType> types);
+
+/// Of an array that check_image() passed.
+template <typename T>
+[[nodiscard]] ImageView<const T> view_of(const py::array& array) {
+  return {static_cast<const T*>(array.data()), static_cast<int>(array.shape(1)),
+          static_cast<int>(array.shape(0)), array.strides(0) / static_cast<py::ssize_t>(sizeof(T))};
+}
+
+/// An array of shape (H, W) upon an image, and which pixels it may have.
+template <typename... T>
+struct ImageResult {
+  py::object array;
+};
+/// Likewise of shape (H, W, 3), uint8: red, green, blue.
+struct ColorResult {
+  py::object array;
+};
+
+/// An array upon an image of `base`; `T` const: it cannot be written to.
+template <typename T>
+[[nodiscard]] ImageResult<std::remove_const_t<T>> array_of(ImageView<T> view, py::object base) {
+  using Pixel = std::remove_const_t<T>;
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(Pixel));
+  py::array array(py::dtype::of<Pixel>(),
+                  {static_cast<py::ssize_t>(view.height), static_cast<py::ssize_t>(view.width)},
+                  {view.stride * size, size}, view.data, base);
+  if constexpr (std::is_const_v<T>) array = read_only(std::move(array));
+  return {std::move(array)};
+}
+[[nodiscard]] ColorResult array_of(ImageView<io::Rgb8> view, py::object base);
+
+/// Name of an argument, as a template's parameter.
+template <std::size_t N>
+struct Name {
+  char text[N]{};
+  constexpr Name(const char (&from)[N]) { std::copy_n(from, N, text); }  // NOLINT
+};
+
+/// An argument that is an image of one of some pixel types.
+template <Name Argument, typename... T>
+struct ImageArgument {
+  py::array array;  ///< keeps the pixels
+  std::variant<ImageView<const T>...> view;
+};
+
+/// A depth image as sensors give it.
+template <Name Argument>
+using DepthArgument = ImageArgument<Argument, std::uint16_t, float>;
+
+/// Throws ValueError, which names the argument, for an image of another size.
+void check_size(const py::array& image, const char* argument, int width, int height);
+
+/// The rule of arrays upon images that the next call overwrites: while one of them is in use, that
+/// call is refused; once it has happened, no more are given out. So none changes in silence.
+class Lease {
+ public:
+  /// Before a call that overwrites the images. Throws ValueError, which names `call` and `images`,
+  /// while arrays upon them are in use.
+  void end(const char* call, const char* images) const;
+
+  /// A base for arrays upon the images, which keeps `owner`.
+  [[nodiscard]] py::object base(const std::shared_ptr<const void>& owner);
+
+ private:
+  struct Token {
+    std::shared_ptr<const void> owner;
+  };
+  std::weak_ptr<Token> token_;
+};
+
+/// Refuses a second thread: an object that serves one at a time says so instead of breaking.
+class OneThread {
+ public:
+  class Use {
+   public:
+    /// Throws ValueError, which names `what`, while another thread uses it.
+    Use(OneThread& object, const char* what);
+
+   private:
+    std::unique_lock<std::mutex> lock_;
+  };
+
+ private:
+  std::mutex mutex_;
+};
+
+}  // namespace penumbra::python
+
+namespace penumbra::python {
+
+template <typename T>
+constexpr auto pixel_text() {
+  using py::detail::const_name;
+  if constexpr (std::is_same_v<T, float>) {
+    return const_name("NDArray[float32]");
+  } else if constexpr (std::is_same_v<T, std::uint16_t>) {
+    return const_name("NDArray[uint16]");
+  } else if constexpr (std::is_same_v<T, std::int32_t>) {
+    return const_name("NDArray[int32]");
+  } else {
+    static_assert(std::is_same_v<T, std::uint8_t>);
+    return const_name("NDArray[uint8]");
+  }
+}
+
+/// As it stands in signatures.
+template <typename... T>
+constexpr auto image_text() {
+  using py::detail::const_name;
+  if constexpr (sizeof...(T) == 1) {
+    return const_name("Annotated[") + (pixel_text<T>(), ...) + const_name(", '(H, W)']");
+  } else {
+    return const_name("Annotated[Union[") + py::detail::concat(pixel_text<T>()...) +
+           const_name("], '(H, W)']");
+  }
+}
+
+}  // namespace penumbra::python
+
+namespace pybind11::detail {
+
+template <typename... T>
+struct type_caster<penumbra::python::ImageResult<T...>>
+    : penumbra::python::ValueCaster<penumbra::python::ImageResult<T...>> {
+  static constexpr auto name = penumbra::python::image_text<T...>();
+  static handle cast(const penumbra::python::ImageResult<T...>& image,
+                     return_value_policy /*policy*/, handle /*parent*/) {
+    return image.array.inc_ref();
+  }
+};
+template <>
+struct type_caster<penumbra::python::ColorResult>
+    : penumbra::python::ValueCaster<penumbra::python::ColorResult> {
+  static constexpr auto name = const_name("Annotated[NDArray[uint8], '(H, W, 3)']");
+  static handle cast(const penumbra::python::ColorResult& image, return_value_policy /*policy*/,
+                     handle /*parent*/) {
+    return image.array.inc_ref();
+  }
+};
+
+template <penumbra::python::Name Argument, typename... T>
+struct type_caster<penumbra::python::ImageArgument<Argument, T...>> {
+  using Image = penumbra::python::ImageArgument<Argument, T...>;
+  Image value;
+  template <typename U>
+  using cast_op_type = movable_cast_op_type<U>;
+  operator Image*() { return &value; }                // NOLINT(google-explicit-constructor)
+  operator Image&() { return value; }                 // NOLINT(google-explicit-constructor)
+  operator Image&&() && { return std::move(value); }  // NOLINT(google-explicit-constructor)
+
+  static constexpr auto name = penumbra::python::image_text<T...>();
+
+  bool load(handle source, bool /*convert*/) {
+    static constexpr penumbra::python::PixelType types[] = {penumbra::python::pixel_type<T>...};
+    const std::size_t type = penumbra::python::check_image(source, Argument.text, types);
+    value.array = reinterpret_borrow<array>(source);
+    std::size_t i = 0;
+    ((type == i++ ? void(value.view = penumbra::python::view_of<T>(value.array)) : void()), ...);
+    return true;
+  }
+  static handle cast(const Image& image, return_value_policy /*policy*/, handle /*parent*/) {
+    return image.array.inc_ref();
+  }
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every file of the Python module begins with.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <python/enums.hpp>
+#include <python/values.hpp>
+
+namespace penumbra::python {
+
+namespace py = pybind11;
+
+/// Long work that no Python object takes part in lets other threads run.
+using WithoutGil = py::call_guard<py::gil_scoped_release>;
+
+// One topic each. Those before are known to those behind: signatures name their types.
+void bind_errors(py::module_& m);
+void bind_enums(py::module_& m);
+void bind_camera(py::module_& m);
+void bind_robot(py::module_& m);
+void bind_joint_buffer(py::module_& m);
+void bind_renderer(py::module_& m);
+void bind_labels(py::module_& m);
+void bind_trackers(py::module_& m);
+void bind_regions(py::module_& m);
+void bind_targets(py::module_& m);
+void bind_judgement(py::module_& m);
+void bind_frame(py::module_& m);
+void bind_report(py::module_& m);
+void bind_pipeline(py::module_& m);
+void bind_recording(py::module_& m);
+void bind_input(py::module_& m);
+void bind_experiments(py::module_& m);
+
+}  // namespace penumbra::python

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <span>
+
+#include <python/arrays.hpp>
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/camera/registration.hpp>
+
+#include <io/camera_info.hpp>
+#include <io/pose_file.hpp>
+
+namespace penumbra::python {
+namespace {
+
+void bind_intrinsics(py::module_& m) {
+  py::class_<Intrinsics> intrinsics(
+      m, "Intrinsics",
+      "A pinhole camera's image size and projection, pixels. Pixel (u, v) has its centre at "
+      "integer "
+      "coordinates; its ray is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y "
+      "down, z forward.");
+  intrinsics
+      .def(py::init<int, int, double, double, double, double>(), py::arg("width"),
+           py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"),
+           "Raises InputError for sizes or focal lengths out of bounds.")
+      .def_property_readonly("width", &Intrinsics::width, "Pixels.")
+      .def_property_readonly("height", &Intrinsics::height, "Pixels.")
+      .def_property_readonly("fx", &Intrinsics::fx, "Focal length, pixels.")
+      .def_property_readonly("fy", &Intrinsics::fy, "Focal length, pixels.")
+      .def_property_readonly("cx", &Intrinsics::cx, "Principal point, pixels.")
+      .def_property_readonly("cy", &Intrinsics::cy, "Principal point, pixels.")
+      .def("binned", &Intrinsics::binned, py::arg("bx"), py::arg("by"),
+           "The camera whose pixels each cover bx x by of this one's.")
+      .def("cropped", &Intrinsics::cropped, py::arg("x"), py::arg("y"), py::arg("width"),
+           py::arg("height"), "The camera of a window that starts at (x, y).")
+      .def("ray", &Intrinsics::ray, py::arg("u"), py::arg("v"),
+           "The ray of an image point in the optical frame, with z = 1.")
+      .def("project", &Intrinsics::project, py::arg("point"),
+           "Image point (u, v) of a point in the optical frame, metres; z must not be 0.")
+      .def(
+          "__eq__", [](const Intrinsics& a, const Intrinsics& b) { return a == b; },
+          py::is_operator())
+      .def("__repr__", [](const py::object& self) {
+        return repr_of(self, {"width", "height", "fx", "fy", "cx", "cy"});
+      });
+  intrinsics.attr("__hash__") = py::none();
+}
+
+void bind_distortion(py::module_& m) {
+  py::class_<Distortion>(
+      m, "Distortion", "How a lens bends rays. Points are on the plane z = 1 of the optical frame.")
+      .def(py::init<>(), "None.")
+      .def(py::init([](const std::string& name, const std::vector<double>& coefficients) {
+             return Distortion(name, coefficients);
+           }),
+           py::arg("name"), py::arg("coefficients"),
+           "By ROS's names: plumb_bob (4 or 5 coefficients), rational_polynomial (8), equidistant "
+           "(4). Raises InputError for an unknown name or a wrong number of coefficients.")
+      .def_property_readonly("model", &Distortion::model, "The lens model.")
+      .def_property_readonly("is_none", &Distortion::is_none, "Whether rays stay straight.")
+      .def_property_readonly("max_radius", &Distortion::max_radius,
+                             "Largest undistorted radius up to which the model is one-to-one.")
+      .def("distort", &Distortion::distort, py::arg("undistorted"),
+           "Where the lens puts the ray through the point.")
+      .def("undistort", &Distortion::undistort, py::arg("distorted"),
+           "The point that the lens puts there; None where there is none.")
+      .def("__repr__", [](const py::object& self) {
+        return repr_of(self, {"model", "max_radius"});
+      });
+}
+
+void bind_camera_class(py::module_& m) {
+  py::class_<DepthRange> range(
+      m, "DepthRange",
+      "The sensor's own range: depths outside of it are no measurements. It does not limit what is "
+      "rendered.");
+  bind_fields(range, Field{"near", &DepthRange::near, "Metres."},
+              Field{"far", &DepthRange::far, "Metres."});
+  py::class_<Camera> camera(
+      m, "Camera", "A calibrated depth camera: what its images are like, not where it is.");
+  camera.def(py::init([](const Intrinsics& intrinsics, const Distortion& distortion,
+                         const DepthRange& depth_range, std::string frame_id) {
+               Camera made{intrinsics, distortion, depth_range, std::move(frame_id)};
+               made.check();
+               return made;
+             }),
+             py::arg("intrinsics"), py::kw_only(), py::arg("distortion") = Distortion(),
+             py::arg("range") = DepthRange(), py::arg("frame_id") = std::string(),
+             "Raises InputError unless 0 <= near < far.");
+  show_fields(camera, Field{"intrinsics", &Camera::intrinsics, "Of the image as it comes."},
+              Field{"distortion", &Camera::distortion, "Of the image as it comes."},
+              Field{"range", &Camera::range, "Which depths are measurements."},
+              Field{"frame_id", &Camera::frame_id, "The optical frame; may be empty."});
+}
+
+void bind_files(py::module_& m) {
+  m.def(
+      "read_camera_info", &io::read_camera_info, py::arg("file"), py::kw_only(),
+      py::arg("rectified"), WithoutGil(),
+      "Reads a ROS camera_info YAML file: a dump of sensor_msgs/CameraInfo or camera_calibration's "
+      "file. rectified: the images are free of distortion already; then p is used, else k and d. "
+      "Raises InputError with file, line and key.");
+  m.def("read_pose_csv", &io::read_pose_csv, py::arg("file"), WithoutGil(),
+        "Reads a pose: four rows of four comma-separated numbers, metres. Raises InputError for "
+        "anything that is no rigid transform.");
+}
+
+ImageResult<std::int32_t> map_array(const std::shared_ptr<Rectification>& self,
+                                    ImageView<const std::int32_t> indices) {
+  return array_of(indices, keeper_of(self));
+}
+
+void bind_rectification(py::module_& m) {
+  py::class_<Rectification, std::shared_ptr<Rectification>>(
+      m, "Rectification",
+      "Maps between a camera's raw, distorted image and a pinhole image that covers it. Both ways "
+      "take the nearest pixel: depths are never mixed.")
+      .def(py::init([](const Camera& raw) {
+             const py::gil_scoped_release others;
+             return std::make_shared<Rectification>(raw);
+           }),
+           py::arg("raw"), "Raises InputError if the lens reaches no pixel.")
+      .def_property_readonly("pinhole", &Rectification::pinhole, "Size and projection.")
+      .def_property_readonly(
+          "half_angle", &Rectification::half_angle,
+          "Rays farther than this from the optical axis, radians, are not covered.")
+      .def_property_readonly(
+          "raw_to_pinhole",
+          [](const std::shared_ptr<Rectification>& self) {
+            return map_array(self, self->raw_to_pinhole());
+          },
+          "Of the raw image's size: index v * width + u of each "
+          "pixel's pinhole pixel, -1 where there is none. Read-only view.")
+      .def_property_readonly(
+          "pinhole_to_raw",
+          [](const std::shared_ptr<Rectification>& self) {
+            return map_array(self, self->pinhole_to_raw());
+          },
+          "Of the pinhole image's size: index v * width + u of each "
+          "pixel's raw pixel, -1 where there is none. Read-only view.");
+}
+
+/// A registration and the rule of its result.
+struct Registration {
+  Registration(const Camera& from_, const Camera& to)
+      : warp(from_, to), width(from_.intrinsics.width()), height(from_.intrinsics.height()) {}
+  DepthRegistration warp;
+  int width, height;
+  Lease lease;
+  OneThread thread;
+};
+
+ImageResult<std::uint16_t, float> warped(const std::shared_ptr<Registration>& self,
+                                         const DepthArgument<"depth">& depth,
+                                         const Eigen::Isometry3d& T_to_from) {
+  const OneThread::Use use(self->thread, "DepthRegistration.warp");
+  self->lease.end("DepthRegistration.warp", "its result");
+  check_size(depth.array, "depth", self->width, self->height);
+  DepthView result;
+  {
+    const py::gil_scoped_release others;
+    result = self->warp.warp(depth.view, T_to_from);
+  }
+  const py::object base = self->lease.base(self);
+  return std::visit(
+      [&](const auto& view) {
+        return ImageResult<std::uint16_t, float>{array_of(view, base).array};
+      },
+      result);
+}
+
+void bind_registration(py::module_& m) {
+  py::class_<Registration, std::shared_ptr<Registration>>(
+      m, "DepthRegistration",
+      "Brings depth images of one camera into the image of another: what that would measure of the "
+      "surfaces that the first one sees.")
+      .def(py::init<const Camera&, const Camera&>(), py::arg("from_camera"), py::arg("to_camera"))
+      .def(
+          "warp", &warped, py::arg("depth"), py::arg("T_to_from"),
+          "depth: of the first camera's size, millimetres (uint16) or metres (float32). The result "
+          "is of the second camera's size and of the same dtype, 0 where nothing is measured; a "
+          "read-only view: while it is in use the next call raises ValueError.");
+}
+
+}  // namespace
+
+void bind_camera(py::module_& m) {
+  bind_intrinsics(m);
+  bind_distortion(m);
+  bind_camera_class(m);
+  bind_files(m);
+  bind_rectification(m);
+  bind_registration(m);
+}
+
+}  // namespace penumbra::python

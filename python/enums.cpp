@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <initializer_list>
+#include <utility>
+
+#include <python/bindings.hpp>
+
+namespace penumbra::python {
+namespace {
+
+template <typename E>
+using Named = std::pair<const char*, E>;
+
+/// Makes the class; `value` gives a member's value in Python.
+template <typename E, typename Value>
+void make_enum(py::module_& m, const char* base, const char* name, const char* doc,
+               std::initializer_list<Named<E>> members, Value value) {
+  py::dict values;
+  for (const auto& [member, of] : members) values[member] = value(member, of);
+  const py::object made =
+      py::module_::import("enum").attr(base)(name, values, py::arg("module") = "penumbra");
+  made.attr("__doc__") = doc;
+  for (const auto& [member, of] : members)
+    EnumClass<E>::members.push_back({of, py::object(made.attr(member)).release().ptr()});
+  m.attr(name) = made;
+}
+
+/// Members are called as in C++; their values are the names in report.json and YAML files.
+template <typename E>
+void bind_enum(py::module_& m, const char* name, const char* doc,
+               std::initializer_list<Named<E>> members) {
+  make_enum<E>(m, "Enum", name, doc, members,
+               [](const char* member, E /*of*/) { return py::str(member); });
+}
+
+void bind_image_enums(py::module_& m) {
+  make_enum<Label>(m, "IntEnum", "Label",
+                   "What a pixel of a label image says. clear: no robot on this ray; front: "
+                   "something real before the robot; occluded: the sensor sees the robot; unknown: "
+                   "robot on the ray, no measurement; beyond: the sensor sees past the model.",
+                   {{"clear", Label::clear},
+                    {"front", Label::front},
+                    {"occluded", Label::occluded},
+                    {"unknown", Label::unknown},
+                    {"beyond", Label::beyond}},
+                   [](const char* /*member*/, Label of) { return static_cast<int>(of); });
+  bind_enum<ImageSpace>(m, "ImageSpace",
+                        "Which image results are given in: raw, the camera's as it comes, or "
+                        "rectified, the pinhole image that covers it.",
+                        {{"raw", ImageSpace::raw}, {"rectified", ImageSpace::rectified}});
+  bind_enum<Backend>(
+      m, "Backend", "What draws: cpu (SIMD), gl (OpenGL without a display), reference.",
+      {{"cpu", Backend::cpu}, {"gl", Backend::gl}, {"reference", Backend::reference}});
+  bind_enum<DistortionModel>(m, "DistortionModel", "A lens model, by ROS's name.",
+                             {{"none", DistortionModel::none},
+                              {"plumb_bob", DistortionModel::plumb_bob},
+                              {"rational_polynomial", DistortionModel::rational_polynomial},
+                              {"equidistant", DistortionModel::equidistant}});
+  bind_enum<io::BeyondMeans>(
+      m, "BeyondMeans", "What verdicts make of the label beyond.",
+      {{"occluded", io::BeyondMeans::occluded}, {"visible", io::BeyondMeans::visible}});
+}
+
+void bind_robot_enums(py::module_& m) {
+  bind_enum<Geometry>(m, "Geometry", "Which geometry of a URDF is drawn.",
+                      {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
+  bind_enum<JointType>(m, "JointType", "A joint's type, by its name in a URDF.",
+                       {{"revolute", JointType::revolute},
+                        {"continuous", JointType::continuous},
+                        {"prismatic", JointType::prismatic},
+                        {"fixed", JointType::fixed},
+                        {"planar", JointType::planar},
+                        {"floating", JointType::floating}});
+  bind_enum<JointStatus>(
+      m, "JointStatus",
+      "Whether joint positions are known at a stamp; missing: never seen, stale: "
+      "not near it.",
+      {{"ok", JointStatus::ok}, {"missing", JointStatus::missing}, {"stale", JointStatus::stale}});
+  bind_enum<PoseSource>(m, "PoseSource", "Who says where the links are.",
+                        {{"joints", PoseSource::joints},
+                         {"transforms", PoseSource::transforms},
+                         {"both", PoseSource::both}});
+}
+
+void bind_frame_enums(py::module_& m) {
+  bind_enum<FrameStatus>(m, "FrameStatus", "Whether a frame can be relied on, and if not, why.",
+                         {{"ok", FrameStatus::ok},
+                          {"missing_joints", FrameStatus::missing_joints},
+                          {"stale_joints", FrameStatus::stale_joints},
+                          {"missing_link", FrameStatus::missing_link},
+                          {"missing_depth", FrameStatus::missing_depth},
+                          {"bad_depth", FrameStatus::bad_depth},
+                          {"missing_transform", FrameStatus::missing_transform},
+                          {"stale_transform", FrameStatus::stale_transform},
+                          {"poses_disagree", FrameStatus::poses_disagree}});
+  bind_enum<Verdict>(m, "Verdict", "What is said of a target.",
+                     {{"visible", Verdict::visible},
+                      {"partial", Verdict::partial},
+                      {"hidden", Verdict::hidden},
+                      {"unknown", Verdict::unknown},
+                      {"out_of_view", Verdict::out_of_view}});
+  bind_enum<Extent>(m, "Extent",
+                    "What a region covers of its target: amodal, all of it, or modal, what a "
+                    "detector still sees.",
+                    {{"amodal", Extent::amodal}, {"modal", Extent::modal}});
+}
+
+void bind_track_enums(py::module_& m) {
+  bind_enum<Source>(m, "Source", "Where a handled target's position comes from.",
+                    {{"measured", Source::measured},
+                     {"predicted", Source::predicted},
+                     {"held", Source::held},
+                     {"lost", Source::lost}});
+  bind_enum<Outcome>(m, "Outcome", "What a tracker did with an estimate.",
+                     {{"accepted", Outcome::accepted},
+                      {"refused_verdict", Outcome::refused_verdict},
+                      {"refused_gate", Outcome::refused_gate},
+                      {"refused_late", Outcome::refused_late},
+                      {"refused_invalid", Outcome::refused_invalid}});
+  bind_enum<Motion>(m, "Motion", "How a target's pose moves while nobody sees it.",
+                    {{"constant_twist", Motion::constant_twist},
+                     {"constant_velocity", Motion::constant_velocity},
+                     {"along_direction", Motion::along_direction},
+                     {"still", Motion::still}});
+  bind_enum<PointMotion>(
+      m, "PointMotion", "How a target's point moves while nobody sees it.",
+      {{"hold", PointMotion::hold}, {"constant_velocity", PointMotion::constant_velocity}});
+}
+
+}  // namespace
+
+void bind_enums(py::module_& m) {
+  bind_image_enums(m);
+  bind_robot_enums(m);
+  bind_frame_enums(m);
+  bind_track_enums(m);
+}
+
+}  // namespace penumbra::python

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/frame.hpp>
+
+namespace penumbra::python {
+
+Frame OwnedFrame::view(std::vector<Target>& views) const {
+  Frame frame;
+  frame.stamp = stamp;
+  if (depth) frame.depth = depth->view;
+  if (const auto* positions = std::get_if<Numbers>(&joints)) {
+    frame.joints = positions->values;
+    frame.joints.age = joint_age;
+  } else if (const auto* answer = std::get_if<JointAnswer>(&joints)) {
+    frame.joints = *answer;
+  }
+  frame.T_root_link = T_root_link;
+  frame.T_parent_camera = T_parent_camera;
+  if (const auto* own = std::get_if<0>(&targets)) {
+    for (const auto& target : *own) views.push_back(target_of(target));
+    frame.targets = views;
+  } else {
+    frame.targets = std::get<1>(targets).targets();
+  }
+  frame.source_status = source_status;
+  frame.source_message = source_message;
+  frame.index = index;
+  return frame;
+}
+
+namespace {
+
+OwnedFrame make_frame(std::optional<DepthArgument<"depth">> depth, OwnedJoints joints,
+                      std::optional<std::int64_t> stamp, OwnedTargets targets,
+                      std::optional<Poses> T_root_link,
+                      std::optional<Eigen::Isometry3d> T_parent_camera, FrameStatus source_status,
+                      std::string source_message, std::optional<std::size_t> index,
+                      std::optional<std::int64_t> joint_age) {
+  return {std::move(depth),
+          std::move(joints),
+          joint_age,
+          stamp,
+          std::move(T_root_link).value_or(Poses()),
+          T_parent_camera,
+          std::move(targets),
+          source_status,
+          std::move(source_message),
+          index};
+}
+
+const std::vector<const char*>& arguments() {
+  static const std::vector<const char*> names{
+      "depth",           "joints",        "stamp",          "targets", "T_root_link",
+      "T_parent_camera", "source_status", "source_message", "index",   "joint_age"};
+  return names;
+}
+
+}  // namespace
+
+void bind_frame(py::module_& m) {
+  const Frame defaults;
+  using F = OwnedFrame;
+  py::class_<F> frame(m, "Frame",
+                      "What goes into Pipeline.process. The depth image is looked at where it "
+                      "lies: do not change it "
+                      "while it is judged.");
+  frame
+      .def(py::init(&make_frame), py::arg("depth"), py::arg("joints"), py::kw_only(),
+           py::arg("stamp") = defaults.stamp, py::arg("targets") = OwnedTargets(),
+           py::arg("T_root_link") = std::optional<Poses>(),
+           py::arg("T_parent_camera") = defaults.T_parent_camera,
+           py::arg("source_status") = defaults.source_status,
+           py::arg("source_message") = std::string(), py::arg("index") = defaults.index,
+           py::arg("joint_age") = std::optional<std::int64_t>(),
+           "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
+           "measurement; None: there is none. joints: positions in the order of Robot.variables, "
+           "rad "
+           "and m, or what JointBuffer.at() says; None: not known. stamp: of the depth image, "
+           "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
+           "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
+           "configuration's. source_status, source_message: what is known to be wrong with the "
+           "frame. joint_age: of positions, nanoseconds.")
+      .def_property_readonly(
+          "depth",
+          [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
+            if (!f.depth) return std::nullopt;
+            return ImageResult<std::uint16_t, float>{f.depth->array};
+          },
+          "The array itself.")
+      .def_property_readonly(
+          "joints", [](const F& f) { return f.joints; }, "As they were given.")
+      .def_property_readonly(
+          "stamp", [](const F& f) { return f.stamp; }, "Nanoseconds.")
+      .def_property_readonly(
+          "targets", [](const F& f) { return f.targets; }, "To be judged.")
+      .def_property_readonly(
+          "T_root_link",
+          [](const F& f) -> std::optional<Poses> {
+            if (f.T_root_link.empty()) return std::nullopt;
+            return f.T_root_link;
+          },
+          "Metres; None: by joints.")
+      .def_property_readonly(
+          "T_parent_camera", [](const F& f) { return f.T_parent_camera; },
+          "Metres; None: the configuration's.")
+      .def_property_readonly(
+          "source_status", [](const F& f) { return f.source_status; },
+          "What its source knows to be wrong.")
+      .def_property_readonly(
+          "source_message", [](const F& f) { return f.source_message; }, "One line that says so.")
+      .def_property_readonly(
+          "index", [](const F& f) { return f.index; }, "In its source.")
+      .def_property_readonly(
+          "joint_age", [](const F& f) { return f.joint_age; }, "Nanoseconds.")
+      .def(
+          "replace",
+          [](const py::object& self, const py::kwargs& changes) {
+            return replaced(self, arguments(), changes);
+          },
+          "The same with other values.");
+}
+
+}  // namespace penumbra::python

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `penumbra run` takes: recording folders and bags, opened by its own code.
+#include <sstream>
+
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/recording.hpp>
+
+#include <apps/penumbra/run_input.hpp>
+
+namespace penumbra::python {
+namespace {
+
+using app::BagArguments;
+using app::RunArguments;
+
+/// What `run` judges, as its options say.
+struct Input {
+  explicit Input(const RunArguments& arguments) : input(app::open_input(arguments, told)) {}
+  std::ostringstream told;
+  app::RunInput input;
+};
+
+/// The frames of an input, one after the other.
+struct Frames : TargetSource {
+  explicit Frames(std::shared_ptr<Input> of)
+      : input(std::move(of)), source(input->input.frames(input->input.robot)) {}
+  std::shared_ptr<Input> input;
+  std::unique_ptr<io::FrameSource> source;
+};
+
+RecordedFrame next(const std::shared_ptr<Frames>& self) {
+  const OneThread::Use use(self->thread, "the iterator of an Input");
+  auto data = std::make_shared<io::FrameData>();
+  Frame frame;
+  ++self->given;
+  bool found = false;
+  {
+    const py::gil_scoped_release others;
+    found = self->source->next(*data, frame);
+  }
+  if (!found) throw py::stop_iteration();
+  OwnedTargets targets;
+  if (!frame.targets.empty()) targets = SourceTargets(self, frame.targets);
+  return recorded(std::move(data), frame, std::move(targets));
+}
+
+std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
+                                  std::optional<Geometry> geometry, bool geometry_fallback,
+                                  bool allow_missing_meshes,
+                                  std::optional<std::pair<std::int64_t, std::int64_t>> frames,
+                                  const std::optional<BagArguments>& bag) {
+  RunArguments arguments;
+  arguments.input = path;
+  arguments.saves.overlay = color;
+  arguments.geometry = geometry;
+  arguments.geometry_fallback = geometry_fallback;
+  arguments.allow_missing_meshes = allow_missing_meshes;
+  if (frames) arguments.frames = {frames->first, frames->second};
+  if (bag) {
+    arguments.bag = *bag;
+    arguments.bag.given = "bag";  // a recording folder refuses it
+  }
+  const py::gil_scoped_release others;
+  return std::make_shared<Input>(arguments);
+}
+
+void bind_bag_options(py::module_& m) {
+  py::class_<BagArguments> options(
+      m, "BagOptions", "What is said of a bag. Topics are found by type and name where not given.");
+  using B = BagArguments;
+  bind_fields(
+      options, Field{"depth_topic", &B::depth_topic, "Depth images."},
+      Field{"camera_info_topic", &B::camera_info_topic, "Their camera_info."},
+      Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
+      Field{"joint_topics", &B::joint_topics, "Joint states."},
+      Field{"target_topics", &B::target_topics, "Detections, key points, poses."},
+      Field{"poses", &B::poses, "None: joints, or transforms where there are none."},
+      Field{"robot", &B::robot, "URDF in place of /robot_description."},
+      Field{"packages", &B::packages, "package://NAME to its folder."},
+      Field{"camera_frame", &B::camera_frame, "In place of the images' frame_id."},
+      Field{"parent", &B::parent, "Link that the camera sits on."},
+      Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
+      Field{"rectified", &B::rectified, "The images are free of distortion already."},
+      Field{"time_offset", &B::time_offset, "Seconds added to an image's stamp."});
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+void bind_input_classes(py::module_& m) {
+  py::class_<Frames, std::shared_ptr<Frames>>(m, "InputFrames", "The frames of an Input.")
+      .def("__iter__", [](const std::shared_ptr<Frames>& self) { return self; })
+      .def("__next__", &next)
+      .def_property_readonly(
+          "size", [](const Frames& self) { return self.source->size(); },
+          "How many there are in all; None: known at the end.")
+      .def_property_readonly(
+          "notes", [](const Frames& self) { return Frozen<std::string>{self.source->notes()}; },
+          "What was found wrong with the source itself, a line each; all of it is "
+          "known at the end.");
+  py::class_<Input, std::shared_ptr<Input>>(
+      m, "Input",
+      "What `penumbra run` takes: a recording folder or a ROS 2 bag (*.mcap, *.db3 or a folder). "
+      "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, out "
+      "of "
+      "its message.")
+      .def("__iter__",
+           [](const std::shared_ptr<Input>& self) { return std::make_shared<Frames>(self); })
+      .def_property_readonly(
+          "robot", [](const Input& self) { return self.input.robot; }, "The robot.")
+      .def_property_readonly(
+          "camera", [](const Input& self) { return self.input.camera; }, "Of the judged images.")
+      .def_property_readonly(
+          "config", [](const Input& self) { return self.input.config; },
+          "Defaults of a pipeline with what the input says.")
+      .def_property_readonly(
+          "targets", [](const Input& self) { return self.input.targets; },
+          "The input's own targets.yaml; None: there is none.")
+      .def_property_readonly(
+          "target_history", [](const Input& self) { return self.input.target_history; },
+          "PipelineConfig.target_history for targets that come with the frames, s.")
+      .def_property_readonly(
+          "beyond", [](const Input& self) { return self.input.beyond; },
+          "What verdicts make of beyond; None: it does not say.")
+      .def_property_readonly(
+          "told", [](const Input& self) { return Frozen<std::string>{lines_of(self.told.str())}; },
+          "What of a bag is taken, a line each.");
+}
+
+}  // namespace
+
+void bind_input(py::module_& m) {
+  bind_bag_options(m);
+  bind_input_classes(m);
+  const RunArguments defaults;
+  m.def("open_input", &open_input, py::arg("path"), py::kw_only(),
+        py::arg("color") = defaults.saves.overlay, py::arg("geometry") = defaults.geometry,
+        py::arg("geometry_fallback") = defaults.geometry_fallback,
+        py::arg("allow_missing_meshes") = defaults.allow_missing_meshes,
+        py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),
+        py::arg("bag") = std::optional<BagArguments>(),
+        "Opens what `penumbra run` takes, as its options of these names say. color: read colour "
+        "images, too; frames: (first, end) of those wanted; bag: of bags alone. Raises InputError "
+        "that names the file.");
+}
+
+}  // namespace penumbra::python

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+
+#include <penumbra/robot/joint_buffer.hpp>
+
+namespace penumbra::python {
+namespace {
+
+void bind_joint_answers(py::module_& m) {
+  py::class_<JointBufferOptions> options(m, "JointBufferOptions", "How joint states are merged.");
+  using O = JointBufferOptions;
+  bind_fields(
+      options,
+      Field{"max_gap", &O::max_gap,
+            "Seconds between two states of a joint that may be interpolated."},
+      Field{"history", &O::history, "Seconds of states that are kept behind the newest."},
+      Field{"max_states", &O::max_states, "Of each variable; the oldest are dropped beyond."});
+
+  py::class_<JointGap> gap(m, "JointGap",
+                           "A variable that has no position at the stamp asked for.");
+  show_fields(gap, Field{"variable", &JointGap::variable, "Index into Robot.variables."},
+              Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
+              Field{"last_seen", &JointGap::last_seen,
+                    "Stamp of its latest state at or before, nanoseconds; None: there is none."});
+
+  py::class_<JointAnswer> answer(m, "JointAnswer", "Where the joints are at a stamp.");
+  using A = JointAnswer;
+  show_fields(answer, Field{"status", &A::status, "missing before stale, where both occur."},
+              Field{"positions", &A::positions,
+                    "In the order of Robot.variables, rad and m; valid only if status is ok."},
+              Field{"age", &A::age, "Nanoseconds from the stamp to the farthest used state."},
+              Field{"gaps", &A::gaps, "Empty if status is ok."});
+}
+
+}  // namespace
+
+void bind_joint_buffer(py::module_& m) {
+  bind_joint_answers(m);
+  py::class_<JointBuffer>(
+      m, "JointBuffer",
+      "Merges joint states, complete or partial, in any order, and interpolates them to a stamp. "
+      "Never extrapolates: what is not between two states is answered stale.")
+      .def(py::init<const Robot&, JointBufferOptions>(), py::arg("robot"),
+           py::arg("options") = JointBufferOptions())
+      .def(
+          "insert",
+          [](JointBuffer& self, std::int64_t stamp, const std::vector<std::string>& names,
+             const Numbers& positions) { return self.insert(stamp, names, positions.values); },
+          py::arg("stamp"), py::arg("names"), py::arg("positions"),
+          "Adds one joint state; stamp in nanoseconds, positions in rad and m. Returns the number "
+          "of "
+          "values taken; names that are no variable are passed over.")
+      .def(
+          "at",
+          [](const JointBuffer& self, std::int64_t stamp) {
+            JointAnswer answer;
+            self.at(stamp, answer);
+            return answer;
+          },
+          py::arg("stamp"), "Positions at a stamp, nanoseconds.")
+      .def("complete_until", &JointBuffer::complete_until,
+           "Stamp of the newest state up to which every joint is known, nanoseconds; else None.")
+      .def("clear", &JointBuffer::clear, "Forgets every state.")
+      .def_property_readonly("refused_values", &JointBuffer::refused_values,
+                             "Positions of the robot's joints that insert() did not take.");
+}
+
+}  // namespace penumbra::python

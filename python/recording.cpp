@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/recording.hpp>
+
+#include <io/recording.hpp>
+#include <io/recording_source.hpp>
+#include <io/targets_file.hpp>
+
+namespace penumbra::python {
+
+namespace {
+
+/// Makes a source's depth image the frame's own.
+template <typename T>
+void take_depth(io::FrameData& data, ImageView<const T> view) {
+  if (view.empty()) return;
+  if (const auto* own = std::get_if<Image<T>>(&data.depth); own && own->data() == view.data) return;
+  Image<T> copy(view.width, view.height);
+  for (int v = 0; v < view.height; ++v) std::copy_n(view.row(v), view.width, copy.view().row(v));
+  data.depth = std::move(copy);
+}
+
+std::optional<DepthArgument<"depth">> depth_of(const std::shared_ptr<io::FrameData>& data) {
+  return std::visit(
+      [&](auto& image) -> std::optional<DepthArgument<"depth">> {
+        if (image.empty()) return std::nullopt;
+        using Pixel = std::remove_pointer_t<decltype(image.data())>;
+        return DepthArgument<"depth">{array_of(image.view(), keeper_of(data)).array,
+                                      ImageView<const Pixel>(image.view())};
+      },
+      data->depth);
+}
+
+OwnedJoints joints_of(const JointInput& joints) {
+  if (joints.status == JointStatus::ok)
+    return Numbers{{joints.positions.begin(), joints.positions.end()}};
+  if (joints.status == JointStatus::missing && joints.gaps.empty()) return std::monostate();
+  JointAnswer answer;
+  answer.status = joints.status;
+  answer.age = joints.age.value_or(0);
+  answer.gaps.assign(joints.gaps.begin(), joints.gaps.end());
+  return answer;
+}
+
+}  // namespace
+
+RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
+                       OwnedTargets targets) {
+  std::visit([&](const auto& view) { take_depth(*data, view); }, frame.depth);
+  OwnedFrame owned{.depth = depth_of(data),
+                   .joints = joints_of(frame.joints),
+                   .joint_age = frame.joints.age,
+                   .stamp = frame.stamp,
+                   .T_root_link = {frame.T_root_link.begin(), frame.T_root_link.end()},
+                   .T_parent_camera = frame.T_parent_camera,
+                   .targets = std::move(targets),
+                   .source_status = frame.source_status,
+                   .source_message = std::string(frame.source_message),
+                   .index = frame.index};
+  return {std::move(data), std::move(owned)};
+}
+
+namespace {
+
+void bind_description(py::module_& m) {
+  py::class_<io::RecordingCamera> camera(m, "RecordingCamera", "The camera of a recording.");
+  using C = io::RecordingCamera;
+  show_fields(camera, Field{"info", &C::info, "The camera_info file."},
+              Field{"camera", &C::camera, "What its images are like."},
+              Field{"rectified", &C::rectified, "The images are free of distortion already."},
+              Field{"parent", &C::parent, "The link that the camera sits on."},
+              Field{"T_parent_camera", &C::T_parent_camera,
+                    "Pose of the optical frame in the parent link, metres."},
+              Field{"range", &C::range, "None: not written there."},
+              Field{"tolerance", &C::tolerance, "None: not written there."},
+              Field{"front_min_width", &C::front_min_width, "Pixels; None: not written there."},
+              Field{"beyond", &C::beyond, "None: not written there."});
+  py::class_<io::Recording> recording(m, "Recording",
+                                      "A recording folder's description, read and checked.");
+  using R = io::Recording;
+  recording
+      .def_static(
+          "open", &R::open, py::arg("folder_or_yaml"), WithoutGil(),
+          "Reads a recording.yaml, or the one in a folder. Raises InputError with file, line "
+          "and key.")
+      .def("pipeline_config", &R::pipeline_config,
+           "The defaults of a pipeline with what the recording says.");
+  show_fields(recording, Field{"file", &R::file, "The recording.yaml."},
+              Field{"urdf", &R::urdf, "The robot's file."},
+              Field{"robot", &R::robot, "How it is read."},
+              Field{"camera", &R::camera, "Its camera."},
+              Field{"targets", &R::targets, "The targets.yaml; None: there is none."});
+}
+
+/// A reader of frames, each into images of its own.
+struct Reader {
+  Reader(const io::Recording& recording, const Robot& robot, bool color_)
+      : reader(recording, robot), color(color_) {}
+  io::FrameReader reader;
+  bool color;
+};
+
+RecordedFrame read(const Reader& self, std::ptrdiff_t i) {
+  const auto size = static_cast<std::ptrdiff_t>(self.reader.size());
+  if (i < -size || i >= size)
+    throw py::index_error("frame: expected an index in " + std::to_string(-size) + ".." +
+                          std::to_string(size - 1) + "; got " + std::to_string(i));
+  const auto at = static_cast<std::size_t>(i < 0 ? i + size : i);
+  auto data = std::make_shared<io::FrameData>();
+  {
+    const py::gil_scoped_release others;
+    self.reader.read(at, self.color, *data);
+  }
+  return recorded(data, io::frame_of(*data), {});
+}
+
+void bind_recorded_frames(py::module_& m) {
+  using F = RecordedFrame;
+  py::class_<F>(m, "RecordedFrame",
+                "A recorded frame. It keeps its images: arrays upon them stay as they are.")
+      .def_property_readonly(
+          "frame", [](const F& f) { return f.frame; }, "What Pipeline.process takes.")
+      .def_property_readonly(
+          "index", [](const F& f) { return f.data->index; }, "Its number.")
+      .def_property_readonly(
+          "stamp", [](const F& f) { return f.data->stamp; }, "Nanoseconds.")
+      .def_property_readonly(
+          "status", [](const F& f) { return f.data->status; }, "What is wrong with its data.")
+      .def_property_readonly(
+          "message", [](const F& f) { return f.data->message; },
+          "One line that names the file; empty if ok.")
+      .def_property_readonly(
+          "depth",
+          [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
+            if (!f.frame.depth) return std::nullopt;
+            return ImageResult<std::uint16_t, float>{f.frame.depth->array};
+          },
+          "Millimetres (uint16) or metres (float32), 0 = no measurement; None: there is none.")
+      .def_property_readonly(
+          "color",
+          [](const F& f) -> std::optional<ColorResult> {
+            if (f.data->color.empty()) return std::nullopt;
+            return array_of(f.data->color.view(), keeper_of(f.data));
+          },
+          "Red, green, blue; None: not asked for, not recorded or not usable.")
+      .def_property_readonly(
+          "color_message", [](const F& f) { return f.data->color_message; },
+          "Why a recorded colour image is not usable; empty if it is.");
+  py::class_<Reader, std::shared_ptr<Reader>>(
+      m, "FrameReader",
+      "A recording's frames, by their places in the joint file: len(), [i], iteration. May be used "
+      "by "
+      "several threads; other threads run while a frame is read.")
+      .def(py::init([](const io::Recording& recording, const Robot& robot, bool color) {
+             const py::gil_scoped_release others;
+             return std::make_shared<Reader>(recording, robot, color);
+           }),
+           py::arg("recording"), py::arg("robot"), py::kw_only(), py::arg("color"),
+           "color: read colour images, too. Raises InputError for a joint file that is none.")
+      .def("__len__", [](const Reader& self) { return self.reader.size(); })
+      .def("__getitem__", &read, py::arg("i"))
+      .def("__iter__", [](const py::object& self) {
+        return py::reinterpret_steal<FrameIterator>(PySeqIter_New(self.ptr()));
+      });
+}
+
+/// The targets of a file, and whose are given out.
+struct Targets : TargetSource {
+  explicit Targets(io::TargetsFile file_) : file(std::move(file_)) {}
+  io::TargetsFile file;
+};
+
+std::shared_ptr<Targets> open_targets(const std::filesystem::path& file, const Robot& robot,
+                                      ImageSpace image, const Intrinsics& images, bool is_bent,
+                                      bool beyond_hides, double history,
+                                      const std::string& camera_frame) {
+  const py::gil_scoped_release others;
+  return std::make_shared<Targets>(io::TargetsFile::open(file, {.robot = robot,
+                                                                .image = image,
+                                                                .images = images,
+                                                                .is_bent = is_bent,
+                                                                .beyond_hides = beyond_hides,
+                                                                .history = history,
+                                                                .camera_frame = camera_frame}));
+}
+
+/// What C++ has for it: a context needs a robot to refer to.
+double history_by_default() {
+  const Robot robot = Robot::parse("<robot name='r'><link name='l'/></robot>", {});
+  return io::TargetsContext{robot, ImageSpace::raw, Intrinsics(1, 1, 1, 1, 0, 0), false, true}
+      .history;
+}
+
+SourceTargets targets_of(const std::shared_ptr<Targets>& self, std::int64_t index) {
+  const OneThread::Use use(self->thread, "TargetsFile.of_frame");
+  ++self->given;
+  return {self, self->file.of_frame(index)};
+}
+
+void bind_targets_file(py::module_& m) {
+  py::class_<Targets, std::shared_ptr<Targets>>(m, "TargetsFile",
+                                                "A targets.yaml (docs/targets.md): which targets "
+                                                "each frame has.")
+      .def_static(
+          "open", &open_targets, py::arg("file"), py::kw_only(), py::arg("robot"), py::arg("image"),
+          py::arg("images"), py::arg("is_bent"), py::arg("beyond_hides"),
+          py::arg("history") = history_by_default(), py::arg("camera_frame") = std::string(),
+          "robot: whose links may be named; image: of the report; images: size and "
+          "projection of the report's images; is_bent: the camera's raw images have lens "
+          "distortion; beyond_hides: of targets that do not say it; history: seconds that "
+          "frames are kept for late targets, if there are any; camera_frame: of the report's "
+          "images. Raises InputError with file, line and key.")
+      .def("of_frame", &targets_of, py::arg("index"),
+           "All of the file's targets as they are in that frame, until the next call.")
+      .def("__len__", [](const Targets& self) { return self.file.size(); })
+      .def_property_readonly(
+          "history", [](const Targets& self) { return self.file.history(); },
+          "PipelineConfig.target_history that they need, seconds.");
+}
+
+}  // namespace
+
+void bind_recording(py::module_& m) {
+  bind_description(m);
+  bind_recorded_frames(m);
+  bind_targets_file(m);
+}
+
+}  // namespace penumbra::python

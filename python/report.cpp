@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/report.hpp>
+
+namespace penumbra::python {
+
+Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report)
+    : state_(std::move(state)),
+      call_(state_->calls),
+      report_(report),
+      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {
+  targets_.reserve(report.targets.size());
+  for (const TargetReport& target : report.targets) targets_.emplace_back(target, report.links);
+  for (const std::size_t link : report.near_links) near_links_.push_back(report.links[link]);
+  report_.T_root_link = {};
+  report_.near_links = {};
+  report_.targets = {};
+}
+
+py::object Report::base() const {
+  if (state_->calls != call_)
+    throw py::value_error(
+        "FrameReport: the pipeline has judged another frame since, in whose images "
+        "those of frame " +
+        std::to_string(report_.index) + " are gone; take a copy of what is needed longer");
+  return state_->lease.base(state_);
+}
+
+namespace {
+
+template <auto Member>
+auto number(const Report& report) {
+  return report.numbers().*Member;
+}
+
+void bind_report_parts(py::module_& m) {
+  py::class_<PixelCounts> pixels(
+      m, "PixelCounts",
+      "How many pixels of the label image have each label: robot = front + "
+      "occluded + unknown + beyond.");
+  using P = PixelCounts;
+  show_fields(pixels, Field{"robot", &P::robot, "Of the robot; None: its pose is not known."},
+              Field{"front", &P::front, "Before the robot."},
+              Field{"occluded", &P::occluded, "The sensor sees the robot."},
+              Field{"unknown", &P::unknown, "Not measured."},
+              Field{"beyond", &P::beyond, "The sensor sees past the model."},
+              Field{"uncovered", &P::uncovered, "That the lens model does not reach."});
+  py::class_<StageTimes> times(m, "StageTimes",
+                               "Wall time of the stages, milliseconds; None: not run.");
+  using T = StageTimes;
+  show_fields(times, Field{"kinematics", &T::kinematics, "Poses of the links."},
+              Field{"render", &T::render, "Virtual depth."},
+              Field{"classify", &T::classify, "Labels."},
+              Field{"targets", &T::targets, "Verdicts and handling."});
+}
+
+void bind_report_images(py::class_<Report>& report) {
+  report
+      .def_property_readonly(
+          "virtual_depth", [](const Report& r) { return r.image(r.numbers().virtual_depth.depth); },
+          "Metres along the optical axis, 0 where no robot is; None where the robot's pose is not "
+          "known or labels are made on the device. A read-only view: while it is in use the "
+          "pipeline's next call raises ValueError, and after that call it is not to be had any "
+          "more.")
+      .def_property_readonly(
+          "link_image", [](const Report& r) { return r.image(r.numbers().virtual_depth.links); },
+          "Index into links + 1 of the nearest surface, 0: none. As virtual_depth.")
+      .def_property_readonly(
+          "labels", [](const Report& r) { return r.image(r.numbers().labels).value(); },
+          "Label values; all unknown where the robot's pose is not known. As virtual_depth.");
+}
+
+void bind_report_numbers(py::class_<Report>& report) {
+  using F = FrameReport;
+  report.def_property_readonly("index", &number<&F::index>, "In its source.")
+      .def_property_readonly("stamp", &number<&F::stamp>, "Nanoseconds.")
+      .def_property_readonly("joint_age", &number<&F::joint_age>, "Nanoseconds.")
+      .def_property_readonly("status", &number<&F::status>, "Whether the frame can be relied on.")
+      .def_property_readonly("message", &number<&F::message>, "One line for every status but ok.")
+      .def_property_readonly("nothing_measured", &number<&F::nothing_measured>,
+                             "No pixel of the depth image is within the sensor's range.")
+      .def_property_readonly("pixels", &number<&F::pixels>, "Pixels by label.")
+      .def_property_readonly("timing", &number<&F::timing>, "Milliseconds by stage.")
+      .def_property_readonly("T_root_camera", &number<&F::T_root_camera>,
+                             "The optical frame in the root link's; None: not known.")
+      .def_property_readonly(
+          "T_root_link",
+          [](const Report& r) -> std::optional<Poses> {
+            if (r.T_root_link().empty()) return std::nullopt;
+            return r.T_root_link();
+          },
+          "Poses of the links, metres; None: not known.")
+      .def_property_readonly(
+          "near_links", [](const Report& r) { return Frozen<std::string>{r.near_links()}; },
+          "Links of which a part lies nearer than 1 cm and is not drawn.")
+      .def_property_readonly(
+          "targets", [](const Report& r) { return Frozen<OwnedTargetReport>{r.targets()}; },
+          "One for each of the frame's targets, in their order.")
+      .def_property_readonly(
+          "links",
+          [](const Report& r) {
+            const auto links = r.state().pipeline.robot().links();
+            return Frozen<std::string>{{links.begin(), links.end()}};
+          },
+          "Names: links[i] stands as i + 1 in link images.")
+      .def_property_readonly(
+          "missing_links",
+          [](const Report& r) {
+            const auto links = r.state().pipeline.missing_links();
+            return Frozen<std::string>{{links.begin(), links.end()}};
+          },
+          "Links drawn without all of their geometry.");
+}
+
+}  // namespace
+
+void bind_report(py::module_& m) {
+  bind_report_parts(m);
+  py::class_<Report> report(
+      m, "FrameReport",
+      "What the pipeline says of one frame. Numbers, verdicts and poses stay; "
+      "images lie in the pipeline until its next call.");
+  bind_report_numbers(report);
+  bind_report_images(report);
+}
+
+}  // namespace penumbra::python

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds the wheel: CMake makes the module and the command line that is shipped beside it.
+
+The version is CMake's; CMake options go into the environment variable CMAKE_ARGS.
+"""
+
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).parent.absolute()
+PARTS = ["-DPENUMBRA_BUILD_TESTS=OFF", "-DPENUMBRA_BUILD_BENCHMARKS=OFF", "-DPENUMBRA_BUILD_EXAMPLES=OFF",
+         "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON"]
+
+
+def version() -> str:
+    found = re.search(r"project\(Penumbra VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
+    assert found, "CMakeLists.txt tells no version"
+    return found[1]
+
+
+class CMakeBuild(build_ext):
+    """Installs CMake's component `python` where setuptools collects the wheel."""
+
+    def build_extension(self, ext: Extension) -> None:
+        module = pathlib.Path(self.get_ext_fullpath(ext.name)).absolute()
+        build = pathlib.Path(self.build_temp).absolute()
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=24",
+                        f"-DPython_EXECUTABLE={sys.executable}", *PARTS,
+                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "penumbra_python", "penumbra_app"],
+                       check=True)
+        subprocess.run(["cmake", "--install", build, "--component", "python", "--strip", "--prefix",
+                        module.parent.parent], check=True)
+
+
+setup(version=version(), ext_modules=[Extension("penumbra._core", sources=[])],
+      cmdclass={"build_ext": CMakeBuild})

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the Python tests share: recordings, and the command line beside the module."""
+
+import os
+import pathlib
+import subprocess
+
+import numpy as np
+import pytest
+
+import penumbra
+
+ROOT = pathlib.Path(__file__).parents[2]
+SHIPPED = ROOT / "examples" / "arm_over_table"
+DATA = pathlib.Path(os.environ.get("PENUMBRA_DATA") or
+                    os.environ.get("PENUMBRA_DATA_DEFAULT", ROOT.parent / "shared" / "data"))
+PROGRAM = pathlib.Path(penumbra.__file__).parent / "bin" / "penumbra"
+
+
+def skip_without_data():
+    if not DATA.is_dir():
+        assert "data" not in os.environ.get("PENUMBRA_REQUIRE", ""), f"{DATA} is not there"
+        pytest.skip("no data")
+
+
+class Opened:
+    """A recording with all that judges its frames."""
+
+    def __init__(self, folder, color=False, **config):
+        self.recording = penumbra.Recording.open(folder)
+        self.robot = penumbra.Robot.load(self.recording.urdf, self.recording.robot)
+        self.frames = penumbra.FrameReader(self.recording, self.robot, color=color)
+        self.camera = self.recording.camera.camera
+        self.config = self.recording.pipeline_config().replace(**config)
+        self.pipeline = penumbra.Pipeline(self.robot, self.camera, self.config)
+
+
+@pytest.fixture
+def opened():
+    return Opened(SHIPPED)
+
+
+@pytest.fixture(scope="session")
+def shipped():
+    """One that is not changed by its tests."""
+    return Opened(SHIPPED)
+
+
+@pytest.fixture(scope="session")
+def real():
+    skip_without_data()
+    return Opened(DATA / "xarm7_realsense")
+
+
+def run(*arguments):
+    """The command line; must succeed."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def read_png(file):
+    """Pixel values of an 8-bit or 16-bit grey PNG, by an independent reader."""
+    from matplotlib import image  # reads PNG as fractions of the largest value
+
+    values = image.imread(file)
+    largest = 255 if file.parent.name == "labels" else 65535
+    return np.round(values * largest).astype(np.uint16)

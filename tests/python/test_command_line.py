@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Python and the command line say the same."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import DATA, PROGRAM, SHIPPED, Opened, read_png, run, skip_without_data
+
+BAG = DATA / "xarm7_realsense" / "xarm7.mcap"
+RECORDINGS = [SHIPPED, DATA / "xarm7_realsense", BAG]
+PACKAGES = {"xarm_description": DATA / "robots" / "xarm7" / "xarm_description"}
+BAG_OPTIONS = penumbra.BagOptions(packages=PACKAGES)
+
+
+def judged(folder):
+    """Reports and copies of the images of every frame, as a user of the module gets them."""
+    given = penumbra.open_input(folder, bag=BAG_OPTIONS if folder == BAG else None)
+    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    for frame in given:
+        report = pipeline.process(frame.frame)
+        yield report, report.labels.copy(), report.virtual_depth.copy(), report.link_image.copy()
+
+
+@pytest.mark.parametrize("folder", RECORDINGS, ids=["shipped", "real", "bag"])
+def test_images_are_identical(folder, tmp_path):
+    if folder != SHIPPED:
+        skip_without_data()
+    packages = [f"--package={name}={path}" for name, path in PACKAGES.items()]
+    run("run", folder, "-o", tmp_path, "--save", "vdi,labels,links", "--targets", "none",
+        *(packages if folder == BAG else []))
+    told = json.loads((tmp_path / "report.json").read_text())
+    assert len(told["frames"]) >= 10
+    for frame, (report, labels, depth, links) in zip(told["frames"], judged(folder), strict=True):
+        name = f"{frame['index']:06d}"
+        assert np.array_equal(np.load(tmp_path / "vdi" / f"{name}.npy"), depth)
+        assert np.array_equal(read_png(tmp_path / "labels" / f"{name}.png"), labels)
+        assert np.array_equal(read_png(tmp_path / "links" / f"{name}.png"), links)
+        pixels = {key: getattr(report.pixels, key) for key in frame["pixels"]}
+        assert pixels == frame["pixels"] and np.count_nonzero(labels)
+        assert (report.index, report.stamp) == (frame["index"], frame["stamp_ns"])
+        assert report.status.value == frame["status"]
+
+
+def same(told, value):
+    """A number as JSON has it: inf is null there."""
+    if value is None or value == float("inf"):
+        return told is None
+    return told == pytest.approx(value, rel=1e-6, abs=1e-9)
+
+
+def check_target(told, target):
+    assert (told["name"], told["verdict"]) == (target.name, target.verdict.value)
+    judgement = target.judgement
+    assert (told["covered"], told["inside"]) == (judgement.covered, judgement.inside)
+    fractions = {"occluded": "occluded", "front": "front", "clear": "clear", "unknown": "unknown"}
+    for key, name in fractions.items():
+        value = getattr(judgement, name) if judgement.inside else None
+        assert same(told[f"{key}_fraction"], value)
+    assert [b["link"] for b in told["blame"]] == [b.link for b in judgement.blame]
+    if told["point"] is None:
+        assert target.point is None
+    else:
+        assert told["point"] == pytest.approx(target.point.tolist(), rel=1e-6)
+    if told["handled"] is not None:
+        assert told["handled"]["source"] == target.handled.source.value
+        assert same(told["handled"]["age_s"], target.handled.age)
+
+
+def test_targets_are_judged_alike(tmp_path):
+    run("run", SHIPPED, "-o", tmp_path)
+    told = json.loads((tmp_path / "report.json").read_text())["frames"]
+    opened = Opened(SHIPPED)
+    file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
+                                     image=opened.config.image, images=opened.pipeline.intrinsics,
+                                     is_bent=False, beyond_hides=True)
+    verdicts = set()
+    for frame, expected in zip(opened.frames, told, strict=True):
+        report = opened.pipeline.process(frame.frame.replace(targets=file.of_frame(frame.index)))
+        assert len(report.targets) == len(expected["targets"]) == 4
+        for target, of in zip(report.targets, expected["targets"]):
+            check_target(of, target)
+            verdicts.add(target.verdict)
+    assert len(verdicts) >= 3
+
+
+def test_an_input_is_what_run_takes():
+    given = penumbra.open_input(SHIPPED, color=True, frames=(2, 5))
+    frames = list(given)
+    assert [frame.index for frame in frames] == [2, 3, 4]
+    assert frames[0].color.shape == (480, 640, 3) and given.targets.name == "targets.yaml"
+    assert iter(given).size == 3 and given.told == ()
+    shown = given.camera.intrinsics.width, given.camera.intrinsics.height
+    assert shown == (640, 480) and given.config.camera_parent == "base_link"
+
+
+def test_a_bag_tells_what_is_taken_of_it():
+    skip_without_data()
+    given = penumbra.open_input(BAG, color=True, bag=BAG_OPTIONS)
+    assert any(line.startswith("depth: /camera/") for line in given.told)
+    frames = iter(given)
+    first = next(frames)
+    assert first.depth.shape == first.color.shape[:2] == (720, 1280)
+    assert first.frame.joint_age is not None and frames.notes == ()
+
+
+def python(*arguments, **options):
+    return subprocess.run([sys.executable, "-m", "penumbra", *map(str, arguments)],
+                          capture_output=True, text=True, **options)
+
+
+def test_python_m_penumbra_is_the_command_line(tmp_path):
+    for arguments in (["--version"], ["--help"], ["run", "--help"], ["inspect", "nothing.urdf"],
+                      ["run"], ["doctor", "--nonsense"], ["run", "nowhere", "-o", tmp_path]):
+        expected = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+        told = python(*arguments)
+        assert told.returncode == expected.returncode
+        assert (told.stdout, told.stderr) == (expected.stdout, expected.stderr)
+    assert python("inspect", "nothing.urdf").returncode == 2

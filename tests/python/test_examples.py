@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The examples run, and what they write is right."""
+
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import ROOT, SHIPPED, Opened
+
+EXAMPLES = ROOT / "examples" / "python"
+
+
+def run(name, *arguments):
+    done = subprocess.run([sys.executable, EXAMPLES / name, *map(str, arguments)],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def robot_of(report):
+    return (report.labels != penumbra.Label.clear) & (report.labels != penumbra.Label.front)
+
+
+def test_mask_depth_takes_ten_lines_and_masks_the_robot(tmp_path):
+    lines = (EXAMPLES / "mask_depth.py").read_text().splitlines()
+    start = lines.index("import penumbra")
+    assert len([line for line in lines[start:] if line]) <= 10
+    run("mask_depth.py", SHIPPED, tmp_path)
+    opened = Opened(SHIPPED)
+    for frame in opened.frames:
+        is_robot = robot_of(opened.pipeline.process(frame.frame))
+        masked = np.load(tmp_path / f"{frame.index:06d}.npy")
+        assert masked.dtype == np.uint16 and is_robot.any()
+        assert np.array_equal(masked, np.where(is_robot, 0, frame.depth))
+
+
+def test_filter_cloud_keeps_what_is_not_the_robot(tmp_path):
+    told = run("filter_cloud.py", SHIPPED, tmp_path)
+    assert len(list(tmp_path.glob("*.ply"))) == told.count("of the robot left out") == 12
+    data = (tmp_path / "000004.ply").read_bytes()
+    head, body = data.split(b"end_header\n")
+    points = np.frombuffer(body, [("p", "<f4", 3), ("c", "u1", 3)])
+    assert f"element vertex {len(points)}".encode() in head
+    opened = Opened(SHIPPED)
+    frame = opened.frames[4]
+    kept = ~robot_of(opened.pipeline.process(frame.frame)) & (frame.depth > 0)
+    assert len(points) == np.count_nonzero(kept)
+    # A pixel by hand: its ray times its depth, from the camera to the root link.
+    v, u = np.argwhere(kept)[1000]
+    p = opened.camera.intrinsics.ray(u, v) * frame.depth[v, u] / 1000
+    T = opened.recording.camera.T_parent_camera
+    assert np.allclose(points["p"][1000], T[:3, :3] @ p + T[:3, 3], atol=1e-4)
+    # Most of what is left is table and floor: nothing hangs in the air where the arm was.
+    assert np.median(points["p"][:, 2]) < 0.3
+
+
+def test_plot_occlusion_draws(tmp_path):
+    pytest.importorskip("matplotlib")
+    from matplotlib import image
+
+    run("plot_occlusion.py", SHIPPED, tmp_path / "occlusion.png")
+    drawn = image.imread(tmp_path / "occlusion.png")
+    assert drawn.shape[1] > 800 and len(np.unique(drawn.reshape(-1, drawn.shape[2]), axis=0)) > 50
+
+
+def test_batch_folder_judges_all_and_tells_what_fails(tmp_path):
+    for name in ("a", "b"):
+        shutil.copytree(SHIPPED, tmp_path / "in" / name)
+    told = run("batch_folder.py", tmp_path / "in", tmp_path / "out")
+    assert told.count("12 frames") == 2 and "2 of 2 judged" in told
+    assert len(list((tmp_path / "out").rglob("*.npz"))) == 24
+    (tmp_path / "in" / "a" / "joint_states.csv").unlink()
+    done = subprocess.run([sys.executable, EXAMPLES / "batch_folder.py", tmp_path / "in",
+                           tmp_path / "out"], capture_output=True, text=True)
+    assert done.returncode == 2 and "joint_states.csv" in done.stderr and "1 of 2" in done.stdout

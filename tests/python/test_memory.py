@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays lie where C++ has them, outlive their owners, and never change in silence."""
+
+import gc
+import threading
+import weakref
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED, Opened, address
+
+
+def test_nothing_is_copied_on_the_way_in(opened):
+    frame = opened.frames[4]
+    assert frame.frame.depth is frame.depth
+    depth = frame.depth.copy()
+    given = frame.frame.replace(depth=depth)
+    assert given.depth is depth
+    before = opened.pipeline.process(given).pixels.unknown
+    depth[:] = 0  # the frame looks at this very array
+    report = opened.pipeline.process(given)
+    assert report.status is penumbra.FrameStatus.bad_depth
+    assert report.pixels.unknown == report.pixels.robot > before
+
+
+def test_masks_are_not_copied(opened):
+    mask = np.zeros((480, 640), bool)
+    target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelMask(mask)))
+    mask[100:120, 100:120] = True
+    frame = opened.frames[0].frame.replace(targets=[target])
+    assert opened.pipeline.process(frame).targets[0].judgement.covered == 400
+    kept = penumbra.PixelMask(mask).mask
+    assert kept.dtype == np.uint8 and address(kept) == address(mask)
+
+
+def test_nothing_is_copied_on_the_way_out(opened):
+    names = ("labels", "virtual_depth", "link_image")
+    first = opened.pipeline.process(opened.frames[0].frame)
+    places = {name: address(getattr(first, name)) for name in names}
+    assert places == {name: address(getattr(first, name)) for name in names}
+    # Another frame is drawn into the same memory: it is the pipeline's own.
+    second = opened.pipeline.process(opened.frames[1].frame)
+    assert places == {name: address(getattr(second, name)) for name in names}
+    for name in names:
+        assert not getattr(second, name).flags.writeable
+        assert not getattr(second, name).flags.owndata
+        with pytest.raises(ValueError):
+            getattr(second, name).flags.writeable = True
+
+
+def test_renderers_and_classifiers_give_their_own_memory(opened):
+    renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
+    poses = opened.robot.forward_kinematics(opened.robot.rest_positions())
+    place = address(renderer.render(poses).depth)
+    assert address(renderer.render(poses).depth) == place
+    classifier = penumbra.Classifier(640, 480, penumbra.LabelRule())
+    depth = opened.frames[0].depth
+    place = address(classifier.classify(renderer.render(poses), depth).labels)
+    assert address(classifier.classify(renderer.render(poses), depth).labels) == place
+
+
+def test_an_array_in_use_is_never_overwritten(opened):
+    frame = opened.frames[0].frame
+    report = opened.pipeline.process(frame)
+    view = report.labels[10:20, ::2].T  # any view upon it keeps it
+    before = view.copy()
+    with pytest.raises(ValueError, match=r"labels.*still in use.*\.copy\(\)"):
+        opened.pipeline.process(opened.frames[5].frame)
+    assert np.array_equal(view, before)
+    assert report.labels is not None  # the refused call has changed nothing
+    del view
+    opened.pipeline.process(opened.frames[5].frame)
+
+
+def test_old_reports_keep_their_numbers_and_give_no_images(opened):
+    old = opened.pipeline.process(opened.frames[0].frame)
+    robot, poses = old.pixels.robot, old.T_root_link.copy()
+    opened.pipeline.process(opened.frames[8].frame)
+    assert old.pixels.robot == robot and old.index == 0
+    assert np.array_equal(old.T_root_link, poses)
+    with pytest.raises(ValueError, match="another frame since.*frame 0"):
+        old.labels
+
+
+def test_renderers_refuse_likewise(opened):
+    renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
+    poses = opened.robot.forward_kinematics(opened.robot.rest_positions())
+    shown = renderer.render(poses)
+    depth = shown.depth
+    with pytest.raises(ValueError, match="still in use"):
+        renderer.render(poses)
+    del depth
+    renderer.render(poses)
+    with pytest.raises(ValueError, match="another frame"):
+        shown.depth
+    classifier = penumbra.Classifier(640, 480, penumbra.LabelRule())
+    with pytest.raises(ValueError, match="another frame"):
+        classifier.classify(shown, opened.frames[0].depth)
+    first = classifier.classify(renderer.render(poses), opened.frames[0].depth)
+    labels = first.labels
+    with pytest.raises(ValueError, match="still in use"):
+        classifier.classify(renderer.render(poses), opened.frames[0].depth)
+    del labels
+    classifier.classify(renderer.render(poses), opened.frames[0].depth)
+    with pytest.raises(ValueError, match="another image"):
+        first.labels
+
+
+def test_arrays_outlive_their_owners():
+    opened = Opened(SHIPPED, color=True)
+    recorded = opened.frames[3]
+    report = opened.pipeline.process(recorded.frame)
+    arrays = [recorded.depth, recorded.color, report.labels, report.virtual_depth, report.T_root_link,
+              opened.robot.meshes(1)[0].vertices, recorded.frame.joints]
+    sums = [array.astype(float).sum() for array in arrays]
+    gone = weakref.ref(opened)
+    del opened, recorded, report
+    gc.collect()
+    assert gone() is None
+    rubbish = [np.random.default_rng(1).random((480, 640)) for _ in range(20)]
+    assert [array.astype(float).sum() for array in arrays] == sums and rubbish
+
+
+def test_every_recorded_frame_has_images_of_its_own(shipped):
+    frames = list(shipped.frames)
+    assert len({address(frame.depth) for frame in frames}) == len(frames) == 12
+    assert np.array_equal(frames[2].depth, shipped.frames[2].depth)
+
+
+def test_targets_of_a_file_last_until_the_next_frame(opened):
+    file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
+                                     image=penumbra.ImageSpace.raw,
+                                     images=opened.pipeline.intrinsics, is_bent=False,
+                                     beyond_hides=True)
+    first = file.of_frame(0)
+    assert first.names == ("cube", "cylinder", "lid", "wrist") and len(file) == 4
+    frame = opened.frames[0].frame.replace(targets=first)
+    assert len(opened.pipeline.process(frame).targets) == 4
+    file.of_frame(1)
+    with pytest.raises(ValueError, match="another frame since"):
+        opened.pipeline.process(frame)
+
+
+def test_targets_of_a_file_stay_while_a_frame_is_judged(opened):
+    file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
+                                     image=penumbra.ImageSpace.raw,
+                                     images=opened.pipeline.intrinsics, is_bent=False,
+                                     beyond_hides=True)
+    refused, done = [], threading.Event()
+
+    def read_on():
+        while not done.is_set():
+            try:
+                file.of_frame(1)
+            except ValueError as error:
+                refused.append(str(error))
+
+    thread = threading.Thread(target=read_on)
+    thread.start()
+    judged = 0
+    for _ in range(300):
+        try:
+            frame = opened.frames[0].frame.replace(targets=file.of_frame(0))
+            judged += len(opened.pipeline.process(frame).targets) == 4
+        except ValueError as error:
+            refused.append(str(error))
+    done.set()
+    thread.join()
+    assert all("one thread at a time" in r or "another frame since" in r for r in refused)
+    assert judged or refused
+
+
+SLOW = dict(backend=penumbra.Backend.reference)
+
+
+def test_other_threads_run_while_a_frame_is_judged():
+    opened = Opened(SHIPPED, **SLOW)
+    frame = opened.frames[0].frame
+    ticks, done = [0], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks[0] += 1
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    moved = 0
+    for _ in range(200):  # one call holds the interpreter throughout, or it does not
+        before = ticks[0]
+        opened.pipeline.process(frame)
+        moved += ticks[0] > before
+    done.set()
+    thread.join()
+    assert moved > 100
+
+
+def test_a_second_thread_is_refused():
+    opened = Opened(SHIPPED, **SLOW)
+    frame = opened.frames[0].frame
+    refused, done = [], threading.Event()
+
+    def disturb():
+        while not done.is_set():
+            try:
+                opened.pipeline.process(frame)
+            except ValueError as error:
+                refused.append(str(error))
+
+    thread = threading.Thread(target=disturb)
+    thread.start()
+    for _ in range(300):
+        try:
+            opened.pipeline.process(frame)
+        except ValueError as error:
+            refused.append(str(error))
+    done.set()
+    thread.join()
+    assert refused and all("one thread at a time" in message for message in refused)
+
+
+def test_many_pipelines_in_many_threads(shipped):
+    expected = [shipped.pipeline.process(frame.frame).labels.copy() for frame in shipped.frames]
+    wrong = []
+
+    def judge():
+        own = Opened(SHIPPED)
+        for frame, labels in zip(shipped.frames, expected):
+            if not np.array_equal(own.pipeline.process(frame.frame).labels, labels):
+                wrong.append(frame.index)
+
+    threads = [threading.Thread(target=judge) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong

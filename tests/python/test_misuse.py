@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whatever is given wrongly is a TypeError or ValueError that says what is expected."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED, Opened
+
+GOOD = np.zeros((480, 640), np.uint16)
+
+BAD_DEPTHS = [
+    (None, TypeError, "uint16 or float32"),
+    ([[1, 2], [3, 4]], TypeError, "got list"),
+    ("depth", TypeError, "got str"),
+    (GOOD.astype(np.int32), TypeError, "got numpy.ndarray of int32"),
+    (GOOD.astype(np.float64), TypeError, "got numpy.ndarray of float64"),
+    (GOOD.astype(">u2"), TypeError, "got numpy.ndarray of >u2"),
+    (GOOD.astype(object), TypeError, "object"),
+    (GOOD.ravel(), ValueError, "shape (H, W)"),
+    (GOOD[None], ValueError, "shape (H, W)"),
+    (GOOD[:0], ValueError, "shape (H, W)"),
+    (np.zeros((480, 1280), np.uint16)[:, ::2], ValueError, "side by side"),
+    (GOOD[:, ::-1], ValueError, "side by side"),
+    (np.asfortranarray(np.ones((480, 640), np.uint16)), ValueError, "side by side"),
+    (np.ndarray((480, 640), np.uint16, bytes(2 * 640 * 480 + 1), 1), ValueError, "not aligned"),
+    (np.ndarray((2, 640), np.uint16, bytes(4001), 0, (1281, 2)), ValueError, "not aligned"),
+    (GOOD[:10], ValueError, "(480, 640)"),
+    (GOOD[:, :10], ValueError, "(480, 640)"),
+]
+
+
+@pytest.mark.parametrize("depth, error, says", BAD_DEPTHS)
+def test_classifiers_refuse_images(depth, error, says):
+    classifier = penumbra.Classifier(640, 480, penumbra.LabelRule())
+    with pytest.raises(error) as raised:
+        classifier.classify(np.zeros((480, 640), np.float32), depth)
+    assert says in str(raised.value) and "measured: expected" in str(raised.value)
+
+
+@pytest.mark.parametrize("depth, error, says", BAD_DEPTHS[1:-2])
+def test_frames_refuse_images(depth, error, says):
+    with pytest.raises(error) as raised:
+        penumbra.Frame(depth, None)
+    assert says in str(raised.value) and "depth: expected" in str(raised.value)
+
+
+def test_rows_may_lie_apart_and_run_upwards(opened):
+    frame = opened.frames[4]
+    expected = opened.pipeline.process(frame.frame).labels.copy()
+    apart = np.zeros((480, 700), np.uint16)
+    apart[:, 30:670] = frame.depth
+    upwards = np.ascontiguousarray(frame.depth[::-1])[::-1]
+    for same in (apart[:, 30:670], upwards):
+        assert np.array_equal(opened.pipeline.process(frame.frame.replace(depth=same)).labels,
+                              expected)
+
+
+def test_images_of_another_size_are_the_frames_status(opened):
+    report = opened.pipeline.process(opened.frames[0].frame.replace(depth=GOOD[:10].copy()))
+    assert report.status is penumbra.FrameStatus.bad_depth and "640" in report.message
+
+
+BAD_CALLS = [
+    (lambda o: o.pipeline.process(None), TypeError, "penumbra.Frame"),
+    (lambda o: o.pipeline.process(GOOD), TypeError, "penumbra.Frame"),
+    (lambda o: o.pipeline.process(), TypeError, "penumbra.Frame"),
+    (lambda o: penumbra.Pipeline(None, o.camera), TypeError, "penumbra.Robot"),
+    (lambda o: penumbra.Pipeline(o.robot, None), TypeError, "penumbra.Camera"),
+    (lambda o: penumbra.Pipeline(o.robot, o.camera, None), TypeError, "penumbra.PipelineConfig"),
+    (lambda o: penumbra.PipelineConfig(backend="gl"), TypeError, "penumbra.Backend"),
+    (lambda o: penumbra.PipelineConfig(bakend=None), TypeError, "backend"),
+    (lambda o: o.config.replace(tolerance=1), TypeError, "rule"),
+    (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
+    (lambda o: penumbra.Classifier(640, 480, None), TypeError, "penumbra.LabelRule"),
+    (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule()), ValueError, "1 to 32767"),
+    (lambda o: penumbra.Classifier(64, 48, penumbra.LabelRule(beyond_factor=0)), ValueError,
+     "1 or more"),
+    (lambda o: penumbra.Intrinsics(0, 0, 1, 1, 0, 0), ValueError, "1 .. 32767"),
+    (lambda o: penumbra.Camera(None), TypeError, "penumbra.Intrinsics"),
+    (lambda o: penumbra.Camera(o.camera.intrinsics, range=penumbra.DepthRange(near=2, far=1)),
+     ValueError, "near"),
+    (lambda o: penumbra.Robot.load(SHIPPED / "nothing.urdf"), ValueError, "nothing.urdf"),
+    (lambda o: penumbra.Robot.load(None), TypeError, "urdf"),
+    (lambda o: penumbra.Robot.load(SHIPPED, {"packages": {}}), TypeError, "penumbra.RobotOptions"),
+    (lambda o: o.robot.forward_kinematics(None), TypeError, "float64"),
+    (lambda o: o.robot.forward_kinematics([0.0]), ValueError, "(7,)"),
+    (lambda o: o.robot.forward_kinematics(["a"] * 7), TypeError, "float64"),
+    (lambda o: o.robot.forward_kinematics([float("nan")] * 7), ValueError, "+-1e9"),
+    (lambda o: o.robot.meshes(99), IndexError, "below 11"),
+    (lambda o: o.robot.meshes(-1), TypeError, "link: int"),
+    (lambda o: o.frames[12], IndexError, "-12..11"),
+    (lambda o: penumbra.Frame(GOOD, 1.0), ValueError, "shape (N,)"),
+    (lambda o: penumbra.Frame(GOOD, [1j]), TypeError, "float64"),
+    (lambda o: penumbra.Frame(GOOD, None, targets=[None]), TypeError, "penumbra.Target"),
+    (lambda o: penumbra.Frame(GOOD, None, targets=None), TypeError, "penumbra.Target"),
+    (lambda o: penumbra.Frame(GOOD, None, T_parent_camera=np.eye(3)), ValueError, "(4, 4)"),
+    (lambda o: penumbra.Frame(GOOD, None, T_parent_camera=np.ones((4, 4))), ValueError, "0 0 0 1"),
+    (lambda o: penumbra.Frame(GOOD, None, T_root_link=np.eye(4)), ValueError, "(N, 4, 4)"),
+    (lambda o: penumbra.TriangleMesh(None, None), TypeError, "float32"),
+    (lambda o: penumbra.TriangleMesh(np.zeros((3, 3)), np.zeros((1, 3), np.uint32)), TypeError,
+     "float32"),
+    (lambda o: penumbra.TriangleMesh(np.zeros((3, 3), np.float32), np.full((1, 3), 3, np.uint32)),
+     ValueError, "below the number of vertices, 3"),
+    (lambda o: penumbra.TriangleMesh(np.full((3, 3), np.inf, np.float32),
+                                     np.zeros((1, 3), np.uint32)), ValueError, "finite"),
+    (lambda o: penumbra.TriangleMesh(np.zeros((3, 2), np.float32), np.zeros((1, 3), np.uint32)),
+     ValueError, "(N, 3)"),
+    (lambda o: penumbra.MeshTarget(None, np.eye(4)), TypeError, "penumbra.TriangleMesh"),
+    (lambda o: penumbra.PixelMask(None), TypeError, "bool or uint8"),
+    (lambda o: penumbra.PixelMask(np.zeros((4, 4))), TypeError, "bool or uint8"),
+    (lambda o: penumbra.PixelPolygon([1, 2, 3]), ValueError, "(N, 2)"),
+    (lambda o: penumbra.RegionTarget(None), TypeError, "penumbra.PixelBox"),
+    (lambda o: penumbra.Target(None, None), TypeError, "name: str"),
+    (lambda o: penumbra.Target("", None).check(), ValueError, "name"),
+    (lambda o: penumbra.TargetEstimate(np.eye(3)), ValueError, "(3,)"),
+    (lambda o: penumbra.TargetEstimate("here"), TypeError, "float64"),
+    (lambda o: penumbra.PoseTracker(penumbra.PoseTrackerConfig(timeout=-1)), ValueError, "timeout"),
+    (lambda o: penumbra.PoseTracker().update(1, None, penumbra.Verdict.visible), TypeError, "pose"),
+    (lambda o: penumbra.PoseTracker().update(1, np.eye(4), "visible"), TypeError,
+     "penumbra.Verdict"),
+    (lambda o: penumbra.PointTracker().update(1, [1, 2], penumbra.Verdict.visible), ValueError,
+     "(3,)"),
+    (lambda o: penumbra.Recording.open("nowhere"), ValueError, "nowhere"),
+    (lambda o: penumbra.open_input("nowhere"), ValueError, "nowhere"),
+    (lambda o: penumbra.open_input(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
+    (lambda o: penumbra.open_input(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
+    (lambda o: penumbra.run_experiment("nothing", "/nowhere"), ValueError, ""),
+    (lambda o: penumbra.Pipeline.__new__(penumbra.Pipeline).process(o.frames[0].frame), TypeError,
+     "__new__"),
+    (lambda o: penumbra.Frame.__new__(penumbra.Frame).depth, TypeError, "__new__"),
+    (lambda o: object.__new__(penumbra.Frame), TypeError, "not safe"),
+    (lambda o: type("Own", (penumbra.Pipeline,), {}), TypeError, "base type"),
+    (lambda o: pickle.dumps(o.pipeline), TypeError, "pickle"),
+    (lambda o: copy.copy(o.pipeline), TypeError, "pickle"),
+    (lambda o: setattr(o.config, "backend", None), AttributeError, "no setter"),
+]
+
+
+@pytest.mark.parametrize("call, error, says", BAD_CALLS)
+def test_wrong_calls_say_what_is_expected(shipped, call, error, says):
+    with pytest.raises(error) as raised:
+        call(shipped)
+    assert says in str(raised.value)
+
+
+def test_renderers_refuse_poses(opened):
+    renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
+    good = opened.robot.forward_kinematics(opened.robot.rest_positions())
+    for poses, says in ((good[:3], "(11, 4, 4)"), (np.full((11, 4, 4), np.nan), "0 0 0 1"),
+                        (good * np.array([2, 2, 2, 1])[:, None], "rotations"), (good[0], "(N, 4, 4)")):
+        with pytest.raises(ValueError, match=r".*" + says.replace("(", r"\(").replace(")", r"\)")):
+            renderer.render(poses)
+    renderer.submit(good)
+    with pytest.raises(ValueError, match="pending"):
+        renderer.submit(good)
+    with pytest.raises(ValueError, match="pending"):
+        renderer.render(good)
+    assert renderer.collect().depth.shape == (480, 640)
+    with pytest.raises(ValueError, match="no frame is pending"):
+        renderer.collect()
+
+
+def test_errors_are_of_the_named_classes():
+    assert issubclass(penumbra.InputError, ValueError)
+    assert issubclass(penumbra.DeviceError, RuntimeError)
+    with pytest.raises(penumbra.InputError):
+        Opened("/nowhere")

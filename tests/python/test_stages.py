@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Each stage alone, against the others and against numbers by hand."""
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED
+
+
+def box_mesh(size):
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float32)
+    faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+             [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    return penumbra.TriangleMesh((size / 2 * corners).astype(np.float32), np.array(faces, np.uint32))
+
+
+def pose(x, y, z):
+    T = np.eye(4)
+    T[:3, 3] = x, y, z
+    return T
+
+
+INTRINSICS = penumbra.Intrinsics(64, 48, 50.0, 50.0, 31.5, 23.5)
+
+
+@pytest.mark.parametrize("backend", [penumbra.Backend.cpu, penumbra.Backend.reference])
+def test_a_box_is_drawn_where_the_formula_has_it(backend):
+    renderer = penumbra.Renderer(backend, INTRINSICS, [penumbra.Body("box", [box_mesh(0.5)])])
+    assert renderer.triangle_count == 12
+    shown = renderer.render([pose(0, 0, 2)])
+    depth, links = shown.depth, shown.links
+    assert depth.dtype == np.float32 and depth.shape == (48, 64)
+    assert links.dtype == np.uint16
+    # The front face is a square of side 0.5 at 1.75 m: 50 * 0.5 / 1.75 = 14.3 pixels.
+    assert np.count_nonzero(depth) == 14 * 14
+    assert np.allclose(depth[depth > 0], 1.75, atol=1e-5)
+    assert np.array_equal(links, (depth > 0).astype(np.uint16))
+
+
+def test_labels_follow_the_rule():
+    rule = penumbra.LabelRule(tolerance=penumbra.Tolerance(a=0.1, b=0, c=0), front_min_width=0)
+    classifier = penumbra.Classifier(5, 1, rule)
+    virtual = np.full((1, 5), 2.0, np.float32)
+    virtual[0, 4] = 0
+    measured = np.array([[1.5, 1.95, 2.5, 0.0, 1.0]], np.float32)
+    labels = classifier.classify(virtual, measured)
+    L = penumbra.Label
+    assert labels.labels.tolist() == [[L.front, L.occluded, L.beyond, L.unknown, L.clear]]
+    assert labels.pixels[L.front] == 1
+    assert sum(labels.pixels.values()) == 5
+
+
+def test_millimetres_are_metres(shipped):
+    frame = shipped.frames[4]
+    metres = frame.depth.astype(np.float32) * np.float32(0.001)
+    first = shipped.pipeline.process(frame.frame).labels.copy()
+    second = shipped.pipeline.process(frame.frame.replace(depth=metres)).labels.copy()
+    assert np.array_equal(first, second)
+
+
+def test_the_stages_alone_make_what_the_pipeline_makes(opened):
+    frame = opened.frames[5]
+    report = opened.pipeline.process(frame.frame)
+    T_root_link = opened.robot.forward_kinematics(frame.frame.joints)
+    assert np.array_equal(T_root_link, report.T_root_link)
+    assert np.allclose(report.T_root_camera, opened.recording.camera.T_parent_camera)
+
+    renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
+    shown = renderer.render(np.linalg.inv(report.T_root_camera) @ T_root_link)
+    # Inverted in another way, so that last digits of the poses differ.
+    assert np.count_nonzero(shown.links != report.link_image) <= 2
+    same = shown.links == report.link_image
+    assert np.allclose(shown.depth[same], report.virtual_depth[same], atol=1e-5)
+
+    size = opened.camera.intrinsics.width, opened.camera.intrinsics.height
+    labels = penumbra.Classifier(*size, opened.pipeline.rule).classify(shown, frame.depth).labels
+    assert np.count_nonzero(labels != report.labels) <= 4
+
+
+def test_the_camera_maps_points_and_lenses(tmp_path):
+    k = penumbra.Intrinsics(640, 480, 600, 610, 320, 240)
+    assert np.allclose(k.project(k.ray(12, 34) * 1.5), [12, 34])
+    assert k.binned(2, 2) == penumbra.Intrinsics(320, 240, 300, 305, 159.75, 119.75)
+    lens = penumbra.Distortion("plumb_bob", [0.1, -0.05, 0.001, 0.002, 0.0])
+    assert lens.model is penumbra.DistortionModel.plumb_bob
+    assert np.allclose(lens.undistort(lens.distort([0.2, -0.1])), [0.2, -0.1], atol=1e-9)
+    camera = penumbra.Camera(k, distortion=lens, range=penumbra.DepthRange(near=0.3))
+    both = penumbra.Rectification(camera)
+    assert both.raw_to_pinhole.shape == (480, 640)
+    centre = both.raw_to_pinhole[240, 320]
+    assert both.pinhole_to_raw.reshape(-1)[centre] == 240 * 640 + 320
+    read = penumbra.read_camera_info(SHIPPED / "camera_info.yaml", rectified=False)
+    assert read.intrinsics == penumbra.Intrinsics(640, 480, 611.42, 611.17, 326.38, 235.71)
+
+
+def test_depth_is_brought_to_another_camera():
+    k = penumbra.Intrinsics(32, 24, 30, 30, 15.5, 11.5)
+    registration = penumbra.DepthRegistration(penumbra.Camera(k), penumbra.Camera(k))
+    wall = np.full((24, 32), 1500, np.uint16)
+    assert np.array_equal(registration.warp(wall, np.eye(4)), wall)
+    nearer = registration.warp(wall, pose(0, 0, -0.5)).copy()
+    assert nearer.dtype == np.uint16 and set(np.unique(nearer)) == {1000}
+
+
+def test_a_joint_buffer_never_extrapolates(shipped):
+    buffer = penumbra.JointBuffer(shipped.robot, penumbra.JointBufferOptions(max_gap=0.05))
+    rest = shipped.robot.rest_positions()
+    names = shipped.robot.variables
+    assert buffer.insert(1_000_000_000, names, rest) == len(names)
+    assert buffer.insert(1_040_000_000, names, rest + 0.4) == len(names)
+    answer = buffer.at(1_010_000_000)
+    assert answer.status is penumbra.JointStatus.ok and answer.age == 30_000_000
+    assert np.allclose(answer.positions, rest + 0.1)
+    stale = buffer.at(1_100_000_000)
+    assert stale.status is penumbra.JointStatus.stale
+    assert stale.gaps[0].last_seen == 1_040_000_000
+    report = shipped.pipeline.process(penumbra.Frame(shipped.frames[0].depth, stale))
+    assert report.status is penumbra.FrameStatus.stale_joints
+    assert report.virtual_depth is None and set(np.unique(report.labels)) == {penumbra.Label.unknown}
+
+
+def test_robots_tell_of_their_parts(shipped):
+    robot = shipped.robot
+    assert robot.links[0] == "base_link" and robot.joints[0].child == 1
+    assert robot.find_link("gripper") == robot.links.index("gripper")
+    assert robot.find_link("nothing") is None
+    meshes = robot.meshes(robot.find_link("forearm"))
+    report = robot.report[robot.find_link("forearm")]
+    assert sum(len(mesh.triangles) for mesh in meshes) == report.triangles > 0
+    assert meshes[0].vertices.dtype == np.float32 and not meshes[0].vertices.flags.writeable
+    parsed = penumbra.Robot.parse("<robot name='r'><link name='l'/></robot>", "")
+    assert parsed.links == ("l",) and parsed.variables == ()

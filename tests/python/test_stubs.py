@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The committed type stubs are what the module tells of itself, and examples keep to them."""
+
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import penumbra
+from conftest import ROOT
+
+STUBS = ROOT / "python" / "penumbra" / "__init__.pyi"
+
+
+def test_the_stubs_fit_the_module(tmp_path):
+    made = tmp_path / "made.pyi"
+    subprocess.run([sys.executable, ROOT / "scripts" / "python_stubs.py", made], check=True)
+    assert made.read_text() == STUBS.read_text(), "run scripts/python_stubs.py"
+
+
+def test_mypy_finds_in_the_module_what_the_stubs_say():
+    pytest.importorskip("mypy")
+    done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "penumbra",
+                           "--ignore-missing-stub"], capture_output=True, text=True)
+    # pybind11's classes have a metaclass of their own, and no signatures that Python could tell.
+    expected = ("metaclass differs", "__init__ is inconsistent, stub does not have *args")
+    found = [line for line in done.stdout.splitlines() if line.startswith("error:")]
+    assert found, done.stdout + done.stderr
+    assert not [line for line in found if not any(e in line for e in expected)]
+
+
+@pytest.mark.parametrize("script", sorted((ROOT / "examples" / "python").glob("*.py")),
+                         ids=lambda path: path.name)
+def test_examples_are_typed(script):
+    pytest.importorskip("mypy")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", script],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_wrong_use_does_not_pass_mypy(tmp_path):
+    pytest.importorskip("mypy")
+    script = tmp_path / "wrong.py"
+    script.write_text("import penumbra\n"
+                      "penumbra.LabelRule(front_min_width='7')\n"
+                      "penumbra.Frame(None)\n")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", script],
+                          capture_output=True, text=True)
+    assert done.stdout.count("error:") == 2, done.stdout
+
+
+def test_everything_is_documented():
+    for name, value in vars(penumbra).items():
+        if name.startswith("_") or isinstance(value, type(pathlib)) or name == "version":
+            continue
+        assert value.__doc__, name
+        if not isinstance(value, type):
+            continue
+        for key, member in vars(value).items():
+            if isinstance(member, property):
+                assert member.__doc__, f"{name}.{key}"

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pip install --no-build-isolation .` in a virtual environment, without the net."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT, SHIPPED
+
+CHECK = """
+import sys, penumbra
+assert sys.prefix in penumbra.__file__, penumbra.__file__
+given = penumbra.open_input(sys.argv[1])
+pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+print(sum(pipeline.process(frame.frame).pixels.robot for frame in given))
+"""
+
+
+@pytest.mark.skipif("PENUMBRA_FULL" not in os.environ, reason="compiles all anew: --full")
+def test_the_wheel_is_built_offline_and_works(tmp_path):
+    clean = {key: value for key, value in os.environ.items()
+             if key not in ("PYTHONPATH", "PIP_INDEX_URL", "PYTHONDONTWRITEBYTECODE")}
+    clean.update(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1")
+
+    def step(*command):
+        done = subprocess.run(list(map(str, command)), env=clean, cwd=tmp_path, capture_output=True,
+                              text=True)
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+        return done.stdout
+
+    step(sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv")
+    python = tmp_path / "venv" / "bin" / "python"
+    step(python, "-m", "pip", "install", "--no-build-isolation", ROOT)
+    assert int(step(python, "-c", CHECK, SHIPPED)) > 200_000
+    told = step(python, "-m", "penumbra", "run", SHIPPED, "-o", tmp_path / "out")
+    assert "12" in told and (tmp_path / "out" / "report.json").exists()
+    step(python, "-m", "mypy", "--strict", "--no-incremental", ROOT / "examples" / "python" / "mask_depth.py")
