@@ -2,7 +2,9 @@
 // Bytes of messages per second through MCAP: 1280x720 depth images with joint states between them,
 // as a recorder writes them. The file lies in the system's memory after the first pass.
 //   mcap_benchmark                 reading and writing, every compression
-//   mcap_benchmark --stream GB     writes a bag of so many GB, reads it and tells the memory taken
+//   mcap_benchmark --stream GB     writes a bag of so many GB of messages, reads it, tells the
+//   memory
+//                                  taken and fails where that is too much or reading too slow
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <random>
 #include <string>
 #include <string_view>
@@ -119,26 +122,36 @@ BENCHMARK_CAPTURE(write_mcap, zstd, Compression::zstd)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// The most memory that this program has had so far, as the kernel tells.
-std::string peak_memory() {
+constexpr double most_memory = 300.0;  // MB, whatever the bag's size
+constexpr double least_rate = 300.0;   // MB/s of messages, from lz4 chunks
+
+// The most memory that this program has had so far, MB, as the kernel tells.
+double peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM")) return line.substr(line.find_first_not_of(" \t", 6));
-  return "unknown";
+    if (line.starts_with("VmHWM"))
+      return std::stod(line.substr(6)) * 1024e-6;  // the kernel's kB are 1024
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 int stream(double gigabytes) {
   using Clock = std::chrono::steady_clock;
   write_bag(Compression::lz4, static_cast<std::uint64_t>(gigabytes * 1e9));
   const double file_gb = static_cast<double>(std::filesystem::file_size(bag_file())) / 1e9;
-  std::cout << "written; file " << file_gb << " GB, peak memory " << peak_memory() << std::endl;
+  std::cout << "written; file " << file_gb << " GB, peak memory " << peak_memory() << " MB"
+            << std::endl;
   const auto start = Clock::now();
   const double read_gb = static_cast<double>(read_bag()) / 1e9;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  std::cout << "read " << read_gb << " GB of messages in " << seconds << " s ("
-            << 1000 * read_gb / seconds << " MB/s), peak memory " << peak_memory() << std::endl;
+  const double rate = 1000 * read_gb / seconds;
+  std::cout << "read " << read_gb << " GB of messages in " << seconds << " s (" << rate
+            << " MB/s; of the file " << 1000 * file_gb / seconds << " MB/s), peak memory "
+            << peak_memory() << " MB" << std::endl;
   std::filesystem::remove(bag_file());
-  return 0;
+  if (peak_memory() < most_memory && rate > least_rate) return 0;
+  std::cerr << "wanted: less than " << most_memory << " MB of memory, more than " << least_rate
+            << " MB/s\n";
+  return 1;
 }
 
 }  // namespace

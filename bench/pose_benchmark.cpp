@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of what it costs to know where a robot was: one lookup of a transform along a
-// chain, and of all links by joint states, by TF and by both, in ten seconds of states at 125 Hz.
+// chain, and of all links by joint states, by TF and by both, in ten seconds of states at 125 Hz;
+// and to take a joint state, of one publisher or of two that tell the same joints.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -32,17 +33,23 @@ Robot arm() {
   return Robot::parse(urdf + "</robot>", ".");
 }
 
+std::vector<std::string> joint_names() {
+  std::vector<std::string> names;
+  for (int i = 1; i <= joints; ++i) names.push_back(joint_name(i));
+  return names;
+}
+
 struct Told {
   Robot robot = arm();
   PoseHistory history{robot};
 
-  Told() {
-    std::vector<std::string> names;
-    for (int i = 1; i <= joints; ++i) names.push_back(joint_name(i));
+  explicit Told(bool by_two = false) {
+    const std::vector<std::string> names = joint_names();
     std::vector<Eigen::Isometry3d> poses(robot.links().size());
     for (int s = 1; s <= states; ++s) {
       const std::vector<double> positions(joints, std::sin(0.01 * s));
-      history.add_joints(s * period, names, positions);
+      history.add_joints(s * period, names, positions, "a");
+      if (by_two) history.add_joints(s * period + period / 2, names, positions, "b");
       robot.forward_kinematics(positions, poses);
       for (int i = 1; i <= joints; ++i)
         history.add_transform(
@@ -67,8 +74,8 @@ void chain(benchmark::State& state) {
 }
 BENCHMARK(chain)->Name("transform along 8 frames");
 
-void links(benchmark::State& state, PoseSource source) {
-  const Told told;
+void links(benchmark::State& state, PoseSource source, bool by_two) {
+  const Told told(by_two);
   PoseLookup lookup(told.robot, {.source = source, .camera_frame = "camera"});
   PoseAnswer answer;
   std::int64_t i = 0;
@@ -77,9 +84,31 @@ void links(benchmark::State& state, PoseSource source) {
     if (answer.status != FrameStatus::ok) state.SkipWithError(answer.message.c_str());
   }
 }
-BENCHMARK_CAPTURE(links, joints, PoseSource::joints)->Name("all links and the camera, by joints");
-BENCHMARK_CAPTURE(links, tf, PoseSource::transforms)->Name("all links and the camera, by TF");
-BENCHMARK_CAPTURE(links, both, PoseSource::both)->Name("all links and the camera, by both");
+BENCHMARK_CAPTURE(links, joints, PoseSource::joints, false)
+    ->Name("all links and the camera, by joints");
+BENCHMARK_CAPTURE(links, two, PoseSource::joints, true)
+    ->Name("all links and the camera, by joints of two publishers");
+BENCHMARK_CAPTURE(links, tf, PoseSource::transforms, false)
+    ->Name("all links and the camera, by TF");
+BENCHMARK_CAPTURE(links, both, PoseSource::both, false)->Name("all links and the camera, by both");
+
+/// 125 Hz each, moving.
+void take(benchmark::State& state, bool by_two) {
+  const Robot robot = arm();
+  PoseHistory history(robot);
+  const std::vector<std::string> names = joint_names();
+  std::vector<double> positions(joints);
+  std::int64_t i = 1;
+  for (auto _ : state) {
+    const std::int64_t stamp = i * (by_two ? period / 2 : period);
+    for (double& position : positions) position = std::sin(1e-9 * static_cast<double>(stamp));
+    benchmark::DoNotOptimize(
+        history.add_joints(stamp, names, positions, by_two && i % 2 == 0 ? "b" : "a"));
+    ++i;
+  }
+}
+BENCHMARK_CAPTURE(take, one, false)->Name("a joint state taken, of one publisher");
+BENCHMARK_CAPTURE(take, two, true)->Name("a joint state taken, of two publishers");
 
 }  // namespace
 }  // namespace penumbra::bench

@@ -7,6 +7,9 @@
 
 namespace penumbra::io {
 
+/// What the pipeline takes of a recorded frame; refers to `data`.
+[[nodiscard]] Frame frame_of(const FrameData& data);
+
 /// Some frames of a recording folder.
 class RecordingSource final : public FrameSource {
  public:

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <penumbra/base/version.hpp>
 
@@ -39,6 +40,19 @@ Json geometry_json(const RobotOptions& robot) {
   return {{"default", name_of(robot.geometry)}, {"links", std::move(links)}};
 }
 
+Json bag_json(const UsedBag& bag) {
+  Json topics = Json::array();
+  for (const UsedBag::Topic& topic : bag.topics)
+    topics.push_back(
+        {{"role", topic.role}, {"name", topic.name}, {"type", topic.type}, {"why", topic.why}});
+  return {
+      {"topics", std::move(topics)},
+      {"poses", bag.poses},
+      {"camera", {{"frame", bag.camera_frame}, {"link", bag.camera_link}, {"by", bag.camera_by}}},
+      {"time_offset_s", bag.time_offset},
+      {"first_publisher", bag.first_publisher}};
+}
+
 Json settings_json(const UsedSettings& used) {
   const LabelRule& rule = used.rule;
   const auto finite = [](double metres) { return std::isfinite(metres) ? Json(metres) : Json(); };
@@ -52,6 +66,7 @@ Json settings_json(const UsedSettings& used) {
           {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
           {"targets", or_null(used.targets)},
           {"target_history_s", used.target_history},
+          {"bag", used.bag ? bag_json(*used.bag) : Json(nullptr)},
           {"range", {finite(rule.range.near), finite(rule.range.far)}},
           {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
           {"geometry", geometry_json(used.robot)},
@@ -100,7 +115,8 @@ Json faults_json(const Statistics& statistics) {
   return faults;
 }
 
-Json summary_json(const Statistics& statistics, const Json& missing_links, const Json& notes) {
+Json summary_json(const Statistics& statistics, std::span<const std::string> missing_links,
+                  std::span<const std::string> notes) {
   Json timing;
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const auto q = statistics.timing(i);
@@ -110,10 +126,10 @@ Json summary_json(const Statistics& statistics, const Json& missing_links, const
   Json targets = Json::array();
   for (const TargetStatistics& target : statistics.targets())
     targets.push_back(target_summary_json(target));
-  return {{"frames", statistics.frames()},     {"bad_frames", statistics.bad_frames()},
-          {"timing_ms", std::move(timing)},    {"pixels", pixels_json(statistics.pixels())},
-          {"faults", faults_json(statistics)}, {"targets", std::move(targets)},
-          {"missing_links", missing_links},    {"notes", notes}};
+  return {{"frames", statistics.frames()},        {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},       {"pixels", pixels_json(statistics.pixels())},
+          {"faults", faults_json(statistics)},    {"targets", std::move(targets)},
+          {"missing_links", list(missing_links)}, {"notes", list(notes)}};
 }
 
 Json link_json(const LinkReport& link) {
@@ -163,6 +179,22 @@ UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requ
   return {pipeline.renderer(), requested, pipeline.renderer_choice().reason};
 }
 
+std::string report_start(const ReportHead& head) {
+  return "{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
+         ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
+         ",\n\"settings\": " + dump(settings_json(head.settings)) +
+         ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [";
+}
+
+std::string report_frame(const FrameReport& report) { return dump(frame_json(report)); }
+
+std::string report_end(const Statistics& statistics, std::span<const std::string> missing_links,
+                       std::span<const std::string> notes) {
+  return "\n],\n\"summary\": " + dump(summary_json(statistics, missing_links, notes)) + "}\n";
+}
+
+std::string unfinished_report_end() { return "\n],\n\"summary\": null}\n"; }
+
 struct ReportWriter::State {
   explicit State(std::filesystem::path file_)
       : file(std::move(file_)), part(file.string() + ".part"), output(part) {}
@@ -178,8 +210,8 @@ struct ReportWriter::State {
   std::filesystem::path part;
   OutputFile output;
   std::string waiting;
-  Json missing_links;
-  Json notes;
+  std::vector<std::string> missing_links;
+  std::vector<std::string> notes;
   bool first = true;
   bool finished = false;
 };
@@ -188,12 +220,9 @@ ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& 
     : state_(std::make_unique<State>(file)) {
   std::error_code gone;
   std::filesystem::remove(file, gone);
-  state_->missing_links = list(head.missing_links);
-  state_->notes = list(head.notes);
-  state_->write("{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
-                ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
-                ",\n\"settings\": " + dump(settings_json(head.settings)) +
-                ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [");
+  state_->missing_links.assign(head.missing_links.begin(), head.missing_links.end());
+  state_->notes.assign(head.notes.begin(), head.notes.end());
+  state_->write(report_start(head));
 }
 
 ReportWriter::~ReportWriter() {
@@ -202,15 +231,14 @@ ReportWriter::~ReportWriter() {
 }
 
 void ReportWriter::add(const FrameReport& report) {
-  state_->write((state_->first ? "\n" : ",\n") + dump(frame_json(report)));
+  state_->write((state_->first ? "\n" : ",\n") + report_frame(report));
   state_->first = false;
 }
 
 void ReportWriter::finish(const Statistics& statistics, std::span<const std::string> notes) {
   State& s = *state_;
-  for (const std::string& note : notes) s.notes.push_back(note);
-  s.write("\n],\n\"summary\": " + dump(summary_json(statistics, s.missing_links, s.notes)) + "}\n",
-          true);
+  s.notes.insert(s.notes.end(), notes.begin(), notes.end());
+  s.write(report_end(statistics, s.missing_links, s.notes), true);
   s.output.close();
   std::error_code error;
   std::filesystem::rename(s.part, s.file, error);

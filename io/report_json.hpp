@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
@@ -30,6 +31,20 @@ struct UsedRenderer {
 [[nodiscard]] UsedRenderer used_renderer(const Pipeline& pipeline,
                                          std::optional<Backend> requested);
 
+/// What was taken of a bag.
+struct UsedBag {
+  struct Topic {
+    std::string role, name, type;
+    std::string why;  ///< it was taken, in words
+  };
+  std::vector<Topic> topics;
+  std::string poses;                      ///< "joints", "tf", "both"
+  std::string camera_frame, camera_link;  ///< where the camera sits
+  std::string camera_by;                  ///< who says so: "tf"
+  double time_offset = 0.0;               ///< seconds
+  bool first_publisher = false;           ///< programs that tell the same are not compared
+};
+
 /// By which choices results were made.
 struct UsedSettings {
   LabelRule rule;
@@ -39,6 +54,7 @@ struct UsedSettings {
   RobotOptions robot;
   std::string targets = {};     ///< the targets' file; empty: none
   double target_history = 0.0;  ///< PipelineConfig's, seconds
+  std::optional<UsedBag> bag = {};
 };
 
 /// What a report says before its frames.
@@ -70,6 +86,16 @@ class ReportWriter {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// The parts of a report's text: start, frames with "," between them, end.
+[[nodiscard]] std::string report_start(const ReportHead& head);
+[[nodiscard]] std::string report_frame(const FrameReport& report);
+/// `notes`: all of them.
+[[nodiscard]] std::string report_end(const Statistics& statistics,
+                                     std::span<const std::string> missing_links,
+                                     std::span<const std::string> notes);
+/// Of a report whose frames are not all there yet: its summary is null.
+[[nodiscard]] std::string unfinished_report_end();
 
 /// What `render --json` prints.
 struct RenderResult {

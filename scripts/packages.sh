@@ -3,21 +3,24 @@
 # The one home of Debian package names.
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
-# Groups: build (library and command line), ros (its live topics of ROS 2), sim (simulation,
-# experiments), test, bench, lint.
+# Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
+# matplotlib for its examples), sim (simulation, experiments), test, web (the page's tests), bench, lint.
 # OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
 # serves as well.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-dev libmeshoptimizer-dev
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
-       libjpeg62-turbo-dev liblz4-dev libzstd-dev libsqlite3-dev)
+       libjpeg62-turbo-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev)
 ros=(cyclonedds-dev)
+python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
+        python3-matplotlib)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
      libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libwebp-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
-      clang libclang-rt-14-dev)
+      clang libclang-rt-14-dev python3-pytest python3-mypy)
+web=(chromium fonts-dejavu-core nodejs npm)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 
@@ -34,12 +37,12 @@ fi
 packages=()
 for group in "$@"; do
   case $group in
-    build | ros | sim | test | bench | lint)
+    build | ros | python | sim | test | web | bench | lint)
       declare -n of_group=$group
       packages+=("${of_group[@]}")
       ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, ros, sim, test, bench, lint)" >&2
+      echo "packages.sh: unknown group '$group' (build, ros, python, sim, test, web, bench, lint)" >&2
       exit 2
       ;;
   esac

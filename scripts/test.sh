@@ -90,7 +90,7 @@ check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-r
 check_tidy() {
   local folders=$1
   shift
-  cmake --preset tidy "$@" >/dev/null || return
+  cmake --preset tidy "$@" >/dev/null && cmake --build build/tidy --target viewer_page >/dev/null || return
   run-clang-tidy -quiet -j "$(nproc)" -p build/tidy -checks=-bugprone-suspicious-include \
     -header-filter="^$PWD/($folders)/" "^$PWD/(build/tidy/)?($folders)/.*\.c(pp|xx)\$" \
     >build/tidy/tidy.log 2>/dev/null || { grep -E 'error:|warning:' build/tidy/tidy.log | sort -u; false; }
@@ -99,7 +99,7 @@ check_tidy() {
   return "$status"
 }
 
-groups=(build ros sim test lint)
+groups=(build ros python sim test web lint)
 ! $full || groups+=(bench)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
@@ -110,7 +110,7 @@ export PENUMBRA_REQUIRE=${PENUMBRA_REQUIRE-$require}
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
 tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
 everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON
-            -DPENUMBRA_WITH_AVX512=ON)
+            -DPENUMBRA_WITH_PYTHON=ON -DPENUMBRA_WITH_AVX512=ON)
 # The sanitizers see AVX2 and less: the release's tests run every SIMD target.
 avx512=-DPENUMBRA_WITH_AVX512=OFF
 sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF "$avx512")
@@ -130,6 +130,7 @@ if $full; then
 fi
 
 check format check_format
+check "page is what its sources give" web/check_bundle.sh
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 # The experiments once more, on other numbers of threads.
@@ -137,8 +138,10 @@ once_more='^Experiment[.]DoesNotDependOnTheNumberOfThreads$'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCMAKE_UNITY_BUILD=$unity" \
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && run_tests release -j "$waiting" -E "$once_more"
+check "page in a browser" web/check_page.sh build/release/apps/penumbra/penumbra
 if $full; then
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
+  check "a great bag is streamed" build/release/bench/mcap_benchmark --stream 5
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
     check "render benchmark runs" build/release/bench/render_benchmark --benchmark_min_time=0.01
     check "label benchmark runs" build/release/bench/label_benchmark \

@@ -85,6 +85,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   TopicsArguments topics;
   PlayArguments play;
   LiveArguments live;
+  ViewArguments view;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -111,6 +112,9 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* const live_app =
       app.add_subcommand("live", "label ROS 2's live topics, and publish the results");
   add_live(*live_app, live);
+  CLI::App* const view_app =
+      app.add_subcommand("view", "show a recording in the browser: 3-D, images, timeline");
+  add_view(*view_app, view);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -121,6 +125,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   }
   check_run(run);
   check_live(live);
+  check_view(view);
   check_renderer(render.renderer);
   if (run_app->parsed()) return run;
   if (render_app->parsed()) return render;
@@ -131,9 +136,10 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   if (topics_app->parsed()) return topics;
   if (play_app->parsed()) return play;
   if (live_app->parsed()) return live;
+  if (view_app->parsed()) return view;
   throw InputError(
-      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics, play or "
-      "live (penumbra --help tells more)");
+      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics, play, "
+      "live or view (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

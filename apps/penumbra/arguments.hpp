@@ -16,6 +16,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/dds/participant.hpp>
+#include <io/web/web_server.hpp>
 #include <sim/experiments/experiment.hpp>
 #include <sim/simulation.hpp>
 
@@ -43,12 +44,14 @@ struct BagArguments {
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
   std::map<std::string, std::filesystem::path> packages;
+  std::string frame_prefix;                   ///< before link names in tf, without a leading "/"
   std::optional<std::string> camera_frame;    ///< in place of the images' frame_id
   std::optional<std::string> parent;          ///< link that the camera sits on
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
-  double time_offset = 0.0;  ///< FrameQueueOptions::time_offset
-  std::string given;         ///< one of the options that were given; empty: none
+  bool first_publisher = false;  ///< programs that tell the same are not compared
+  double time_offset = 0.0;      ///< FrameQueueOptions::time_offset
+  std::string given;             ///< one of the options that were given; empty: none
   // What --help says of these options.
   std::string group = "Of bags";
   std::string joints_default = "/joint_states, or the only one";
@@ -71,8 +74,13 @@ struct RunArguments {
   Saves saves;
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
   bool no_targets = false;                       ///< not the recording's either
+  bool report_page = false;                      ///< report.html, too
+  bool is_shown = false;                         ///< in the viewer
   bool gl_labels = false;                        ///< PipelineConfig::labels_on_device
   BagArguments bag;
+
+  /// Whether pictures are made, which want the recorded colour.
+  [[nodiscard]] bool needs_color() const { return saves.overlay || report_page || is_shown; }
 };
 
 struct RenderArguments {
@@ -146,9 +154,17 @@ struct LiveArguments {
   std::optional<std::filesystem::path> summary;
 };
 
+struct ViewArguments {
+  RunArguments judging;         ///< its input: what is shown
+  bool is_live = false;         ///< "live" in place of an input
+  LiveArguments live;           ///< its topics
+  std::filesystem::path input;  ///< of a run whose results are shown, in place of its report's
+  io::WebOptions server{.port = 8470};
+};
+
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
                              SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments,
-                             LiveArguments>;
+                             LiveArguments, ViewArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,18 +26,18 @@ io::TopicWishes wishes_of(const RunArguments& arguments) {
           .joints = bag.joint_topics,
           .targets = bag.target_topics,
           .poses = bag.poses,
-          .with_color = arguments.saves.overlay,
+          .with_color = arguments.needs_color(),
           .needs_description = !bag.robot,
           .needs_transforms = !bag.pose};
 }
 
-void tell_topics(const io::BagTopics& topics, bool with_color) {
+void tell_topics(const io::BagTopics& topics, bool with_color, std::ostream& told) {
   for (const io::TopicUse& use : topics.all())
-    std::cout << use.role << ": " << io::printable(use.name) << " (" << use.type << "), " << use.why
-              << '\n';
+    told << use.role << ": " << io::printable(use.name) << " (" << use.type << "), " << use.why
+         << '\n';
   if (with_color && !topics.color)
-    std::cout << "color: no images are called color; overlays show depth\n";
-  std::cout << "poses: from " << to_string(topics.poses) << '\n';
+    told << "color: no images are called color; overlays show depth\n";
+  told << "poses: from " << to_string(topics.poses) << '\n';
 }
 
 Robot load_robot(const RunArguments& arguments, const io::BagSceneReader& reader,
@@ -75,7 +75,7 @@ io::CameraMount find_mount(const RunArguments& arguments, io::BagSceneReader& re
   if (mount) return *mount;
   // Beside the robot, below a frame that both hang from.
   const std::string frame = io::mounted_frame(wishes, frame_of_images);
-  if (!reader.scene().frames.connects(frame, robot.links().front()))
+  if (!reader.scene().frames.connects(frame, wishes.frame_prefix + robot.links().front()))
     refuse_mount(arguments, reader.scene(), frame);
   return io::mount_by_root(robot, wishes, frame_of_images);
 }
@@ -95,19 +95,36 @@ io::JudgedCameras cameras_of(const RunArguments& arguments, const io::BagTopics&
   return io::judged_cameras(evidence);
 }
 
+io::UsedBag used_bag(const RunArguments& arguments, const io::BagTopics& topics,
+                     const io::CameraMount& mount, const std::string& frame) {
+  io::UsedBag used{.topics = {},
+                   .poses = std::string(to_string(topics.poses)),
+                   .camera_frame = frame,
+                   .camera_link = mount.parent,
+                   .camera_by = mount.told,
+                   .time_offset = arguments.bag.time_offset,
+                   .first_publisher = arguments.bag.first_publisher};
+  for (const io::TopicUse& use : topics.all())
+    used.topics.push_back({use.role, use.name, use.type, use.why});
+  return used;
+}
+
 }  // namespace
 
 io::MountWishes mount_wishes(const BagArguments& bag) {
-  io::MountWishes wishes{.camera_frame = bag.camera_frame, .parent = bag.parent, .pose = {}};
+  io::MountWishes wishes{.camera_frame = bag.camera_frame,
+                         .parent = bag.parent,
+                         .pose = {},
+                         .frame_prefix = bag.frame_prefix};
   if (!bag.pose) return wishes;
   wishes.pose = io::read_pose_csv(*bag.pose);
   wishes.pose_source = "--pose " + bag.pose->string();
   return wishes;
 }
 
-RunInput open_bag_input(const RunArguments& arguments) {
+RunInput open_bag_input(const RunArguments& arguments, std::ostream& told) {
   io::BagSceneReader reader(arguments.input, wishes_of(arguments));
-  tell_topics(reader.topics(), arguments.saves.overlay);
+  tell_topics(reader.topics(), arguments.needs_color(), told);
   reader.read_robot_and_camera();
   io::JudgedCameras cameras = cameras_of(arguments, reader.topics(), reader.scene());
   RobotOptions options;
@@ -115,8 +132,8 @@ RunInput open_bag_input(const RunArguments& arguments) {
   add_robot_choices(arguments, options);
   Robot robot = load_robot(arguments, reader, options);
   const io::CameraMount mount = find_mount(arguments, reader, robot, cameras.judged.frame_id);
-  std::cout << "camera: frame '" << io::printable(cameras.judged.frame_id) << "' on link '"
-            << mount.parent << "', by " << mount.told << '\n';
+  told << "camera: frame '" << io::printable(cameras.judged.frame_id) << "' on link '"
+       << mount.parent << "', by " << mount.told << '\n';
   if (cameras.depth)
     reader.read_until([&](const io::BagScene& scene) {
       return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);
@@ -127,12 +144,15 @@ RunInput open_bag_input(const RunArguments& arguments) {
                               .camera = cameras.judged,
                               .depth_camera = cameras.depth,
                               .poses = {.source = reader.topics().poses,
+                                        .frame_prefix = arguments.bag.frame_prefix,
                                         .camera_parent = mount.parent,
                                         .camera_frame = mount.frame},
+                              .compare_sources = !arguments.bag.first_publisher,
                               .time_offset = arguments.bag.time_offset,
                               .first = arguments.frames.first,
                               .end = arguments.frames.end,
-                              .with_color = arguments.saves.overlay};
+                              .with_color = arguments.needs_color()};
+  io::UsedBag used = used_bag(arguments, reader.topics(), mount, cameras.judged.frame_id);
   PipelineConfig config;
   config.camera_parent = mount.parent;
   config.T_parent_camera = mount.T_parent_camera;
@@ -144,6 +164,7 @@ RunInput open_bag_input(const RunArguments& arguments) {
           .beyond = {},
           .targets = {},
           .target_history = arguments.bag.target_topics.empty() ? 0.0 : topic_target_history,
+          .bag = std::move(used),
           .frames = [source = std::move(source), input = arguments.input](
                         const Robot& loaded) -> std::unique_ptr<io::FrameSource> {
             return std::make_unique<io::BagSource>(input, loaded, source);

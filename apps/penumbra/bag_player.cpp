@@ -23,6 +23,13 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// "; " and what is wrong with the bag, so far as it is known.
+std::string damage_of(const io::BagReader& bag) {
+  std::string text;
+  for (const std::string& fault : bag.faults()) text += "; " + fault;
+  return text;
+}
+
 std::int64_t now_since_1970() {
   return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
 }
@@ -47,7 +54,8 @@ BagPlayer::BagPlayer(const PlayArguments& arguments, io::Participant& graph)
   if (std::none_of(topics_.begin(), topics_.end(),
                    [](const auto& topic) { return topic.publication != nullptr; }))
     throw InputError(arguments_.bag.string() + ": there is nothing to play: no messages in CDR" +
-                     (arguments_.topics.empty() ? "" : " on the topics of --topics"));
+                     (arguments_.topics.empty() ? "" : " on the topics of --topics") +
+                     damage_of(*reader_));
 }
 
 void BagPlayer::check_names() const {
@@ -66,6 +74,15 @@ bool BagPlayer::is_wanted(const std::string& topic) const {
   return arguments_.topics.empty() || contains(arguments_.topics, topic);
 }
 
+bool BagPlayer::is_latched(const io::BagTopic& topic) {
+  if (!arguments_.latched.empty()) return contains(arguments_.latched, topic.name);
+  if (topic.qos.is_unreadable)
+    notes_.push_back(io::printable(topic.name) + ": the QoS that the bag tells cannot be read");
+  const bool by_name =
+      topic.name.ends_with("/tf_static") || topic.name.ends_with("/robot_description");
+  return topic.qos.latched.value_or(by_name);
+}
+
 void BagPlayer::announce(std::size_t index) {
   const io::BagTopic& topic = reader_->topics()[index];
   PlayedTopic& played = topics_.emplace_back();
@@ -78,11 +95,8 @@ void BagPlayer::announce(std::size_t index) {
                      io::printable(topic.encoding) + ", not cdr");
     return;
   }
-  const bool by_name =
-      topic.name.ends_with("/tf_static") || topic.name.ends_with("/robot_description");
   played.qos.reliable = true;
-  played.qos.latched =
-      contains(arguments_.latched, topic.name) || (arguments_.latched.empty() && by_name);
+  played.qos.latched = is_latched(topic);
   played.qos.depth = played.qos.latched ? latched_depth : depth;
   try {
     if (arguments_.restamp) {
@@ -116,7 +130,7 @@ bool BagPlayer::play(StopSignal& stop) {
   io::BagMessage message;
   Clock clock{0, now_since_1970(), steady_clock::now(), arguments_.rate};
   const auto skipped = static_cast<std::int64_t>(arguments_.start * 1e9);
-  bool begun = false, stopped = false;
+  bool begun = false, stopped = false, reached = false;
   while (!stopped && reader_->next(message)) {
     if (!std::exchange(begun, true)) clock.first_log = message.log_time + skipped;
     while (topics_.size() < reader_->topics().size()) announce(topics_.size());
@@ -125,12 +139,16 @@ bool BagPlayer::play(StopSignal& stop) {
     const bool early = message.log_time < clock.first_log;
     if (early && !topic.qos.latched) continue;
     if (!early) {
+      reached = true;
       const auto due = clock.first_due + nanoseconds(clock.ahead(message.log_time));
       stopped = stop.wait_until(due);
       most_late_ = std::max(most_late_, duration<double>(steady_clock::now() - due).count());
     }
     if (!stopped) write(topic, message, clock);
   }
+  if (!reached && !stopped && arguments_.start > 0.0)
+    notes_.push_back(
+        "no message is later than --start; of those before, latched ones were published");
   for (const std::string& fault : reader_->faults())
     if (!contains(notes_, fault)) notes_.push_back(fault);
   reader_.reset();

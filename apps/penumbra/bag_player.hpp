@@ -50,6 +50,7 @@ class BagPlayer {
 
   void announce(std::size_t index);
   bool is_wanted(const std::string& topic) const;
+  bool is_latched(const io::BagTopic& topic);
   void check_names() const;
   void write(PlayedTopic& topic, const io::BagMessage& message, const Clock& clock);
 

@@ -15,5 +15,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const TopicsArguments& arguments);
 [[nodiscard]] int execute(const PlayArguments& arguments);
 [[nodiscard]] int execute(const LiveArguments& arguments);
+[[nodiscard]] int execute(const ViewArguments& arguments);
 
 }  // namespace penumbra::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/output_folder.hpp>
 #include <io/disk_file.hpp>
+#include <io/web/report_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -68,33 +70,49 @@ std::vector<fs::path> images_in(const fs::path& output) {
   return images;
 }
 
+/// A regular file's first bytes; nothing where there is none.
+std::optional<std::string> start_of(const fs::path& file, std::size_t size) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  std::string start(size, '\0');
+  io::InputFile input;
+  input.open(file).require();
+  start.resize(input.read(start.data(), start.size()));
+  return start;
+}
+
+[[noreturn]] void refuse_foreign(const fs::path& file) {
+  throw InputError(file.string() +
+                   ": is no report of penumbra, whose own would take its place; move it away, or "
+                   "choose another folder with -o");
+}
+
 /// Whether a run's report stands there. `is_part`: it may not have got to its first bytes.
 /// Throws InputError where the file is another's.
 bool is_report(const fs::path& file, bool is_part) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return false;
-  std::array<char, report_start.size()> start{};
-  io::InputFile input;
-  input.open(file).require();
-  const std::string_view text(start.data(), input.read(start.data(), start.size()));
-  if (text != report_start && !(is_part && text.empty()))
-    throw InputError(file.string() +
-                     ": is no report of penumbra, whose own would take its place; move it away, or "
-                     "choose another folder with -o");
-  return true;
+  const auto start = start_of(file, report_start.size());
+  if (start && *start != report_start && !(is_part && start->empty())) refuse_foreign(file);
+  return start.has_value();
+}
+
+/// Whether a run's page stands there, and not an experiment's, for one.
+bool is_page(const fs::path& file) {
+  return start_of(file, io::report_page_start.size()) == io::report_page_start;
 }
 
 /// What an earlier run left in a folder.
 struct FormerRun {
-  fs::path report, part;
-  bool has_report = false, has_part = false;
+  fs::path report, part, page;
+  bool has_report = false, has_part = false, has_page = false;
   std::vector<fs::path> images;
 };
 
 FormerRun find_former_run(const fs::path& folder) {
   std::error_code error;
-  FormerRun former{
-      .report = folder / "report.json", .part = folder / "report.json.part", .images = {}};
+  FormerRun former{.report = folder / "report.json",
+                   .part = folder / "report.json.part",
+                   .page = folder / "report.html",
+                   .images = {}};
   const fs::file_status found = fs::status(folder, error);
   if (!fs::exists(found)) return former;
   if (!fs::is_directory(found))
@@ -106,6 +124,7 @@ FormerRun find_former_run(const fs::path& folder) {
                      "another output folder with -o");
   former.has_report = is_report(former.report, false);
   former.has_part = is_report(former.part, true);
+  former.has_page = is_page(former.page);
   former.images = images_in(folder);
   if (!former.images.empty() && !former.has_report && !former.has_part)
     throw InputError(former.images.front().string() +
@@ -118,6 +137,12 @@ FormerRun find_former_run(const fs::path& folder) {
 
 void check_former_run(const fs::path& folder) { static_cast<void>(find_former_run(folder)); }
 
+void check_former_page(const fs::path& folder) {
+  const fs::path page = folder / "report.html";
+  std::error_code error;
+  if (fs::exists(page, error) && !is_page(page)) refuse_foreign(page);
+}
+
 void remove_former_run(const fs::path& folder) {
   const FormerRun former = find_former_run(folder);
   std::error_code error;
@@ -125,6 +150,7 @@ void remove_former_run(const fs::path& folder) {
   if (former.has_report) fs::rename(former.report, former.part, error);
   const bool is_renamed = former.has_report && !error;
   if (former.has_report && error) remove_file(former.report);
+  if (former.has_page) remove_file(former.page);
   for (const fs::path& image : former.images) remove_file(image);
   if (is_renamed || former.has_part) remove_file(former.part);
 }

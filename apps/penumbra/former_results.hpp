@@ -9,11 +9,14 @@
 
 namespace penumbra::app {
 
-/// Looks at what an earlier `run` wrote into a folder: report.json and images by frame number. What
-/// is not there is no fault. Throws InputError where such images stand without a report that says
-/// that they are a run's, lie behind a link, or report.json is not Penumbra's; and where `folder`
-/// is no folder. Touches nothing.
+/// Looks at what an earlier `run` wrote into a folder: report.json, report.html and images by frame
+/// number. What is not there is no fault. Throws InputError where such images stand without a
+/// report that says that they are a run's, lie behind a link, or report.json is not Penumbra's; and
+/// where `folder` is no folder. Touches nothing.
 void check_former_run(const std::filesystem::path& folder);
+
+/// Throws InputError where a report.html stands in the folder that is not of a run.
+void check_former_page(const std::filesystem::path& folder);
 
 /// Removes it. Throws as check_former_run() does, with nothing removed, and where something cannot
 /// be removed.

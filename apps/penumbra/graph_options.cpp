@@ -75,10 +75,11 @@ void add_play(CLI::App& app, PlayArguments& play) {
   app.add_flag("--loop", play.loop, "begin again at the end, until Ctrl-C");
   add_option(app, "--topics", "play only these, with commas between; default: all", "LIST",
              [&](const std::string& text) { play.topics = split(text, ','); });
-  add_option(app, "--latched",
-             "topics whose last messages who comes late gets, too; default: those called tf_static "
-             "or robot_description",
-             "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
+  add_option(
+      app, "--latched",
+      "topics whose last messages who comes late gets, too; default: those that were recorded "
+      "so, or, where the bag does not tell, are called tf_static or robot_description",
+      "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
   add_remaps(app, play.remaps);
   app.add_flag("--restamp", play.restamp,
                "shift the stamps of all headers from the recording's time to now");

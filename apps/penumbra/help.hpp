@@ -19,6 +19,7 @@ Examples:
   penumbra topics                            list the live topics of ROS 2's graph
   penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap                     publish a bag on ROS 2's graph
+  penumbra view recording/                   look at a recording in the browser
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault,
@@ -27,7 +28,8 @@ or a graphics device that failed.)";
 inline constexpr const char* run_examples = R"(
 OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot, or where the lens
 model does not reach), labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond),
-links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.png. What an earlier
+links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.png; with --report
+report.html, a page for the browser in one file. What an earlier
 run left there is removed; images of such names without its report, or behind a link, are refused.
 Faulty frames are told on stderr and in the report; the others are judged.
 Of a bag the topics that are taken are printed; each image is judged with the pose at its own stamp.
@@ -42,6 +44,23 @@ Examples:
   penumbra run recording/ -o out --labels paper
   penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
   penumbra run recording/ -o out --renderer auto)";
+
+inline constexpr const char* view_examples = R"(
+Judges a recording or a bag as run does and serves a page that shows it while that goes on: robot, camera and points
+in 3-D, images with their labels, targets along the time. The address to open is printed. Images are
+kept compressed in a temporary file in TMPDIR, else /var/tmp, which is gone with the program. Of a
+folder that run wrote its report and images are shown; what was not saved is judged again from the
+run's input, and shown where that gives what the report says. view live
+follows penumbra live, which runs beside it, with the same options of topics; a folder of that name
+is ./live. Ctrl-C ends it.
+
+Examples:
+  penumbra view recording/
+  penumbra view bag.mcap --package ur_description=/opt/ur_description --port 0
+  penumbra view recording/ --labels paper
+  penumbra view out                          what penumbra run ... -o out wrote
+  penumbra view live --domain 7
+  penumbra view recording/ --address 0.0.0.0)";
 
 inline constexpr const char* render_examples = R"(
 Joints that are not given stand at rest (0, or no rotation); --json lists every position.

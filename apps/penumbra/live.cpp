@@ -21,12 +21,13 @@
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/live_renderer.hpp>
+#include <apps/penumbra/live_setup.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/dds/receive_buffers.hpp>
 #include <io/live/live_summary.hpp>
-#include <io/live/name_resolver.hpp>
+#include <io/live/trouble_news.hpp>
 #include <io/pending_file.hpp>
 #include <io/printable.hpp>
 #include <io/ros/message_encoder.hpp>
@@ -50,12 +51,6 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-io::NameResolver resolver_of(const LiveArguments& arguments) {
-  io::NameResolver names(arguments.name_space);
-  for (const std::string& rule : arguments.remaps) names.remap(rule);
-  return names;
-}
-
 bool is_published(const LiveArguments& arguments, const io::ResultTopic& topic) {
   if (!arguments.publish) return true;
   for (const std::string& name : split(*arguments.publish, ','))
@@ -74,30 +69,26 @@ std::string words_of(const std::exception_ptr& fault) {
 /// Publishes what is said of how it goes.
 class Diagnostics {
  public:
-  explicit Diagnostics(io::Participant& graph)
-      : publication_(graph.advertise("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray",
-                                     {.reliable = true, .depth = 2})) {}
+  Diagnostics(io::Participant& graph, const io::NameResolver& names)
+      : publication_(graph.advertise(names.resolve(diagnostics_topic),
+                                     "diagnostic_msgs/msg/DiagnosticArray",
+                                     {.reliable = true, .depth = 2})),
+        speaker_(live_speaker(names)) {}
+
+  [[nodiscard]] const io::LiveSpeaker& speaker() const { return speaker_; }
 
   void tell(const io::DiagnosticArrayMessage& message) {
     io::encode(message, payload_);
     static_cast<void>(publication_->write(payload_));
-    std::string now;
-    for (const io::DiagnosticStatusMessage& status : message.status)
-      if (status.level != io::DiagnosticStatusMessage::ok)
-        now += (now.empty() ? "" : "; ") + status.name + ": " + status.message;
-    // A line for each new trouble; how long it lasts is no news.
-    std::string kind = now.substr(0, now.find_first_of("0123456789"));
-    if (kind == told_) return;
-    told_ = std::move(kind);
-    std::cerr << (now.empty() ? "penumbra: all is judged" : now) << '\n';
+    for (const std::string& line : news_.look(message)) std::cerr << line << '\n';
   }
 
   void tell_waiting(const std::string& why) {
     io::DiagnosticArrayMessage message{.header = {io::LiveRunner::system_now(), ""}, .status = {}};
     message.status.push_back({.level = io::DiagnosticStatusMessage::stale,
-                              .name = "penumbra: camera",
+                              .name = speaker_.name + ": camera",
                               .message = why,
-                              .hardware_id = {},
+                              .hardware_id = speaker_.hardware_id,
                               .values = {}});
     tell(message);
   }
@@ -105,7 +96,8 @@ class Diagnostics {
  private:
   std::unique_ptr<io::Publication> publication_;
   std::vector<std::byte> payload_;
-  std::string told_;
+  io::TroubleNews news_;
+  io::LiveSpeaker speaker_;
 };
 
 /// Waits for the graph's one camera. Nothing: it was stopped before. Throws InputError where there
@@ -127,25 +119,6 @@ std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
   return std::nullopt;
 }
 
-io::LiveOptions options_of(const LiveArguments& arguments, const io::NameResolver& names) {
-  const BagArguments& topics = arguments.judging.bag;
-  io::LiveOptions options;
-  options.robot.robot.packages = topics.packages;
-  add_robot_choices(arguments.judging, options.robot.robot);
-  if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
-  options.poses = topics.poses.value_or(PoseSource::joints);
-  options.description_topic = names.resolve("robot_description");
-  options.transform_topic = names.resolve("/tf");
-  options.static_transform_topic = names.resolve("/tf_static");
-  options.joint_topics = {names.resolve("joint_states")};
-  if (!topics.joint_topics.empty()) options.joint_topics.clear();
-  for (const std::string& name : topics.joint_topics)
-    options.joint_topics.push_back(names.resolve(name));
-  for (const std::string& name : topics.target_topics)
-    options.target_topics.push_back(names.resolve(name));
-  return options;
-}
-
 PipelineConfig config_of(const LiveArguments& arguments) {
   PipelineConfig config;
   config.backend = arguments.judging.renderer.backend;
@@ -163,9 +136,8 @@ class Live {
       : arguments_(arguments) {
     std::vector<io::ResultSink*> sinks;
     for (const io::LiveCameraOptions& camera : options.cameras) {
-      const std::string below = "penumbra/" + (camera.name.empty() ? "" : camera.name + "/");
       results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
-        return is_published(arguments, topic) ? names.resolve(below + std::string(topic.name))
+        return is_published(arguments, topic) ? names.resolve(result_name(camera.name, topic))
                                               : std::string();
       }));
       sinks.push_back(results_.back().get());
@@ -230,7 +202,7 @@ class Live {
   }
 
   bool report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
-    io::LiveDiagnostics words(io::LiveRunner::steady_now());
+    io::LiveDiagnostics words(io::LiveRunner::steady_now(), diagnostics.speaker());
     auto next = Clock::now();
     bool stopped = false;
     while (!stopped && !ends && !runner_->has_failed()) {
@@ -323,10 +295,12 @@ void write_summary(SummaryFile& file, Live& live, bool has_fault) {
 /// `fault` gets what ended it before its time, when all is told that is known until then.
 int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   check_draws(arguments.judging.renderer);
-  const io::NameResolver names = resolver_of(arguments);
-  io::LiveOptions options = options_of(arguments, names);
+  const io::NameResolver names = live_names(arguments);
+  io::LiveOptions options = live_options(arguments, names);
   const io::LiveCameraOptions common = camera_options(arguments);
   options.cameras = named_cameras(arguments, names, common);
+  const io::TopicWishes wishes = camera_wishes(arguments, names);
+  check_remaps(names, options.cameras);
   std::optional<SummaryFile> summary;
   if (arguments.summary) summary.emplace(*arguments.summary);
   StopSignal stop;
@@ -334,9 +308,9 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
       !advice.empty())
     tell_notes(std::vector{advice});
-  Diagnostics diagnostics(*graph);
+  Diagnostics diagnostics(*graph, names);
   if (options.cameras.empty()) {
-    CameraSearch search(*graph, camera_wishes(arguments, names));
+    CameraSearch search(*graph, wishes);
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
     if (!camera) {
       if (summary) summary->tell_unwritten();

@@ -17,6 +17,9 @@
 
 namespace penumbra::app {
 
+/// How a topic is subscribed to; `reliable`: asked of all.
+[[nodiscard]] io::TopicQos live_qos(const io::LiveTopic& topic, bool reliable);
+
 /// Publishes a camera's results, those that somebody subscribes to.
 class GraphResults final : public io::ResultSink {
  public:
@@ -54,6 +57,7 @@ class LiveSubscriptions {
   [[nodiscard]] std::string type_on_graph(const std::string& topic,
                                           const std::vector<io::GraphTopic>& all) const;
   void open(std::size_t topic);
+  void close(std::size_t topic);
 
   io::Participant& graph_;
   io::LiveRunner& runner_;
@@ -63,6 +67,7 @@ class LiveSubscriptions {
       mutex_;  // guards what follows; taken before the runner's, not while it is held
   std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to
   std::vector<std::string> other_types_;
+  std::vector<io::LiveLink> former_;  // what subscriptions that ended had lost
 };
 
 }  // namespace penumbra::app

@@ -9,6 +9,7 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/live/name_resolver.hpp>
 #include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
@@ -31,6 +32,17 @@ void check_results(const std::string& list) {
   }
 }
 
+/// Results come below the name.
+void check_camera_name(const std::string& name) {
+  try {
+    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
+  } catch (const InputError&) {
+    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
+  }
+}
+
+}  // namespace
+
 void add_graph(CLI::App& app, LiveArguments& live) {
   add_domain(app, live.graph);
   add_option(app, "--namespace", "of the names below that have no / before them", "NS",
@@ -45,17 +57,20 @@ void add_graph(CLI::App& app, LiveArguments& live) {
       [&](const std::string& text) { live.queue = to_count("--queue", text, 1, most_waiting); });
 }
 
-}  // namespace
-
-void add_live(CLI::App& app, LiveArguments& live) {
-  app.footer(live_examples);
+void add_cameras(CLI::App& app, LiveArguments& live) {
   add_list(app, "--camera",
            "depth images of a camera, whose results come below /penumbra/NAME; may be given "
            "several times. Default: the only one, found by type and name",
            "NAME=TOPIC", [&](const std::string& text) {
              const auto [name, topic] = to_pair("--camera", text, "NAME=TOPIC of depth images");
+             check_camera_name(name);
              live.cameras.push_back({name, topic});
            });
+}
+
+void add_live(CLI::App& app, LiveArguments& live) {
+  app.footer(live_examples);
+  add_cameras(app, live);
   add_option(app, "--publish",
              "results to publish: of vdi,labels,mask,filtered_depth,points,targets,overlay; "
              "default: all that somebody subscribes to",

@@ -58,6 +58,8 @@ void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fall
 
 /// By what frames are judged: renderer, geometry, tolerance, labels.
 void add_judging(CLI::App& app, RunArguments& run);
+/// Which frames and targets are judged, in which image.
+void add_sequence(CLI::App& app, RunArguments& run);
 /// Which topics are taken, and what they leave open.
 void add_bag(CLI::App& app, BagArguments& bag);
 
@@ -67,9 +69,13 @@ void check_renderer(const RendererArguments& renderer);
 // The commands with options of many kinds.
 void add_run(CLI::App& app, RunArguments& run);
 void add_experiment(CLI::App& app, ExperimentArguments& experiment);
+void add_view(CLI::App& app, ViewArguments& view);
 void add_simulate(CLI::App& app, SimulateArguments& simulate);
 
 /// Refuses what does not go together, and fills in what follows from the rest.
 void check_run(RunArguments& run);
+void check_view(ViewArguments& view);
+/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
+void check_targets(const RunArguments& run);
 
 }  // namespace penumbra::app

@@ -6,8 +6,11 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/output_folder.hpp>
+#include <io/disk_file.hpp>
 #include <io/npy.hpp>
+#include <io/pending_file.hpp>
 #include <io/png.hpp>
+#include <io/web/report_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -28,14 +31,18 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder, const Saves& saves,
+OutputFolder::OutputFolder(const fs::path& folder, const RunArguments& arguments,
                            const Rectification* rectification)
-    : folder_(folder), saves_(saves), painter_(rectification), unfinished_(folder) {
+    : folder_(folder),
+      saves_(arguments.saves),
+      has_page_(arguments.report_page),
+      painter_(rectification),
+      unfinished_(folder) {
   make_folder(folder);
-  for (const auto& [kind, wanted] : {std::pair("vdi", saves.vdi),
-                                     {"labels", saves.labels},
-                                     {"links", saves.links},
-                                     {"overlay", saves.overlay}})
+  for (const auto& [kind, wanted] : {std::pair("vdi", saves_.vdi),
+                                     {"labels", saves_.labels},
+                                     {"links", saves_.links},
+                                     {"overlay", saves_.overlay}})
     if (wanted) make_folder(folder / kind);
 }
 
@@ -44,6 +51,25 @@ void OutputFolder::begin(const io::ReportHead& head) { report_.emplace(report_fi
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {
   report_->finish(statistics, notes);
   unfinished_.finish();
+  if (has_page_) write_page();
+}
+
+void OutputFolder::write_page() const {
+  const fs::path page = folder_ / "report.html";
+  std::error_code error;
+  const auto size = fs::file_size(report_file(), error);
+  if (error || size > io::most_report_page_bytes)
+    throw InputError(page.string() + ": not written, as " + report_file().string() +
+                     ", which is whole, is larger than " +
+                     std::to_string(io::most_report_page_bytes >> 20U) +
+                     " MB; choose fewer frames with --frames");
+  const std::string text =
+      io::report_page(io::read_text(report_file(), io::most_report_page_bytes), key_frames_.json());
+  io::PendingFile pending(page);
+  io::OutputFile file(pending.part());
+  file.write(text.data(), text.size());
+  file.close();
+  pending.finish();
 }
 
 void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
@@ -56,9 +82,10 @@ void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
   if (saves_.links && !virtual_depth.links.empty())
     io::write_png(file("links", index, ".png"), virtual_depth.links);
   if (saves_.labels) io::write_png(file("labels", index, ".png"), report.labels);
-  if (saves_.overlay)
-    io::write_png(file("overlay", index, ".png"),
-                  painter_.draw(report, {frame.depth_view(), frame.color.view()}, targets));
+  if (!saves_.overlay && !has_page_) return;
+  const auto overlay = painter_.draw(report, {frame.depth_view(), frame.color.view()}, targets);
+  if (saves_.overlay) io::write_png(file("overlay", index, ".png"), overlay);
+  if (has_page_) key_frames_.add(report, overlay);
 }
 
 fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {

@@ -12,6 +12,7 @@
 #include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/run_output.hpp>
 #include <io/overlay_painter.hpp>
+#include <io/web/key_frames.hpp>
 
 namespace penumbra::app {
 
@@ -24,7 +25,7 @@ class OutputFolder final : public RunOutput {
   /// Makes the folder and those of the images to save. `rectification` brings recorded images to
   /// the report's; null where they fit, else it must outlive this. Throws InputError where the
   /// folder is refused.
-  OutputFolder(const std::filesystem::path& folder, const Saves& saves,
+  OutputFolder(const std::filesystem::path& folder, const RunArguments& arguments,
                const Rectification* rectification);
 
   void begin(const io::ReportHead& head) override;
@@ -37,13 +38,16 @@ class OutputFolder final : public RunOutput {
   [[nodiscard]] std::string where() const override { return "report: " + report_file().string(); }
 
  private:
+  void write_page() const;
   [[nodiscard]] std::filesystem::path report_file() const { return folder_ / "report.json"; }
   [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
                                            const char* ending) const;
 
   std::filesystem::path folder_;
   Saves saves_;
+  bool has_page_;
   io::OverlayPainter painter_;
+  io::KeyFrames key_frames_;
   UnfinishedRun unfinished_;
   std::optional<io::ReportWriter> report_;
 };

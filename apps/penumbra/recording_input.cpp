@@ -20,8 +20,16 @@ bool is_bag(const std::filesystem::path& input) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(input, ignored))
     return io::is_bag_file(input) || input.extension() == ".zstd";
-  return !std::filesystem::exists(input / "recording.yaml", ignored) &&
-         std::filesystem::exists(input / "metadata.yaml", ignored);
+  return io::is_bag_folder(input);
+}
+
+void check_is_recording(const std::filesystem::path& input) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(input, ignored) &&
+      !std::filesystem::exists(input / "recording.yaml", ignored))
+    throw InputError(input.string() +
+                     ": holds neither a recording (recording.yaml) nor a bag (metadata.yaml, "
+                     "*.mcap, *.db3)");
 }
 
 /// Which of the reader's frames are wanted; the range must lie inside the recording.
@@ -62,16 +70,17 @@ void add_robot_choices(const RunArguments& arguments, RobotOptions& options) {
 }
 
 RunInput open_recording_input(const RunArguments& arguments) {
+  check_is_recording(arguments.input);
+  io::Recording recording = io::Recording::open(arguments.input);
   if (!arguments.bag.given.empty())
     throw InputError(arguments.bag.given + ": is for bags, and " + arguments.input.string() +
                      " is a recording folder, which says this itself; leave it out");
-  io::Recording recording = io::Recording::open(arguments.input);
   add_robot_choices(arguments, recording.robot);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   io::FrameReader reader(recording, robot);
   std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
   check_parent(recording, robot);
-  const bool with_color = arguments.saves.overlay;
+  const bool with_color = arguments.needs_color();
   return {.robot_options = recording.robot,
           .robot = std::move(robot),
           .camera = recording.camera.camera,
@@ -79,14 +88,16 @@ RunInput open_recording_input(const RunArguments& arguments) {
           .config = recording.pipeline_config(),
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
+          .bag = {},
           .frames = [reader = std::move(reader), selected = std::move(selected),
                      with_color](const Robot&) -> std::unique_ptr<io::FrameSource> {
             return std::make_unique<io::RecordingSource>(reader, selected, with_color);
           }};
 }
 
-RunInput open_input(const RunArguments& arguments) {
-  return is_bag(arguments.input) ? open_bag_input(arguments) : open_recording_input(arguments);
+RunInput open_input(const RunArguments& arguments, std::ostream& told) {
+  return is_bag(arguments.input) ? open_bag_input(arguments, told)
+                                 : open_recording_input(arguments);
 }
 
 }  // namespace penumbra::app

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include <apps/penumbra/arguments.hpp>
 #include <io/frame_source.hpp>
 #include <io/recording.hpp>
+#include <io/report_json.hpp>
 #include <io/ros_frames/camera_mount.hpp>
 
 namespace penumbra::app {
@@ -27,18 +29,19 @@ struct RunInput {
   std::optional<io::BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
   double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
+  std::optional<io::UsedBag> bag;
 
   /// Opens the frames; the robot must outlive them. To be called once.
   std::function<std::unique_ptr<io::FrameSource>(const Robot&)> frames;
 };
 
-/// Opens a recording folder or a bag, and says on stdout what of a bag is taken. Throws InputError
-/// that names the file.
-[[nodiscard]] RunInput open_input(const RunArguments& arguments);
+/// Opens a recording folder or a bag, and tells what of a bag is taken. Throws InputError that
+/// names the file.
+[[nodiscard]] RunInput open_input(const RunArguments& arguments, std::ostream& told);
 
 /// The two of them.
 [[nodiscard]] RunInput open_recording_input(const RunArguments& arguments);
-[[nodiscard]] RunInput open_bag_input(const RunArguments& arguments);
+[[nodiscard]] RunInput open_bag_input(const RunArguments& arguments, std::ostream& told);
 
 /// What the options say of where the camera sits. Throws InputError of the pose's file.
 [[nodiscard]] io::MountWishes mount_wishes(const BagArguments& bag);

@@ -7,17 +7,6 @@
 namespace penumbra::app {
 namespace {
 
-/// Options of versions to come are told apart from mistyped ones; --help does not show them.
-void add_unbuilt(CLI::App& app) {
-  app.add_option_function<std::vector<std::string>>(
-         "--report",
-         [](const std::vector<std::string>&) {
-           throw InputError("--report is not built into this version; leave it out");
-         })
-      ->group("")
-      ->expected(0, 1);
-}
-
 /// Virtual depth and links stay on the device that labels.
 void check_gl_labels(const RunArguments& run) {
   if (!run.gl_labels) return;
@@ -47,6 +36,15 @@ void add_bag_text(CLI::App& app, BagArguments& bag, const std::string& name,
   add_bag_option(app, bag, name, help, value, [&to](const std::string& text) { to = text; });
 }
 
+void add_bag_flag(CLI::App& app, BagArguments& bag, const std::string& name,
+                  const std::string& help, bool& to) {
+  const auto take = [&bag, &to, name] {
+    to = true;
+    bag.given = name;
+  };
+  app.add_flag_callback(name, take, help)->group(bag.group);
+}
+
 template <typename Take>
 void add_bag_list(CLI::App& app, BagArguments& bag, const std::string& name,
                   const std::string& help, const std::string& value, Take take) {
@@ -65,19 +63,10 @@ void check_output_bag(RunArguments& run) {
                      "camera's images; leave it out, or give a folder with -o");
   };
   if (run.saves.vdi || run.saves.labels || run.saves.links || run.saves.overlay) refuse("--save");
+  if (run.report_page) refuse("--report");
   if (run.gl_labels) refuse("--gl-labels");
   if (run.image == ImageSpace::rectified) refuse("--image rectified");
   run.saves.overlay = true;
-}
-
-/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
-void check_targets(const RunArguments& run) {
-  if (run.bag.target_topics.empty()) return;
-  if (run.targets || run.no_targets)
-    throw InputError("--target-topic: --targets is given too; leave one of them out");
-  if (run.image == ImageSpace::rectified)
-    throw InputError(
-        "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
 }  // namespace
@@ -106,6 +95,9 @@ void add_bag(CLI::App& app, BagArguments& bag) {
                bag.robot);
   add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
                "NAME=DIR", [&](const std::string& text) { take_package(text, bag.packages); });
+  add_bag_option(app, bag, "--frame-prefix",
+                 "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",
+                 [&](const std::string& text) { bag.frame_prefix = text.substr(text[0] == '/'); });
   add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
                "FRAME", bag.camera_frame);
   add_bag_text(app, bag, "--parent",
@@ -117,14 +109,13 @@ void add_bag(CLI::App& app, BagArguments& bag) {
   add_bag_option(app, bag, "--time-offset",
                  "added to the images' stamps before poses are looked up; default 0", "S",
                  [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
-  app.add_flag_callback(
-         "--rectified",
-         [&bag] {
-           bag.rectified = true;
-           bag.given = "--rectified";
-         },
-         "the images are free of distortion already, as those called image_rect... are")
-      ->group(bag.group);
+  add_bag_flag(app, bag, "--first-publisher",
+               "of a joint or transform that several programs tell, take the first one's word; "
+               "default: where they contradict each other, the pose is unknown",
+               bag.first_publisher);
+  add_bag_flag(app, bag, "--rectified",
+               "the images are free of distortion already, as those called image_rect... are",
+               bag.rectified);
 }
 
 void add_judging(CLI::App& app, RunArguments& run) {
@@ -144,6 +135,19 @@ void add_judging(CLI::App& app, RunArguments& run) {
              "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
 }
 
+void add_sequence(CLI::App& app, RunArguments& run) {
+  add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
+             [&](const std::string& text) { run.image = to_image(text); });
+  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
+             [&](const std::string& text) { run.frames = to_range(text); });
+  add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
+             "YAML", [&](const std::string& text) {
+               if (text.empty()) refuse_option("--targets", text, "a path, or none");
+               run.no_targets = text == "none";
+               if (!run.no_targets) run.targets = text;
+             });
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_path(app, "INPUT",
@@ -156,24 +160,25 @@ void add_run(CLI::App& app, RunArguments& run) {
            run.output)
       ->required();
   add_judging(app, run);
-  add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
-             [&](const std::string& text) { run.image = to_image(text); });
-  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
-             [&](const std::string& text) { run.frames = to_range(text); });
+  add_sequence(app, run);
   add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
              [&](const std::string& text) { run.saves = to_saves(text); });
-  add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
-             "YAML", [&](const std::string& text) {
-               if (text.empty()) refuse_option("--targets", text, "a path, or none");
-               run.no_targets = text == "none";
-               if (!run.no_targets) run.targets = text;
-             });
+  app.add_flag("--report", run.report_page,
+               "write report.html, too: one file with the targets' timeline and key frames");
   app.add_flag(
       "--gl-labels", run.gl_labels,
       "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay, names "
       "no link that hides a target, and targets with expected depths are unknown");
   add_bag(app, run.bag);
-  add_unbuilt(app);
+}
+
+void check_targets(const RunArguments& run) {
+  if (run.bag.target_topics.empty()) return;
+  if (run.targets || run.no_targets)
+    throw InputError("--target-topic: --targets is given too; leave one of them out");
+  if (run.image == ImageSpace::rectified)
+    throw InputError(
+        "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
 void check_run(RunArguments& run) {

@@ -23,6 +23,10 @@ namespace penumbra::io {
 /// Whether the name is that of a file that open_bag_file() opens.
 [[nodiscard]] bool is_bag_file(const std::filesystem::path& file);
 
+/// Whether a folder is one that open_bag_folder() opens: a metadata.yaml or bags lie there, and no
+/// recording.yaml, which makes it a recording folder.
+[[nodiscard]] bool is_bag_folder(const std::filesystem::path& folder);
+
 /// `text` if it is ros2msg, else the built-in definition of the type, or nothing.
 [[nodiscard]] std::string definition_or_built_in(std::string_view type, std::string_view encoding,
                                                  std::string_view text);

@@ -9,6 +9,7 @@
 #include <io/bag/bag_file.hpp>
 #include <io/bag/bag_metadata.hpp>
 #include <io/bag/natural_order.hpp>
+#include <io/bag/offered_qos.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -22,6 +23,16 @@ struct BagPart {
   std::vector<std::size_t> topics;  // of the recording, by the file's own
   std::size_t told_faults = 0;
 };
+
+/// In no order.
+std::vector<std::filesystem::path> bags_in(const std::filesystem::path& folder,
+                                           std::error_code& fault) {
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
+       entry.increment(fault))
+    if (is_bag_file(entry->path())) files.push_back(entry->path());
+  return files;
+}
 
 class BagFolder final : public BagReader {
  public:
@@ -60,11 +71,8 @@ class BagFolder final : public BagReader {
       metadata_ = read_bag_metadata(metadata_file);
       return metadata_->files;
     }
-    std::vector<std::filesystem::path> files;
     std::error_code fault;
-    for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
-         entry.increment(fault))
-      if (is_bag_file(entry->path())) files.push_back(entry->path());
+    std::vector<std::filesystem::path> files = bags_in(folder, fault);
     if (fault) throw InputError(folder.string() + ": cannot be read: " + fault.message());
     if (files.empty())
       throw InputError(folder.string() +
@@ -121,15 +129,22 @@ class BagFolder final : public BagReader {
     for (std::size_t i = part.topics.size(); i < found.size(); ++i) {
       BagTopic topic = found[i];
       const auto count = std::exchange(topic.messages, std::nullopt);
-      auto known = std::find_if(topics_.begin(), topics_.end(), [&](BagTopic other) {
-        other.messages.reset();
-        return other == topic;
-      });
+      const OfferedQos qos = topic.qos;
+      auto known = std::find_if(topics_.begin(), topics_.end(),
+                                [&](const BagTopic& other) { return other.is_same_topic(topic); });
       const bool first = known == topics_.end();
       if (first) known = topics_.insert(known, std::move(topic));
+      merge(qos, known->qos);
+      if (first) add_told_qos(*known);
       count_messages(*known, count, first);
       part.topics.push_back(static_cast<std::size_t>(known - topics_.begin()));
     }
+  }
+
+  void add_told_qos(BagTopic& topic) const {
+    if (!metadata_) return;
+    const auto told = metadata_->qos.find({topic.name, topic.type});
+    if (told != metadata_->qos.end()) merge(told->second, topic.qos);
   }
 
   void count_messages(BagTopic& topic, const std::optional<std::uint64_t>& count, bool first) {
@@ -174,6 +189,13 @@ class BagFolder final : public BagReader {
 
 std::unique_ptr<BagReader> open_bag_folder(const std::filesystem::path& folder) {
   return std::make_unique<BagFolder>(folder);
+}
+
+bool is_bag_folder(const std::filesystem::path& folder) {
+  std::error_code fault;
+  if (std::filesystem::exists(folder / "recording.yaml", fault)) return false;
+  if (std::filesystem::exists(folder / "metadata.yaml", fault)) return true;
+  return !bags_in(folder, fault).empty();
 }
 
 }  // namespace penumbra::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <io/bag/bag_metadata.hpp>
+#include <io/bag/offered_qos.hpp>
 #include <io/yaml.hpp>
 
 namespace penumbra::io {
@@ -46,8 +47,10 @@ BagMetadata read_bag_metadata(const std::filesystem::path& file) {
     const YamlNode& about = topic.at("topic_metadata");
     const std::int64_t count = topic.at("message_count").integer();
     if (count < 0) topic.at("message_count").fail("is negative; messages are counted from 0");
-    metadata.messages[{about.at("name").text(), about.at("type").text()}] +=
-        static_cast<std::uint64_t>(count);
+    const std::pair name_and_type(about.at("name").text(), about.at("type").text());
+    metadata.messages[name_and_type] += static_cast<std::uint64_t>(count);
+    if (const YamlNode* qos = about.find("offered_qos_profiles"))
+      merge(read_offered_qos(*qos), metadata.qos[name_and_type]);
   }
   return metadata;
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <io/bag/bag_reader.hpp>
+
 namespace penumbra::io {
 
 /// What `ros2 bag record` writes beside a recording's files when it ends.
@@ -15,6 +17,7 @@ struct BagMetadata {
   std::vector<std::filesystem::path> files;  ///< in the order of recording; some may be missing
   /// Messages by topic and type.
   std::map<std::pair<std::string, std::string>, std::uint64_t> messages;
+  std::map<std::pair<std::string, std::string>, OfferedQos> qos;  ///< likewise
 };
 
 /// Reads metadata.yaml of any version. Throws InputError with file and line for what it does not

@@ -12,6 +12,14 @@
 
 namespace penumbra::io {
 
+/// What a bag tells of how a topic's publishers offered it.
+struct OfferedQos {
+  std::optional<bool> latched;  ///< one of them was, at least; nothing: the bag does not tell
+  bool is_unreadable = false;   ///< it tells, but that cannot be read
+
+  bool operator==(const OfferedQos&) const = default;
+};
+
 struct BagTopic {
   std::string name;  ///< "/joint_states"
   std::string type;  ///< "sensor_msgs/msg/JointState"
@@ -20,8 +28,14 @@ struct BagTopic {
   std::string definition;
   std::string encoding;                   ///< of its messages: "cdr"
   std::optional<std::uint64_t> messages;  ///< how many, where the bag tells
+  OfferedQos qos = {};
 
   bool operator==(const BagTopic&) const = default;
+  /// Whether messages of both are of one topic, whoever publishes them.
+  [[nodiscard]] bool is_same_topic(const BagTopic& other) const {
+    return name == other.name && type == other.type && definition == other.definition &&
+           encoding == other.encoding;
+  }
 };
 
 struct BagMessage {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <io/bag/bag_file.hpp>
+#include <io/bag/offered_qos.hpp>
 #include <io/mcap/reader.hpp>
 
 namespace penumbra::io {
@@ -37,11 +38,11 @@ class McapBag final : public BagReader {
       if (topic_of_.contains(id)) continue;
       BagTopic topic = topic_of(channel);
       const auto count = std::exchange(topic.messages, std::nullopt);
-      auto known = std::find_if(topics_.begin(), topics_.end(), [&](BagTopic other) {
-        other.messages.reset();
-        return other == topic;
-      });
+      const OfferedQos qos = topic.qos;
+      auto known = std::find_if(topics_.begin(), topics_.end(),
+                                [&](const BagTopic& other) { return other.is_same_topic(topic); });
       if (known == topics_.end()) known = topics_.insert(known, std::move(topic));
+      merge(qos, known->qos);
       if (count) known->messages = known->messages.value_or(0) + *count;
       topic_of_[id] = static_cast<std::size_t>(known - topics_.begin());
     }
@@ -53,6 +54,9 @@ class McapBag final : public BagReader {
                    .definition = {},
                    .encoding = channel.message_encoding,
                    .messages = {}};
+    if (const auto qos = channel.metadata.find("offered_qos_profiles");
+        qos != channel.metadata.end())
+      topic.qos = read_offered_qos(qos->second);
     if (const auto schema = reader_.schemas().find(channel.schema_id);
         schema != reader_.schemas().end()) {
       const mcap::Schema& found = schema->second;

@@ -8,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
+#include <io/bag/offered_qos.hpp>
 #include <io/bag/sqlite_database.hpp>
 
 namespace penumbra::io {
@@ -48,6 +49,7 @@ class SqliteBag final : public BagReader {
 
   void read_topics() {
     const auto definitions = read_definitions();
+    const auto qos = read_qos();
     SqliteQuery query(*database_,
                       "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
     auto step = query.step();
@@ -64,9 +66,22 @@ class SqliteBag final : public BagReader {
       topic_of_[*id] = topics_.size();
       topics_.push_back({std::move(*name), std::move(*type), std::move(definition),
                          std::move(*encoding), std::nullopt});
+      if (const auto told = qos.find(*id); told != qos.end()) topics_.back().qos = told->second;
     }
     if (step == SqliteQuery::Step::failed)
       add_fault("its topics cannot all be read: " + database_->failure());
+  }
+
+  [[nodiscard]] std::map<std::int64_t, OfferedQos> read_qos() const {
+    std::map<std::int64_t, OfferedQos> all;
+    if (!database_->has_column("topics", "offered_qos_profiles")) return all;
+    SqliteQuery query(*database_, "SELECT id, offered_qos_profiles FROM topics");
+    while (query.step() == SqliteQuery::Step::row) {
+      const auto id = query.integer(0);
+      const auto profiles = query.text(1);
+      if (id && profiles) all.emplace(*id, read_offered_qos(*profiles));
+    }
+    return all;
   }
 
   [[nodiscard]] std::map<std::string, std::string> read_definitions() const {

@@ -136,6 +136,11 @@ bool SqliteDatabase::has_table(const std::string& name) const {
   return query.step() == SqliteQuery::Step::row && query.integer(0).value_or(0) > 0;
 }
 
+bool SqliteDatabase::has_column(const std::string& table, const std::string& name) const {
+  return sqlite3_table_column_metadata(database_, nullptr, table.c_str(), name.c_str(), nullptr,
+                                       nullptr, nullptr, nullptr, nullptr) == SQLITE_OK;
+}
+
 std::string SqliteDatabase::failure() const { return printable(sqlite3_errmsg(database_)); }
 
 SqliteQuery::SqliteQuery(const SqliteDatabase& database, const std::string& text) {

@@ -32,6 +32,7 @@ class SqliteDatabase {
 
   /// Whether there is such a table; a view is none.
   [[nodiscard]] bool has_table(const std::string& name) const;
+  [[nodiscard]] bool has_column(const std::string& table, const std::string& name) const;
 
   /// What SQLite says of its last failure.
   [[nodiscard]] std::string failure() const;

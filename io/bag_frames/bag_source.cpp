@@ -51,12 +51,12 @@ void join(std::string& message, const std::string& more) {
 BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSourceOptions options)
     : options_(std::move(options)),
       inbox_(bag),
-      history_(robot),
+      history_(robot, history_options(options_.compare_sources)),
       queue_(robot, history_, queue_options(options_),
              [this](const DroppedFrame& frame) { dropped_.push_back(frame); }),
       depth_(options_.camera, options_.depth_camera),
       colors_(most_colors),
-      targets_(robot, options_.camera.frame_id) {
+      targets_(robot, options_.camera.frame_id, options_.poses.frame_prefix) {
   check_range();
   // Fixed frames hold before they are told, too. Of one that is told several times, what was told
   // first holds until it is told anew.
@@ -151,6 +151,7 @@ void BagSource::take_depth(const BagMessage& message) {
   waiting.message = message;
   waiting.message.data = waiting.payload;
   waiting.stamp = image.header.stamp;
+  pairs_.add_image(waiting.stamp);
   if (frame_name(image.header.frame_id) != frame_name(*options_.scene.depth_frame))
     waiting.fault = "the depth image is of the frame '" + printable(image.header.frame_id) +
                     "', the first one of '" + printable(*options_.scene.depth_frame) + "'";
@@ -162,7 +163,9 @@ void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& fi
                           std::vector<CameraChange>& changes) {
   CameraInfoMessage info;
   if (!inbox_.decode(message, info)) return;
-  std::int64_t& newest = &changes == &camera_changes_ ? newest_camera_ : newest_color_;
+  const bool is_depths = &changes == &camera_changes_;
+  if (is_depths) pairs_.add_info(info.header.stamp);
+  std::int64_t& newest = is_depths ? newest_camera_ : newest_color_;
   newest = std::max(newest, info.header.stamp);
   const bool differs = !is_same_camera(info, first);
   const bool before = !changes.empty() && changes.back().differs;
@@ -186,12 +189,15 @@ bool BagSource::camera_differs(std::int64_t stamp) const {
 
 void BagSource::take_joints(const BagMessage& message) {
   JointStateMessage state;
-  if (inbox_.decode(message, state)) add_to_history(state, history_);
+  if (!inbox_.decode(message, state)) return;
+  add_to_history(state, sources_.of_joints(inbox_.topic_of(message).name, 0, state), history_);
 }
 
 void BagSource::take_transforms(const BagMessage& message, bool is_static) {
   TfMessage found;
-  if (inbox_.decode(message, found)) add_to_history(found, is_static, history_);
+  if (!inbox_.decode(message, found)) return;
+  const std::string& source = sources_.of_transforms(inbox_.topic_of(message).name, 0);
+  add_to_history(found, is_static, source, history_);
 }
 
 void BagSource::take_targets(const BagMessage& message) {
@@ -249,7 +255,9 @@ bool BagSource::is_presentable() const {
   const bool has_color =
       !options_.with_color || !options_.topics.color || colors_.reaches(image.stamp);
   const bool has_color_info = !options_.topics.color_info || newest_color_ >= image.stamp;
-  return newest_camera_ >= image.stamp && has_color && has_color_info;
+  const bool has_info =
+      pairs_.are_certain() ? pairs_.covers(image.stamp) : newest_camera_ >= image.stamp;
+  return has_info && has_color && has_color_info;
 }
 
 void BagSource::present(FrameData& data, Frame& frame) {
@@ -292,6 +300,8 @@ void BagSource::present(FrameData& data, Frame& frame) {
 
 std::string BagSource::decode(const Waiting& image, DepthView& depth) {
   if (!image.fault.empty()) return image.fault;
+  if (pairs_.are_certain() && image.stamp > 0 && !pairs_.covers(image.stamp))
+    return "its camera_info did not come, as those of other images did: it may be another camera's";
   if (camera_differs(image.stamp)) return "camera_info is of another camera than at first";
   const auto decode_as = [&](auto message) -> std::string {
     if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
@@ -329,6 +339,10 @@ std::vector<std::string> BagSource::notes() const {
   if (targets_.replaced() > 0)
     lines.push_back(bag + ": " + std::to_string(targets_.replaced()) +
                     " targets are not judged: newer ones of their names came before a frame did");
+  if (targets_.discarded() > 0)
+    lines.push_back(bag + ": " + std::to_string(targets_.discarded()) +
+                    " targets are not judged: no frame came for more than 1 s, or for " +
+                    std::to_string(TargetInbox::most_waiting) + " of them");
   return lines;
 }
 

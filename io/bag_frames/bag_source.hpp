@@ -22,6 +22,8 @@
 #include <io/ros/target_inbox.hpp>
 #include <io/ros_frames/color_images.hpp>
 #include <io/ros_frames/depth_input.hpp>
+#include <io/ros_frames/info_pairs.hpp>
+#include <io/ros_frames/message_sources.hpp>
 
 namespace penumbra::io {
 
@@ -32,7 +34,8 @@ struct BagSourceOptions {
   /// The depth images' own, if they are to be brought to `camera` by TF; nothing: they are its.
   std::optional<Camera> depth_camera = {};
   PoseOptions poses = {};
-  double time_offset = 0.0;                     ///< FrameQueueOptions::time_offset
+  bool compare_sources = true;  ///< of JointBufferOptions and TransformBufferOptions
+  double time_offset = 0.0;     ///< FrameQueueOptions::time_offset
   std::optional<std::int64_t> first, end = {};  ///< which frames are wanted
   bool with_color = false;                      ///< for pictures
 };
@@ -95,6 +98,7 @@ class BagSource final : public FrameSource {
   BagSourceOptions options_;
   BagInbox inbox_;
   PoseHistory history_;
+  MessageSources sources_;
   std::vector<DroppedFrame> dropped_;
   FrameQueue queue_;
   DepthInput depth_;
@@ -106,6 +110,7 @@ class BagSource final : public FrameSource {
   TransformAnswer T_color_depth_;
   std::vector<CameraChange> camera_changes_, color_changes_;
   std::int64_t newest_camera_ = 0, newest_color_ = 0;  // stamps of camera_infos
+  InfoPairs pairs_;                                    // of the depth images
   std::optional<std::size_t> size_;
   std::uint64_t images_ = 0;  // read so far
   std::uint64_t given_ = 0;

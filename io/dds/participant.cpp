@@ -65,7 +65,7 @@ class DdsSubscription final : public Subscription {
       std::shared_ptr<const void> owner = own_taken(data);
       if (!info.valid_data) continue;  // tells of a publisher's end, not a message
       ++taken_;
-      sample = {cdr_bytes(data), std::move(owner), info.source_timestamp};
+      sample = {cdr_bytes(data), std::move(owner), info.source_timestamp, info.publication_handle};
       return true;
     }
   }

@@ -32,6 +32,7 @@ struct Sample {
   std::span<const std::byte> data;
   std::shared_ptr<const void> owner;  ///< keeps `data` alive, without a copy, as long as it lives
   std::int64_t source_time = 0;       ///< nanoseconds since 1970: when it was written, by DDS
+  std::uint64_t publisher = 0;        ///< whose it is: a number that no other one ever has here
 };
 
 /// What a subscription has seen since it was made. received = taken + overwritten + waiting.

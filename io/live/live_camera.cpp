@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -11,9 +10,7 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t most_kept_colors = 8;
-constexpr std::size_t most_recent_stamps = 8;
-/// Stamps of an image and its camera_info, nanoseconds: drivers make them equal.
-constexpr std::int64_t same_stamp = 1'000'000;
+constexpr std::size_t most_intervals = 4;
 /// A stamp that far behind the newest one means another clock, as in PoseHistory.
 constexpr std::int64_t info_clock_jump = 1'000'000'000;
 
@@ -27,6 +24,8 @@ std::string_view to_string(LiveDrop reason) {
       return "not_ready";
     case LiveDrop::changed:
       return "changed";
+    case LiveDrop::no_camera_info:
+      return "no_camera_info";
     default:
       return to_string(static_cast<DropReason>(reason));
   }
@@ -42,12 +41,12 @@ void LiveCamera::drop_unreadable() {
 
 void LiveCamera::take_depth(KeptImage image, std::int64_t now) {
   ++counts_.received;
+  if (last_depth_) intervals_.push_back(now - *last_depth_);
+  if (intervals_.size() > most_intervals) intervals_.pop_front();
   last_depth_ = now;
   last_stamp_ = image.header().stamp;
   depth_frame_ = image.header().frame_id;
-  recent_stamps_.push_back(last_stamp_);
-  if (recent_stamps_.size() > most_recent_stamps) recent_stamps_.pop_front();
-  if (std::abs(newest_info_ - last_stamp_) <= same_stamp) infos_come_with_images_ = true;
+  pairs_.add_image(last_stamp_);
   refresh();
   if (!setup_) return drop(LiveDrop::not_ready);
   if (last_stamp_ < valid_from_) return drop(LiveDrop::changed);
@@ -63,9 +62,7 @@ void LiveCamera::take_info(const CameraInfoMessage& info, std::int64_t now) {
   const std::int64_t stamp = info.header.stamp;
   const bool jumped = stamp < newest_info_ - info_clock_jump;
   newest_info_ = jumped ? stamp : std::max(newest_info_, stamp);
-  infos_come_with_images_ |=
-      std::any_of(recent_stamps_.begin(), recent_stamps_.end(),
-                  [&](std::int64_t other) { return std::abs(other - stamp) <= same_stamp; });
+  pairs_.add_info(stamp);
   if (jumped) valid_from_ = 0;
   if (!info_ || !is_same_camera(*info_, info)) {
     if (info_) {
@@ -104,6 +101,10 @@ void LiveCamera::refresh() {
   std::shared_ptr<LiveSetup> made = make_setup();
   if (only_frames_are_new && made && made->mount == setup_->mount) return;
   drop_waiting(LiveDrop::changed);
+  if (setup_) {
+    targets_.replaced += setup_->targets.replaced();
+    targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
+  }
   setup_ = std::move(made);
 }
 
@@ -115,13 +116,14 @@ std::shared_ptr<LiveSetup> LiveCamera::make_setup() {
     const std::string& frame = cameras.judged.frame_id;
     CameraMount mount = find_mount(robot, options_.mount, robot_.frames(), frame)
                             .value_or(mount_by_root(robot, options_.mount, frame));
-    const FrameQueueOptions queue{
-        .policy = DropPolicy::newest,
-        .time_offset = options_.time_offset,
-        .max_wait = options_.max_wait,
-        .max_frames = options_.max_frames,
-        .poses = {
-            .source = options_.poses, .camera_parent = mount.parent, .camera_frame = mount.frame}};
+    const FrameQueueOptions queue{.policy = DropPolicy::newest,
+                                  .time_offset = options_.time_offset,
+                                  .max_wait = options_.max_wait,
+                                  .max_frames = options_.max_frames,
+                                  .poses = {.source = options_.poses,
+                                            .frame_prefix = options_.mount.frame_prefix,
+                                            .camera_parent = mount.parent,
+                                            .camera_frame = mount.frame}};
     const auto on_drop = [this](const DroppedFrame& frame_) {
       queued_.erase(frame_.key);
       drop(static_cast<LiveDrop>(frame_.reason));
@@ -153,17 +155,28 @@ void LiveCamera::drop_waiting(LiveDrop reason) {
   queued_.clear();
 }
 
-bool LiveCamera::has_company(const Waiting& waiting, std::int64_t now) {
-  if (!infos_come_with_images_ || newest_info_ >= waiting.image.header().stamp) return true;
-  if (now - waiting.arrived < companion_wait) return false;
-  infos_come_with_images_ = false;  // until they do again
-  return true;
+LiveCamera::Company LiveCamera::company_of(const Waiting& waiting, std::int64_t now) {
+  const std::int64_t stamp = waiting.image.header().stamp;
+  // One without a stamp has none; the queue drops it.
+  if (stamp <= 0 || !pairs_.are_likely() || pairs_.covers(stamp)) return Company::known;
+  if (now - waiting.arrived < companion_wait) return Company::awaited;
+  if (pairs_.are_certain()) return Company::missing;
+  pairs_.doubt();
+  return Company::known;
 }
 
 void LiveCamera::admit(std::int64_t now) {
-  while (setup_ && !arrived_.empty() && has_company(arrived_.front(), now)) {
+  while (setup_ && !arrived_.empty()) {
+    const Company company = company_of(arrived_.front(), now);
+    if (company == Company::awaited) return;
     Waiting waiting = std::move(arrived_.front());
     arrived_.pop_front();
+    if (company == Company::missing) {
+      ++without_info_;
+      drop(LiveDrop::no_camera_info);
+      continue;
+    }
+    without_info_ = 0;
     const std::int64_t stamp = waiting.image.header().stamp;
     const std::uint64_t key = next_key_++;
     queued_.emplace(key, std::move(waiting));
@@ -204,6 +217,20 @@ std::optional<std::int64_t> LiveCamera::wake_at() const {
     first = std::min(first.value_or(alone), alone);
   }
   return first;
+}
+
+std::optional<std::int64_t> LiveCamera::depth_period() const {
+  if (intervals_.empty()) return std::nullopt;
+  return *std::min_element(intervals_.begin(), intervals_.end());
+}
+
+LiveTargets LiveCamera::targets() const {
+  LiveTargets all = targets_;
+  if (setup_) {
+    all.replaced += setup_->targets.replaced();
+    all.discarded += setup_->targets.discarded();
+  }
+  return all;
 }
 
 LiveCounts LiveCamera::counts() const {

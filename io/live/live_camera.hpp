@@ -18,6 +18,7 @@
 #include <io/ros/messages.hpp>
 #include <io/ros_frames/camera_mount.hpp>
 #include <io/ros_frames/color_images.hpp>
+#include <io/ros_frames/info_pairs.hpp>
 
 namespace penumbra::io {
 
@@ -46,9 +47,10 @@ enum class LiveDrop {
   no_pose,
   unreadable,  ///< the message cannot be decoded
   not_ready,   ///< there was no robot, or no camera_info yet
-  changed      ///< robot, camera_info or mount changed while it waited, or the image is from before
+  changed,     ///< robot, camera_info or mount changed while it waited, or the image is from before
+  no_camera_info  ///< its own did not come, as others' did: it may be another camera's
 };
-inline constexpr std::size_t live_drops = 9;
+inline constexpr std::size_t live_drops = 10;
 [[nodiscard]] std::string_view to_string(LiveDrop reason);
 
 /// What became of the depth images: received = judged + failed + dropped + waiting + in work.
@@ -63,6 +65,13 @@ struct LiveCounts {
   [[nodiscard]] std::size_t of(LiveDrop reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }
+};
+
+/// Targets that were never judged.
+struct LiveTargets {
+  std::size_t replaced = 0;   ///< newer ones of their names came first
+  std::size_t discarded = 0;  ///< TargetInbox::discarded, and those that waited for another setup
+  std::size_t early = 0;      ///< messages: there was no robot or no camera yet
 };
 
 /// The messages of one camera: keeps depth images until they can be judged, newest first. Knows no
@@ -86,7 +95,7 @@ class LiveCamera {
     if (setup_)
       setup_->targets.add(topic, message);
     else
-      ++targets_without_setup_;
+      ++targets_.early;
   }
 
   /// To be called when the robot may have changed.
@@ -108,17 +117,24 @@ class LiveCamera {
   [[nodiscard]] bool lacks_color_info() const {
     return !options_.color_info_topic.empty() && !color_info_;
   }
+  /// How many images in succession were dropped as LiveDrop::no_camera_info until now.
+  [[nodiscard]] std::size_t without_info() const { return without_info_; }
   [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
   [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
   /// Stamp of the image that came last.
   [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }
-  [[nodiscard]] std::size_t targets_without_setup() const { return targets_without_setup_; }
+  /// How often images come, nanoseconds: the shortest of the last intervals, as one that is long
+  /// may be a pause; nothing: not known yet.
+  [[nodiscard]] std::optional<std::int64_t> depth_period() const;
+  [[nodiscard]] LiveTargets targets() const;
 
  private:
   struct Waiting {
     KeptImage image;
     std::int64_t arrived = 0;
   };
+  /// An image's own camera_info, where others came with theirs.
+  enum class Company { known, awaited, missing };
   /// What a setup is made of.
   struct Basis {
     const PosedRobot* robot = nullptr;
@@ -133,7 +149,7 @@ class LiveCamera {
   void drop_waiting(LiveDrop reason);
   void drop(LiveDrop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; }
   void admit(std::int64_t now);
-  [[nodiscard]] bool has_company(const Waiting& waiting, std::int64_t now);
+  [[nodiscard]] Company company_of(const Waiting& waiting, std::int64_t now);
 
   LiveCameraOptions options_;
   const LiveRobot& robot_;
@@ -145,9 +161,9 @@ class LiveCamera {
   std::size_t camera_changes_ = 0;
   std::int64_t valid_from_ = 0;   // images of earlier stamps are of another camera
   std::int64_t newest_info_ = 0;  // stamp
-  bool infos_come_with_images_ = false;
+  InfoPairs pairs_;
+  std::size_t without_info_ = 0;
   std::string depth_frame_;
-  std::deque<std::int64_t> recent_stamps_;   // of depth images
   std::deque<Waiting> arrived_;              // images that wait for their camera_info
   std::map<std::uint64_t, Waiting> queued_;  // those in the setup's queue, by key
   std::uint64_t next_key_ = 0;
@@ -155,7 +171,8 @@ class LiveCamera {
   LiveCounts counts_;
   std::optional<std::int64_t> last_depth_;
   std::int64_t last_stamp_ = 0;
-  std::size_t targets_without_setup_ = 0;
+  std::deque<std::int64_t> intervals_;  // of the last depth images
+  LiveTargets targets_;                 // of former setups
 };
 
 }  // namespace penumbra::io

@@ -16,8 +16,13 @@ namespace {
 
 using Status = DiagnosticStatusMessage;
 
-/// What comes more seldom has stopped, nanoseconds.
+/// What does not come for so long has stopped, nanoseconds: of images, and as many of their own
+/// periods.
 constexpr std::int64_t silence = 1'000'000'000;
+constexpr std::int64_t periods_awaited = 2;
+
+/// One that is lost is no trouble.
+constexpr std::size_t told_without_info = 3;
 
 std::string decimal(double value, const char* unit) {
   std::array<char, 64> text{};
@@ -98,6 +103,15 @@ void add_counts(Status& status, const LiveCounts& counts) {
                 counts.dropped[i]);
 }
 
+void add_targets(Status& status, const LiveTargets& targets) {
+  if (targets.early > 0)
+    add_count(status, "target messages before robot and camera were known", targets.early);
+  if (targets.replaced > 0)
+    add_count(status, "targets not judged: newer ones came first", targets.replaced);
+  if (targets.discarded > 0)
+    add_count(status, "targets not judged: no image came in time", targets.discarded);
+}
+
 void add_tally(Status& status, const LiveTally& tally) {
   for (const auto& [name, frames] : tally.statuses) add_count(status, "frames " + name, frames);
   add_quantiles(status, "stamp to published", tally.latency);
@@ -125,7 +139,7 @@ bool is_of_robot(LiveRole role) {
 
 std::string name_of(const LiveCamera& camera) {
   const std::string& name = camera.options().name;
-  return "penumbra: camera" + (name.empty() ? "" : " " + name);
+  return "camera" + (name.empty() ? "" : " " + name);
 }
 
 }  // namespace
@@ -134,15 +148,23 @@ LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> l
                              std::int64_t now) {
   const LiveRobot& robot = inbox.robot();
   if (!robot.fault().empty()) return {Status::error, robot.fault()};
+  if (robot.is_being_made())
+    return {Status::stale, "the robot of the robot_description is being made: its meshes are read"};
   if (!robot.posed())
     return {Status::stale,
             "no robot_description yet: " + why_silent(inbox, LiveRole::description, 0, links)};
   const bool by_joints = inbox.options().poses != PoseSource::transforms;
+  if (by_joints && robot.posed()->robot.variables().empty()) return {};
   const auto& last = by_joints ? robot.last_joints() : robot.last_transforms();
   if (!last || now - *last > silence)
     return {Status::stale,
             std::string(by_joints ? "no joint states" : "no tf") + since(last, now) + ": " +
                 why_silent(inbox, by_joints ? LiveRole::joints : LiveRole::transforms, 0, links)};
+  const auto& used = robot.last_used_joints();
+  if (by_joints && (!used || now - *used > silence))
+    return {Status::error, "no joint states of the robot" + since(used, now) + ": " +
+                               (robot.unused_joints().empty() ? "none came since it is known"
+                                                              : robot.unused_joints())};
   return {};
 }
 
@@ -150,7 +172,8 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
                               std::span<const LiveLink> links, std::int64_t now) {
   const LiveCamera& camera = inbox.camera(number);
   const LiveTally& tally = inbox.tally(number);
-  if (!camera.last_depth() || now - *camera.last_depth() > silence)
+  const std::int64_t patience = silence + periods_awaited * camera.depth_period().value_or(0);
+  if (!camera.last_depth() || now - *camera.last_depth() > patience)
     return {Status::stale, "no depth images" + since(camera.last_depth(), now) + ": " +
                                why_silent(inbox, LiveRole::depth, number, links)};
   if (!camera.has_info())
@@ -160,13 +183,19 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
     return {Status::error, "no camera_info of the color images yet: " +
                                why_silent(inbox, LiveRole::color_info, number, links)};
   if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
+  if (camera.without_info() >= told_without_info)
+    return {Status::error,
+            std::to_string(camera.without_info()) +
+                " images came without a camera_info of their own, as others had: they may be "
+                "another camera's and are not judged: " +
+                why_silent(inbox, LiveRole::camera_info, number, links)};
   if (!inbox.robot().posed()) {
     const LiveTrouble robot = trouble_of_robot(inbox, links, now);
     return {Status::error, "nothing can be judged: " + robot.why};
   }
   if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
   if (!tally.last_published) return {Status::stale, "no image was judged yet"};
-  if (now - *tally.last_published > silence)
+  if (now - *tally.last_published > patience)
     return {Status::error,
             "nothing was published for " + seconds_since(*tally.last_published, now)};
   if (tally.last.status == FrameStatus::ok) return {};
@@ -174,14 +203,20 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
   return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
 }
 
+DiagnosticStatusMessage LiveDiagnostics::begun(const std::string& about,
+                                               const LiveTrouble& trouble) const {
+  return {.level = trouble.level,
+          .name = speaker_.name + ": " + about,
+          .message = trouble.why,
+          .hardware_id = speaker_.hardware_id,
+          .values = {}};
+}
+
 DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const {
   const LiveTrouble trouble = trouble_of_robot(inbox, links, period.now);
-  Status status;
-  status.level = trouble.level;
-  status.name = "penumbra: robot";
-  status.message = trouble.why;
+  Status status = begun("robot", trouble);
   if (const auto& posed = inbox.robot().posed()) {
     if (status.message.empty()) status.message = posed->robot.name() + ", its pose is told";
     for (const std::string& line : refusals_of(posed->history)) add(status, "note", line);
@@ -204,10 +239,8 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   const LiveCounts counts = camera.counts();
   const LiveTrouble trouble = trouble_of_camera(inbox, number, links, period.now);
   const double rate = static_cast<double>(counts.judged - judged_[number]) / period.seconds;
-  Status status;
-  status.level = trouble.level;
-  status.name = name_of(camera);
-  status.message = trouble.why.empty() ? decimal(rate, " frames/s judged") : trouble.why;
+  Status status = begun(name_of(camera), trouble);
+  if (trouble.why.empty()) status.message = decimal(rate, " frames/s judged");
   add(status, "judged per second", decimal(rate, ""));
   if (camera.setup() != nullptr)
     add(status, "camera on link",
@@ -217,9 +250,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   add_tally(status, inbox.tally(number));
   if (camera.camera_changes() > 0)
     add_count(status, "camera_info changed", camera.camera_changes());
-  if (camera.targets_without_setup() > 0)
-    add_count(status, "target messages before robot and camera were known",
-              camera.targets_without_setup());
+  add_targets(status, camera.targets());
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
     if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
       add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));

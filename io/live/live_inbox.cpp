@@ -115,14 +115,21 @@ void LiveInbox::receive(std::size_t topic, const LiveMessage& message, std::int6
 void LiveInbox::receive_of_robot(std::size_t topic, const LiveMessage& message, std::int64_t now) {
   const LiveRole role = topics_[topic].role;
   if (role == LiveRole::joints) {
-    if (JointStateMessage state; decode(topic, message, now, state)) robot_.take(state, now);
+    if (JointStateMessage state; decode(topic, message, now, state))
+      robot_.take(state, sources_.of_joints(topics_[topic].name, message.publisher, state), now);
     return;
   }
   if (role == LiveRole::description) {
     if (StringMessage text; decode(topic, message, now, text)) robot_.take(text);
   } else if (TfMessage found; decode(topic, message, now, found)) {
-    robot_.take(found, role == LiveRole::static_transforms, now);
+    robot_.take(found, role == LiveRole::static_transforms,
+                sources_.of_transforms(topics_[topic].name, message.publisher), now);
   }
+  for (const auto& camera : cameras_) camera->follow_robot();
+}
+
+void LiveInbox::place(MadeRobot made) {
+  robot_.place(std::move(made));
   for (const auto& camera : cameras_) camera->follow_robot();
 }
 

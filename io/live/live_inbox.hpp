@@ -15,6 +15,7 @@
 #include <io/live/live_robot.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros_frames/message_faults.hpp>
+#include <io/ros_frames/message_sources.hpp>
 
 namespace penumbra::io {
 
@@ -55,6 +56,7 @@ struct LiveOptions {
 struct LiveMessage {
   std::span<const std::byte> data;
   std::shared_ptr<const void> owner;  ///< keeps `data` alive; null: what stays is copied
+  std::uint64_t publisher = 0;        ///< a number that is no other one's; 0: not known
 };
 
 /// What a camera's images came to.
@@ -86,6 +88,11 @@ class LiveInbox {
 
   /// Takes a message of topics()[topic]. What cannot be read is counted.
   void receive(std::size_t topic, const LiveMessage& message, std::int64_t now);
+
+  /// As LiveRobot has it: who receives a robot_description has the robot made.
+  [[nodiscard]] std::unique_ptr<const RobotOrder> take_order() { return robot_.take_order(); }
+  void place(MadeRobot made);
+  void retry_robot() { robot_.retry(); }
 
   /// As LiveCamera has it.
   bool next(std::size_t camera, std::int64_t now, bool with_overlay, LiveJob& job) {
@@ -124,6 +131,7 @@ class LiveInbox {
   std::vector<LiveTopic> topics_;
   std::vector<std::size_t> received_;
   MessageFaults faults_;
+  MessageSources sources_;
 };
 
 }  // namespace penumbra::io

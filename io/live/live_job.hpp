@@ -32,7 +32,7 @@ struct LiveSetup {
         cameras(std::move(cameras_)),
         mount(std::move(where)),
         queue(posed->robot, posed->history, options, std::move(on_drop)),
-        targets(posed->robot, cameras.judged.frame_id) {}
+        targets(posed->robot, cameras.judged.frame_id, options.poses.frame_prefix) {}
 
   const std::shared_ptr<PosedRobot> posed;
   const JudgedCameras cameras;

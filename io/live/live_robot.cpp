@@ -1,43 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 
 #include <io/live/live_robot.hpp>
+#include <io/printable.hpp>
 #include <io/ros_frames/pose_messages.hpp>
 
 namespace penumbra::io {
+namespace {
 
-LiveRobot::LiveRobot(LiveRobotOptions options) : options_(std::move(options)) {
-  if (options_.given) replace(*options_.given);
+constexpr std::size_t most_named = 3;
+
+/// Of a joint state of which no position is taken.
+std::string why_unused(const JointStateMessage& message, const Robot& robot) {
+  const auto is_known = [&](const std::string& name) {
+    const auto names = robot.variables();
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (std::none_of(message.names.begin(), message.names.end(), is_known)) {
+    std::string names;
+    for (std::size_t i = 0; i < std::min(message.names.size(), most_named); ++i)
+      names += (i == 0 ? "" : ", ") + printable(message.names[i]);
+    if (message.names.size() > most_named) names += ", ...";
+    return "joint states name none of the robot's joints: " + (names.empty() ? "no name" : names);
+  }
+  if (message.header.stamp <= 0) return "joint states have no stamp";
+  return "joint states hold no position that can be used";
 }
 
-void LiveRobot::replace(Robot robot) {
-  posed_ = std::make_shared<PosedRobot>(std::move(robot));
+}  // namespace
+
+MadeRobot make_robot(const RobotOrder& order) {
+  try {
+    // Meshes of relative paths would be looked for where the program happens to have been started.
+    return {order.number,
+            std::make_shared<PosedRobot>(Robot::parse(order.description, "/", order.options),
+                                         history_options(order.compare_sources)),
+            {}};
+  } catch (const InputError& error) {
+    return {order.number, nullptr, error.what()};
+  }
+}
+
+LiveRobot::LiveRobot(LiveRobotOptions options) : options_(std::move(options)) {
+  if (options_.given)
+    replace(
+        std::make_shared<PosedRobot>(*options_.given, history_options(options_.compare_sources)));
+}
+
+void LiveRobot::replace(std::shared_ptr<PosedRobot> robot) {
+  posed_ = std::move(robot);
+  last_used_joints_.reset();
+  unused_joints_.clear();
   for (const auto& [child, t] : static_transforms_)
     posed_->history.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
   ++robots_;
 }
 
 void LiveRobot::take(const StringMessage& description) {
-  if (options_.given || description_ == description.data) return;
+  if (options_.given) return;
+  if (description_ == description.data) return retry();
   description_ = description.data;
   posed_.reset();
   fault_.clear();
-  try {
-    // Meshes of relative paths would be looked for where the program happens to have been started.
-    replace(Robot::parse(description.data, "/", options_.robot));
-  } catch (const InputError& error) {
-    fault_ = error.what();
-  }
+  order();
 }
 
-void LiveRobot::take(const JointStateMessage& message, std::int64_t now) {
+void LiveRobot::order() {
+  order_ = std::make_unique<const RobotOrder>(
+      RobotOrder{++orders_, *description_, options_.robot, options_.compare_sources});
+}
+
+void LiveRobot::retry() {
+  if (!fault_.empty() && !is_being_made()) order();
+}
+
+void LiveRobot::place(MadeRobot made) {
+  if (made.number != orders_) return;
+  placed_ = orders_;
+  fault_ = std::move(made.fault);
+  if (made.robot) replace(std::move(made.robot));
+}
+
+void LiveRobot::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
   last_joints_ = now;
-  if (posed_) add_to_history(message, posed_->history);
+  if (!posed_) return;
+  if (add_to_history(message, source, posed_->history) > 0)
+    last_used_joints_ = now;
+  else
+    unused_joints_ = why_unused(message, posed_->robot);
 }
 
-void LiveRobot::take(const TfMessage& message, bool is_static, std::int64_t now) {
+void LiveRobot::take(const TfMessage& message, bool is_static, std::string_view source,
+                     std::int64_t now) {
   last_transforms_ = now;
   for (const TransformMessage& t : message.transforms) {
     if (frames_.add(t.header.frame_id, t.child_frame_id)) ++frames_revision_;
@@ -45,7 +102,7 @@ void LiveRobot::take(const TfMessage& message, bool is_static, std::int64_t now)
                       static_transforms_.size() < FrameTree::max_frames))
       static_transforms_[t.child_frame_id] = t;
   }
-  if (posed_) add_to_history(message, is_static, posed_->history);
+  if (posed_) add_to_history(message, is_static, source, posed_->history);
 }
 
 }  // namespace penumbra::io

@@ -23,8 +23,9 @@ std::int64_t LiveRunner::steady_now() { return nanoseconds_of<std::chrono::stead
 std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::system_clock>(); }
 
 LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
-                       const std::vector<ResultSink*>& sinks)
-    : inbox_(options) {
+                       const std::vector<ResultSink*>& sinks, RobotMaker maker,
+                       std::chrono::milliseconds robot_retry)
+    : inbox_(options), maker_(std::move(maker)), robot_retry_(robot_retry) {
   for (ResultSink* sink : sinks) {
     CameraThread& camera = cameras_.emplace_back();
     camera.sink = sink;
@@ -33,6 +34,7 @@ LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
 }
 
 void LiveRunner::start() {
+  making_ = std::thread([this] { make_robots(); });
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     cameras_[i].thread = std::thread([this, i] { work(i); });
 }
@@ -43,16 +45,47 @@ void LiveRunner::stop() {
     stopping_ = true;
   }
   changed_.notify_all();
+  ordered_.notify_all();
+  if (making_.joinable()) making_.join();
   for (CameraThread& camera : cameras_)
     if (camera.thread.joinable()) camera.thread.join();
 }
 
 void LiveRunner::receive(std::size_t topic, const LiveMessage& message) {
+  bool has_order = false;
   {
     const std::lock_guard lock(mutex_);
     inbox_.receive(topic, message, steady_now());
+    has_order = inbox_.robot().has_order();
   }
+  if (has_order) ordered_.notify_all();
   changed_.notify_all();
+}
+
+void LiveRunner::make_robots() {
+  std::unique_lock lock(mutex_);
+  try {
+    while (!stopping_) {
+      const auto order = inbox_.take_order();
+      if (!order) {
+        if (ordered_.wait_for(lock, robot_retry_) == std::cv_status::timeout) inbox_.retry_robot();
+        continue;
+      }
+      lock.unlock();
+      MadeRobot made = maker_(*order);
+      lock.lock();
+      inbox_.place(std::move(made));
+      changed_.notify_all();
+    }
+  } catch (...) {
+    fail(lock);
+  }
+}
+
+void LiveRunner::fail(std::unique_lock<std::mutex>& lock) {
+  if (!lock.owns_lock()) lock.lock();
+  fault_ = std::current_exception();
+  has_failed_ = true;
 }
 
 std::exception_ptr LiveRunner::fault() {
@@ -92,9 +125,7 @@ void LiveRunner::work(std::size_t camera) {
       inbox_.done(camera, outcome, now, system);
     }
   } catch (...) {
-    if (!lock.owns_lock()) lock.lock();
-    fault_ = std::current_exception();
-    has_failed_ = true;
+    fail(lock);
   }
 }
 

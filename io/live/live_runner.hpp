@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -19,23 +20,31 @@
 
 namespace penumbra::io {
 
-/// Judges what comes on the graph: one thread for each camera, beside the one that receives.
+/// Judges what comes on the graph: one thread for each camera and one that makes robots, beside the
+/// one that receives.
 ///
 /// One mutex guards the inbox: robot, poses, images that wait, counts. It is held while a message
-/// is taken and while a job is picked, never while one is worked on, so that nothing waits for
-/// rendering or for the network; only a new robot is made under it, when nothing can be judged
-/// anyway. A sink is written to by its camera's thread alone, without the mutex.
+/// is taken and while a job is picked, never while one is worked on or a robot's meshes are read,
+/// so that nothing waits for rendering, for files or for the network. A sink is written to by its
+/// camera's thread alone, without the mutex.
 class LiveRunner {
  public:
-  /// `sinks`: one for each camera, which must outlive this. Throws as LiveInbox.
+  using RobotMaker = std::function<MadeRobot(const RobotOrder&)>;
+
+  static constexpr std::chrono::seconds default_robot_retry{5};
+
+  /// `sinks`: one for each camera, which must outlive this. `robot_retry`: how long after a robot
+  /// could not be made that is tried again. Throws as LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
-             const std::vector<ResultSink*>& sinks);
+             const std::vector<ResultSink*>& sinks, RobotMaker maker = make_robot,
+             std::chrono::milliseconds robot_retry = default_robot_retry);
   ~LiveRunner() { stop(); }
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
 
   void start();
-  /// Ends the threads once they have judged what they are at. What waits is left.
+  /// Ends the threads once they have done what they are at: reading a robot's meshes, too. What
+  /// waits is left.
   void stop();
 
   /// From any thread.
@@ -64,15 +73,20 @@ class LiveRunner {
     std::thread thread;
   };
   void work(std::size_t camera);
+  void make_robots();
+  void fail(std::unique_lock<std::mutex>& lock);
   void wait(std::size_t camera, std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable changed_, ordered_;
   LiveInbox inbox_;           // guarded by mutex_
   bool stopping_ = false;     // likewise
   std::exception_ptr fault_;  // likewise
   std::atomic<bool> has_failed_ = false;
   std::vector<CameraThread> cameras_;
+  RobotMaker maker_;
+  std::chrono::milliseconds robot_retry_;
+  std::thread making_;
 };
 
 }  // namespace penumbra::io

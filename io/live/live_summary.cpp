@@ -13,6 +13,7 @@ Json quantiles_json(const LatencyHistogram& times) {
 
 Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
   const LiveCounts counts = camera.counts();
+  const LiveTargets targets = camera.targets();
   Json dropped = Json::object();
   for (std::size_t i = 0; i < live_drops; ++i)
     dropped[std::string(to_string(static_cast<LiveDrop>(i)))] = counts.dropped[i];
@@ -25,12 +26,17 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
           {"judged", counts.judged},
           {"failed", counts.failed},
           {"waiting", counts.waiting},
+          {"in_work", counts.in_work},
           {"dropped", dropped},
           {"frames", frames},
           {"stamp_to_published_ms", quantiles_json(tally.latency)},
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
           {"stamps_of_another_clock", tally.beyond_clock},
           {"camera_info_changes", camera.camera_changes()},
+          {"targets_not_judged",
+           {{"replaced", targets.replaced},
+            {"discarded", targets.discarded},
+            {"messages_before_setup", targets.early}}},
           {"notes", tally.renderer_warnings}};
 }
 

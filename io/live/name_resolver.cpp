@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
+#include <utility>
 
 #include <penumbra/base/error.hpp>
 
@@ -54,9 +55,18 @@ void NameResolver::remap(std::string_view rule) {
 }
 
 std::string NameResolver::resolve(std::string_view name) const {
-  const std::string full = expand(name);
+  std::string full = expand(name);
   const auto rule = rules_.find(full);
-  return rule == rules_.end() ? full : rule->second;
+  if (rule == rules_.end()) return full;
+  used_.insert(std::move(full));
+  return rule->second;
+}
+
+std::vector<std::string> NameResolver::unused() const {
+  std::vector<std::string> names;
+  for (const auto& [from, to] : rules_)
+    if (!used_.contains(from)) names.push_back(from);
+  return names;
 }
 
 }  // namespace penumbra::io

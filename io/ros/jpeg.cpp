@@ -3,6 +3,8 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
 
 #include <jerror.h>
 #include <jpeglib.h>
@@ -99,6 +101,55 @@ class JpegDecoder {
   JpegFault fault_;
 };
 
+class JpegEncoder {
+ public:
+  JpegEncoder() {
+    codec_.err = jpeg_std_error(&fault_.manager);
+    fault_.manager.error_exit = on_jpeg_error;
+  }
+  JpegEncoder(const JpegEncoder&) = delete;
+  JpegEncoder& operator=(const JpegEncoder&) = delete;
+  ~JpegEncoder() {
+    jpeg_destroy_compress(&codec_);
+    std::free(file_);  // NOLINT: libjpeg's malloc
+  }
+
+  // Answers whether it came to its end.
+  bool write(ImageView<const Rgb8> image, int quality) {
+    if (setjmp(fault_.jump) != 0) return false;  // NOLINT: libjpeg's only way
+    jpeg_create_compress(&codec_);
+    jpeg_mem_dest(&codec_, &file_, &size_);
+    codec_.image_width = static_cast<JDIMENSION>(image.width);
+    codec_.image_height = static_cast<JDIMENSION>(image.height);
+    codec_.input_components = 3;
+    codec_.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&codec_);
+    jpeg_set_quality(&codec_, quality, TRUE);
+    jpeg_start_compress(&codec_, TRUE);
+    while (codec_.next_scanline < codec_.image_height) {
+      // libjpeg's rows are not const, but only read.
+      auto* row = reinterpret_cast<JSAMPROW>(
+          const_cast<Rgb8*>(image.row(static_cast<int>(codec_.next_scanline))));
+      jpeg_write_scanlines(&codec_, &row, 1);
+    }
+    jpeg_finish_compress(&codec_);
+    return true;
+  }
+
+  [[nodiscard]] std::span<const std::byte> file() const {
+    return std::as_bytes(std::span(file_, size_));
+  }
+  [[nodiscard]] std::string failed() const {
+    return std::string("a JPEG cannot be made: ") + fault_.text.data();
+  }
+
+ private:
+  jpeg_compress_struct codec_{};
+  JpegFault fault_;
+  unsigned char* file_ = nullptr;
+  unsigned long size_ = 0;
+};
+
 }  // namespace
 
 std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes, Image<Rgb8>& image) {
@@ -115,6 +166,13 @@ std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes, Image<R
   resize_image(image, static_cast<int>(codec.image_width), static_cast<int>(codec.image_height));
   if (!decoder.read_rows(image.view())) return decoder.damaged();
   return std::nullopt;
+}
+
+void encode_jpeg(ImageView<const Rgb8> image, int quality, std::vector<std::byte>& bytes) {
+  JpegEncoder encoder;
+  if (!encoder.write(image, quality)) throw std::runtime_error(encoder.failed());
+  const auto file = encoder.file();
+  bytes.assign(file.begin(), file.end());
 }
 
 }  // namespace penumbra::io

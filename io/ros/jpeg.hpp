@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <penumbra/base/image.hpp>
 
@@ -17,5 +18,9 @@ namespace penumbra::io {
 /// after a fault the image is unspecified. Allocates no more than the file can hold.
 [[nodiscard]] std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes,
                                                      Image<Rgb8>& image);
+
+/// Puts the file in place of what `bytes` holds; chroma of half the size, as cameras write it.
+/// `quality`: 1 to 100.
+void encode_jpeg(ImageView<const Rgb8> image, int quality, std::vector<std::byte>& bytes);
 
 }  // namespace penumbra::io

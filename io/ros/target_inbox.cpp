@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -39,13 +40,39 @@ Region region_of(const BoundingBox2D& box, std::vector<Eigen::Vector2d>& corners
 
 }  // namespace
 
-TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame)
-    : robot_(robot), camera_frame_(camera_frame) {}
+TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
+                         std::string_view frame_prefix)
+    : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix) {}
+
+TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
+  by_name_.erase(one->name);
+  return told_.erase(one);
+}
+
+void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
+  const auto found = newest_.try_emplace(topic, stamp).first;
+  topic_ = found->first;
+  std::int64_t& newest = found->second;
+  if (stamp > 0) newest = stamp < newest - longest_lag ? stamp : std::max(newest, stamp);
+  const auto lags = [&](const Told& one) {
+    return one.topic == topic_ && one.target.stamp > 0 && *one.target.stamp < newest - longest_lag;
+  };
+  for (auto one = told_.begin(); one != told_.end();) {
+    const bool drops = told_.size() >= most_waiting || lags(*one);
+    discarded_ += drops ? 1 : 0;
+    one = drops ? forget(one) : std::next(one);
+  }
+}
 
 TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& header) {
-  replaced_ += std::erase_if(told_, [&](const Told& other) { return other.name == name; });
+  if (const auto other = by_name_.find(name); other != by_name_.end()) {
+    forget(other->second);
+    ++replaced_;
+  }
   Told& told = told_.emplace_back();
+  told.topic = topic_;
   told.name = std::move(name);
+  by_name_.emplace(told.name, std::prev(told_.end()));
   told.image_frame = without_slash(header.frame_id);
   told.target.stamp = header.stamp;
   if (header.stamp <= 0) told.fault = "its message has no stamp";
@@ -79,6 +106,7 @@ std::vector<TargetInbox::Told*> TargetInbox::told(const std::vector<Label>& labe
 }
 
 void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& message) {
+  make_room(topic, message.header.stamp);
   std::vector<Label> labels;
   for (const Detection2DMessage& detection : message.detections)
     labels.push_back(label_of(topic, detection.id, detection.results));
@@ -91,6 +119,7 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
 }
 
 void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& message) {
+  make_room(topic, message.header.stamp);
   std::vector<Label> labels;
   for (const Detection3DMessage& detection : message.detections)
     labels.push_back(label_of(topic, detection.id, detection.results));
@@ -103,6 +132,7 @@ void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& m
 }
 
 void TargetInbox::add(const std::string& topic, const KeypointsMessage& message) {
+  make_room(topic, message.header.stamp);
   std::vector<Label> labels;
   for (const KeypointMessage& keypoint : message.keypoints)
     labels.push_back(label_of(topic, keypoint.name, {}));
@@ -116,6 +146,7 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
 }
 
 void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
+  make_room(topic, message.header.stamp);
   Told& one = told(topic, message.header);
   const LinkFrame frame = frame_of(one);
   one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
@@ -125,13 +156,16 @@ LinkFrame TargetInbox::frame_of(Told& told) const {
   told.link_frame = std::exchange(told.image_frame, {});
   if (told.link_frame.empty() || told.link_frame == without_slash(camera_frame_))
     return std::nullopt;
-  if (!robot_.find_link(told.link_frame))
-    told.fault = "its frame '" + printable(told.link_frame) +
-                 "' is neither the camera's nor a link of the robot";
+  const std::string frame = told.link_frame;
+  if (frame.starts_with(frame_prefix_)) told.link_frame.erase(0, frame_prefix_.size());
+  if (!frame.starts_with(frame_prefix_) || !robot_.find_link(told.link_frame))
+    told.fault =
+        "its frame '" + printable(frame) + "' is neither the camera's nor a link of the robot";
   return told.link_frame;
 }
 
 std::span<const Target> TargetInbox::take() {
+  by_name_.clear();
   given_ = std::exchange(told_, {});
   targets_.clear();
   for (Told& told : given_) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <list>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <penumbra/pipeline/target.hpp>
@@ -21,10 +24,20 @@ namespace penumbra::io {
 /// of a message on ("/detections/person", "/detections/person 2"). A pose has its topic's name.
 /// What has no id, or one that is there twice in its message, has no identity: detectors sort by
 /// score, so that such a name goes from object to object.
+///
+/// What is not taken does not pile up: see longest_lag and most_waiting.
 class TargetInbox {
  public:
-  /// `camera_frame`: of the judged images. `robot` must outlive this.
-  TargetInbox(const Robot& robot, std::string_view camera_frame);
+  /// Targets that lag behind the newest of their topic by more are dropped, nanoseconds: the frame
+  /// of their stamp is no longer kept, nor does it wait for its pose (0.5 s and 0.2 s).
+  static constexpr std::int64_t longest_lag = 1'000'000'000;
+  /// With so many waiting, those that were told first are dropped before a message is taken.
+  static constexpr std::size_t most_waiting = 1000;
+
+  /// `camera_frame`: of the judged images; `frame_prefix`: before link names in frames. `robot`
+  /// must outlive this.
+  TargetInbox(const Robot& robot, std::string_view camera_frame,
+              std::string_view frame_prefix = {});
 
   /// A detector's boxes: regions of what it sees (Extent::modal).
   void add(const std::string& topic, const Detection2DArrayMessage& message);
@@ -40,10 +53,13 @@ class TargetInbox {
   [[nodiscard]] std::size_t waiting() const { return told_.size(); }
   /// How many were never given, as a newer one of their name came first.
   [[nodiscard]] std::size_t replaced() const { return replaced_; }
+  /// How many were never given, as they lagged behind or were too many.
+  [[nodiscard]] std::size_t discarded() const { return discarded_; }
 
  private:
   /// A target and what it refers to; stays where it is.
   struct Told {
+    std::string_view topic;  // newest_'s
     std::string name, image_frame, link_frame, fault;
     std::vector<Eigen::Vector2d> corners;
     Target target;
@@ -55,6 +71,11 @@ class TargetInbox {
     bool is_id = false;
   };
 
+  using List = std::list<Told>;
+
+  /// To be called before what a message tells is added.
+  void make_room(const std::string& topic, std::int64_t stamp);
+  List::iterator forget(List::iterator one);
   Told& told(std::string name, const MessageHeader& header);
   /// The same for each of a message's detections.
   std::vector<Told*> told(const std::vector<Label>& labels, const MessageHeader& header);
@@ -64,11 +85,14 @@ class TargetInbox {
                         std::span<const HypothesisMessage> results);
 
   const Robot& robot_;
-  std::string camera_frame_;
-  std::list<Told> told_;   // since the last call
-  std::list<Told> given_;  // what targets_ refer to
+  std::string camera_frame_, frame_prefix_;
+  std::map<std::string, std::int64_t> newest_;  // stamp of each topic
+  std::string_view topic_;                      // whose message is taken, newest_'s
+  List told_;                                   // since the last call
+  std::unordered_map<std::string_view, List::iterator> by_name_;  // in told_
+  List given_;                                                    // what targets_ refer to
   std::vector<Target> targets_;
-  std::size_t replaced_ = 0;
+  std::size_t replaced_ = 0, discarded_ = 0;
 };
 
 }  // namespace penumbra::io

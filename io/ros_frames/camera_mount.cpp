@@ -16,6 +16,13 @@ void check_parent(const Robot& robot, const std::string& link) {
   throw InputError("--parent: '" + link + "' is no link of the robot" + near_names(link, known));
 }
 
+/// The link whose frame it is; empty: none's.
+std::string link_of(const Robot& robot, const std::string& prefix, const std::string& frame) {
+  if (!frame.starts_with(prefix)) return {};
+  std::string link = frame.substr(prefix.size());
+  return robot.find_link(link) ? link : std::string();
+}
+
 }  // namespace
 
 std::string mounted_frame(const MountWishes& wishes, const std::string& frame_of_images) {
@@ -32,11 +39,12 @@ std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wis
   if (frame.empty())
     throw InputError("the images do not name their frame; give it with --camera-frame");
   if (wishes.parent) return CameraMount{frame, *wishes.parent, Eigen::Isometry3d::Identity(), "tf"};
-  if (robot.find_link(frame))
-    return CameraMount{"", frame, Eigen::Isometry3d::Identity(), "a link of the robot"};
+  const std::string& prefix = wishes.frame_prefix;
+  if (const std::string own = link_of(robot, prefix, frame); !own.empty())
+    return CameraMount{"", own, Eigen::Isometry3d::Identity(), "a link of the robot"};
   for (const std::string& above : frames.chain(frame))
-    if (robot.find_link(above))
-      return CameraMount{frame, above, Eigen::Isometry3d::Identity(), "tf"};
+    if (const std::string link = link_of(robot, prefix, above); !link.empty())
+      return CameraMount{frame, link, Eigen::Isometry3d::Identity(), "tf"};
   return std::nullopt;
 }
 

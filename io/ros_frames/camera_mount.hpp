@@ -18,6 +18,7 @@ struct MountWishes {
   std::optional<std::string> parent;        ///< link
   std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link, in place of TF's
   std::string pose_source = {};             ///< "--pose FILE"
+  std::string frame_prefix = {};            ///< PoseOptions::frame_prefix
 };
 
 /// Where a camera sits.

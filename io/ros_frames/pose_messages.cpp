@@ -3,16 +3,25 @@
 
 namespace penumbra::io {
 
-void add_to_history(const JointStateMessage& message, PoseHistory& history) {
-  history.add_joints(message.header.stamp, message.names, message.positions);
+PoseHistoryOptions history_options(bool compare_sources) {
+  PoseHistoryOptions options;
+  options.joints.compare_sources = options.transforms.compare_sources = compare_sources;
+  return options;
 }
 
-void add_to_history(const TfMessage& message, bool is_static, PoseHistory& history) {
+std::size_t add_to_history(const JointStateMessage& message, std::string_view source,
+                           PoseHistory& history) {
+  return history.add_joints(message.header.stamp, message.names, message.positions, source);
+}
+
+void add_to_history(const TfMessage& message, bool is_static, std::string_view source,
+                    PoseHistory& history) {
   for (const TransformMessage& t : message.transforms) {
     if (is_static)
       history.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
     else
-      history.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id, t.T_parent_child);
+      history.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id, t.T_parent_child,
+                            source);
   }
 }
 

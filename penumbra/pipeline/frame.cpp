@@ -34,7 +34,10 @@ bool has_pose(FrameStatus status) {
 }
 
 JointInput::JointInput(const JointAnswer& answer)
-    : positions(answer.positions), status(answer.status), gaps(answer.gaps) {
+    : positions(answer.positions),
+      status(answer.status),
+      gaps(answer.gaps),
+      disputes(answer.disputes) {
   if (answer.status == JointStatus::ok) age = answer.age;
 }
 

@@ -32,7 +32,8 @@ enum class FrameStatus {
   missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
                       ///< a link, no rigid transform
   stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
-  poses_disagree,     ///< joint states and TF differ: the robot's pose is unknown
+  poses_disagree,     ///< joint states and TF differ, or two that tell the same joint or transform:
+                      ///< the robot's pose is unknown
 };
 
 /// The status's name in report.json.
@@ -47,6 +48,7 @@ struct JointInput {
   JointStatus status = JointStatus::missing;
   std::optional<std::int64_t> age;  ///< nanoseconds; nothing where the positions have no stamp
   std::span<const JointGap> gaps;   ///< what is missing or stale, where it is known
+  std::span<const JointDispute> disputes;  ///< what is disputed, where it is known
 
   JointInput() = default;
   JointInput(std::span<const double> all)  // NOLINT(google-explicit-constructor)

@@ -38,8 +38,11 @@ class FrameCheck {
   std::string missing_links_;
 };
 
-/// What is missing or stale, in one line.
-[[nodiscard]] std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps);
+/// Of a frame whose joints have that status.
+[[nodiscard]] FrameStatus status_of(JointStatus joints);
+
+/// What is missing, stale or disputed, in one line.
+[[nodiscard]] std::string describe(const Robot& robot, const JointInput& joints);
 
 /// Whether the frame's depth image can be compared.
 [[nodiscard]] inline bool has_depth(FrameStatus status) {

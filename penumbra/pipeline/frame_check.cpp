@@ -40,6 +40,21 @@ bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
   return false;
 }
 
+/// The first dispute, and which other joints are disputed.
+std::string describe_disputes(const Robot& robot, std::span<const JointDispute> disputes) {
+  if (disputes.empty()) return "two programs tell different joint positions";
+  const JointDispute& first = disputes.front();
+  std::ostringstream text;
+  text.precision(4);
+  text << "joint '" << robot.variables()[first.variable] << "' is at " << first.values[0] << " by "
+       << first.sources[0] << " and at " << first.values[1] << " by " << first.sources[1] << " ("
+       << first.stamp << " ns)";
+  for (const JointDispute& other : disputes.subspan(1))
+    text << (&other == &disputes[1] ? "; so is '" : ", '") << robot.variables()[other.variable]
+         << "'";
+  return text.str();
+}
+
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 FrameStatus worse(FrameStatus a, FrameStatus b) {
   constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
@@ -108,9 +123,8 @@ FrameStatus FrameCheck::check_links(std::span<const Eigen::Isometry3d> T_root_li
 
 FrameStatus FrameCheck::check_joints(const JointInput& joints, std::string& message) const {
   if (joints.status != JointStatus::ok) {
-    add_line(message, describe_gaps(robot_, joints.gaps));
-    return joints.status == JointStatus::stale ? FrameStatus::stale_joints
-                                               : FrameStatus::missing_joints;
+    add_line(message, describe(robot_, joints));
+    return status_of(joints.status);
   }
   const auto variables = robot_.variables();
   if (joints.positions.size() != variables.size()) {
@@ -162,10 +176,25 @@ std::string FrameCheck::without_measurement() const {
   return text.str();
 }
 
-std::string describe_gaps(const Robot& robot, std::span<const JointGap> gaps) {
-  if (gaps.empty()) return "no joint positions";
+FrameStatus status_of(JointStatus joints) {
+  switch (joints) {
+    case JointStatus::ok:
+      return FrameStatus::ok;
+    case JointStatus::stale:
+      return FrameStatus::stale_joints;
+    case JointStatus::disputed:
+      return FrameStatus::poses_disagree;
+    case JointStatus::missing:
+      break;
+  }
+  return FrameStatus::missing_joints;
+}
+
+std::string describe(const Robot& robot, const JointInput& joints) {
+  if (joints.status == JointStatus::disputed) return describe_disputes(robot, joints.disputes);
+  if (joints.gaps.empty()) return "no joint positions";
   std::string text;
-  for (const JointGap& gap : gaps) {
+  for (const JointGap& gap : joints.gaps) {
     text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
             "' ";
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";

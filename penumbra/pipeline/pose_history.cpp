@@ -14,26 +14,27 @@ PoseHistory::PoseHistory(const Robot& robot, const PoseHistoryOptions& options)
 }
 
 std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::string> names,
-                                    std::span<const double> positions) {
+                                    std::span<const double> positions, std::string_view source) {
   if (stamp <= 0) {
     ++no_stamps_;
     return 0;
   }
   if (const auto newest = joints_.newest_of(names)) note_stamp(stamp, *newest, "joint states");
   ++revision_;
-  return joints_.insert(stamp, names, positions);
+  return joints_.insert(stamp, names, positions, source);
 }
 
 TransformInsert PoseHistory::add_transform(std::int64_t stamp, std::string_view parent,
                                            std::string_view child,
-                                           const Eigen::Isometry3d& T_parent_child) {
+                                           const Eigen::Isometry3d& T_parent_child,
+                                           std::string_view source) {
   const auto newest = transforms_.newest_of(child);
   ++revision_;
-  const TransformInsert outcome = transforms_.insert(stamp, parent, child, T_parent_child);
+  const TransformInsert outcome = transforms_.insert(stamp, parent, child, T_parent_child, source);
   // One that is refused, as of a second parent, says nothing of the clock.
   if (outcome != TransformInsert::taken || !newest || !note_stamp(stamp, *newest, "transforms"))
     return outcome;
-  return transforms_.insert(stamp, parent, child, T_parent_child);
+  return transforms_.insert(stamp, parent, child, T_parent_child, source);
 }
 
 TransformInsert PoseHistory::add_static_transform(std::string_view parent, std::string_view child,

@@ -35,11 +35,12 @@ class PoseHistory {
 
   /// As JointBuffer::insert. States without a stamp (0, or before) are refused and counted.
   std::size_t add_joints(std::int64_t stamp, std::span<const std::string> names,
-                         std::span<const double> positions);
+                         std::span<const double> positions, std::string_view source = {});
 
   /// As TransformBuffer::insert and insert_static, which count what they refuse.
   TransformInsert add_transform(std::int64_t stamp, std::string_view parent, std::string_view child,
-                                const Eigen::Isometry3d& T_parent_child);
+                                const Eigen::Isometry3d& T_parent_child,
+                                std::string_view source = {});
   TransformInsert add_static_transform(std::string_view parent, std::string_view child,
                                        const Eigen::Isometry3d& T_parent_child);
 

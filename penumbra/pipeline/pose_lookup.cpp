@@ -17,6 +17,26 @@ double distance_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) 
   return std::max((a.translation() - b.translation()).norm(), Disagreement::lever * turn);
 }
 
+FrameStatus status_of(TransformStatus transform) {
+  switch (transform) {
+    case TransformStatus::ok:
+      return FrameStatus::ok;
+    case TransformStatus::stale:
+      return FrameStatus::stale_transform;
+    case TransformStatus::disputed:
+      return FrameStatus::poses_disagree;
+    case TransformStatus::missing:
+      break;
+  }
+  return FrameStatus::missing_transform;
+}
+
+/// Values of a joint of its own, one after another.
+std::size_t variables_of(JointType type) {
+  if (type == JointType::planar) return 3;
+  return type == JointType::floating ? 7 : 1;
+}
+
 std::string disagreement_text(const std::string& link, double distance, double agreement) {
   std::ostringstream text;
   text.precision(3);
@@ -48,6 +68,20 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
     throw InputError("agreement of joint states and TF is " + std::to_string(options_.agreement) +
                      " m; expected 0 or more");
   for (const std::string& link : robot.links()) frames_.push_back(options_.frame_prefix + link);
+  note_movers();
+}
+
+void PoseLookup::note_movers() {
+  moves_.resize(robot_.variables().size());
+  for (std::size_t link = 0; link < frames_.size(); ++link) {
+    if (!robot_.report()[link].drawn && link != camera_parent_) continue;
+    for (std::size_t at = link; at > 0;) {
+      const Joint& joint = robot_.joints()[at - 1];  // whose child it is
+      for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
+        moves_[*joint.variable + i] = true;
+      at = joint.parent;
+    }
+  }
 }
 
 void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) {
@@ -71,9 +105,13 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
   history.joints().at(stamp, answer.joints);
   answer.age = answer.joints.age;
   if (answer.joints.status == JointStatus::ok) return;
-  answer.status = answer.joints.status == JointStatus::stale ? FrameStatus::stale_joints
-                                                             : FrameStatus::missing_joints;
-  answer.message = describe_gaps(robot_, answer.joints.gaps);
+  if (answer.joints.status == JointStatus::disputed) {
+    std::erase_if(answer.joints.disputes,
+                  [this](const JointDispute& dispute) { return !moves_[dispute.variable]; });
+    if (answer.joints.disputes.empty()) answer.joints.status = JointStatus::ok;
+  }
+  answer.status = status_of(answer.joints.status);
+  if (answer.status != FrameStatus::ok) answer.message = describe(robot_, answer.joints);
 }
 
 void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stamp,
@@ -104,8 +142,7 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
   transforms.at(stamp, target, source, transform_);
   answer.age = std::max(answer.age, transform_.age);
   if (transform_.status == TransformStatus::ok) return true;
-  answer.status = transform_.status == TransformStatus::stale ? FrameStatus::stale_transform
-                                                              : FrameStatus::missing_transform;
+  answer.status = status_of(transform_.status);
   answer.message = transform_.message;
   return false;
 }

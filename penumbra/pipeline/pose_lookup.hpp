@@ -65,13 +65,15 @@ class PoseLookup {
   PoseLookup(const Robot& robot, PoseOptions options);
 
   /// From TF every link is looked up in its parent link. A fixed joint's link whose frame TF never
-  /// named is where the URDF says; any other one is missing_transform.
+  /// named is where the URDF says; any other one is missing_transform. A joint of which two sources
+  /// tell different values is poses_disagree, if it moves a drawn link or the camera's parent.
   /// Allocates nothing for an answer that is ok, once the answer has been used.
   void at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer);
 
   [[nodiscard]] const PoseOptions& options() const { return options_; }
 
  private:
+  void note_movers();
   void find_joints(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) const;
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
@@ -83,7 +85,8 @@ class PoseLookup {
   PoseOptions options_;
   std::vector<std::string> frames_;  // of each link, in TF
   std::size_t camera_parent_;
-  TransformAnswer transform_;                   // of the last lookup
+  std::vector<bool> moves_;    // of each variable: a drawn link or the camera's parent
+  TransformAnswer transform_;  // of the last lookup
   std::vector<Eigen::Isometry3d> T_root_link_;  // by the joint states
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,12 +9,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/robot/stamped_track.hpp>
+#include <penumbra/robot/source_names.hpp>
+#include <penumbra/robot/told_track.hpp>
 
 namespace penumbra {
 
@@ -21,9 +24,10 @@ struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
   std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
+  bool compare_sources = true;       ///< else what the first source of a variable tells is taken
 };
 
-enum class JointStatus { ok, missing, stale };
+enum class JointStatus { ok, missing, stale, disputed };
 
 /// A variable that has no position at the stamp that was asked for.
 struct JointGap {
@@ -32,11 +36,43 @@ struct JointGap {
   std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
 };
 
+/// A variable of which two sources told different values near the stamp that was asked for.
+struct JointDispute {
+  std::size_t variable = 0;            ///< index into Robot::variables()
+  std::int64_t stamp = 0;              ///< of the values, nanoseconds
+  std::array<std::string, 2> sources;  ///< as insert() was told
+  std::array<double, 2> values{};
+};
+
 struct JointAnswer {
-  JointStatus status = JointStatus::missing;  ///< missing before stale, where both occur
-  std::vector<double> positions;  ///< order of Robot::variables(); valid only if status is ok
-  std::int64_t age = 0;           ///< nanoseconds from the stamp to the farthest used state
-  std::vector<JointGap> gaps;     ///< empty if status is ok
+  /// Missing before stale before disputed, where several occur.
+  JointStatus status = JointStatus::missing;
+  /// Order of Robot::variables(); valid only if status is ok or disputed.
+  std::vector<double> positions;
+  std::int64_t age = 0;                ///< nanoseconds from the stamp to the farthest used state
+  std::vector<JointGap> gaps;          ///< empty if status is ok or disputed
+  std::vector<JointDispute> disputes;  ///< empty if status is ok
+};
+
+/// How a joint buffer compares and interpolates a variable's values.
+struct JointRule {
+  enum class Kind { linear, revolute, turning, quaternion };
+
+  /// What sources may differ by though nothing moves: encoders, backlash, digits. An arc of 5 mm at
+  /// half a metre, which joint states and TF may differ by, too.
+  static constexpr double turn_noise = 0.01;           ///< radians
+  static constexpr double shift_noise = 0.005;         ///< metres
+  static constexpr bool one_value_of_a_stamp = false;  ///< the last one counts
+
+  Kind kind = Kind::linear;
+
+  /// The way from one value to another: of turning ones the short way.
+  [[nodiscard]] double way(double from, double to) const;
+  [[nodiscard]] double distance(double a, double b) const;
+  [[nodiscard]] double between(double a, double share, double b) const {
+    return a + share * way(a, b);
+  }
+  [[nodiscard]] double noise() const;
 };
 
 /// Merges joint states (complete or partial, in any order of names and time) and interpolates them
@@ -46,6 +82,11 @@ struct JointAnswer {
 /// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
 /// round. The quaternion of a floating joint is interpolated on the sphere, between stamps at which
 /// all four of its parts are known.
+///
+/// Where several sources tell a variable, its value is that of one of them, and what they say of
+/// the same time is compared: see ToldTrack. A variable of which two contradict each other within
+/// max_gap of a stamp is "disputed" there. Where one alone tells it, nothing is compared. Parts of
+/// quaternions are compared without their signs, as either sign of all is the same rotation.
 class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
@@ -54,9 +95,11 @@ class JointBuffer {
   /// Adds one joint state. Names that are no variable of the robot (mimicking joints, other
   /// devices) are skipped; names without a position, values that are not finite or lie
   /// beyond +-1e9, and quaternions whose length is off 1 by more than 1 % are refused and counted.
-  /// A second value for one joint and stamp replaces the first. Returns the number of values taken.
+  /// A second value of a source for one joint and stamp replaces the first. Returns the number of
+  /// values taken. `source`: a name for the program that tells them, the same for all of its
+  /// states.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
-                     std::span<const double> positions);
+                     std::span<const double> positions, std::string_view source = {});
 
   /// Positions at `stamp`. Allocates only until the answer's vectors have their size.
   void at(std::int64_t stamp, JointAnswer& answer) const;
@@ -75,7 +118,8 @@ class JointBuffer {
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
-  enum class Kind { linear, turning, quaternion };
+  using Kind = JointRule::Kind;
+  using Track = ToldTrack<double, JointRule>;
 
   /// Two known stamps around another; equal where a state lies on it.
   struct Bracket {
@@ -95,15 +139,17 @@ class JointBuffer {
                                                             std::int64_t stamp) const;
   [[nodiscard]] std::size_t refuse_quaternions(std::int64_t stamp);
   void add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
+  void add_dispute(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
   void prune();
 
   std::int64_t max_gap_;  // nanoseconds
   std::int64_t history_;  // nanoseconds
   std::size_t max_states_;
   std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
-  std::vector<StampedTrack<double>> tracks_;               // of each variable
+  std::vector<Track> tracks_;                              // of each variable
   std::vector<Kind> kinds_;                                // of each variable
-  std::vector<std::size_t> quaternions_;                   // first variable of each
+  SourceNames sources_;
+  std::vector<std::size_t> quaternions_;  // first variable of each
   std::optional<std::int64_t> newest_;
   std::size_t refused_values_ = 0;
 };

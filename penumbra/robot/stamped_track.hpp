@@ -51,6 +51,30 @@ class StampedTrack {
 
   [[nodiscard]] std::span<const State> states() const { return std::span(states_).subspan(first_); }
 
+  /// Two states around a stamp, twice the same if one lies on it.
+  struct Bracket {
+    const State* before = nullptr;
+    const State* after = nullptr;
+
+    explicit operator bool() const { return before != nullptr; }
+    /// Nanoseconds.
+    [[nodiscard]] std::uint64_t gap() const {
+      return static_cast<std::uint64_t>(after->stamp) - static_cast<std::uint64_t>(before->stamp);
+    }
+  };
+
+  /// Those next to `stamp`; none if there is none on a side, or they are more than `max_gap`
+  /// nanoseconds apart.
+  [[nodiscard]] Bracket around(std::int64_t stamp, std::int64_t max_gap) const {
+    const auto all = states();
+    const auto before = up_to(stamp);
+    if (before.empty()) return {};
+    if (before.back().stamp == stamp) return {&before.back(), &before.back()};
+    if (before.size() == all.size()) return {};
+    const Bracket bracket{&before.back(), &all[before.size()]};
+    return bracket.gap() <= static_cast<std::uint64_t>(max_gap) ? bracket : Bracket{};
+  }
+
   /// States at or before `stamp`.
   [[nodiscard]] std::span<const State> up_to(std::int64_t stamp) const {
     const auto all = states();

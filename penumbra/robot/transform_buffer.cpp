@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
@@ -33,6 +34,21 @@ std::string gap_text(std::int64_t a, std::int64_t b) {
 
 }  // namespace
 
+TransformBuffer::Pose TransformBuffer::pose_of(const Eigen::Isometry3d& T) {
+  return {Eigen::Quaterniond(T.linear()).normalized(), T.translation()};
+}
+
+double TransformBuffer::PoseRule::distance(const Pose& a, const Pose& b) const {
+  return std::max((a.translation - b.translation).norm(),
+                  lever * a.rotation.angularDistance(b.rotation));
+}
+
+TransformBuffer::Pose TransformBuffer::PoseRule::between(const Pose& a, double share,
+                                                         const Pose& b) const {
+  return {a.rotation.slerp(share, b.rotation),
+          a.translation + share * (b.translation - a.translation)};
+}
+
 TransformBuffer::TransformBuffer(const TransformBufferOptions& options)
     : max_gap_(span_nanoseconds(options.max_gap, "transform buffer: max_gap")),
       history_(span_nanoseconds(options.history, "transform buffer: history")),
@@ -44,40 +60,42 @@ TransformBuffer::TransformBuffer(const TransformBufferOptions& options)
 
 TransformInsert TransformBuffer::insert(std::int64_t stamp, std::string_view parent,
                                         std::string_view child,
-                                        const Eigen::Isometry3d& T_parent_child) {
-  return insert(std::optional(stamp), parent, child, T_parent_child);
+                                        const Eigen::Isometry3d& T_parent_child,
+                                        std::string_view source) {
+  TransformInsert outcome;
+  FrameNode* const frame = place(stamp, parent, child, T_parent_child, outcome);
+  if (frame == nullptr) return outcome;
+  frame->states.put({stamp, pose_of(T_parent_child)}, sources_.number_of(source));
+  frame->states.prune(stamp_after(frame->states.all().states().back().stamp, -history_),
+                      options_.max_states);
+  return outcome;
 }
 
 TransformInsert TransformBuffer::insert_static(std::string_view parent, std::string_view child,
                                                const Eigen::Isometry3d& T_parent_child) {
-  return insert(std::nullopt, parent, child, T_parent_child);
+  TransformInsert outcome;
+  if (FrameNode* const frame = place(std::nullopt, parent, child, T_parent_child, outcome))
+    frame->fixed = pose_of(T_parent_child);
+  return outcome;
 }
 
-TransformInsert TransformBuffer::insert(std::optional<std::int64_t> stamp, std::string_view parent,
-                                        std::string_view child,
-                                        const Eigen::Isometry3d& T_parent_child) {
+TransformBuffer::FrameNode* TransformBuffer::place(std::optional<std::int64_t> stamp,
+                                                   std::string_view parent, std::string_view child,
+                                                   const Eigen::Isometry3d& T_parent_child,
+                                                   TransformInsert& outcome) {
   parent = without_slash(parent);
   child = without_slash(child);
-  const TransformInsert outcome = judge(stamp, parent, child, T_parent_child);
+  outcome = judge(stamp, parent, child, T_parent_child);
   ++counts_[static_cast<std::size_t>(outcome)];
   if (outcome != TransformInsert::taken) {
     last_refusal_ = describe(outcome, parent, child);
-    return outcome;
+    return nullptr;
   }
   const std::size_t above = find_or_add(parent);
   FrameNode& frame = frames_[find_or_add(child)];
   frame.parent = above;
   frame.is_static = !stamp;
-  const Pose pose{Eigen::Quaterniond(T_parent_child.linear()).normalized(),
-                  T_parent_child.translation()};
-  if (!stamp) {
-    frame.fixed = pose;
-    return outcome;
-  }
-  frame.states.put({*stamp, pose});
-  frame.states.prune(stamp_after(frame.states.states().back().stamp, -history_),
-                     options_.max_states);
-  return outcome;
+  return &frame;
 }
 
 TransformInsert TransformBuffer::judge(std::optional<std::int64_t> stamp, std::string_view parent,
@@ -135,7 +153,8 @@ std::string TransformBuffer::describe(TransformInsert why, std::string_view pare
 
 std::size_t TransformBuffer::find_or_add(std::string_view name) {
   if (const auto known = find(name)) return *known;
-  frames_.emplace_back().name = name;
+  frames_.push_back(
+      {std::string(name), none, false, {}, Track({}, max_gap_, options_.compare_sources)});
   index_.emplace(name, frames_.size() - 1);
   return frames_.size() - 1;
 }
@@ -225,6 +244,10 @@ bool TransformBuffer::climb(std::size_t from, std::size_t to, std::int64_t stamp
       say_stale(frames_[from], stamp, answer);
       return false;
     }
+    if (frames_[from].states.contradiction_near(stamp) != nullptr) {
+      say_disputed(frames_[from], stamp, answer);
+      return false;
+    }
     T_to_from.translation = step.rotation * T_to_from.translation + step.translation;
     T_to_from.rotation = step.rotation * T_to_from.rotation;
   }
@@ -238,20 +261,15 @@ bool TransformBuffer::interpolate(const FrameNode& frame, std::int64_t stamp, Po
     return true;
   }
   answer.is_static = false;
-  const auto all = frame.states.states();
-  const auto before = frame.states.up_to(stamp);
-  if (!before.empty() && before.back().stamp == stamp) {
-    pose = before.back().value;
+  const auto around = frame.states.track_at(stamp).around(stamp, max_gap_);
+  if (!around) return false;
+  const auto &a = *around.before, &b = *around.after;
+  if (a.stamp == stamp) {
+    pose = a.value;
     return true;
   }
-  if (before.empty() || before.size() == all.size()) return false;
-  const auto& a = before.back();
-  const auto& b = all[before.size()];
-  if (stamp_distance(a.stamp, b.stamp) > static_cast<std::uint64_t>(max_gap_)) return false;
   if (a.value.rotation.angularDistance(b.value.rotation) > max_turn) return false;
-  const double share = stamp_share(a.stamp, stamp, b.stamp);
-  pose.rotation = a.value.rotation.slerp(share, b.value.rotation);
-  pose.translation = a.value.translation + share * (b.value.translation - a.value.translation);
+  pose = PoseRule().between(a.value, stamp_share(a.stamp, stamp, b.stamp), b.value);
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -261,8 +279,8 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
   answer.message = "transform of frame " + frame_quoted(frame.name) + " in " +
                    frame_quoted(frames_[frame.parent].name) + " is not known at " +
                    stamp_text(stamp) + ": ";
-  const auto all = frame.states.states();
-  const auto before = frame.states.up_to(stamp);
+  const auto all = frame.states.track_at(stamp).states();
+  const auto before = frame.states.track_at(stamp).up_to(stamp);
   if (before.empty())
     answer.message += "its first state is " + gap_text(stamp, all.front().stamp) + " later";
   else if (before.size() == all.size())
@@ -275,6 +293,22 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
     answer.message += "it turns by more than a right angle between two states";
 }
 
+void TransformBuffer::say_disputed(const FrameNode& frame, std::int64_t stamp,
+                                   TransformAnswer& answer) const {
+  const auto& found = *frame.states.contradiction_near(stamp);
+  const auto& sources = found.value.sources;
+  const auto& values = found.value.values;
+  answer.status = TransformStatus::disputed;
+  std::ostringstream text;
+  text.precision(3);
+  text << "transform of frame " << frame_quoted(frame.name) << " in "
+       << frame_quoted(frames_[frame.parent].name) << " is told twice, "
+       << 1e3 * PoseRule().distance(values[0], values[1]) << " mm apart, at "
+       << stamp_text(found.stamp) << " by " << sources_.name_of(sources[0]);
+  if (sources[0] != sources[1]) text << " and by " << sources_.name_of(sources[1]);
+  answer.message = text.str();
+}
+
 std::optional<std::int64_t> TransformBuffer::complete_until(std::string_view target,
                                                             std::string_view source) const {
   const auto found = way(without_slash(target), without_slash(source));
@@ -283,7 +317,7 @@ std::optional<std::int64_t> TransformBuffer::complete_until(std::string_view tar
   for (std::size_t frame : {found->source, found->target})
     for (; frame != found->meeting; frame = frames_[frame].parent)
       if (!frames_[frame].is_static)
-        until = std::min(until, frames_[frame].states.states().back().stamp);
+        until = std::min(until, frames_[frame].states.all().states().back().stamp);
   return until;
 }
 
@@ -293,8 +327,8 @@ bool TransformBuffer::knows(std::string_view frame) const {
 
 std::optional<std::int64_t> TransformBuffer::newest_of(std::string_view child) const {
   const auto frame = find(without_slash(child));
-  if (!frame || frames_[*frame].states.states().empty()) return std::nullopt;
-  return frames_[*frame].states.states().back().stamp;
+  if (!frame || frames_[*frame].states.all().states().empty()) return std::nullopt;
+  return frames_[*frame].states.all().states().back().stamp;
 }
 
 void TransformBuffer::clear() {

@@ -13,7 +13,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/robot/stamped_track.hpp>
+#include <penumbra/robot/source_names.hpp>
+#include <penumbra/robot/told_track.hpp>
 
 namespace penumbra {
 
@@ -23,6 +24,7 @@ struct TransformBufferOptions {
   std::size_t max_states = 100'000;  ///< of each frame; the oldest are dropped beyond
   std::size_t max_frames = 4096;     ///< frames beyond are refused
   std::size_t max_depth = 128;       ///< transforms of a chain; longer ones are "missing"
+  bool compare_sources = true;       ///< else what the first source of a frame tells is taken
 };
 
 /// What became of a transform that was inserted.
@@ -38,7 +40,7 @@ enum class TransformInsert {
 };
 inline constexpr std::size_t transform_inserts = 8;
 
-enum class TransformStatus { ok, missing, stale };
+enum class TransformStatus { ok, missing, stale, disputed };
 
 struct TransformAnswer {
   TransformStatus status = TransformStatus::missing;
@@ -56,6 +58,11 @@ struct TransformAnswer {
 /// Between two states origins move straight and rotations turn at constant speed the short way.
 /// That is exact for a frame that a joint moves, and what JointBuffer does for a floating joint.
 ///
+/// Where several sources tell a moving frame, its pose is that of one of them, and what they say of
+/// the same time is compared: see ToldTrack. So are two poses of one source and stamp: a bag does
+/// not tell who sent them. A frame of which two contradict each other within max_gap of a stamp is
+/// "disputed" there.
+///
 /// Frame names lose one leading "/". Each frame has one parent, the first that was given, until
 /// clear().
 class TransformBuffer {
@@ -67,16 +74,17 @@ class TransformBuffer {
   /// Throws InputError for times that are negative, not finite or above 1e9 s, and limits of 0.
   explicit TransformBuffer(const TransformBufferOptions& options = {});
 
-  /// Adds one pose of `child`. A second one of the same stamp replaces the first. What is refused
-  /// is counted and changes nothing.
+  /// Adds one pose of `child`. A second one of the same stamp and source replaces the first. What
+  /// is refused is counted and changes nothing. `source`: a name for the program that tells it.
   TransformInsert insert(std::int64_t stamp, std::string_view parent, std::string_view child,
-                         const Eigen::Isometry3d& T_parent_child);
+                         const Eigen::Isometry3d& T_parent_child, std::string_view source = {});
 
   /// Adds a pose that holds at every stamp. A second one replaces the first.
   TransformInsert insert_static(std::string_view parent, std::string_view child,
                                 const Eigen::Isometry3d& T_parent_child);
 
-  /// The pose of `source` in `target` at `stamp`. "missing" before "stale", where both occur.
+  /// The pose of `source` in `target` at `stamp`. Of several that occur, the first is said on the
+  /// way up from `source`, then from `target`; "missing" before all.
   /// Allocates nothing for an answer that is ok, once the answer has been used.
   void at(std::int64_t stamp, std::string_view target, std::string_view source,
           TransformAnswer& answer) const;
@@ -109,12 +117,23 @@ class TransformBuffer {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   };
+  struct PoseRule {
+    /// Metres: what sources may differ by though nothing moves, as joint states and TF may.
+    static constexpr double noise_of_poses = 0.005;
+    static constexpr double lever = 0.5;  ///< metres: a turn counts by its arc there
+    static constexpr bool one_value_of_a_stamp = true;
+
+    [[nodiscard]] double distance(const Pose& a, const Pose& b) const;
+    [[nodiscard]] Pose between(const Pose& a, double share, const Pose& b) const;
+    [[nodiscard]] double noise() const { return noise_of_poses; }
+  };
+  using Track = ToldTrack<Pose, PoseRule>;
   struct FrameNode {
     std::string name;
     std::size_t parent = none;
     bool is_static = false;
-    Pose fixed;                 // if static
-    StampedTrack<Pose> states;  // if not
+    Pose fixed;    // if static
+    Track states;  // if not
   };
   /// Two frames and the nearest frame that both hang below.
   struct Way {
@@ -122,8 +141,11 @@ class TransformBuffer {
     std::size_t target_depth = 0, source_depth = 0;  // below the meeting frame
   };
 
-  TransformInsert insert(std::optional<std::int64_t> stamp, std::string_view parent,
-                         std::string_view child, const Eigen::Isometry3d& T_parent_child);
+  [[nodiscard]] static Pose pose_of(const Eigen::Isometry3d& T);
+  /// Makes a place for a pose; nothing if it is refused.
+  FrameNode* place(std::optional<std::int64_t> stamp, std::string_view parent,
+                   std::string_view child, const Eigen::Isometry3d& T_parent_child,
+                   TransformInsert& outcome);
   [[nodiscard]] TransformInsert judge(std::optional<std::int64_t> stamp, std::string_view parent,
                                       std::string_view child, const Eigen::Isometry3d& T) const;
   [[nodiscard]] TransformInsert judge_tree(bool is_static, std::string_view parent,
@@ -140,12 +162,14 @@ class TransformBuffer {
   bool interpolate(const FrameNode& frame, std::int64_t stamp, Pose& pose,
                    TransformAnswer& answer) const;
   void say_stale(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
+  void say_disputed(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
 
   std::int64_t max_gap_;  // nanoseconds
   std::int64_t history_;  // nanoseconds
   TransformBufferOptions options_;
   std::map<std::string, std::size_t, std::less<>> index_;  // of each name, in frames_
   std::vector<FrameNode> frames_;
+  SourceNames sources_;
   std::array<std::size_t, transform_inserts> counts_{};
   std::string last_refusal_;
 };

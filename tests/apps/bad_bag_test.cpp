@@ -167,5 +167,20 @@ TEST(BadBagFile, IsOneClearLineAndStatus2) {
   }
 }
 
+TEST(BadBagFolder, IsNeitherARecordingNorABag) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "notes.txt", "x");
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--depth-topic", "/depth"}}) {
+    std::vector<std::string> arguments = {"run", folder.path(), "-o", folder.path() / "out"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = penumbra(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("neither a recording (recording.yaml) nor a bag"), std::string::npos)
+        << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::test

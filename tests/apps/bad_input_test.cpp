@@ -232,7 +232,6 @@ std::vector<BadInput> bad_options() {
        {"--gl-labels", "vdi"},
        {"--gl-labels", "--renderer", "gl", "--save", "vdi,labels"}},
       {"TargetsThatAreNotThere", nothing(), {"t.yaml"}, {"--targets", "t.yaml"}},
-      {"ReportOfALaterVersion", nothing(), {"--report", "built"}, {"--report"}},
       {"TimeOffsetOfAFolder", nothing(), {"--time-offset", "bags"}, {"--time-offset=-0.1"}},
       {"WidthTooLarge", nothing(), {"--front-min-width", "0 to 63"}, {"--front-min-width", "64"}},
       {"FramesPastTheEnd", nothing(), {"--frames", "0 to 2"}, {"--frames", "1:4"}},
@@ -268,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(Option, BadInputTest, testing::ValuesIn(bad_options()),
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
-      {{}, "run, render, inspect, doctor, simulate, experiment, topics, play or live"},
+      {{}, "run, render, inspect, doctor, simulate, experiment, topics, play, live or view"},
       {{"walk"}, "walk"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},

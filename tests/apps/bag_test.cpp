@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags, against the recording folders that they are of.
-#include "program.hpp"
-#include "tiny_bag.hpp"
-#include "tiny_recording.hpp"
+#include "bag_fixture.hpp"
 
 #include <filesystem>
 #include <limits>
@@ -19,47 +17,6 @@
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-class BagTest : public testing::Test {
- protected:
-  BagTest() {
-    write_tiny_recording(folder_.path());
-    bag_ = tiny_bag(folder_.path());
-  }
-
-  Outcome run(std::vector<std::string> options = {}, const std::string& name = "tiny.mcap") {
-    const fs::path file = folder_.path() / name;
-    if (name == "tiny.mcap") bag_.write_mcap(file);
-    options.insert(options.begin(), {"run", file, "-o", out(), "--save", saves_});
-    return penumbra(options);
-  }
-  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
-  [[nodiscard]] Json report() const { return Json::parse(read_file(out() / "report.json")); }
-  [[nodiscard]] std::string status(std::size_t frame) const {
-    return report()["frames"].at(frame)["status"];
-  }
-  [[nodiscard]] std::string message(std::size_t frame) const {
-    const Json said = report()["frames"].at(frame)["message"];
-    return said.is_null() ? "" : std::string(said);
-  }
-
-  /// Labels are those of the recording folder, to the last pixel.
-  void expect_recorded_labels(std::size_t first = 0, std::size_t end = 3) {
-    const fs::path wanted = folder_.path() / "wanted";
-    ASSERT_EQ(penumbra({"run", folder_.path(), "-o", wanted, "--save", "labels"}).status, 0);
-    for (std::size_t i = first; i < end; ++i) {
-      const std::string file = "labels/00000" + std::to_string(i) + ".png";
-      EXPECT_TRUE(read_file(out() / file) == read_file(wanted / file)) << file;
-    }
-  }
-
-  TemporaryFolder folder_;
-  TinyBag bag_;
-  std::string saves_ = "labels";
-};
-
 TEST_F(BagTest, GivesTheLabelsOfTheRecording) {
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -72,6 +29,16 @@ TEST_F(BagTest, GivesTheLabelsOfTheRecording) {
     EXPECT_EQ(json["frames"][i]["stamp_ns"], tiny_stamp(static_cast<int>(i)));
     EXPECT_GT(json["frames"][i]["joint_age_ms"], 0.0) << "no state lies on a stamp";
   }
+}
+
+TEST_F(BagTest, AFolderOfAKilledRecorderIsRead) {
+  const fs::path bags = folder_.path() / "killed";
+  fs::create_directory(bags);
+  bag_.write_mcap(bags / "killed_0.mcap");
+  const Outcome outcome = run({}, "killed");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("metadata.yaml: is missing"), std::string::npos) << outcome.err;
+  expect_recorded_labels();
 }
 
 TEST_F(BagTest, SaysWhichTopicsItTakes) {
@@ -222,6 +189,34 @@ TEST_F(BagTest, AnotherCamerasInfoIsNotTakenWhenItComesLate) {
   EXPECT_EQ(status(2), "ok");
 }
 
+/// Where camera_infos come with images, one whose own is not there may be of another camera.
+TEST_F(BagTest, AnImageWithoutItsOwnCameraInfoIsNotJudgedByAnotherOnes) {
+  std::vector<TinyBag::Message> kept;
+  int info = 0;
+  for (TinyBag::Message& message : bag_.messages)
+    if (message.topic != "/camera/depth/camera_info" || ++info <= 2) kept.push_back(message);
+  bag_.messages = std::move(kept);
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(status(0), "ok");
+  EXPECT_EQ(status(1), "ok");
+  EXPECT_EQ(status(2), "bad_depth");
+  EXPECT_NE(report()["frames"][2]["message"].get<std::string>().find("its camera_info did not"),
+            std::string::npos);
+}
+
+/// One for all, as of a driver that latches it.
+TEST_F(BagTest, OneCameraInfoHoldsForAllImages) {
+  std::vector<TinyBag::Message> kept;
+  int info = 0;
+  for (TinyBag::Message& message : bag_.messages)
+    if (message.topic != "/camera/depth/camera_info" || ++info <= 1) kept.push_back(message);
+  bag_.messages = std::move(kept);
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const std::size_t frame : {0U, 1U, 2U}) EXPECT_EQ(status(frame), "ok");
+}
+
 TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
   bag_.write_mcap(folder_.path() / "whole.mcap");
   const std::string whole = read_file(folder_.path() / "whole.mcap");
@@ -267,6 +262,47 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
 
   bag_.remove("/joint_states");
   EXPECT_NE(run().out.find("poses: from tf"), std::string::npos);
+}
+
+TEST_F(BagTest, JointStatesOfTwoProgramsThatContradictEachOtherAreToldAndNotUsed) {
+  // joint_state_publisher beside the driver: all joints of its own order, no sliders moved.
+  for (std::int64_t stamp = tiny_stamp(0) - 190'000'000; stamp < tiny_stamp(3);
+       stamp += 100'000'000)
+    bag_.add("/joint_states", stamp,
+             io::JointStateMessage{
+                 .header = {stamp, ""}, .names = {"slide", "other"}, .positions = {-0.3, 0.0}});
+  Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(status(1), "poses_disagree");
+  for (const char* const part : {"poses_disagree in 3 of 3 frames", "joint 'slide' is at ",
+                                 "/joint_states (2 joints from "
+                                 "'other')",
+                                 "/joint_states (2 joints from 'slide')"})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+}
+
+TEST_F(BagTest, TheFirstPublisherMayBeBelieved) {
+  bag_.copy("/joint_states", "/second/joint_states");
+  bag_.edit<io::JointStateMessage>("/second/joint_states", [](auto& state) {
+    state.header.stamp += 1'000'000;
+    state.positions[1] = -0.3;
+  });
+  const std::vector<std::string> both = {"--joint-topic", "/joint_states", "--joint-topic",
+                                         "/second/joint_states"};
+  EXPECT_EQ(run(both).status, 2);
+  std::vector<std::string> first = both;
+  first.push_back("--first-publisher");
+  ASSERT_EQ(run(first).status, 0);
+  expect_recorded_labels();
+}
+
+TEST_F(BagTest, ACopyOfJointStatesIsUsedAsTheyAre) {
+  bag_.copy("/joint_states", "/relayed/joint_states");
+  bag_.edit<io::JointStateMessage>("/relayed/joint_states",
+                                   [](auto& state) { state.header.stamp += 30'000'000; });
+  ASSERT_EQ(
+      run({"--joint-topic", "/relayed/joint_states", "--joint-topic", "/joint_states"}).status, 0);
+  expect_recorded_labels();
 }
 
 TEST_F(BagTest, TheCommandLineFillsInWhatIsMissing) {

@@ -266,6 +266,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                             {"beyond", "occluded"},
                             {"targets", nullptr},
                             {"target_history_s", 0.0},
+                            {"bag", nullptr},
                             {"range", range},
                             {"image", "raw"},
                             {"geometry", "collision"},

@@ -88,7 +88,11 @@ void TinyBag::write_mcap(const std::filesystem::path& file) const {
     if (channel == channels.end()) {
       const auto schema =
           writer.add_schema(message.type, "ros2msg", std::string(io::definition_of(message.type)));
-      const auto id = writer.add_channel(message.topic, encoding, schema);
+      const auto told = qos.find(message.topic);
+      const auto id = told == qos.end()
+                          ? writer.add_channel(message.topic, encoding, schema)
+                          : writer.add_channel(message.topic, encoding, schema,
+                                               {{"offered_qos_profiles", told->second}});
       channel = channels.emplace(message.topic, id).first;
     }
     writer.write(channel->second, message.log_time, message.log_time, 0, message.data);
@@ -102,7 +106,11 @@ void TinyBag::write_sqlite(const std::filesystem::path& file) const {
   std::map<std::string, int> ids;
   for (const Message& message : messages) {
     const auto [topic, is_new] = ids.emplace(message.topic, static_cast<int>(ids.size()) + 1);
-    if (is_new) database.topic(topic->second, message.topic, message.type);
+    if (is_new) {
+      const auto told = qos.find(message.topic);
+      database.topic(topic->second, message.topic, message.type,
+                     told == qos.end() ? "" : told->second);
+    }
     database.message(topic->second, message.log_time,
                      {reinterpret_cast<const char*>(message.data.data()), message.data.size()});
   }

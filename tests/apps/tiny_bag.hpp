@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct TinyBag {
   std::vector<Message> messages;
   std::string encoding = "cdr";
   std::string profile = "ros2";
+  std::map<std::string, std::string> qos;  ///< offered_qos_profiles of topics, if they are told
 
   template <typename M>
   void add(const std::string& topic, std::int64_t log_time, const M& message) {

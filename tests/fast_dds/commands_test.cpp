@@ -179,6 +179,40 @@ TEST_F(Commands, PlayRenamesAndChoosesTopics) {
   EXPECT_EQ(out_.find("/robot_description"), std::string::npos) << out_;
 }
 
+TEST_F(Commands, PlayLatchesWhatWasLatched) {
+  bag_.add("/map", first_log, io::StringMessage{"x"});
+  bag_.add("/words", first_log, io::StringMessage{"x"});
+  bag_.qos = {{"/map", "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"},
+              {"/words", "- durability: transient_local\n"},
+              {"/joint_states", "- {"},
+              {"/robot_description", "- durability: volatile\n"}};
+  const auto line_of = [](const std::string& text, const std::string& topic) {
+    const std::size_t begin = text.find(topic + " ");
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  for (const bool by_sqlite : {false, true}) {
+    const auto bag = folder_.path() / (by_sqlite ? "qos.db3" : "qos.mcap");
+    by_sqlite ? bag_.write_sqlite(bag) : bag_.write_mcap(bag);
+    const std::vector<std::string> words = {
+        "play", bag, "--domain", std::to_string(domain_.id()), "--delay", "0", "--rate", "1000"};
+    const Outcome outcome = penumbra(words);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* topic : {"/map", "/words"})
+      EXPECT_TRUE(line_of(outcome.out, topic).ends_with("reliable, latched")) << outcome.out;
+    for (const char* topic : {"/joint_states", "/robot_description"})
+      EXPECT_TRUE(line_of(outcome.out, topic).ends_with(" reliable")) << outcome.out;
+    EXPECT_NE(outcome.err.find("/joint_states: the QoS that the bag tells cannot be read"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    auto by_option = words;
+    by_option.insert(by_option.end(), {"--latched", "/words"});
+    const Outcome chosen = penumbra(by_option);
+    EXPECT_TRUE(line_of(chosen.out, "/map").ends_with(" reliable")) << chosen.out;
+    EXPECT_TRUE(line_of(chosen.out, "/words").ends_with("latched")) << chosen.out;
+  }
+}
+
 TEST_F(Commands, PlayTellsWhatItLeavesOut) {
   bag_.add("no_slash", first_log, io::StringMessage{"x"});
   bag_.write_mcap(file());
@@ -186,6 +220,21 @@ TEST_F(Commands, PlayTellsWhatItLeavesOut) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("no_slash is not played"), std::string::npos) << outcome.err;
   EXPECT_EQ(play({"--topics", "no_slash"}).status, 2);
+}
+
+TEST_F(Commands, PlayTellsThatNothingIsSoLate) {
+  const Outcome outcome = play({"--delay", "0", "--start", "100"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("no message is later than --start"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Commands, PlayOfABagCutAtItsBeginningTellsTheDamage) {
+  std::filesystem::resize_file(file(), 2000);
+  const Outcome outcome = play({});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("there is nothing to play"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("byte "), std::string::npos) << outcome.err;
 }
 
 TEST_F(Commands, BadInputIsStatus2AndOneLine) {

@@ -5,16 +5,24 @@
 //     says "ready", "matched" (if not latched), begins with a line on stdin, says "written N":
 //     messages of pattern.hpp
 //   fast_dds_peer DOMAIN publish TOPIC TYPE QOS
-//     messages from stdin, each behind its size in 4 bytes
+//     messages from stdin, each behind its size in 4 bytes; says "heard", and when, after the first
+//     that somebody acknowledged (QoS best effort: may have heard), nanoseconds since 1970
+//   fast_dds_peer DOMAIN repeat TOPIC TYPE QOS HZ
+//     one message with a header from stdin, likewise, again and again with each tick of the clock
+//     as its stamp; says "heard" likewise, and "written N" since then at the end
 //   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS
 //     messages to stdout, likewise
+//   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
+//     "STAMP ARRIVAL DIGEST" for each message with a header, nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
 //     "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
 // latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone; net:N: on
 // the network. Ends with stdin.
 #include "pattern.hpp"
+#include "stamped_message.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -190,13 +198,65 @@ void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos&
   while (!stdin_ended()) std::this_thread::sleep_for(20ms);
 }
 
-void publish_stdin(dds::DataWriter& writer) {
-  std::uint32_t size = 0;
-  while (std::fread(&size, sizeof(size), 1, stdin) == 1) {
-    Bytes message(size);
-    if (std::fread(message.data(), 1, size, stdin) != size) return;
-    if (!writer.write(&message)) std::cerr << "a message was refused\n";
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Writes, and says when somebody heard it for the first time: knows of this writer, too, and has
+/// acknowledged what it wrote.
+class HeardWriter {
+ public:
+  explicit HeardWriter(dds::DataWriter& writer) : writer_(writer) {}
+
+  void write(Bytes& message) {
+    if (!writer_.write(&message)) {
+      std::cerr << "a message was refused\n";
+      return;
+    }
+    if (heard_ == 0 && !is_acknowledged()) return;
+    if (heard_++ == 0) say("heard " + std::to_string(now()));
   }
+  [[nodiscard]] std::size_t heard() const { return heard_; }
+
+ private:
+  bool is_acknowledged() {
+    const eprosima::fastrtps::Duration_t shortly(0, 5'000'000);
+    dds::PublicationMatchedStatus matched;
+    return writer_.get_publication_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
+           matched.current_count > 0 &&
+           writer_.wait_for_acknowledgments(shortly) == ReturnCode_t::RETCODE_OK;
+  }
+
+  dds::DataWriter& writer_;
+  std::size_t heard_ = 0;
+};
+
+bool read_message(Bytes& message) {
+  std::uint32_t size = 0;
+  if (std::fread(&size, sizeof(size), 1, stdin) != 1) return false;
+  message.resize(size);
+  return std::fread(message.data(), 1, size, stdin) == size;
+}
+
+void publish_stdin(dds::DataWriter& writer) {
+  HeardWriter heard(writer);
+  for (Bytes message; read_message(message);) heard.write(message);
+}
+
+void repeat(dds::DataWriter& writer, std::int64_t hertz, const Qos& qos) {
+  Bytes message;
+  if (!read_message(message)) return;
+  HeardWriter heard(writer);
+  for (std::int64_t tick = 0; !stdin_ended();) {
+    tick = penumbra::test::next_tick(std::max(tick, now()), hertz);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(tick - now()));
+    penumbra::test::set_stamp(message, tick);
+    heard.write(message);
+  }
+  if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
+  say("written " + std::to_string(heard.heard()));
 }
 
 template <typename Take>
@@ -210,43 +270,60 @@ void read_until_stdin_ends(dds::DataReader& reader, Take take) {
   }
 }
 
-int run(const std::vector<std::string>& words) {
-  const std::string& mode = words[1];
+void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
   const Qos qos = to_qos(words[4]);
-  Peer peer(words[0], words[2], words[3]);
-  if (mode == "publish") {
-    auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
-    auto* const writer =
-        publisher->create_datawriter(peer.topic, entity_qos<dds::DataWriterQos>(qos));
-    if (writer == nullptr) return 1;
-    say("ready");
-    if (words.size() == 8)
-      publish_pattern(*writer,
-                      {std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
-                       std::stod(words[7])},
-                      qos);
-    else
-      publish_stdin(*writer);
-    return 0;
-  }
-  auto* const subscriber = peer.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
-  auto* const reader =
-      subscriber->create_datareader(peer.topic, entity_qos<dds::DataReaderQos>(qos));
-  if (reader == nullptr) return 1;
+  say("ready");
+  if (words[1] == "repeat")
+    repeat(writer, std::stol(words[5]), qos);
+  else if (words.size() == 8)
+    publish_pattern(writer,
+                    {std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
+                     std::stod(words[7])},
+                    qos);
+  else
+    publish_stdin(writer);
+}
+
+void subscribe(dds::DataReader& reader, const std::string& mode) {
   if (mode == "count") {
     say("ready");
-    read_until_stdin_ends(*reader, [](const Bytes& message) {
+    read_until_stdin_ends(reader, [](const Bytes& message) {
       say(std::to_string(penumbra::test::pattern_number(message)) + " " +
           std::to_string(message.size()));
     });
+  } else if (mode == "watch") {
+    read_until_stdin_ends(reader, [](const Bytes& message) {
+      const std::int64_t arrival = now();
+      say(std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
+          std::to_string(penumbra::test::digest_of(message)));
+    });
   } else {
-    read_until_stdin_ends(*reader, [](const Bytes& message) {
+    read_until_stdin_ends(reader, [](const Bytes& message) {
       const auto size = static_cast<std::uint32_t>(message.size());
       std::fwrite(&size, sizeof(size), 1, stdout);
       std::fwrite(message.data(), 1, size, stdout);
       std::fflush(stdout);
     });
   }
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string& mode = words[1];
+  const Qos qos = to_qos(words[4]);
+  Peer peer(words[0], words[2], words[3]);
+  if (mode == "publish" || mode == "repeat") {
+    auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    auto* const writer =
+        publisher->create_datawriter(peer.topic, entity_qos<dds::DataWriterQos>(qos));
+    if (writer == nullptr) return 1;
+    publish(*writer, words);
+    return 0;
+  }
+  auto* const subscriber = peer.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  auto* const reader =
+      subscriber->create_datareader(peer.topic, entity_qos<dds::DataReaderQos>(qos));
+  if (reader == nullptr) return 1;
+  subscribe(*reader, mode);
   return 0;
 }
 
@@ -254,9 +331,11 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  const bool known = words.size() == 5 || (words.size() == 8 && words[1] == "publish");
+  const bool known = words.size() == (words.size() > 1 && words[1] == "repeat" ? 6 : 5) ||
+                     (words.size() == 8 && words[1] == "publish");
   if (!known) {
-    std::cerr << "fast_dds_peer DOMAIN publish|subscribe|count TOPIC TYPE QOS [SIZE COUNT HZ]\n";
+    std::cerr << "fast_dds_peer DOMAIN publish|repeat|subscribe|watch|count TOPIC TYPE QOS [HZ | "
+                 "SIZE COUNT HZ]\n";
     return 2;
   }
   try {

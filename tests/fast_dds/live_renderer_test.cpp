@@ -8,6 +8,7 @@
 #include "lone_domain.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <future>
 #include <string>
 #include <vector>
@@ -38,11 +39,10 @@ class LiveRenderers : public testing::Test {
     options.insert(
         options.begin(),
         {"live", "--domain", id, "--depth-topic", "/camera/depth/image_rect_raw", "--robot",
-         folder_.path() / "tiny.urdf", "--duration", "7", "--summary", summary()});
+         folder_.path() / "tiny.urdf", "--duration", "7", "--summary", summary_});
     return penumbra(options, environment);
   }
-  [[nodiscard]] std::string summary() const { return folder_.path() / "live.json"; }
-  [[nodiscard]] Json told() const { return Json::parse(read_file(summary())); }
+  [[nodiscard]] Json told() const { return Json::parse(read_file(summary_)); }
 
   static std::size_t count(const std::string& text, const std::string& words) {
     std::size_t number = 0;
@@ -53,7 +53,11 @@ class LiveRenderers : public testing::Test {
 
   TemporaryFolder folder_;
   LoneDomain domain_;
+  std::string summary_ = folder_.path() / "live.json";
 };
+
+/// Takes no byte.
+constexpr const char* full_disk = "/dev/full";
 
 TEST_F(LiveRenderers, WhatAutoTookAndWhyIsToldOnce) {
   if (sanitized) GTEST_SKIP() << "the program is slow under sanitizers";
@@ -72,11 +76,61 @@ TEST_F(LiveRenderers, WhatAutoTookAndWhyIsToldOnce) {
   EXPECT_TRUE(told()["fault"].is_null());
 }
 
+TEST_F(LiveRenderers, ASummaryThatCannotBeWrittenIsAFault) {
+  if (!std::filesystem::exists(full_disk)) GTEST_SKIP() << "no " << full_disk;
+  const Outcome outcome =
+      penumbra({"live", "--domain", std::to_string(domain_.id()), "--depth-topic", "/nobody",
+                "--duration", "0.5", "--summary", full_disk});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "--summary /dev/full: cannot be written\n"), 1U) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "no image was judged"), 0U) << outcome.err;
+}
+
 #ifdef PENUMBRA_FAILING_DEVICE
+TEST_F(LiveRenderers, ASummaryThatCannotBeWrittenDoesNotHideTheFault) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  if (!std::filesystem::exists(full_disk)) GTEST_SKIP() << "no " << full_disk;
+  summary_ = full_disk;
+  const Outcome outcome =
+      live({"--renderer", "gl"},
+           {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=6"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "penumbra: OpenGL: the graphics device was reset"), 1U)
+      << outcome.err;
+  EXPECT_EQ(count(outcome.err, "note: --summary /dev/full: cannot be written\n"), 1U)
+      << outcome.err;
+}
+
+TEST_F(LiveRenderers, ADeviceThatFailsAtItsFirstDrawIsRefused) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  const Outcome outcome =
+      penumbra({"live", "--domain", std::to_string(domain_.id()), "--depth-topic", "/nobody",
+                "--duration", "0.5", "--summary", summary_, "--renderer", "gl"},
+               {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=0"});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "") << "the graph was joined";
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "OpenGL: the graphics device was reset"), 1U) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(summary_));
+}
+
+TEST_F(LiveRenderers, OfADeviceThatFailsAtItsFirstDrawAutoTakesTheOther) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  const Outcome outcome =
+      live({"--renderer", "auto"},
+           {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=0"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(told()["cameras"][0]["renderer"]["backend"], "cpu");
+  EXPECT_GT(told()["cameras"][0]["judged"], 1);
+}
+
 TEST_F(LiveRenderers, ADeviceThatFailsLeavesTheSummary) {
   if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // what fails wants to be the first library
   if (!has_opengl()) GTEST_SKIP() << no_opengl;
-  write_file(summary(), "former");
+  write_file(summary_, "former");
   const Outcome outcome =
       live({"--renderer", "gl"},
            {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=6"});
@@ -87,8 +141,15 @@ TEST_F(LiveRenderers, ADeviceThatFailsLeavesTheSummary) {
   const Json json = told();
   const std::string fault = json["fault"];
   EXPECT_TRUE(fault.starts_with("OpenGL: the graphics device was reset")) << fault;
-  EXPECT_GT(json["cameras"][0]["judged"], 0);
-  EXPECT_EQ(json["cameras"][0]["renderer"]["backend"], "gl");
+  const Json& camera = json["cameras"][0];
+  EXPECT_GT(camera["judged"], 0);
+  EXPECT_EQ(camera["in_work"], 1) << "the one that failed";
+  std::size_t all = 0;
+  for (const char* fate : {"judged", "failed", "waiting", "in_work"})
+    all += camera[fate].get<std::size_t>();
+  for (const auto& [reason, images] : camera["dropped"].items()) all += images.get<std::size_t>();
+  EXPECT_EQ(all, camera["received"]);
+  EXPECT_EQ(camera["renderer"]["backend"], "gl");
   EXPECT_TRUE(json["cameras"][0]["renderer"]["device"].is_string());
 }
 #endif

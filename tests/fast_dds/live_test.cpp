@@ -4,6 +4,7 @@
 #include "../io/live_scene.hpp"
 #include "../support/run_length.hpp"
 #include "../support/temporary_folder.hpp"
+#include "live_program.hpp"
 #include "lone_domain.hpp"
 #include "peer_process.hpp"
 
@@ -14,45 +15,11 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
-extern char** environ;  // NOLINT(readability-redundant-declaration)
 
 namespace penumbra::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// `penumbra live` as long as this lives.
-class LiveProgram {
- public:
-  explicit LiveProgram(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, "live"});
-    std::vector<char*> words;
-    words.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
-    if (posix_spawn(&pid_, PENUMBRA_PROGRAM, nullptr, nullptr, words.data(), environ) != 0)
-      ADD_FAILURE() << "penumbra live does not start";
-  }
-  LiveProgram(const LiveProgram&) = delete;
-  LiveProgram& operator=(const LiveProgram&) = delete;
-  ~LiveProgram() { static_cast<void>(end()); }
-
-  /// Ends it by SIGTERM; its exit status.
-  int end() {
-    if (pid_ <= 0) return status_;
-    ::kill(pid_, SIGTERM);
-    int status = 0;
-    ::waitpid(std::exchange(pid_, -1), &status, 0);
-    return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  pid_t pid_ = -1;
-  int status_ = -1;
-};
 
 class LiveAmongVendors : public testing::Test {
  protected:
@@ -136,7 +103,6 @@ class LiveAmongVendors : public testing::Test {
 };
 
 TEST_F(LiveAmongVendors, PublishesTheTruthThoughTheRobotIsKilledAndReturns) {
-  if (sanitized) GTEST_SKIP() << "the program is slow under sanitizers";
   LiveProgram live({"--domain", std::to_string(domain_.id()), "--depth-topic", "/camera/depth",
                     "--summary", folder_.path() / "live.json"});
   listen();

@@ -24,7 +24,8 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/pipeline", core},
       {"io", core},
       {"sim", core},
-      {"apps", core}};
+      {"apps", core},
+      {"python", core}};
   return rooms;
 }
 
@@ -55,13 +56,15 @@ const std::vector<Library>& libraries() {
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
                                         {"sqlite3.h", "io/bag", 1},
+                                        {"boost/", "io/web", 1},
                                         {"dds/", "io/dds", 8},
                                         {"mujoco/", "sim", 1},
                                         {"nlohmann/", "sim", 1},
                                         {"opencv2/", "sim", 1},
                                         {"webp/", "sim", 1},
                                         {"epoxy/egl.h", "sim", 1},
-                                        {"CLI/", "apps", 8}};
+                                        {"CLI/", "apps", 8},
+                                        {"pybind11/", "python", 6}};
   return all;
 }
 
@@ -82,7 +85,7 @@ bool stands_beside(const SourceFile& file, const std::string& include) {
 }
 
 std::vector<SourceFile> shipped() {
-  return source_files({"penumbra", "io", "sim", "apps"}, {".cpp", ".hpp"});
+  return source_files({"penumbra", "io", "sim", "apps", "python"}, {".cpp", ".hpp"});
 }
 
 TEST(Layers, IncludesPointDown) {
@@ -100,11 +103,16 @@ TEST(Layers, IncludesPointDown) {
         EXPECT_FALSE(file.path.starts_with("penumbra/")) << file.path << " includes " << include;
       }
       if (include.starts_with("sim/")) {
-        const bool may = file.path.starts_with("sim/") || file.path.starts_with("apps/");
+        const bool may = file.path.starts_with("sim/") || file.path.starts_with("apps/") ||
+                         file.path.starts_with("python/");
         EXPECT_TRUE(may) << file.path << " includes " << include;
       }
       if (include.starts_with("apps/")) {
-        EXPECT_TRUE(file.path.starts_with("apps/")) << file.path << " includes " << include;
+        const bool may = file.path.starts_with("apps/") || file.path.starts_with("python/");
+        EXPECT_TRUE(may) << file.path << " includes " << include;
+      }
+      if (include.starts_with("python/")) {
+        EXPECT_TRUE(file.path.starts_with("python/")) << file.path << " includes " << include;
       }
     }
   }
@@ -127,7 +135,7 @@ TEST(Layers, LibrariesStayInTheirFolders) {
     for (const auto& include : includes(file)) {
       const bool ours = include.starts_with("penumbra/") || include.starts_with("io/") ||
                         include.starts_with("sim/") || include.starts_with("apps/") ||
-                        stands_beside(file, include);
+                        include.starts_with("python/") || stands_beside(file, include);
       const bool system = is_standard(include) || include.starts_with("Eigen/") ||
                           include.starts_with("sys/") || include == "unistd.h" ||
                           include == "fcntl.h";

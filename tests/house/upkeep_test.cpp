@@ -19,7 +19,7 @@ constexpr std::size_t too_long_file = 500;  // lines: wants splitting
 const std::vector<std::string>& code_folders() {
   static const std::vector<std::string> folders{"penumbra", "io",    "sim",   "apps",
                                                 "examples", "tests", "bench", "scripts",
-                                                "cmake",    ".ci",   "ros"};
+                                                "cmake",    ".ci",   "ros",   "python"};
   return folders;
 }
 
@@ -92,10 +92,13 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"PkgConfig", "pkgconf"},
                                                   {"meshoptimizer", "libmeshoptimizer-dev"},
                                                   {"SQLite3", "libsqlite3-dev"},
+                                                  {"Boost", "libboost-dev"},
+                                                  {"Python", "python3-dev"},
+                                                  {"pybind11", "pybind11-dev"},
                                                   {"OpenGL", "libegl-dev"}};
   std::set<std::string> listed;
   std::istringstream names(
-      output_of(PENUMBRA_SOURCE_DIR "/scripts/packages.sh build ros sim test bench lint"));
+      output_of(PENUMBRA_SOURCE_DIR "/scripts/packages.sh build ros python sim test bench lint"));
   for (std::string name; names >> name;) listed.insert(name);
 
   const std::regex pattern(R"(^\s*find_package\(\s*([A-Za-z0-9_-]+))");

@@ -47,12 +47,13 @@ class BagDatabase {
       run("CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL,"
           " encoding TEXT NOT NULL, encoded_message_definition TEXT NOT NULL,"
           " type_description_hash TEXT NOT NULL);");
-    columns_ = with_definitions ? ", '', ''" : ", ''";
+    columns_ = with_definitions ? ", ''" : "";
   }
 
-  void topic(int id, const std::string& name, const std::string& type) {
+  void topic(int id, const std::string& name, const std::string& type,
+             const std::string& qos = "") {
     run("INSERT INTO topics VALUES(" + std::to_string(id) + ", '" + name + "', '" + type +
-        "', 'cdr'" + columns_ + ")");
+        "', 'cdr', '" + qos + "'" + columns_ + ")");
   }
 
   void message(int topic, std::int64_t time, const std::string& data) {

@@ -102,6 +102,82 @@ TEST_F(Bags, MetadataCountsMessages) {
   EXPECT_EQ(test::read_bag(folder_.path()).topics[0].messages, 41U);
 }
 
+/// As ROS 2's recorder has it: numbers up to Humble, words since.
+std::string profile(const std::string& durability) {
+  return "- history: 3\n  depth: 0\n  reliability: 1\n  durability: " + durability +
+         "\n  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
+         "  avoid_ros_namespace_conventions: false\n";
+}
+
+TEST_F(Bags, TellWhichTopicsWereLatched) {
+  struct Case {
+    std::string profiles;
+    OfferedQos qos;
+  };
+  const std::vector<Case> cases = {{profile("1"), {true}},
+                                   {profile("transient_local"), {true}},
+                                   {profile("2"), {false}},
+                                   {profile("volatile"), {false}},
+                                   {profile("2") + profile("1"), {true}},
+                                   {profile("0"), {}},
+                                   {profile("unknown"), {}},
+                                   {"", {}},
+                                   {"[]", {}},
+                                   {"- history: 3\n", {}},
+                                   {"- x", {{}, true}},
+                                   {"{", {{}, true}},
+                                   {"durability: 1", {{}, true}}};
+  for (const Case& one : cases) {
+    mcap::Writer writer(path("q.mcap"), {.compression = {}, .chunk_size = 100, .profile = "ros2"});
+    const auto schema = writer.add_schema("p/msg/A", "ros2msg", "int32 a\n");
+    const auto channel =
+        writer.add_channel("/a", "cdr", schema, {{"offered_qos_profiles", one.profiles}});
+    writer.write(channel, 5, 4, 0, test::as_bytes("0123"));
+    writer.close();
+    EXPECT_EQ(test::read_bag(path("q.mcap")).topics.at(0).qos, one.qos) << one.profiles;
+    {
+      test::BagDatabase database(path("q.db3"));
+      database.make_tables(false);
+      database.topic(1, "/a", "p/msg/A", one.profiles);
+      database.message(1, 5, "0123");
+    }
+    EXPECT_EQ(test::read_bag(path("q.db3")).topics.at(0).qos, one.qos) << one.profiles;
+  }
+}
+
+TEST_F(Bags, OnePublisherOfSeveralThatWasLatchedIsEnough) {
+  mcap::Writer writer(path("a.mcap"), {.compression = {}, .chunk_size = 100, .profile = "ros2"});
+  const auto schema = writer.add_schema("p/msg/A", "ros2msg", "int32 a\n");
+  for (const char* durability : {"2", "1", "2"}) {
+    const auto channel =
+        writer.add_channel("/a", "cdr", schema, {{"offered_qos_profiles", profile(durability)}});
+    writer.write(channel, 5, 4, 0, test::as_bytes("0123"));
+  }
+  writer.close();
+  const BagContent all = test::read_bag(path("a.mcap"));
+  ASSERT_EQ(all.topics.size(), 1U);
+  EXPECT_EQ(all.topics[0].qos, OfferedQos{true});
+}
+
+TEST_F(Bags, MetadataTellsWhichTopicsWereLatched) {
+  mcap("r_0.mcap", {1});
+  const std::string begin =
+      "\n    - topic_metadata:\n        name: /a\n        type: p/msg/A\n"
+      "        serialization_format: cdr\n        offered_qos_profiles: ";
+  const std::string end = "\n      message_count: 41";
+  const auto told = [&](const std::string& profiles) {
+    metadata(test::metadata_yaml("mcap", {"r_0.mcap"}, begin + profiles + end));
+    return test::read_bag(folder_.path()).topics.at(0).qos;
+  };
+  EXPECT_EQ(told("\"- history: 3\\n  durability: 1\\n  depth: 1\""), OfferedQos{true});
+  EXPECT_EQ(told("\n          - history: keep_last\n            durability: volatile"),
+            OfferedQos{false});
+  EXPECT_EQ(told("\n          - history: keep_last\n            durability: transient_local"),
+            OfferedQos{true});
+  EXPECT_EQ(told("\"\""), OfferedQos{});
+  EXPECT_EQ(told("\"- {\""), (OfferedQos{{}, true}));
+}
+
 TEST_F(Bags, OldMetadataNamesTheFolderToo) {
   mcap("r_0.mcap", {1});
   metadata(test::metadata_yaml("mcap", {folder_.path().filename() / "r_0.mcap"}));

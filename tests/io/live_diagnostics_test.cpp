@@ -10,6 +10,7 @@
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/live/name_resolver.hpp>
+#include <io/live/trouble_news.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -181,6 +182,87 @@ TEST_F(LiveDiagnosticsTest, KeepsWhatWasWrongWithRenderersOfBefore) {
     EXPECT_NE(summary.find(words), std::string::npos) << summary;
 }
 
+TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
+  bench_.tell_all();
+  const auto tell = [&](std::int64_t stamp, std::vector<std::string> names, double position) {
+    const std::vector<double> positions(names.size(), position);
+    bench_.tell(
+        "/joint_states",
+        encoded(io::JointStateMessage{
+            .header = {stamp, ""}, .names = {names.begin(), names.end()}, .positions = positions}));
+  };
+  tell(bench_.now, {"gripper"}, 0.1);
+  expect_says(robot(), Status::error, "none of the robot's joints: gripper");
+  tell(0, {"spin"}, 0.1);
+  expect_says(robot(), Status::error, "joint states have no stamp");
+  tell(bench_.now, {"spin"}, std::nan(""));
+  expect_says(robot(), Status::error, "no position that can be used");
+  tell(bench_.now, {"gripper", "spin"}, 0.1);
+  expect_says(robot(), Status::ok, "its pose is told");
+  for (int i = 0; i < 30; ++i) {
+    bench_.now += 100 * milliseconds;
+    tell(bench_.now, {"a", "b", "c", "d"}, 0.1);
+  }
+  expect_says(robot(), Status::error, "no joint states of the robot for 3.0 s");
+  expect_says(robot(), Status::error, "a, b, c, ...");
+}
+
+TEST_F(LiveDiagnosticsTest, SaysThatCameraInfosNoLongerComeWithImages) {
+  bench_.tell_all();
+  for (int i = 0; i < 20; ++i) {
+    bench_.now += 33 * milliseconds;
+    if (i < 10) bench_.tell_info(bench_.now);
+    judge();
+  }
+  bench_.now += 100 * milliseconds;
+  bench_.work();
+  expect_says(camera(), Status::error, "10 images came without a camera_info of their own");
+  EXPECT_EQ(values_of(camera(), "dropped: no_camera_info"), Words{"10"});
+}
+
+TEST_F(LiveDiagnosticsTest, SaysWhoItIs) {
+  const auto told = io::LiveDiagnostics(bench_.now, {"penumbra /cell", "left-arm-pc"})
+                        .report(bench_.inbox, links_, {bench_.now + seconds, bench_.now});
+  EXPECT_EQ(told.status.at(0).name, "penumbra /cell: robot");
+  EXPECT_EQ(told.status.at(1).name, "penumbra /cell: camera");
+  for (const Status& status : told.status) EXPECT_EQ(status.hardware_id, "left-arm-pc");
+}
+
+TEST_F(LiveDiagnosticsTest, ASlowCameraIsNotCalledSilent) {
+  bench_.tell_all();
+  for (int i = 0; i < 3; ++i) {
+    bench_.now += 2 * seconds;
+    judge();
+  }
+  bench_.now += 1900 * milliseconds;
+  expect_says(camera(), Status::ok, "frames/s");
+  bench_.now += 4 * seconds;
+  expect_says(camera(), Status::stale, "no depth images for");
+}
+
+io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string& right) {
+  io::DiagnosticArrayMessage message;
+  for (const auto& [name, why] : {std::pair("left", left), std::pair("right", right)})
+    message.status.push_back({.level = why.empty() ? Status::ok : Status::error,
+                              .name = name,
+                              .message = why.empty() ? "3 frames/s" : why});
+  return message;
+}
+
+TEST(TroubleNews, TellsEachStatusByItself) {
+  io::TroubleNews news;
+  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
+  EXPECT_EQ(news.look(of_cameras("no images for 1.2 s", "")), Words{"left: no images for 1.2 s"});
+  EXPECT_EQ(news.look(of_cameras("no images for 12.5 s", "")), Words{});
+  EXPECT_EQ(news.look(of_cameras("no images for 13.0 s", "no camera_info yet")),
+            Words{"right: no camera_info yet"});
+  EXPECT_EQ(news.look(of_cameras("no images for 14.0 s", "3 images are bad")),
+            Words{"right: 3 images are bad"});
+  EXPECT_EQ(news.look(of_cameras("", "4 images are bad")), Words{"left: well again"});
+  EXPECT_EQ(news.look(of_cameras("", "")), Words{"penumbra: all is judged"});
+  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
+}
+
 TEST_F(LiveDiagnosticsTest, IsAMessage) {
   bench_.tell_all();
   judge();
@@ -198,7 +280,10 @@ TEST(NameResolver, ExpandsAndRemaps) {
   names.remap("/tf:=/cell/tf");
   names.remap("joint_states:=states");
   EXPECT_EQ(names.resolve("/tf"), "/cell/tf");
+  EXPECT_EQ(names.unused(), Words{"/cell/arm/joint_states"});
   EXPECT_EQ(names.resolve("joint_states"), "/cell/arm/states");
+  EXPECT_EQ(names.unused(), Words{});
+  EXPECT_EQ(names.name_space(), "/cell/arm");
   for (const char* bad : {"", ":=", "a:=", ":=b", "a=b", "a:=b c", "1a:=b", "a:=b/", "a//b:=c",
                           "joint_states:=other"})
     EXPECT_THROW(names.remap(bad), InputError) << bad;

@@ -55,6 +55,25 @@ TEST_F(LiveInboxTest, AnotherPoseWouldShow) {
   EXPECT_NE(std::memcmp(labels.data(), later.labels.data, labels.size()), 0);
 }
 
+/// The board turns ever faster: held, of the latest state or gone on as before it is elsewhere.
+TEST_F(LiveInboxTest, APoseLiesBetweenTheStatesAroundItsStamp) {
+  bench_.tell_all();
+  for (const auto& [ms, angle] : {std::pair(-30, 0.0), {-20, 0.0}, {-10, 0.1}, {10, 0.5}})
+    bench_.tell(
+        "/joint_states",
+        encoded(io::JointStateMessage{
+            .header = {start + ms * milliseconds, ""}, .names = {"spin"}, .positions = {angle}}));
+  bench_.tell_depth(start);
+  ASSERT_EQ(bench_.work(), 1U);
+  const auto labels = bench_.results.last<io::ImageMessage>(io::Result::labels);
+  const auto is_turned = [&](double angle) {
+    const auto when = start + std::llround(angle / std::numbers::pi * 1e9);  // spin_at's pace
+    return std::memcmp(labels.data.data(), truth_.judge(when).labels.data, labels.data.size()) == 0;
+  };
+  EXPECT_TRUE(is_turned(0.3));
+  for (const double other : {0.0, 0.1, 0.2, 0.5}) EXPECT_FALSE(is_turned(other)) << other;
+}
+
 TEST_F(LiveInboxTest, OnlyWhatIsWantedIsMade) {
   bench_.results.wanted = {{io::Result::overlay, false}, {io::Result::points, false}};
   bench_.tell_all();
@@ -84,6 +103,73 @@ TEST_F(LiveInboxTest, WithoutJointStatesAllIsUnknown) {
   EXPECT_EQ(status(), "missing_joints");
   EXPECT_EQ(bench_.results.count(io::Result::virtual_depth), 0U);
   expect_nothing_trusted();
+}
+
+/// What joint_state_publisher says whose sliders nobody moves.
+std::vector<std::byte> sliders(std::int64_t stamp) {
+  return encoded(io::JointStateMessage{
+      .header = {stamp, ""}, .names = {"spin"}, .positions = {spin_at(start) + 2.0}});
+}
+
+TEST_F(LiveInboxTest, TwoPublishersThatContradictEachOtherAreNoPose) {
+  bench_.tell_all();
+  for (std::int64_t ago = 300; ago >= -20; ago -= 20) {
+    bench_.tell_joints(start - ago * milliseconds, 7);
+    bench_.tell("/joint_states", sliders(start - (ago - 7) * milliseconds), 8);
+  }
+  bench_.tell_depth(start);
+  ASSERT_EQ(bench_.work(), 1U) << "it does not wait";
+  EXPECT_EQ(status(), "poses_disagree");
+  expect_nothing_trusted();
+  EXPECT_EQ(bench_.results.count(io::Result::virtual_depth), 0U);
+  const std::string message = bench_.inbox.tally(0).last.message;
+  for (const char* const part : {"'spin'", "publisher 1 of /joint_states (joint 'spin')",
+                                 "publisher 2 of /joint_states (joint 'spin')"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  // The sliders end, and a second later all is well.
+  const std::int64_t later = start + seconds;
+  for (std::int64_t t = start + 40 * milliseconds; t <= later + 20 * milliseconds;
+       t += 20 * milliseconds)
+    bench_.tell_joints(t, 7);
+  bench_.results.told.clear();
+  bench_.tell_depth(later);
+  ASSERT_EQ(bench_.work(), 1U);
+  EXPECT_EQ(status(), "ok");
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 1U);
+}
+
+TEST_F(LiveInboxTest, PublishersThatAgreeAndADriverThatStartsAgainAreWell) {
+  bench_.tell_all();
+  std::size_t known = 0;
+  for (std::int64_t ms = 0; ms < 2000; ms += 10) {
+    const std::int64_t t = start + ms * milliseconds;
+    if (ms < 800 || ms > 900) bench_.tell_joints(t, ms < 800 ? 7 : 9);  // killed, and started again
+    if (ms % 50 == 0) bench_.tell_joints(t - 2 * milliseconds, 8);
+    if (ms % 100 == 30) bench_.tell_depth(t - 5 * milliseconds);
+    bench_.now += 10 * milliseconds;
+    known += bench_.work();
+  }
+  EXPECT_EQ(known, 20U);
+  const auto& statuses = bench_.inbox.tally(0).statuses;
+  EXPECT_EQ(statuses.size(), 1U) << "all of them ok";
+  EXPECT_EQ(statuses.count("ok"), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 20U);
+}
+
+TEST_F(LiveInboxTest, WhatABagPlaysIsToldApartByItsLooks) {
+  // One publisher sends on what two programs said.
+  bench_.tell_all();
+  for (std::int64_t ago = 300; ago >= -20; ago -= 20) {
+    bench_.tell_joints(start - ago * milliseconds, 7);
+    bench_.tell("/joint_states",
+                encoded(io::JointStateMessage{.header = {start - (ago - 7) * milliseconds, ""},
+                                              .names = {"spin", "other"},
+                                              .positions = {0.0, 0.0}}),
+                7);
+  }
+  bench_.tell_depth(start);
+  ASSERT_EQ(bench_.work(), 1U);
+  EXPECT_EQ(status(), "poses_disagree");
 }
 
 TEST_F(LiveInboxTest, WithoutTheCamerasTransformAllIsUnknown) {
@@ -126,7 +212,7 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   EXPECT_EQ(bench_.counts().of(io::LiveDrop::changed), 2U);
   bench_.results.told.clear();
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
-  LiveTruth other(90.0);
+  LiveTruth other({.focal = 90.0});
   EXPECT_EQ(expect_true_labels(bench_.results.told, other), 1U);
   EXPECT_EQ(bench_.inbox.camera(0).camera_changes(), 1U);
 }
@@ -144,8 +230,71 @@ TEST_F(LiveInboxTest, AnImageWaitsForItsOwnCameraInfo) {
   tell_joints_around(start + 66 * milliseconds);
   bench_.tell_depth(start + 66 * milliseconds);
   EXPECT_EQ(bench_.work(), 0U);
+  bench_.results.told.clear();
   bench_.now = *bench_.inbox.wake_at(0);
-  EXPECT_EQ(bench_.work(), 1U) << "it waits no longer than that";
+  EXPECT_EQ(bench_.work(), 0U) << "it waits no longer than that, and is not judged by an older one";
+  EXPECT_EQ(bench_.counts().of(io::LiveDrop::no_camera_info), 1U);
+  bench_.tell_info(start + 99 * milliseconds, 90.0);
+  EXPECT_EQ(judge(start + 99 * milliseconds), 1U);
+  EXPECT_EQ(status(), "ok");
+  LiveTruth other({.focal = 90.0});
+  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 1U);
+}
+
+/// A camera that sends a camera_info with each image starts again as another one, whose camera_info
+/// is heard a second later than its images.
+TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
+  bench_.tell_all();
+  const auto drive = [&](std::int64_t from, int images, double focal, std::uint64_t publisher) {
+    std::size_t judged = 0;
+    for (int i = 0; i < images; ++i) {
+      const std::int64_t stamp = from + i * 33 * milliseconds;
+      if (focal > 0)
+        bench_.tell("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})),
+                    publisher);
+      tell_joints_around(stamp);
+      bench_.tell("/camera/depth/image_rect_raw", live_depth(stamp), publisher);
+      bench_.now += 33 * milliseconds;
+      judged += bench_.work();
+    }
+    return judged;
+  };
+  EXPECT_EQ(drive(start, 5, 60.0, 1), 5U);
+  bench_.results.told.clear();
+  EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
+  bench_.now += 200 * milliseconds;
+  EXPECT_EQ(bench_.work(), 0U);
+  EXPECT_EQ(bench_.counts().of(io::LiveDrop::no_camera_info), 30U);
+  EXPECT_EQ(bench_.inbox.camera(0).without_info(), 30U);
+  EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
+  EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
+  LiveTruth other({.focal = 90.0});
+  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 3U);
+  // Again, now by a clock that begins anew: what came before is later than all that comes.
+  bench_.results.told.clear();
+  EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);
+  EXPECT_EQ(drive(start - 899 * seconds, 3, 60.0, 3), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 3U);
+}
+
+TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
+  bench_.tell_all();
+  std::size_t judged = 0;
+  for (int i = 0; i < 60; ++i) {
+    const std::int64_t stamp = start + i * 33 * milliseconds;
+    if (i % 30 == 10) bench_.tell_info(stamp);  // of an image's stamp, once a second
+    tell_joints_around(stamp);
+    bench_.tell_depth(stamp);
+    bench_.now += 33 * milliseconds;
+    judged += bench_.work();
+  }
+  bench_.now += 200 * milliseconds;
+  judged += bench_.work();
+  const io::LiveCounts counts = bench_.counts();
+  EXPECT_EQ(counts.of(io::LiveDrop::no_camera_info), 0U);
+  EXPECT_EQ(judged + counts.of(io::LiveDrop::superseded), 60U);
+  EXPECT_GT(judged, 50U);
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), judged);
 }
 
 TEST_F(LiveInboxTest, TheSameRobotAgainIsNothingNew) {
@@ -167,6 +316,31 @@ TEST_F(LiveInboxTest, ABrokenRobotEndsTheResults) {
   bench_.tell_robot();
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
   EXPECT_EQ(status(), "ok");
+}
+
+TEST_F(LiveInboxTest, ARobotThatCouldNotBeMadeIsTriedAgain) {
+  bench_.tell_mount();
+  bench_.tell_info(0);
+  const auto text = encoded(io::StringMessage{live_urdf});
+  bench_.tell("/robot_description", text);
+  auto order = bench_.inbox.take_order();
+  ASSERT_TRUE(order);
+  bench_.tell("/robot_description", text);
+  EXPECT_FALSE(bench_.inbox.take_order()) << "it is being made";
+  bench_.inbox.place({order->number, nullptr, "its meshes are not there"});
+  bench_.tell("/robot_description", text);
+  order = bench_.inbox.take_order();
+  ASSERT_TRUE(order) << "told again";
+  EXPECT_EQ(bench_.inbox.robot().fault(), "its meshes are not there") << "until it is made";
+  bench_.inbox.place({order->number, nullptr, "nor now"});
+  bench_.inbox.retry_robot();
+  order = bench_.inbox.take_order();
+  ASSERT_TRUE(order);
+  bench_.inbox.place(io::make_robot(*order));
+  EXPECT_EQ(bench_.inbox.robot().fault(), "");
+  bench_.inbox.retry_robot();
+  EXPECT_FALSE(bench_.inbox.take_order());
+  EXPECT_EQ(judge(start), 1U);
 }
 
 TEST_F(LiveInboxTest, AnotherRobotIsDrawn) {

@@ -2,12 +2,16 @@
 // The threads of live: two cameras, one robot, everything told at once.
 #include "live_scene.hpp"
 
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include <io/live/live_diagnostics.hpp>
 #include <io/live/live_runner.hpp>
 
 namespace penumbra::test {
@@ -41,6 +45,11 @@ class LiveRunnerTest : public testing::Test {
                                   .depth_topic = std::string("/") + name + "/depth",
                                   .info_topic = std::string("/") + name + "/camera_info"});
   }
+  static std::vector<io::LiveTopic> topics_of(io::LiveRunner& runner) {
+    return runner.with_inbox([](const io::LiveInbox& inbox) {
+      return std::vector<io::LiveTopic>(inbox.topics().begin(), inbox.topics().end());
+    });
+  }
   static void tell(io::LiveRunner& runner, const std::vector<io::LiveTopic>& topics,
                    const std::string& name, std::vector<std::byte> payload) {
     const auto owned = std::make_shared<const std::vector<std::byte>>(std::move(payload));
@@ -53,9 +62,7 @@ class LiveRunnerTest : public testing::Test {
 
 TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
   io::LiveRunner runner(options_, {}, {&left_, &right_});
-  const auto topics = runner.with_inbox([](const io::LiveInbox& inbox) {
-    return std::vector<io::LiveTopic>(inbox.topics().begin(), inbox.topics().end());
-  });
+  const auto topics = topics_of(runner);
   runner.start();
   const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
     tell(runner, topics, name, std::move(payload));
@@ -93,6 +100,115 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
     EXPECT_GT(expect_true_labels(told, truth), 0U);
     EXPECT_EQ(told.back().stamp, 1000 * seconds + (frames - 1) * 33 * milliseconds);
   }
+}
+
+TEST_F(LiveRunnerTest, ARobotWhoseMeshesComeLaterHealsByItself) {
+  std::atomic<int> tries = 0;
+  const auto maker = [&](const io::RobotOrder& order) {
+    if (++tries < 3) return io::MadeRobot{order.number, nullptr, "its meshes are not there"};
+    return io::make_robot(order);
+  };
+  io::LiveRunner runner(options_, {}, {&left_, &right_}, maker, std::chrono::milliseconds(10));
+  const auto topics = topics_of(runner);
+  runner.start();
+  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
+  const auto is_there = [&] {
+    return runner.with_inbox(
+        [](const io::LiveInbox& inbox) { return bool(inbox.robot().posed()); });
+  };
+  for (int i = 0; i < 1000 && !is_there(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(is_there());
+  EXPECT_EQ(tries, 3);
+}
+
+TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
+  std::promise<void> begun, may_go_on;
+  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotOrder& order) {
+    begun.set_value();
+    may_go_on.get_future().wait();
+    return io::make_robot(order);
+  });
+  const auto topics = topics_of(runner);
+  runner.start();
+  const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
+    tell(runner, topics, name, std::move(payload));
+  };
+  say("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
+  say("/left/camera_info", encoded(live_info(0)));
+  say("/robot_description", encoded(io::StringMessage{live_urdf}));
+  begun.get_future().wait();
+  const std::int64_t start = 1000 * seconds;
+  for (int i = 0; i < 10; ++i) {
+    say("/joint_states", live_joints(start + i * 10 * milliseconds));
+    say("/left/depth", live_depth(start + i * 10 * milliseconds));
+  }
+  const std::vector<io::LiveLink> links(topics.size());
+  runner.with_inbox([&](const io::LiveInbox& inbox) {
+    EXPECT_TRUE(inbox.robot().is_being_made());
+    EXPECT_EQ(inbox.camera(0).counts().of(io::LiveDrop::not_ready), 10U);
+    const auto trouble = io::trouble_of_robot(inbox, links, io::LiveRunner::steady_now());
+    EXPECT_NE(trouble.why.find("is being made"), std::string::npos) << trouble.why;
+    return true;
+  });
+  may_go_on.set_value();
+  LiveTruth truth;
+  for (int i = 0; i < 1000 && left_.told().empty(); ++i) {
+    const std::int64_t stamp = start + seconds + i * 10 * milliseconds;
+    say("/joint_states", live_joints(stamp));
+    say("/left/depth", live_depth(stamp));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  runner.stop();
+  EXPECT_FALSE(runner.fault());
+  EXPECT_GT(expect_true_labels(left_.told(), truth), 0U);
+}
+
+TEST_F(LiveRunnerTest, TheRobotThatWasToldLastIsTaken) {
+  std::promise<void> begun, may_go_on;
+  std::atomic<int> made = 0;
+  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotOrder& order) {
+    if (made++ == 0) {
+      begun.set_value();
+      may_go_on.get_future().wait();
+    }
+    return io::make_robot(order);
+  });
+  const auto topics = topics_of(runner);
+  runner.start();
+  const auto say_robot = [&](const std::string& name) {
+    std::string urdf = live_urdf;
+    urdf.replace(urdf.find("tiny"), 4, name);
+    tell(runner, topics, "/robot_description", encoded(io::StringMessage{urdf}));
+  };
+  say_robot("first");
+  begun.get_future().wait();
+  say_robot("second");
+  say_robot("third");
+  may_go_on.set_value();
+  std::string taken;
+  for (int i = 0; i < 1000 && taken.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    taken = runner.with_inbox([](const io::LiveInbox& inbox) {
+      const auto& posed = inbox.robot().posed();
+      return posed ? posed->robot.name() : std::string();
+    });
+  }
+  runner.stop();
+  EXPECT_EQ(taken, "third");
+  EXPECT_EQ(made, 2) << "what was told in between is nobody's robot";
+}
+
+TEST_F(LiveRunnerTest, AFaultOfTheMakerIsTheRunners) {
+  io::LiveRunner runner(options_, {}, {&left_, &right_},
+                        [](const io::RobotOrder&) -> io::MadeRobot { throw std::bad_alloc(); });
+  const auto topics = topics_of(runner);
+  runner.start();
+  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
+  for (int i = 0; i < 1000 && !runner.has_failed(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(runner.has_failed());
+  EXPECT_THROW(std::rethrow_exception(runner.fault()), std::bad_alloc);
 }
 
 TEST_F(LiveRunnerTest, EndsAtOnce) {

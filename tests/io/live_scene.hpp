@@ -26,7 +26,24 @@ namespace penumbra::test {
 
 inline constexpr std::int64_t milliseconds = 1'000'000;
 inline constexpr std::int64_t seconds = 1000 * milliseconds;
-inline constexpr int live_width = 64, live_height = 48;
+
+/// A camera of the scene.
+struct LiveLens {
+  double focal = 60.0;
+  int width = 64, height = 48;
+  double cx = 31.3, cy = 23.7;
+
+  [[nodiscard]] Camera camera() const {
+    return {.intrinsics = Intrinsics(width, height, focal, focal, cx, cy),
+            .distortion = {},
+            .range = {},
+            .frame_id = "optical"};
+  }
+};
+
+/// Of the size of real ones, in which the board is as large as in the small one.
+inline constexpr LiveLens large_lens{
+    .focal = 900.0, .width = 1280, .height = 720, .cx = 640.3, .cy = 359.7};
 
 /// A board of 0.4 m x 0.2 m that turns before the camera.
 inline constexpr const char* live_urdf = R"(<robot name="tiny">
@@ -50,15 +67,16 @@ inline double spin_at(std::int64_t stamp) {
   return std::remainder(2 * std::numbers::pi * part, 2 * std::numbers::pi);
 }
 
-inline io::CameraInfoMessage live_info(std::int64_t stamp, double focal = 60.0) {
+inline io::CameraInfoMessage live_info(std::int64_t stamp, const LiveLens& lens = {}) {
   io::CameraInfoMessage info{.header = {stamp, "optical"},
-                             .height = live_height,
-                             .width = live_width,
+                             .height = static_cast<std::uint32_t>(lens.height),
+                             .width = static_cast<std::uint32_t>(lens.width),
                              .distortion_model = "plumb_bob",
                              .d = {0, 0, 0, 0, 0}};
-  info.k = {focal, 0, 31.3, 0, focal, 23.7, 0, 0, 1};
+  const double f = lens.focal, cx = lens.cx, cy = lens.cy;
+  info.k = {f, 0, cx, 0, f, cy, 0, 0, 1};
   info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.p = {focal, 0, 31.3, 0, 0, focal, 23.7, 0, 0, 0, 1, 0};
+  info.p = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
   return info;
 }
 
@@ -75,16 +93,18 @@ inline std::vector<std::byte> live_joints(std::int64_t stamp) {
 }
 
 /// A wall at 3 m: every pixel of the board is then beyond, so that labels say where it was drawn.
-inline std::vector<std::byte> live_depth(std::int64_t stamp, const std::string& frame = "optical") {
-  static const Image<std::uint16_t> wall(live_width, live_height, 3000);
+inline std::vector<std::byte> live_depth(std::int64_t stamp, const std::string& frame = "optical",
+                                         const LiveLens& lens = {}) {
+  const Image<std::uint16_t> wall(lens.width, lens.height, 3000);
   return encoded(io::image_message(io::MessageHeader{stamp, frame}, "16UC1", wall.view()));
 }
 
 /// Labels of the wall with the board where it is at a stamp.
 class LiveTruth {
  public:
-  explicit LiveTruth(double focal = 60.0)
-      : pipeline_(Robot::parse(live_urdf, "/"), camera(focal)) {}
+  explicit LiveTruth(const LiveLens& lens = {})
+      : wall_(lens.width, lens.height, 3000),
+        pipeline_(Robot::parse(live_urdf, "/"), lens.camera()) {}
 
   const FrameReport& judge(std::int64_t stamp) {
     positions_ = {spin_at(stamp)};
@@ -96,13 +116,7 @@ class LiveTruth {
   }
 
  private:
-  static Camera camera(double focal) {
-    return {.intrinsics = Intrinsics(live_width, live_height, focal, focal, 31.3, 23.7),
-            .distortion = {},
-            .range = {},
-            .frame_id = "optical"};
-  }
-  const Image<std::uint16_t> wall_{live_width, live_height, 3000};
+  const Image<std::uint16_t> wall_;
   std::vector<double> positions_;
   Pipeline pipeline_;
 };
@@ -160,18 +174,23 @@ class LiveBench {
     return options;
   }
 
-  void tell(const std::string& topic, std::span<const std::byte> payload) {
+  void tell(const std::string& topic, std::span<const std::byte> payload,
+            std::uint64_t publisher = 0) {
     for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-      if (inbox.topics()[i].name == topic) return inbox.receive(i, {payload, nullptr}, now);
+      if (inbox.topics()[i].name == topic)
+        return inbox.receive(i, {payload, nullptr, publisher}, now);
     FAIL() << topic;
   }
   void tell_robot(const std::string& urdf = live_urdf) {
     tell("/robot_description", encoded(io::StringMessage{urdf}));
+    if (const auto order = inbox.take_order()) inbox.place(io::make_robot(*order));
   }
   void tell_mount() { tell("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}})); }
-  void tell_joints(std::int64_t stamp) { tell("/joint_states", live_joints(stamp)); }
+  void tell_joints(std::int64_t stamp, std::uint64_t publisher = 0) {
+    tell("/joint_states", live_joints(stamp), publisher);
+  }
   void tell_info(std::int64_t stamp, double focal = 60.0) {
-    tell("/camera/depth/camera_info", encoded(live_info(stamp, focal)));
+    tell("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})));
   }
   void tell_depth(std::int64_t stamp) { tell("/camera/depth/image_rect_raw", live_depth(stamp)); }
 

@@ -2,8 +2,11 @@
 // Which targets messages become, and under which names.
 #include "robots.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +31,16 @@ class TargetInboxTest : public testing::Test {
     return one;
   }
 
+  /// Key points that are each seen once.
+  KeypointsMessage tracked(std::int64_t stamp, int first, int count) {
+    KeypointsMessage message{{stamp, "optical"}, {}};
+    names_.clear();
+    for (int i = 0; i < count; ++i) names_.push_back(std::to_string(first + i));
+    for (const std::string& name : names_) message.keypoints.push_back({.name = name});
+    return message;
+  }
+
+  std::vector<std::string> names_;  // of the last of these
   const Robot robot_ = test::arm();
   TargetInbox inbox_{robot_, "optical"};
   const MessageHeader header_{7, "optical"};
@@ -59,6 +72,44 @@ TEST_F(TargetInboxTest, KeypointsHaveTheirNames) {
   EXPECT_EQ(taken(), (Names{{"/k/left", true}, {"/k/", false}, {"/k/right", true}}));
   inbox_.add("/goal", PoseStampedMessage{.header = header_});
   EXPECT_EQ(taken(), (Names{{"/goal", true}}));
+}
+
+/// Tracking ids that are always new, and no image that they could be judged on.
+TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
+  constexpr std::int64_t frame = 33'000'000, start = 1'000'000'000'000;
+  constexpr int each = 5, messages = 20'000;
+  std::size_t most = 0;
+  for (int m = 0; m < messages; ++m) {
+    inbox_.add("/k", tracked(start + m * frame, m * each, each));
+    most = std::max(most, inbox_.waiting());
+  }
+  EXPECT_LE(most, each * (TargetInbox::longest_lag / frame + 2));
+  EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), std::size_t{each * messages});
+  EXPECT_EQ(inbox_.replaced(), 0U);
+  const std::size_t waiting = inbox_.waiting();
+  const std::span<const Target> all = inbox_.take();
+  ASSERT_EQ(all.size(), waiting);
+  EXPECT_EQ(all.back().name, "/k/" + names_.back());
+  for (const Target& one : all)
+    EXPECT_GE(*one.stamp, start + (messages - 1) * frame - TargetInbox::longest_lag);
+}
+
+TEST_F(TargetInboxTest, ThoseOfOneStampAreSoManyAtMost) {
+  for (int m = 0; m < 1000; ++m) {
+    inbox_.add("/k", tracked(7, m * 5, 5));
+    ASSERT_LE(inbox_.waiting(), TargetInbox::most_waiting + 5);
+  }
+  EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), 5000U);
+}
+
+TEST_F(TargetInboxTest, AnotherTopicsStampsAndAnotherClocksDiscardNone) {
+  inbox_.add("/a", tracked(5'000'000'000, 0, 1));
+  inbox_.add("/b", tracked(90'000'000'000, 1, 1));  // a clock that runs ahead
+  inbox_.add("/a", tracked(5'100'000'000, 2, 1));
+  EXPECT_EQ(inbox_.waiting(), 3U);
+  inbox_.add("/b", tracked(2'000'000'000, 3, 1));  // and begins anew
+  inbox_.add("/b", tracked(2'100'000'000, 4, 1));
+  EXPECT_EQ(inbox_.discarded(), 0U);
 }
 
 }  // namespace

@@ -81,7 +81,9 @@ TEST(QueueAllocations, NothingIsAllocatedForAFrame) {
     const Eigen::Isometry3d T(Eigen::Translation3d(0, 0, 1 + positions[0]));
     const std::size_t before = allocations();
     history.add_joints(stamp, names, positions);
+    history.add_joints(stamp, names, positions, "another publisher of the joint states");
     history.add_transform(stamp, "base", "slab", T);
+    history.add_transform(stamp, "base", "slab", T, "another publisher of the transforms");
     queue.push(1, stamp - 5'000'000, stamp);
     queue.push(2, stamp - 3'000'000, stamp);
     const bool given = queue.next(stamp, queued);

@@ -84,7 +84,8 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}}};
   expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
 
-  answer = {.status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}};
+  answer = {
+      .status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}, .disputes = {}};
   EXPECT_EQ(process(with_joints(answer)).status, FrameStatus::ok);
   EXPECT_EQ(process(with_joints(answer)).joint_age, 1500);
 }

@@ -106,6 +106,42 @@ TEST_F(PoseLookupTest, ByBothWhereTheyAgree) {
   expect(FrameStatus::poses_disagree, "'slab' 6.2 mm apart, more than 5 mm");
 }
 
+TEST_F(PoseLookupTest, ByJointsThatTwoProgramsTellDifferently) {
+  const std::string names[] = {"slide"};
+  for (std::int64_t t = 10; t <= 300; t += 10) {
+    const double driven[] = {0.1}, dragged[] = {0.0};
+    history_.add_joints(t * ms, names, driven, "publisher 1 of /joint_states");
+    history_.add_joints((t + 2) * ms, names, dragged, "publisher 2 of /joint_states");
+  }
+  at(205 * ms, {});
+  expect(FrameStatus::poses_disagree, "joint 'slide' is at 0.1 by publisher 1 of /joint_states");
+  expect(FrameStatus::poses_disagree, "at 0 by publisher 2 of /joint_states");
+}
+
+TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
+  const Robot robot = Robot::parse(
+      "<robot name=\"r\"><link name=\"base\"/><link name=\"box\"><collision><geometry>"
+      "<box size=\"1 1 1\"/></geometry></collision></link><link name=\"frame\"/>"
+      "<joint name=\"a\" type=\"prismatic\"><parent link=\"base\"/><child link=\"box\"/></joint>"
+      "<joint name=\"b\" type=\"prismatic\"><parent link=\"box\"/><child link=\"frame\"/></joint>"
+      "</robot>",
+      ".");
+  PoseHistory history(robot);
+  const std::string names[] = {"a", "b"};
+  for (std::int64_t t = 10; t <= 300; t += 10) {
+    const double driven[] = {0.1, 0.7}, dragged[] = {0.1, 0.0};
+    history.add_joints(t * ms, names, driven, "driver");
+    history.add_joints((t + 2) * ms, names, dragged, "sliders");
+  }
+  PoseLookup lookup(robot, {});
+  lookup.at(history, 205 * ms, answer_);
+  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+  EXPECT_EQ(answer_.joints.status, JointStatus::ok);
+  PoseLookup by_camera(robot, {.camera_parent = "frame"});
+  by_camera.at(history, 205 * ms, answer_);
+  EXPECT_EQ(answer_.status, FrameStatus::poses_disagree);
+}
+
 TEST_F(PoseLookupTest, ATurnDisagreesByItsArc) {
   add_joint(10 * ms, 0.0);
   Eigen::Isometry3d turned = shift(0, 0, 1);

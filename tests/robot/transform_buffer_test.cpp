@@ -223,5 +223,47 @@ TEST(TransformOptions, AreChecked) {
     EXPECT_TRUE(holds(message_of([&] { TransformBuffer buffer(options); }), "transform buffer"));
 }
 
+TEST_F(Transforms, TwoThatTellOneFrameDifferentlyAreDisputed) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    buffer_.insert(t * kMs, "base", "arm", shift(0.5), "publisher 1 of /tf");
+    buffer_.insert((t + 3) * kMs, "base", "arm", turn_z(0.03), "publisher 2 of /tf");
+    buffer_.insert(t * kMs, "arm", "tool", shift(0.1), "publisher 1 of /tf");
+  }
+  EXPECT_EQ(at(305 * kMs, "base", "tool").status, TransformStatus::disputed);
+  for (const char* const part :
+       {"'arm' in 'base'", "500 mm apart", "publisher 1 of /tf and by", "publisher 2 of /tf"})
+    EXPECT_TRUE(holds(answer_.message, part));
+  EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not on this way";
+}
+
+TEST_F(Transforms, TwoThatAgreeAreTakenFromOne) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    const double x = 1e-3 * static_cast<double>(t);
+    buffer_.insert(t * kMs, "base", "arm", shift(x), "a");
+    buffer_.insert((t + 4) * kMs, "base", "arm", shift(x + 0.002), "b");  // 1 m/s, 2 ms behind
+  }
+  ASSERT_EQ(at(305 * kMs, "base", "arm").status, TransformStatus::ok);
+  EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.305), kTolerance));
+}
+
+TEST_F(Transforms, TwoPosesOfOneStampAreDisputedAsABagDoesNotTellWhose) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
+    if (t < 250 || t > 350) buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
+    if (t >= 250 && t <= 350) buffer_.insert(t * kMs, "base", "arm", shift(0.6), "/tf");
+  }
+  EXPECT_EQ(at(145 * kMs, "base", "arm").status, TransformStatus::ok) << "a frame told twice";
+  EXPECT_EQ(at(303 * kMs, "base", "arm").status, TransformStatus::disputed);
+  EXPECT_TRUE(holds(answer_.message, "100 mm apart, at 300000000 ns by /tf"));
+}
+
+TEST_F(Transforms, StampsMayBeCoarse) {
+  // 2 m/s, five poses of each stamp: the last one counts.
+  for (std::int64_t t = 100; t < 500; t += 2)
+    buffer_.insert(t / 10 * 10 * kMs, "base", "arm", shift(2e-3 * static_cast<double>(t)), "/tf");
+  EXPECT_EQ(at(300 * kMs, "base", "arm").status, TransformStatus::ok);
+  EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.616), kTolerance));
+}
+
 }  // namespace
 }  // namespace penumbra::test

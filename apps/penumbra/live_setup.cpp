@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+
+#include <unistd.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/live_setup.hpp>
+#include <apps/penumbra/run_input.hpp>
+#include <io/printable.hpp>
+
+namespace penumbra::app {
+
+io::NameResolver live_names(const LiveArguments& arguments) {
+  io::NameResolver names(arguments.name_space);
+  for (const std::string& rule : arguments.remaps) names.remap(rule);
+  return names;
+}
+
+io::LiveSpeaker live_speaker(const io::NameResolver& names) {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string& space = names.name_space();
+  return {.name = "penumbra" + (space.empty() ? "" : " " + space), .hardware_id = host.data()};
+}
+
+std::string result_name(const std::string& camera, const io::ResultTopic& topic) {
+  return "penumbra/" + (camera.empty() ? "" : camera + "/") + std::string(topic.name);
+}
+
+void check_remaps(const io::NameResolver& names,
+                  const std::vector<io::LiveCameraOptions>& cameras) {
+  static_cast<void>(names.resolve(diagnostics_topic));
+  std::vector<std::string> of_cameras;
+  of_cameras.reserve(cameras.size() + 1);
+  for (const io::LiveCameraOptions& camera : cameras) of_cameras.push_back(camera.name);
+  if (of_cameras.empty()) of_cameras.emplace_back();
+  for (const std::string& camera : of_cameras)
+    for (const io::ResultTopic& topic : io::result_topics)
+      static_cast<void>(names.resolve(result_name(camera, topic)));
+  if (const auto unused = names.unused(); !unused.empty())
+    throw InputError("--remap '" + io::printable(unused.front()) +
+                     "': nothing here is called so; of what is found by its type name the topic "
+                     "itself, as by --depth-topic");
+}
+
+io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResolver& names) {
+  const BagArguments& topics = arguments.judging.bag;
+  io::LiveOptions options;
+  options.robot.robot.packages = topics.packages;
+  add_robot_choices(arguments.judging, options.robot.robot);
+  options.robot.compare_sources = !topics.first_publisher;
+  if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
+  options.poses = topics.poses.value_or(PoseSource::joints);
+  options.description_topic = names.resolve("robot_description");
+  options.transform_topic = names.resolve("/tf");
+  options.static_transform_topic = names.resolve("/tf_static");
+  options.joint_topics = {names.resolve("joint_states")};
+  if (!topics.joint_topics.empty()) options.joint_topics.clear();
+  for (const std::string& name : topics.joint_topics)
+    options.joint_topics.push_back(names.resolve(name));
+  for (const std::string& name : topics.target_topics)
+    options.target_topics.push_back(names.resolve(name));
+  return options;
+}
+
+}  // namespace penumbra::app

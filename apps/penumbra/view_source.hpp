@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/judging.hpp>
+#include <io/web/frame_store.hpp>
+#include <io/web/run_folder.hpp>
+#include <io/web/stored_view.hpp>
+
+namespace penumbra::app {
+
+/// Whether a run wrote this folder, or it is its report.json.
+[[nodiscard]] bool is_run_folder(const std::filesystem::path& input);
+
+/// What the viewer shows of files: an input, which is judged meanwhile, or the results of a run.
+class ViewSource {
+ public:
+  /// Throws InputError where there is nothing to show.
+  explicit ViewSource(const ViewArguments& arguments);
+  ~ViewSource();
+  ViewSource(const ViewSource&) = delete;
+  ViewSource& operator=(const ViewSource&) = delete;
+
+  [[nodiscard]] io::StoredView& view() { return *view_; }
+
+  /// Begins to judge, in a thread of its own.
+  void start();
+  [[nodiscard]] bool is_over() const { return over_; }
+  /// Prints what came of it, to be called when it is over. Throws what judging threw; of a run's
+  /// results, which are shown all the same, nothing.
+  void tell();
+
+ private:
+  void open_input(const RunArguments& arguments);
+  void open_run(const ViewArguments& arguments);
+  void judge();
+  [[nodiscard]] std::string what_went_wrong() const;
+
+  RunArguments judged_;  // the judging refers to it
+  std::optional<Judging> judging_;
+  std::optional<io::FrameStore> store_;
+  std::optional<io::RunFolder> folder_;
+  std::optional<io::StoredView> view_;
+  std::atomic<bool> stop_ = false, over_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;
+};
+
+}  // namespace penumbra::app

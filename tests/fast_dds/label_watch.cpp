@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "label_watch.hpp"
+
+#include "soak_publishers.hpp"
+#include "stamped_message.hpp"
+
+#include <algorithm>
+#include <future>
+#include <sstream>
+
+namespace penumbra::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<std::byte> labels_message(std::int64_t stamp, ImageView<const std::uint8_t> labels) {
+  return encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "8UC1", labels));
+}
+
+}  // namespace
+
+LabelWatch::LabelWatch(int domain, const LiveLens& lens)
+    : lens_(lens),
+      process_(make_peer(domain, {"watch", "rt/penumbra/labels", "sensor_msgs::msg::dds_::Image_",
+                                  "reliable,depth=50"})),
+      thread_([this] { read(); }) {}
+
+void LabelWatch::read() {
+  const Image<std::uint8_t> nothing(lens_.width, lens_.height,
+                                    static_cast<std::uint8_t>(Label::unknown));
+  std::vector<std::byte> unknown = labels_message(1, nothing.view());
+  while (!ends_) {
+    const auto line = process_->line();
+    if (!line) {
+      std::this_thread::sleep_for(20ms);  // it ended, or is silent
+      continue;
+    }
+    HeardLabels heard;
+    std::istringstream(*line) >> heard.stamp >> heard.arrival >> heard.digest;
+    set_stamp(unknown, heard.stamp);
+    heard.is_known = heard.digest != digest_of(unknown);
+    const std::lock_guard lock(mutex_);
+    heard_.push_back(heard);
+  }
+}
+
+std::optional<std::int64_t> LabelWatch::known_after(std::int64_t arrival, std::int64_t stamp,
+                                                    std::chrono::seconds at_most) {
+  const auto end = std::chrono::steady_clock::now() + at_most;
+  do {
+    {
+      const std::lock_guard lock(mutex_);
+      auto first = heard_.end();
+      while (first != heard_.begin() && (first - 1)->arrival > arrival) --first;
+      const auto found = std::find_if(first, heard_.end(), [&](const HeardLabels& one) {
+        return one.is_known && one.stamp > stamp;
+      });
+      if (found != heard_.end()) return found->arrival;
+    }
+    std::this_thread::sleep_for(5ms);
+  } while (std::chrono::steady_clock::now() < end);
+  return std::nullopt;
+}
+
+std::size_t LabelWatch::count() {
+  const std::lock_guard lock(mutex_);
+  return heard_.size();
+}
+
+void LabelWatch::end() {
+  if (!thread_.joinable()) return;
+  ends_ = true;
+  process_->end();
+  thread_.join();
+}
+
+io::LatencyHistogram LabelWatch::latency() const {
+  io::LatencyHistogram all;
+  for (const HeardLabels& one : heard_)
+    all.add(1e-6 * static_cast<double>(one.arrival - one.stamp));
+  return all;
+}
+
+LabelVerdict LabelWatch::judge(std::size_t from, std::size_t step) const {
+  LabelVerdict verdict;
+  LiveTruth truth(lens_);
+  for (std::size_t i = from; i < heard_.size(); i += step) {
+    const HeardLabels& one = heard_[i];
+    if (!one.is_known) {
+      ++verdict.unknown;
+      continue;
+    }
+    ++verdict.known;
+    if (digest_of(labels_message(one.stamp, truth.judge(one.stamp).labels)) == one.digest) continue;
+    ++verdict.wrong;
+    verdict.first_wrong = one.stamp;
+  }
+  return verdict;
+}
+
+LabelVerdict LabelWatch::judge() const {
+  auto other = std::async(std::launch::async, [this] { return judge(1, 2); });
+  LabelVerdict all = judge(0, 2);
+  const LabelVerdict half = other.get();
+  all.known += half.known;
+  all.unknown += half.unknown;
+  all.wrong += half.wrong;
+  if (half.wrong > 0) all.first_wrong = half.first_wrong;
+  return all;
+}
+
+}  // namespace penumbra::test

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soak_publishers.hpp"
+
+#include "stamped_message.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+namespace penumbra::test {
+namespace {
+
+constexpr const char* image_type = "sensor_msgs::msg::dds_::Image_";
+constexpr const char* info_type = "sensor_msgs::msg::dds_::CameraInfo_";
+constexpr const char* latched = "reliable,latched,depth=1";
+
+bool is_of_color(Part part) { return part == Part::color || part == Part::color_info; }
+
+/// Shades with a sensor's noise: an even image would be compressed in no time.
+std::vector<std::byte> color_image(const LiveLens& lens) {
+  Image<io::Rgb8> picture(lens.width, lens.height);
+  std::minstd_rand noise(1);
+  const auto shade = [&](int at, int end) {
+    return static_cast<std::uint8_t>(200 * at / end + static_cast<int>(noise() % 8));
+  };
+  for (int v = 0; v < lens.height; ++v)
+    for (int u = 0; u < lens.width; ++u)
+      picture(u, v) = {shade(u, lens.width), shade(v, lens.height), shade(u + v, 4 * lens.width)};
+  return encoded(
+      io::image_message(io::MessageHeader{1, "optical"}, "rgb8", std::as_const(picture).view()));
+}
+
+/// The number behind a word of a line.
+template <typename T>
+std::optional<T> number_behind(const std::optional<std::string>& line, const std::string& word) {
+  if (!line || !line->starts_with(word)) return std::nullopt;
+  T number = 0;
+  const char* const end = line->data() + line->size();
+  if (std::from_chars(line->data() + word.size(), end, number).ptr != end) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::unique_ptr<PeerProcess> make_peer(int domain, const std::vector<std::string>& words) {
+  std::vector<std::string> all = {std::to_string(domain)};
+  all.insert(all.end(), words.begin(), words.end());
+  auto process = std::make_unique<PeerProcess>(all);
+  const bool publishes = words[0] == "publish" || words[0] == "repeat";
+  if (publishes && !process->says("ready")) throw std::runtime_error("a peer is not ready");
+  return process;
+}
+
+std::int64_t system_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+JointFeed::JointFeed(int hertz, const JointTroubles& troubles, std::uint64_t seed)
+    : hertz_(hertz), troubles_(troubles), random_(seed), thread_([this] { feed(); }) {}
+
+JointFeed::~JointFeed() {
+  ends_ = true;
+  thread_.join();
+}
+
+void JointFeed::begin(std::unique_ptr<PeerProcess> process) {
+  const std::lock_guard lock(mutex_);
+  process_ = std::move(process);
+}
+
+void JointFeed::kill() {
+  const std::lock_guard lock(mutex_);
+  process_.reset();
+}
+
+void JointFeed::feed() {
+  std::uniform_int_distribution<std::int64_t> delay(0, troubles_.longest_delay);
+  std::bernoulli_distribution is_lost(troubles_.lost);
+  for (std::int64_t tick = system_now(); !ends_;) {
+    tick = next_tick(std::max(tick, system_now()), hertz_);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
+    if (!is_lost(random_)) waiting_.push_back({tick + delay(random_) * milliseconds, tick});
+    tell_until(tick);
+  }
+}
+
+void JointFeed::tell_until(std::int64_t time) {
+  std::stable_sort(waiting_.begin(), waiting_.end());
+  const auto end = std::find_if(waiting_.begin(), waiting_.end(),
+                                [&](const Due& due) { return due.time > time; });
+  const std::lock_guard lock(mutex_);
+  for (auto due = waiting_.begin(); process_ && due != end; ++due)
+    process_->give(live_joints(due->stamp));
+  waiting_.erase(waiting_.begin(), end);
+}
+
+std::string topic_of(Part part) {
+  switch (part) {
+    case Part::depth:
+      return "/camera/depth/image_rect_raw";
+    case Part::depth_info:
+      return "/camera/depth/camera_info";
+    case Part::color:
+      return "/camera/color/image_raw";
+    case Part::color_info:
+      return "/camera/color/camera_info";
+    default:
+      return "/joint_states";
+  }
+}
+
+SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
+    : domain_(domain), scene_(scene), joints_(scene.joint_hertz, scene.troubles, scene.seed) {
+  description_ = make_peer(
+      domain, {"publish", "rt/robot_description", "std_msgs::msg::dds_::String_", latched});
+  tell_robot(live_urdf);
+  mount_ =
+      make_peer(domain, {"publish", "rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", latched});
+  mount_->give(encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
+}
+
+void SoakPublishers::tell_robot(const std::string& urdf) {
+  description_->give(encoded(io::StringMessage{urdf}));
+}
+
+std::vector<std::byte> SoakPublishers::message_of(Part part) const {
+  if (part == Part::depth) return live_depth(1, "optical", scene_.lens);
+  if (part == Part::color) return color_image(scene_.lens);
+  return encoded(live_info(1, scene_.lens));
+}
+
+void SoakPublishers::start(Part part) {
+  if (part == Part::joints)
+    return joints_.begin(
+        make_peer(domain_, {"publish", "rt" + topic_of(part), "sensor_msgs::msg::dds_::JointState_",
+                            "reliable,depth=10"}));
+  const bool is_image = part == Part::depth || part == Part::color;
+  auto made =
+      make_peer(domain_, {"repeat", "rt" + topic_of(part), is_image ? image_type : info_type,
+                          "reliable,depth=5", std::to_string(scene_.hertz)});
+  made->give(message_of(part));
+  camera_[static_cast<std::size_t>(part)] = std::move(made);
+}
+
+void SoakPublishers::start_all() {
+  for (const Part part : all_parts)
+    if (scene_.with_color || !is_of_color(part)) start(part);
+}
+
+void SoakPublishers::kill(Part part) {
+  if (part == Part::joints) return joints_.kill();
+  camera_[static_cast<std::size_t>(part)].reset();
+}
+
+PeerProcess* SoakPublishers::process(Part part) {
+  return part == Part::joints ? joints_.process() : camera_[static_cast<std::size_t>(part)].get();
+}
+
+std::optional<std::int64_t> SoakPublishers::heard(Part part) {
+  return number_behind<std::int64_t>(process(part)->line(), "heard ");
+}
+
+std::size_t SoakPublishers::end(Part part) {
+  PeerProcess& peer = *process(part);
+  peer.end();
+  for (auto line = peer.line(); line; line = peer.line())
+    if (const auto written = number_behind<std::size_t>(line, "written ")) return *written;
+  return 0;
+}
+
+}  // namespace penumbra::test

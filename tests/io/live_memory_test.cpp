@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What live takes does not grow with what it was told: robots and cameras that change, targets
+// whose ids are new each time, frames of TF that nobody knew, messages that cannot be read.
+#include "../support/process_memory.hpp"
+#include "../support/run_length.hpp"
+#include "live_scene.hpp"
+
+#include <iostream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t start = 1000 * seconds;
+constexpr std::int64_t period = 33 * milliseconds;
+/// Of the allocator's caches, which a larger robot's or image's buffers leave behind, MiB. A leak
+/// of 100 bytes for each image would be 9 MiB in the long run.
+constexpr double memory_slack = 4.0;
+
+class LiveMemory : public testing::Test {
+ protected:
+  static io::LiveOptions options() {
+    io::LiveOptions options = LiveBench::one_camera();
+    options.target_topics = {"/wrist", "/objects"};
+    return options;
+  }
+  LiveMemory() {
+    for (std::size_t i = 0; i < bench_.inbox.topics().size(); ++i) {
+      const io::LiveTopic& topic = bench_.inbox.topics()[i];
+      if (topic.name == "/wrist") bench_.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+      if (topic.name == "/objects") bench_.inbox.set_type(i, "penumbra_msgs/msg/Keypoints");
+    }
+    bench_.tell_all();
+  }
+
+  void tell_changes(std::size_t i) {
+    if (i % 200 == 0) bench_.tell_robot(robot_);
+    if (i % 500 == 499) {
+      robot_ = live_urdf;
+      robot_.insert(robot_.find("</robot>"), "<!-- " + std::to_string(i) + " -->");
+      bench_.tell_robot(robot_);
+    }
+    if (i % 300 == 299) bench_.tell_info(stamp_of(i), i % 600 == 299 ? 61.0 : 60.0);
+    if (i % 50 == 0) bench_.tell("/joint_states", std::vector<std::byte>(7));
+    const std::string frame = "frame_" + std::to_string(i % names_);
+    bench_.tell("/tf", encoded(io::TfMessage{{{{stamp_of(i), "base"}, frame}}}));
+  }
+
+  void tell_targets(std::size_t i) {
+    io::PoseStampedMessage pose{.header = {stamp_of(i), "optical"}};
+    pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
+    bench_.tell("/wrist", encoded(pose));
+    io::KeypointsMessage points{.header = {stamp_of(i), "optical"}};
+    points.keypoints.push_back({.name = std::to_string(i), .u = 10, .v = 10, .score = 1});
+    bench_.tell("/objects", encoded(points));
+  }
+
+  void judge(std::size_t i) {
+    tell_changes(i);
+    bench_.tell_joints(stamp_of(i) - 10 * milliseconds);
+    bench_.tell_joints(stamp_of(i) + 10 * milliseconds);
+    tell_targets(i);
+    bench_.tell_depth(stamp_of(i));
+    bench_.work();
+    bench_.now += period;
+    bench_.results.told.clear();
+  }
+  static std::int64_t stamp_of(std::size_t i) {
+    return start + static_cast<std::int64_t>(i) * period;
+  }
+
+  void expect_flat(std::size_t frames) {
+    for (std::size_t i = 0; i < frames / 10; ++i) judge(i);
+    const ProcessMemory before = memory_of();
+    for (std::size_t i = frames / 10; i < frames; ++i) judge(i);
+    const ProcessMemory after = memory_of();
+    std::cout << frames << " images, " << bench_.counts().judged << " judged, "
+              << bench_.inbox.robot().robots() << " robots, "
+              << bench_.inbox.camera(0).camera_changes()
+              << " changes of camera_info: " << before.resident << " MiB after a tenth, "
+              << after.resident << " MiB at the end\n";
+    EXPECT_LT(after.resident - before.resident, memory_slack);
+    EXPECT_EQ(after.open_files, before.open_files);
+    EXPECT_GT(bench_.counts().judged, frames * 9 / 10);
+    EXPECT_EQ(bench_.results.count(io::Result::labels), 0U);
+  }
+
+  LiveBench bench_{options()};
+  std::string robot_ = live_urdf;
+  /// Of frames that TF tells: in the long run more than are kept, which are there after a tenth.
+  std::size_t names_ = 400;
+};
+
+TEST_F(LiveMemory, IsFlat) {
+  if (sanitized) GTEST_SKIP() << "sanitizers keep what was freed";
+  expect_flat(5000);
+}
+
+class LiveMemoryFull : public LiveMemory {};
+
+TEST_F(LiveMemoryFull, IsFlat) {
+  if (!measures_in_full()) GTEST_SKIP() << "set PENUMBRA_FULL";
+  names_ = 2 * io::FrameTree::max_frames;
+  expect_flat(100'000);
+}
+
+}  // namespace
+}  // namespace penumbra::test
