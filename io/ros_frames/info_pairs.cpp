@@ -8,7 +8,7 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::size_t most_images = 8;
+constexpr std::size_t most_waiting_images = 8;
 /// Images may come late: 2 s and more at 90 Hz.
 constexpr std::size_t most_infos = 256;
 /// Stamps of an image and its camera_info: drivers make them equal.
@@ -34,7 +34,7 @@ void InfoPairs::look_for_two() {
 
 void InfoPairs::add_image(std::int64_t stamp) {
   images_.push_back({stamp});
-  if (images_.size() > most_images) images_.pop_front();
+  if (images_.size() > most_waiting_images) images_.pop_front();
   for (const std::int64_t info : infos_) match(images_.back(), info);
   look_for_two();
 }

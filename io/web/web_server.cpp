@@ -38,7 +38,7 @@ constexpr auto accept_pause = std::chrono::milliseconds(100);
 
 // Scripts, styles and images come from here alone; nothing frames the page or is sent elsewhere.
 constexpr const char* content_policy =
-    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; img-src 'self' blob: data:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 using Request = http::request<http::empty_body>;
