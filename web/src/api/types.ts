@@ -50,13 +50,19 @@ export interface FrameReport {
   readonly targets: readonly TargetReport[];
 }
 
+export interface StageTime {
+  readonly median: number;
+  readonly p99: number;
+  readonly max: number;
+}
+
 export interface Summary {
   readonly frames: number;
   readonly bad_frames: number;
-  readonly timing_ms: Readonly<
-    Record<string, { readonly median: number; readonly p99: number; readonly max: number }>
-  >;
-  readonly pixels?: Readonly<Record<string, number>>;
+  /** null: the stage took place in no frame. */
+  readonly timing_ms: Readonly<Record<string, StageTime | null>>;
+  /** null: known of no frame. */
+  readonly pixels?: Readonly<Record<string, number | null>>;
   readonly missing_links?: readonly unknown[];
   readonly notes?: readonly string[];
   readonly faults?: readonly unknown[];

@@ -87,7 +87,7 @@ const card = (title: string, content: Node): HTMLElement =>
 function stageTable({ summary }: Report): HTMLElement {
   const table = element('table', '', row('th', ['stage', 'median', 'p99', 'max']));
   for (const [stage, time] of Object.entries(summary?.timing_ms ?? {}))
-    table.append(row('td', [stage, ...[time.median, time.p99, time.max].map(milliseconds)]));
+    table.append(row('td', [stage, ...[time?.median, time?.p99, time?.max].map(milliseconds)]));
   return section('Stage times', element('div', 'panel card scroll', table));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { FrameReport, Report } from '../api/types';
+import type { FrameReport, Report, Summary } from '../api/types';
 import { count, milliseconds, percent, seconds, stamp } from '../model/format';
 import { secondsOf } from '../model/timeline';
 import { element } from '../view/dom';
@@ -21,10 +21,12 @@ export function headOf(report: Report): HTMLElement {
 export function tilesOf({ frames, summary }: Report): HTMLElement {
   const duration = secondsOf(frames).findLast((time) => time !== null) ?? null;
   const pixels = summary?.pixels ?? {};
-  const robot = pixels['robot'] ?? 0;
-  const share = (name: string): string => percent(robot > 0 ? (pixels[name] ?? 0) / robot : null);
-  const times = Object.values(summary?.timing_ms ?? {}).map((time) => time.median);
-  const total = times.length ? times.reduce((sum, time) => sum + time, 0) : null;
+  const robot = pixels['robot'] ?? null;
+  const share = (name: string): string => {
+    const part = pixels[name] ?? null;
+    return percent(robot && part !== null ? part / robot : null);
+  };
+  const { total, of } = medianOf(summary);
   const bad = summary?.bad_frames ?? frames.filter((frame) => frame.status !== 'ok').length;
   return element(
     'div',
@@ -33,8 +35,18 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     tile('bad frames', count(bad), bad ? statuses(frames) : 'all usable', bad > 0),
     tile('robot pixels', count(robot), `unknown ${share('unknown')}`),
     tile('seen in front', share('front'), `beyond ${share('beyond')}`),
-    tile('median per frame', milliseconds(total), 'all stages'),
+    tile('median per frame', milliseconds(total), of),
   );
+}
+
+/** Stages that took place in no frame have no time: those that the sum is of are named then. */
+function medianOf(summary: Summary | null): { total: number | null; of: string } {
+  const stages = Object.entries(summary?.timing_ms ?? {});
+  const known = stages.flatMap(([name, time]) => (time ? [{ name, median: time.median }] : []));
+  if (known.length === 0) return { total: null, of: 'not told' };
+  const total = known.reduce((sum, { median }) => sum + median, 0);
+  const names = known.map(({ name }) => name).join(', ');
+  return { total, of: known.length === stages.length ? 'all stages' : names };
 }
 
 function statuses(frames: readonly FrameReport[]): string {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reports of runs in which something did not take place.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { example, launch, program } from './browser.mjs';
+
+let browser, folder;
+
+before(async () => {
+  folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-report-'));
+  const words = ['run', example, '-o', folder, '--report', '--targets', 'none'];
+  execFileSync(program, words, { stdio: 'ignore' });
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await rm(folder, { recursive: true });
+});
+
+/** The cells of the table of stages, by stage. */
+async function stagesOf(file) {
+  const page = await browser.newPage();
+  const faults = [];
+  page.on('pageerror', (error) => faults.push(error.message));
+  await page.goto(pathToFileURL(file).href);
+  const rows = await page
+    .locator('table tr')
+    .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const tiles = await page.locator('.tile').allTextContents();
+  await page.close();
+  assert.deepEqual(faults, []);
+  return { rows: Object.fromEntries(rows.map(([name, ...cells]) => [name, cells])), tiles };
+}
+
+test('a run without targets has a report, with dashes for their time', async () => {
+  const { rows, tiles } = await stagesOf(path.join(folder, 'report.html'));
+  assert.deepEqual(rows.targets, ['–', '–', '–']);
+  assert.match(rows.render[0], /^[\d.]+ ms$/);
+  assert.match(tiles.at(-1), /[\d.]+ ms.*kinematics, render, classify$/);
+});
+
+test('pixels and times that no frame told are dashes, not zeros', async () => {
+  const page = await readFile(path.join(folder, 'report.html'), 'utf8');
+  const [, start, json] = page.match(/^([^]*id="penumbra-report">)([^]*?)<\/script>/);
+  const report = JSON.parse(json);
+  for (const stage of Object.keys(report.summary.timing_ms)) report.summary.timing_ms[stage] = null;
+  report.summary.pixels.robot = null;
+  const file = path.join(folder, 'unknown.html');
+  await writeFile(file, start + JSON.stringify(report) + page.slice(start.length + json.length));
+  const { rows, tiles } = await stagesOf(file);
+  assert.deepEqual(rows.kinematics, ['–', '–', '–']);
+  assert.match(tiles.at(-1), /–not told$/);
+  assert.match(
+    tiles.find((tile) => tile.startsWith('robot pixels')),
+    /^robot pixels–/,
+  );
+});
