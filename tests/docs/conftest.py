@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A folder in which all names that the documents use exist."""
+
+import os
+import pathlib
+import shutil
+
+import pytest
+
+import penumbra
+from bag import write_bag
+from blocks import ROOT
+
+SHIPPED = ROOT / "examples" / "arm_over_table"
+PROGRAM = pathlib.Path(penumbra.__file__).parent / "bin" / "penumbra"
+ROBOT = "ur_description"  # what the documents call the package of a robot's meshes
+PLACES = ("/opt/ros/humble/share/ur_description", "/opt/ur_description")  # where they say it is
+
+# What the documents call the user's own, or a machine's.
+UR5E_NAMES = {"forearm": "forearm_link"}
+
+
+def is_full():
+    return bool(os.environ.get("PENUMBRA_FULL"))
+
+
+def in_folder(text, folder):
+    """The documents' absolute places, below the folder."""
+    for place in PLACES:
+        text = text.replace(place, str(folder / ROBOT))
+    return text
+
+
+def as_ur5e(text):
+    """The shipped arm's URDF with the names that the documents use."""
+    text = text.replace("package://arm_description", f"package://{ROBOT}")
+    for ours, theirs in UR5E_NAMES.items():
+        text = text.replace(f'"{ours}"', f'"{theirs}"')
+    return text
+
+
+def prepare(folder):
+    (folder / "examples").symlink_to(ROOT / "examples")
+    (folder / "docs").symlink_to(ROOT / "docs")
+    urdf = as_ur5e((SHIPPED / "arm_description" / "arm.urdf").read_text())
+    shutil.copytree(SHIPPED / "arm_description", folder / ROBOT)
+    (folder / "ur5e.urdf").write_text(urdf)
+    shutil.copytree(SHIPPED, folder / "my_recording", ignore=shutil.ignore_patterns("truth"))
+    for name in ("targets.yaml", "wrist.csv", "camera_info.yaml", "camera_pose.csv", "joint_states.csv"):
+        shutil.copy(SHIPPED / name, folder)
+    given = penumbra.open_input(SHIPPED)
+    write_bag(folder / "recording.mcap", given, list(given), urdf, "base_link")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def template(tmp_path_factory):
+    return prepare(tmp_path_factory.mktemp("named"))
+
+
+@pytest.fixture
+def work(template, tmp_path):
+    return shutil.copytree(template, tmp_path / "work", symlinks=True)
+
+
+@pytest.fixture
+def environment(work):
+    """A domain of this test's own, heard by this machine alone."""
+    return {**os.environ, "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "HOME": str(work),
+            "ROS_DOMAIN_ID": str(100 + os.getpid() % 100), "ROS_LOCALHOST_ONLY": "1", "TMPDIR": str(work)}

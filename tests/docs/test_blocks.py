@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every block of the documents that is no command: programs compile or run, files can be read."""
+
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import yaml
+from PIL import Image
+
+import penumbra
+from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of
+from conftest import SHIPPED, in_folder
+
+KNOWN = ("", "sh", "python", "cpp", "cmake", "yaml", "json", "csv")
+
+
+def test_every_block_is_of_a_language_that_is_tested():
+    for document in DOCUMENTS:
+        for block in blocks_of(document):
+            assert block.language in KNOWN, f"{block}: {block.language}"
+
+
+def check_manual(out):
+    assert "FrameStatus.bad_depth" in out and "% behind gripper" in out
+
+
+def check_sweep(out):
+    """The shipped recording's joints are of the images' own instants."""
+    shares = {int(ms): float(off) for ms, off in re.findall(r"^(-?\d+) ms: ([\d.]+) %$", out, re.MULTILINE)}
+    assert min(shares, key=shares.get) == 0 and len(shares) > 4
+    fronts = [int(n) for n in re.findall(r"^\d+ (\d+)$", out, re.MULTILINE)]
+    assert len(fronts) == 3 and min(fronts) > 0
+
+
+# What the programs of a document print, read once more.
+SAID = {"python.md": check_manual, "tuning.md": check_sweep}
+
+
+@pytest.mark.parametrize("document", [d for d in DOCUMENTS
+                                      if any(b.language == "python" for b in blocks_of(d))],
+                         ids=lambda d: d.name)
+def test_python_runs(document, work):
+    """A document's blocks in their order, as one program."""
+    text = "\n".join(b.text for b in blocks_of(document) if b.language == "python")
+    done = subprocess.run([sys.executable, "-c", in_folder(text, work)], cwd=work, env=os.environ,
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    SAID[document.name](done.stdout)
+
+
+def as_unit(block, number):
+    """Whole programs stand in a namespace of their own, parts of one in a function."""
+    includes = re.findall(r"^#include.*$", block.text, re.MULTILINE)
+    text = re.sub(r"^#include.*$", "", block.text, flags=re.MULTILINE)
+    place = f'#line {block.line} "{block.document}"\n'
+    if includes:
+        return includes, f"namespace block{number} {{\n{place}{text}\n}}\n"
+    return [], f"void block{number}() {{\n{place}{text}\n}}\n"
+
+
+def test_cpp_compiles(tmp_path):
+    units = [as_unit(block, i) for i, block in enumerate(all_blocks("cpp"))]
+    assert len(units) >= 4
+    includes = sorted({line for of_block, _ in units for line in of_block})
+    source = tmp_path / "blocks.cpp"
+    source.write_text("\n".join([*includes, "#include <tests/docs/told_before.hpp>",
+                                 *[text for _, text in units]]))
+    done = subprocess.run([*os.environ["PENUMBRA_COMPILE"].split(), "-fsyntax-only", source],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_cmake_is_what_the_consumer_of_the_tests_says():
+    consumer = (ROOT / "tests" / "house" / "consumer" / "CMakeLists.txt").read_text()
+    said = re.sub(r"find_package\(Penumbra [0-9.]+ ", "find_package(Penumbra ", consumer)
+    for block in all_blocks("cmake"):
+        for line in block.text.splitlines():
+            assert line.replace("my_node", "consumer") in said, f"{block}: {line}"
+
+
+def recording_of(text, work):
+    """A recording.yaml as it is shown; what is left out is the shipped one's."""
+    shown = yaml.safe_load(in_folder(text, work))
+    whole = yaml.safe_load((SHIPPED / "recording.yaml").read_text())
+    whole["robot"] = {"urdf": "ur5e.urdf", "packages": {"ur_description": "ur_description"}}
+    for part, keys in shown.items():
+        whole[part] = {**whole[part], **keys} if part in whole else keys
+    whole["frames"].update({"depth": "examples/arm_over_table/depth/%d.png",
+                            "color": "examples/arm_over_table/color/%d.png"})
+    file = work / "recording.yaml"
+    file.write_text(yaml.safe_dump(whole))
+    return file
+
+
+def write_stl(file):
+    """A box, 50 mm wide."""
+    corners = [(x, y, z) for x in (0, 50) for y in (0, 50) for z in (0, 50)]
+    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
+             (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+    lines = "".join("facet normal 0 0 0\nouter loop\n" +
+                    "".join("vertex %g %g %g\n" % corners[i] for i in face) +
+                    "endloop\nendfacet\n" for face in faces)
+    file.write_text(f"solid box\n{lines}endsolid box\n")
+
+
+def read_targets(text, work):
+    (work / "shown.yaml").write_text(text)
+    write_stl(work / "mug.stl")
+    (work / "mug.csv").write_text("frame,stamp,x,y,z,qx,qy,qz,qw\n0,1,0,0,1,0,0,0,1\n")
+    # Of the size that run lengths in the documents have.
+    width, height = 1280, 720
+    mask = np.zeros((height, width), np.uint8)
+    mask[100:200, 100:200] = 255
+    (work / "masks").mkdir()
+    Image.fromarray(mask).save(work / "masks" / "000000.png")
+    given = penumbra.open_input(work / "my_recording")
+    images = penumbra.Intrinsics(width, height, 900, 900, 640, 360)
+    return penumbra.TargetsFile.open(
+        work / "shown.yaml", robot=given.robot, image=penumbra.ImageSpace.raw, images=images,
+        is_bent=False, beyond_hides=True, camera_frame="camera_color_optical_frame")
+
+
+@pytest.mark.parametrize("block", all_blocks("yaml"), ids=str)
+def test_yaml_is_read(block, work):
+    shown = yaml.safe_load(block.text)
+    if "targets" in shown:
+        assert len(read_targets(block.text, work)) == len(shown["targets"])
+        return
+    given = penumbra.open_input(recording_of(block.text, work))
+    assert len(list(given)) == 12 and given.robot.find_link("forearm_link")
+
+
+@pytest.mark.parametrize("block", all_blocks("json"), ids=str)
+def test_json_is_of_reports(block, work, environment):
+    shown = json.loads("{" + block.text + "}")
+    subprocess.run(["penumbra", "run", "my_recording", "-o", "out"], cwd=work, env=environment,
+                   check=True, capture_output=True)
+    report = json.loads((work / "out" / "report.json").read_text())
+    for key, value in shown.items():
+        assert set(value) == set(report[key]), f"{block}: {key}"
+
+
+@pytest.mark.parametrize("block", all_blocks("csv"), ids=str)
+def test_csv_is_even(block):
+    rows = list(csv.reader(block.text.splitlines()))
+    assert len(rows) > 1 and len({len(row) for row in rows}) == 1
+    [float(cell) for row in rows[1:] for cell in row]
+
+
+def test_the_page_on_recordings_tells_all_keys():
+    """Those that the reader allows."""
+    source = (ROOT / "io" / "recording.cpp").read_text()
+    keys = set()
+    for found in re.finditer(r"(\w+)\.allow_only\(\{(.*?)\}\)", source, re.DOTALL):
+        of = found[1]
+        if of == "node":  # of the function that reads it
+            of = re.findall(r"^Recording\w+ (\w+)_of\(", source[:found.start()], re.MULTILINE)[-1]
+        keys |= {key if of == "root" else f"{of}.{key}" for key in re.findall(r'"(\w+)"', found[2])}
+    keys -= {"robot", "camera", "frames"}
+    assert len(keys) >= 18
+    table = re.search(r"## Keys\n(.*?)\n## ", (ROOT / "docs" / "recording.md").read_text(), re.DOTALL)
+    told = {key for row in re.findall(r"^\| (`.*?) \|", table[1], re.MULTILINE)
+            for key in re.findall(r"`([\w.]+)`", row)}
+    assert told == keys
+
+
+def test_the_defaults_that_the_page_tells():
+    rule = penumbra.LabelRule()
+    page = (ROOT / "docs" / "recording.md").read_text()
+    t = rule.tolerance
+    assert f"`[{t.a:g}, {t.b:g}, {t.c:g}]`" in page
+    assert f"no clean-up | {rule.front_min_width} |" in page

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a reader of the documents' parts of programs has already.
+#pragma once
+
+#include <penumbra/camera/registration.hpp>
+#include <penumbra/pipeline/frame_queue.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/pose_history.hpp>
+#include <penumbra/tracking/pose_tracker.hpp>
+
+struct Arm {
+  void wait();
+};
+
+extern Arm arm;
+extern penumbra::Robot robot;
+extern penumbra::Pipeline pipeline;
+extern penumbra::Camera depth_camera, colour_camera;
+extern penumbra::Frame frame;
+extern penumbra::DepthView depth;
+extern penumbra::Verdict verdict;
+extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object;
+extern std::vector<std::string> names;
+extern std::vector<double> positions;
+extern std::string parent, child;
+extern std::int64_t stamp, now, image_stamp, clock_now;
+extern std::uint64_t key;
+penumbra::DepthView image_of(std::uint64_t key);
