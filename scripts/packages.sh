@@ -4,7 +4,8 @@
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
-# matplotlib for its examples), sim (simulation, experiments), test, web (the page's tests), bench, lint.
+# matplotlib for its examples), sim (simulation, experiments), test, web (the page's tests), docs (the
+# site), bench, lint.
 # OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
 # serves as well.
 set -euo pipefail
@@ -21,6 +22,7 @@ test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
       clang libclang-rt-14-dev python3-pytest python3-mypy python3-yaml python3-pil)
 web=(chromium fonts-dejavu-core nodejs npm)
+docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 
@@ -30,19 +32,19 @@ if [[ ${1:-} == --install ]]; then
   shift
 fi
 if (($# == 0)); then
-  sed -n '3,9s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 
 packages=()
 for group in "$@"; do
   case $group in
-    build | ros | python | sim | test | web | bench | lint)
+    build | ros | python | sim | test | web | docs | bench | lint)
       declare -n of_group=$group
       packages+=("${of_group[@]}")
       ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, ros, python, sim, test, web, bench, lint)" >&2
+      echo "packages.sh: unknown group '$group' (build, ros, python, sim, test, web, docs, bench, lint)" >&2
       exit 2
       ;;
   esac

@@ -100,7 +100,7 @@ check_tidy() {
 }
 
 groups=(build ros python sim test web lint)
-! $full || groups+=(bench)
+! $full || groups+=(bench docs)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
 require=opengl,simulation
@@ -140,6 +140,7 @@ check "build (release)" build release all "${everything[@]}" "$benchmarks" "-DCM
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && run_tests release -j "$waiting" -E "$once_more"
 check "page in a browser" web/check_page.sh build/release/apps/penumbra/penumbra
 if $full; then
+  check "docs" scripts/docs.sh build/docs/html build/release
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   check "a great bag is streamed" build/release/bench/mcap_benchmark --stream 5
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then

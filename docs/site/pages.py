@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which pages there are, in which order."""
+
+PAGES = {
+    "Start": ["getting-started", "method", "recording", "results", "tuning", "faq"],
+    "Use": ["viewer", "ros2", "targets", "python", "cpp"],
+    "Rules": ["conventions", "time", "tolerance", "targets-judging", "tracking", "renderers"],
+    "Figures": ["performance", "performance-gl", "experiments"],
+    "Reference": ["api-python", "api-cpp", "architecture"],
+}
+
+
+def contents():
+    """What stands at the left of every page: the README is read without it where there is no site."""
+    text = ""
+    for caption, pages in PAGES.items():
+        names = "\n".join(f"docs/{page}" for page in pages)
+        if caption == "Reference":
+            names += "\nexamples/arm_over_table/README\nCHANGELOG"
+        text += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{names}\n```\n"
+    return text
