@@ -198,7 +198,10 @@ std::string describe(const Robot& robot, const JointInput& joints) {
     text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
             "' ";
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
-    if (gap.last_seen) text += " (last seen at " + std::to_string(*gap.last_seen) + " ns)";
+    if (!gap.last_seen) continue;
+    text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";
+    if (!gap.source.empty()) text += " by " + gap.source + ", who is believed";
+    text += ")";
   }
   return text;
 }

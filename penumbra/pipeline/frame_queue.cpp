@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 
 namespace penumbra {

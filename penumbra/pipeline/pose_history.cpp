@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/pose_history.hpp>
 
 namespace penumbra {

@@ -14,7 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/frame.hpp>

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
 #include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/render/depth_renderer.hpp>

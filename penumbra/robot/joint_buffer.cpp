@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/robot/joint_buffer.hpp>
 
 namespace penumbra {
@@ -24,22 +25,16 @@ double JointRule::way(double from, double to) const {
   return kind == Kind::turning ? short_way(from, to) : to - from;
 }
 
-double JointRule::distance(double a, double b) const {
-  // A quaternion and its negative are one rotation.
-  if (kind == Kind::quaternion) return std::min(std::abs(b - a), std::abs(b + a));
-  return std::abs(way(a, b));
-}
+double JointRule::distance(double a, double b) const { return std::abs(way(a, b)); }
 
-double JointRule::noise() const {
-  if (kind == Kind::linear) return shift_noise;
-  return kind == Kind::quaternion ? turn_noise / 2.0 : turn_noise;  // half the angle
-}
+double JointRule::noise() const { return kind == Kind::linear ? shift_noise : turn_noise; }
 
 JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
     : max_gap_(span_nanoseconds(options.max_gap, "joint buffer: max_gap")),
       history_(span_nanoseconds(options.history, "joint buffer: history")),
       max_states_(options.max_states),
-      kinds_(robot.variables().size(), Kind::linear) {
+      kinds_(robot.variables().size(), Kind::linear),
+      rotation_of_(robot.variables().size()) {
   if (max_states_ == 0) throw InputError("joint buffer: max_states is 0; expected at least 1");
   for (std::size_t i = 0; i < kinds_.size(); ++i) index_.emplace(robot.variables()[i], i);
   for (const Joint& joint : robot.joints()) {
@@ -48,9 +43,9 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
     if (joint.type == JointType::continuous) kinds_[*joint.variable] = Kind::turning;
     if (joint.type == JointType::planar) kinds_[*joint.variable + 2] = Kind::turning;
     if (joint.type != JointType::floating) continue;
-    quaternions_.push_back(*joint.variable + 3);
-    std::fill_n(kinds_.begin() + static_cast<std::ptrdiff_t>(quaternions_.back()), 4,
-                Kind::quaternion);
+    const std::size_t first = *joint.variable + 3;
+    for (std::size_t i = first; i < first + 4; ++i) rotation_of_[i] = rotations_.size();
+    rotations_.push_back({first, RotationTrack({}, max_gap_, options.compare_sources)});
   }
   for (const Kind kind : kinds_)
     tracks_.emplace_back(JointRule{kind}, max_gap_, options.compare_sources);
@@ -65,26 +60,45 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
     if (at == index_.end()) continue;
     if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
       ++refused_values_;
-    } else {
-      tracks_[at->second].put({stamp, positions[i]}, teller);
-      ++taken;
+      continue;
     }
+    const std::size_t variable = at->second;
+    ++taken;
+    if (!rotation_of_[variable]) {
+      tracks_[variable].put({stamp, positions[i]}, teller);
+      continue;
+    }
+    Rotation& rotation = rotations_[*rotation_of_[variable]];
+    set_part(rotation, variable - rotation.first, stamp, teller, positions[i]);
   }
   if (taken == 0) return 0;
-  const std::size_t refused = refuse_quaternions(stamp);
+  const std::size_t refused = take_rotations(stamp, teller);
   refused_values_ += refused;
   newest_ = std::max(newest_.value_or(stamp), stamp);
   prune();
   return taken - std::min(taken, refused);
 }
 
-std::size_t JointBuffer::refuse_quaternions(std::int64_t stamp) {
+void JointBuffer::set_part(Rotation& rotation, std::size_t part, std::int64_t stamp,
+                           std::uint32_t teller, double value) {
+  if (rotation.stamp != stamp || rotation.teller != teller) rotation.known.fill(false);
+  rotation.stamp = stamp;
+  rotation.teller = teller;
+  rotation.known[part] = true;
+  rotation.xyzw[static_cast<Eigen::Index>(part)] = value;
+}
+
+std::size_t JointBuffer::take_rotations(std::int64_t stamp, std::uint32_t teller) {
   std::size_t refused = 0;
-  for (const std::size_t first : quaternions_) {
-    const auto q = quaternion(first, stamp);
-    if (!q || std::abs(q->norm() - 1.0) <= kUnitTolerance) continue;
-    for (std::size_t i = first; i < first + 4; ++i) tracks_[i].remove(stamp);
-    refused += 4;
+  for (Rotation& rotation : rotations_) {
+    const auto& known = rotation.known;
+    if (!std::all_of(known.begin(), known.end(), [](bool part) { return part; })) continue;
+    rotation.known.fill(false);
+    const Eigen::Quaterniond q(rotation.xyzw);
+    if (std::abs(q.norm() - 1.0) <= kUnitTolerance)
+      rotation.track.put({stamp, q.normalized()}, teller);
+    else
+      refused += known.size();
   }
   return refused;
 }
@@ -92,6 +106,7 @@ std::size_t JointBuffer::refuse_quaternions(std::int64_t stamp) {
 void JointBuffer::prune() {
   const std::int64_t limit = stamp_after(*newest_, -history_);
   for (Track& track : tracks_) track.prune(limit, max_states_);
+  for (Rotation& rotation : rotations_) rotation.track.prune(limit, max_states_);
 }
 
 void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
@@ -99,20 +114,23 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   answer.disputes.clear();
   answer.age = 0;
   answer.positions.resize(tracks_.size());
-  for (std::size_t i = 0; i < tracks_.size(); ++i)
-    if (kinds_[i] != Kind::quaternion && !interpolate(i, stamp, answer)) add_gap(i, stamp, answer);
-  for (const std::size_t first : quaternions_)
-    if (!interpolate_quaternion(first, stamp, answer))
-      for (std::size_t i = first; i < first + 4; ++i) add_gap(i, stamp, answer);
-  for (std::size_t i = 0; i < tracks_.size(); ++i) add_dispute(i, stamp, answer);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (rotation_of_[i] || interpolate(i, stamp, answer)) continue;
+    answer.gaps.push_back(gap_of(tracks_[i], stamp));
+    answer.gaps.back().variable = i;
+  }
+  for (const Rotation& rotation : rotations_) {
+    if (interpolate(rotation, stamp, answer)) continue;
+    for (std::size_t i = rotation.first; i < rotation.first + 4; ++i) {
+      answer.gaps.push_back(gap_of(rotation.track, stamp));
+      answer.gaps.back().variable = i;
+    }
+  }
+  add_disputes(stamp, answer);
   answer.status = answer.disputes.empty() ? JointStatus::ok : JointStatus::disputed;
   if (!answer.gaps.empty()) answer.status = JointStatus::stale;
   for (const JointGap& gap : answer.gaps)
     if (gap.why == JointStatus::missing) answer.status = JointStatus::missing;
-}
-
-bool JointBuffer::near(std::int64_t before, std::int64_t after) const {
-  return stamp_distance(before, after) <= static_cast<std::uint64_t>(max_gap_);
 }
 
 bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
@@ -127,83 +145,72 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
   return true;
 }
 
-std::optional<Eigen::Quaterniond> JointBuffer::quaternion(std::size_t first,
-                                                          std::int64_t stamp) const {
-  Eigen::Vector4d xyzw;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto part = tracks_[first + i].all().value_at(stamp);
-    if (!part) return std::nullopt;
-    xyzw[static_cast<Eigen::Index>(i)] = *part;
-  }
-  return Eigen::Quaterniond(xyzw);
-}
-
-std::optional<std::int64_t> JointBuffer::last_quaternion(std::size_t first,
-                                                         std::int64_t stamp) const {
-  const auto before = tracks_[first].all().up_to(stamp);
-  for (auto state = before.rbegin(); state != before.rend(); ++state)
-    if (quaternion(first, state->stamp)) return state->stamp;
-  return std::nullopt;
-}
-
-std::optional<JointBuffer::Bracket> JointBuffer::bracket_quaternion(std::size_t first,
-                                                                    std::int64_t stamp) const {
-  const auto all = tracks_[first].all().states();
-  const std::size_t split = tracks_[first].all().up_to(stamp).size();
-  std::optional<std::int64_t> before;
-  for (std::size_t i = split; !before && i > 0 && near(all[i - 1].stamp, stamp); --i)
-    if (quaternion(first, all[i - 1].stamp)) before = all[i - 1].stamp;
-  if (!before) return std::nullopt;
-  if (*before == stamp) return Bracket{stamp, stamp};
-  for (std::size_t i = split; i < all.size() && near(*before, all[i].stamp); ++i)
-    if (quaternion(first, all[i].stamp)) return Bracket{*before, all[i].stamp};
-  return std::nullopt;
-}
-
-bool JointBuffer::interpolate_quaternion(std::size_t first, std::int64_t stamp,
-                                         JointAnswer& answer) const {
-  const auto bracket = bracket_quaternion(first, stamp);
-  if (!bracket) return false;
-  const auto [before, after] = *bracket;
-  Eigen::Quaterniond q = quaternion(first, before)->normalized();
-  if (before != after)
-    q = q.slerp(stamp_share(before, stamp, after), quaternion(first, after)->normalized());
-  for (std::size_t i = 0; i < 4; ++i)
-    answer.positions[first + i] = q.coeffs()[static_cast<Eigen::Index>(i)];
-  answer.age = std::max({answer.age, stamp - before, after - stamp});
+bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
+                              JointAnswer& answer) const {
+  const auto around = rotation.track.track_at(stamp).around(stamp, max_gap_);
+  if (!around) return false;
+  const auto &a = *around.before, &b = *around.after;
+  Eigen::Quaterniond q = a.value;
+  if (a.stamp != stamp)
+    q = RotationRule().between(q, stamp_share(a.stamp, stamp, b.stamp), b.value);
+  Eigen::Map<Eigen::Vector4d>(&answer.positions[rotation.first]) = q.coeffs();
+  answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
 
-void JointBuffer::add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
-  JointGap gap{variable, JointStatus::missing, std::nullopt};
-  if (!tracks_[variable].all().states().empty()) gap.why = JointStatus::stale;
-  if (const auto before = tracks_[variable].all().up_to(stamp); !before.empty())
+template <typename AnyTrack>
+JointGap JointBuffer::gap_of(const AnyTrack& track, std::int64_t stamp) const {
+  JointGap gap;
+  if (!track.all().states().empty()) gap.why = JointStatus::stale;
+  if (const auto before = track.track_at(stamp).up_to(stamp); !before.empty())
     gap.last_seen = before.back().stamp;
-  answer.gaps.push_back(gap);
+  if (const auto teller = track.teller_at(stamp)) gap.source = sources_.name_of(*teller);
+  return gap;
 }
 
-void JointBuffer::add_dispute(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
-  const auto* const found = tracks_[variable].contradiction_near(stamp);
-  if (found == nullptr) return;
-  const auto& sources = found->value.sources;
-  answer.disputes.push_back({variable,
-                             found->stamp,
-                             {sources_.name_of(sources[0]), sources_.name_of(sources[1])},
-                             found->value.values});
+template <typename Found>
+JointDispute JointBuffer::dispute_of(const Found& found) const {
+  const auto& sources = found.value.sources;
+  JointDispute dispute;
+  dispute.stamp = found.stamp;
+  dispute.sources = {sources_.name_of(sources[0]), sources_.name_of(sources[1])};
+  return dispute;
+}
+
+void JointBuffer::add_disputes(std::int64_t stamp, JointAnswer& answer) const {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const auto* const found = tracks_[i].contradiction_near(stamp);
+    if (found == nullptr) continue;
+    JointDispute& dispute = answer.disputes.emplace_back(dispute_of(*found));
+    dispute.variable = i;
+    dispute.values = found->value.values;
+  }
+  for (const Rotation& rotation : rotations_) {
+    const auto* const found = rotation.track.contradiction_near(stamp);
+    if (found == nullptr) continue;
+    const Eigen::Vector4d a = found->value.values[0].coeffs();
+    Eigen::Vector4d b = found->value.values[1].coeffs();
+    if (a.dot(b) < 0.0) b = -b;  // the same rotation
+    Eigen::Index part = 0;       // the one that shows it best
+    (a - b).cwiseAbs().maxCoeff(&part);
+    JointDispute& dispute = answer.disputes.emplace_back(dispute_of(*found));
+    dispute.variable = rotation.first + static_cast<std::size_t>(part);
+    dispute.values = {a[part], b[part]};
+  }
 }
 
 std::optional<std::int64_t> JointBuffer::complete_until() const {
-  std::optional<std::int64_t> until;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const auto states = tracks_[i].all().states();
-    if (states.empty()) return std::nullopt;
-    until = std::min(until.value_or(states.back().stamp), states.back().stamp);
-  }
-  for (const std::size_t first : quaternions_) {
-    const auto whole = last_quaternion(first, *until);
-    if (!whole) return std::nullopt;
-    until = whole;
-  }
+  if (tracks_.empty()) return std::nullopt;
+  std::int64_t until = std::numeric_limits<std::int64_t>::max();
+  const auto know = [&until](const auto& track) {
+    if (track.all().states().empty()) return false;
+    until = std::min(until, track.all().states().back().stamp);
+    return true;
+  };
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (!rotation_of_[i] && !know(tracks_[i])) return std::nullopt;
+  for (const Rotation& rotation : rotations_)
+    if (!know(rotation.track)) return std::nullopt;
   return until;
 }
 
@@ -211,15 +218,26 @@ std::optional<std::int64_t> JointBuffer::newest_of(std::span<const std::string> 
   std::optional<std::int64_t> newest;
   for (const std::string& name : names) {
     const auto at = index_.find(name);
-    if (at == index_.end() || tracks_[at->second].all().states().empty()) continue;
-    const std::int64_t stamp = tracks_[at->second].all().states().back().stamp;
-    newest = std::max(newest.value_or(stamp), stamp);
+    if (at == index_.end()) continue;
+    const auto note = [&newest](const auto& track) {
+      const auto states = track.all().states();
+      if (!states.empty())
+        newest = std::max(newest.value_or(states.back().stamp), states.back().stamp);
+    };
+    if (const auto rotation = rotation_of_[at->second])
+      note(rotations_[*rotation].track);
+    else
+      note(tracks_[at->second]);
   }
   return newest;
 }
 
 void JointBuffer::clear() {
   for (Track& track : tracks_) track.clear();
+  for (Rotation& rotation : rotations_) {
+    rotation.track.clear();
+    rotation.known.fill(false);
+  }
   newest_.reset();
 }
 

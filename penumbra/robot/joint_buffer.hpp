@@ -24,7 +24,7 @@ struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
   std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
-  bool compare_sources = true;       ///< else what the first source of a variable tells is taken
+  bool compare_sources = true;       ///< else the first source of a variable is believed
 };
 
 enum class JointStatus { ok, missing, stale, disputed };
@@ -34,6 +34,7 @@ struct JointGap {
   std::size_t variable = 0;                ///< index into Robot::variables()
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
   std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
+  std::string source;  ///< where several tell it: whose word is taken, and awaited
 };
 
 /// A variable of which two sources told different values near the stamp that was asked for.
@@ -56,7 +57,7 @@ struct JointAnswer {
 
 /// How a joint buffer compares and interpolates a variable's values.
 struct JointRule {
-  enum class Kind { linear, revolute, turning, quaternion };
+  enum class Kind { linear, revolute, turning };
 
   /// What sources may differ by though nothing moves: encoders, backlash, digits. An arc of 5 mm at
   /// half a metre, which joint states and TF may differ by, too.
@@ -75,18 +76,32 @@ struct JointRule {
   [[nodiscard]] double noise() const;
 };
 
+/// Likewise of the rotation of a floating joint.
+struct RotationRule {
+  static constexpr bool one_value_of_a_stamp = false;
+
+  [[nodiscard]] double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) const {
+    return a.angularDistance(b);
+  }
+  [[nodiscard]] Eigen::Quaterniond between(const Eigen::Quaterniond& a, double share,
+                                           const Eigen::Quaterniond& b) const {
+    return a.slerp(share, b);
+  }
+  [[nodiscard]] double noise() const { return JointRule::turn_noise; }
+};
+
 /// Merges joint states (complete or partial, in any order of names and time) and interpolates them
 /// to a stamp. Never extrapolates: a stamp that is not between two states of a joint no more than
 /// max_gap apart (or on one) is answered "stale".
 ///
 /// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
-/// round. The quaternion of a floating joint is interpolated on the sphere, between stamps at which
-/// all four of its parts are known.
+/// round. The quaternion of a floating joint is interpolated on the sphere; its parts may come in
+/// several states of one stamp that a source tells one after another.
 ///
 /// Where several sources tell a variable, its value is that of one of them, and what they say of
-/// the same time is compared: see ToldTrack. A variable of which two contradict each other within
-/// max_gap of a stamp is "disputed" there. Where one alone tells it, nothing is compared. Parts of
-/// quaternions are compared without their signs, as either sign of all is the same rotation.
+/// the same time is compared: see ToldTrack. A variable of which two contradict each other near a
+/// stamp is "disputed" there; it is "stale" while the one whose word is taken is silent. Where one
+/// alone tells it, nothing is compared.
 class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
@@ -120,36 +135,42 @@ class JointBuffer {
  private:
   using Kind = JointRule::Kind;
   using Track = ToldTrack<double, JointRule>;
+  using RotationTrack = ToldTrack<Eigen::Quaterniond, RotationRule>;
 
-  /// Two known stamps around another; equal where a state lies on it.
-  struct Bracket {
-    std::int64_t before, after;
+  /// The rotation of a floating joint.
+  struct Rotation {
+    std::size_t first;  // of its four variables: x, y, z, w
+    RotationTrack track;
+    // What is known of the newest one:
+    std::int64_t stamp = 0;
+    std::uint32_t teller = 0;
+    std::array<bool, 4> known{};
+    Eigen::Vector4d xyzw = Eigen::Vector4d::Zero();
   };
 
-  [[nodiscard]] bool near(std::int64_t before, std::int64_t after) const;
+  void set_part(Rotation& rotation, std::size_t part, std::int64_t stamp, std::uint32_t teller,
+                double value);
+  [[nodiscard]] std::size_t take_rotations(std::int64_t stamp, std::uint32_t teller);
   [[nodiscard]] bool interpolate(std::size_t variable, std::int64_t stamp,
                                  JointAnswer& answer) const;
-  [[nodiscard]] bool interpolate_quaternion(std::size_t first, std::int64_t stamp,
-                                            JointAnswer& answer) const;
-  [[nodiscard]] std::optional<Bracket> bracket_quaternion(std::size_t first,
-                                                          std::int64_t stamp) const;
-  [[nodiscard]] std::optional<Eigen::Quaterniond> quaternion(std::size_t first,
-                                                             std::int64_t stamp) const;
-  [[nodiscard]] std::optional<std::int64_t> last_quaternion(std::size_t first,
-                                                            std::int64_t stamp) const;
-  [[nodiscard]] std::size_t refuse_quaternions(std::int64_t stamp);
-  void add_gap(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
-  void add_dispute(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const;
+  [[nodiscard]] bool interpolate(const Rotation& rotation, std::int64_t stamp,
+                                 JointAnswer& answer) const;
+  template <typename AnyTrack>
+  [[nodiscard]] JointGap gap_of(const AnyTrack& track, std::int64_t stamp) const;
+  template <typename Found>
+  [[nodiscard]] JointDispute dispute_of(const Found& found) const;
+  void add_disputes(std::int64_t stamp, JointAnswer& answer) const;
   void prune();
 
   std::int64_t max_gap_;  // nanoseconds
   std::int64_t history_;  // nanoseconds
   std::size_t max_states_;
   std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
-  std::vector<Track> tracks_;                              // of each variable
+  std::vector<Track> tracks_;                              // of each variable but rotations' parts
   std::vector<Kind> kinds_;                                // of each variable
+  std::vector<Rotation> rotations_;
+  std::vector<std::optional<std::size_t>> rotation_of_;  // of each variable that is a part of one
   SourceNames sources_;
-  std::vector<std::size_t> quaternions_;  // first variable of each
   std::optional<std::int64_t> newest_;
   std::size_t refused_values_ = 0;
 };

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <penumbra/base/stamps.hpp>
+
 namespace penumbra {
 
 /// A value over time: states sorted by stamp, one for each stamp.
@@ -26,11 +28,6 @@ class StampedTrack {
       *at = state;
     else
       states_.insert(at, state);
-  }
-
-  void remove(std::int64_t stamp) {
-    const auto at = place_of(stamp);
-    if (at != states_.end() && at->stamp == stamp) states_.erase(at);
   }
 
   /// Drops what lies before the last state at or before `limit`, then the oldest beyond
@@ -82,6 +79,22 @@ class StampedTrack {
         all.begin(), all.end(), stamp,
         [](std::int64_t wanted, const State& state) { return wanted < state.stamp; });
     return all.first(static_cast<std::size_t>(end - all.begin()));
+  }
+
+  /// The last state before `stamp`, null if there is none.
+  [[nodiscard]] const State* last_before(std::int64_t stamp) const {
+    const auto before = up_to(stamp);
+    if (!before.empty() && before.back().stamp < stamp) return &before.back();
+    return before.size() < 2 ? nullptr : &before[before.size() - 2];
+  }
+
+  /// States from `reach` nanoseconds before `stamp` to `reach` after it.
+  [[nodiscard]] std::span<const State> within(std::int64_t stamp, std::uint64_t reach) const {
+    const auto all = states();
+    std::size_t first = up_to(stamp).size(), last = first;
+    while (first > 0 && stamp_distance(all[first - 1].stamp, stamp) <= reach) --first;
+    while (last < all.size() && stamp_distance(all[last].stamp, stamp) <= reach) ++last;
+    return all.subspan(first, last - first);
   }
 
   /// The value of a state exactly there.

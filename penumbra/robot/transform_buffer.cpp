@@ -7,7 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
-#include <penumbra/base/stamps-inl.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/robot/transform_buffer.hpp>
 
 namespace penumbra {
@@ -291,6 +291,8 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
         "the states around it are " + gap_text(before.back().stamp, next.stamp) + " apart";
   else
     answer.message += "it turns by more than a right angle between two states";
+  if (const auto teller = frame.states.teller_at(stamp))
+    answer.message += ", by " + sources_.name_of(*teller) + ", who is believed";
 }
 
 void TransformBuffer::say_disputed(const FrameNode& frame, std::int64_t stamp,

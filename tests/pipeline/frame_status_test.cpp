@@ -77,11 +77,13 @@ TEST_F(FrameStatusTest, NoJoints) {
 TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   JointAnswer answer;
   answer.status = JointStatus::stale;
-  answer.gaps = {{.variable = 0, .why = JointStatus::stale, .last_seen = 42}};
-  expect_pose_unknown(with_joints(answer), FrameStatus::stale_joints,
-                      "'slide' has no position near the stamp");
+  answer.gaps = {{.variable = 0, .why = JointStatus::stale, .last_seen = 42, .source = "driver"}};
+  expect_pose_unknown(
+      with_joints(answer), FrameStatus::stale_joints,
+      "'slide' has no position near the stamp (last seen at 42 ns by driver, who is "
+      "believed)");
   answer.status = JointStatus::missing;
-  answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}}};
+  answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}, .source = {}}};
   expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
 
   answer = {
