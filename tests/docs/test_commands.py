@@ -16,7 +16,7 @@ import penumbra
 from blocks import DOCUMENTS, ROOT, blocks_of, commands_of, inline_code
 from conftest import PROGRAM, in_folder, is_full
 
-PATIENCE = 60       # seconds that a command may take, if all goes well but slowly
+PATIENCE = 300      # seconds that a command may take on a busy machine
 LIVE_SECONDS = 1.5  # that a command which runs until Ctrl-C is let run
 
 # What cannot be run here, and why. Scripts of ours must at least be there.
