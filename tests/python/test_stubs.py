@@ -30,11 +30,11 @@ def test_mypy_finds_in_the_module_what_the_stubs_say():
     assert not [line for line in found if not any(e in line for e in expected)]
 
 
-@pytest.mark.parametrize("script", sorted((ROOT / "examples" / "python").glob("*.py")),
-                         ids=lambda path: path.name)
-def test_examples_are_typed(script):
+def test_examples_are_typed():
     pytest.importorskip("mypy")
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", script],
+    scripts = sorted((ROOT / "examples" / "python").glob("*.py"))
+    assert len(scripts) > 3
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", *scripts],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
 
