@@ -88,12 +88,12 @@ class StampedTrack {
     return before.size() < 2 ? nullptr : &before[before.size() - 2];
   }
 
-  /// States from `reach` nanoseconds before `stamp` to `reach` after it.
-  [[nodiscard]] std::span<const State> within(std::int64_t stamp, std::uint64_t reach) const {
+  /// States from `nearness` nanoseconds before `stamp` to `nearness` after it.
+  [[nodiscard]] std::span<const State> within(std::int64_t stamp, std::uint64_t nearness) const {
     const auto all = states();
     std::size_t first = up_to(stamp).size(), last = first;
-    while (first > 0 && stamp_distance(all[first - 1].stamp, stamp) <= reach) --first;
-    while (last < all.size() && stamp_distance(all[last].stamp, stamp) <= reach) ++last;
+    while (first > 0 && stamp_distance(all[first - 1].stamp, stamp) <= nearness) --first;
+    while (last < all.size() && stamp_distance(all[last].stamp, stamp) <= nearness) ++last;
     return all.subspan(first, last - first);
   }
 
