@@ -35,6 +35,10 @@ std::string description_of(py::handle object) {
          " with shape " + py::cast<std::string>(py::str(object.attr("shape")));
 }
 
+bool is_native(const py::dtype& dtype, int number) {
+  return dtype.num() == number && (dtype.byteorder() == '=' || dtype.byteorder() == '|');
+}
+
 py::array read_only(py::array array) {
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
@@ -52,11 +56,12 @@ std::size_t check_image(py::handle source, const char* argument, std::span<const
   };
   if (!py::isinstance<py::array>(source)) throw py::type_error(complain(""));
   const auto array = py::reinterpret_borrow<py::array>(source);
+  if (!py::type::of(source).is(py::type::of(py::array())) && py::hasattr(source, "mask"))
+    throw py::type_error(complain(": its mask would be lost: take .filled(0)"));
   const py::dtype dtype = array.dtype();
-  const bool is_native = dtype.byteorder() == '=' || dtype.byteorder() == '|';
   std::size_t type = 0;
-  while (type < types.size() && dtype.num() != types[type].number) ++type;
-  if (!is_native || type == types.size()) throw py::type_error(complain(""));
+  while (type < types.size() && !is_native(dtype, types[type].number)) ++type;
+  if (type == types.size()) throw py::type_error(complain(""));
   if (array.ndim() != 2 || array.shape(0) < 1 || array.shape(1) < 1 ||
       std::max(array.shape(0), array.shape(1)) > std::numeric_limits<int>::max())
     throw py::value_error(complain(""));

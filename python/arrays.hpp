@@ -26,6 +26,10 @@ namespace py = pybind11;
 /// "numpy.ndarray of float64 with shape (3, 3)", or the name of another type.
 [[nodiscard]] std::string description_of(py::handle object);
 
+/// Whether it is NumPy's type of that number, in this machine's byte order. Types that were pickled
+/// are other objects.
+[[nodiscard]] bool is_native(const py::dtype& dtype, int number);
+
 [[nodiscard]] py::array read_only(py::array array);
 
 /// A Python object that keeps `owner`: the base of arrays upon its memory.

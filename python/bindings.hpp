@@ -2,6 +2,9 @@
 // What every file of the Python module begins with.
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -14,6 +17,14 @@ namespace py = pybind11;
 
 /// Long work that no Python object takes part in lets other threads run.
 using WithoutGil = py::call_guard<py::gil_scoped_release>;
+
+/// The object that a method was called on. pybind11 takes None for it where there is no other
+/// argument.
+template <typename T>
+[[nodiscard]] const std::shared_ptr<T>& present(const std::shared_ptr<T>& self, const char* type) {
+  if (!self) throw py::type_error("self: expected " + std::string(type) + "; got None");
+  return self;
+}
 
 // One topic each. Those before are known to those behind: signatures name their types.
 void bind_errors(py::module_& m);

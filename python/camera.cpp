@@ -131,14 +131,14 @@ void bind_rectification(py::module_& m) {
       .def_property_readonly(
           "raw_to_pinhole",
           [](const std::shared_ptr<Rectification>& self) {
-            return map_array(self, self->raw_to_pinhole());
+            return map_array(self, present(self, "Rectification")->raw_to_pinhole());
           },
           "Of the raw image's size: index v * width + u of each "
           "pixel's pinhole pixel, -1 where there is none. Read-only view.")
       .def_property_readonly(
           "pinhole_to_raw",
           [](const std::shared_ptr<Rectification>& self) {
-            return map_array(self, self->pinhole_to_raw());
+            return map_array(self, present(self, "Rectification")->pinhole_to_raw());
           },
           "Of the pinhole image's size: index v * width + u of each "
           "pixel's raw pixel, -1 where there is none. Read-only view.");

@@ -73,8 +73,11 @@ void bind_robot_enums(py::module_& m) {
   bind_enum<JointStatus>(
       m, "JointStatus",
       "Whether joint positions are known at a stamp; missing: never seen, stale: "
-      "not near it.",
-      {{"ok", JointStatus::ok}, {"missing", JointStatus::missing}, {"stale", JointStatus::stale}});
+      "not near it, disputed: two programs tell different ones.",
+      {{"ok", JointStatus::ok},
+       {"missing", JointStatus::missing},
+       {"stale", JointStatus::stale},
+       {"disputed", JointStatus::disputed}});
   bind_enum<PoseSource>(m, "PoseSource", "Who says where the links are.",
                         {{"joints", PoseSource::joints},
                          {"transforms", PoseSource::transforms},

@@ -3,6 +3,8 @@
 // not to be changed (replace() makes another), so that no change can be lost in a copy.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -53,6 +55,11 @@ struct Passed<std::vector<V>> {
   static In in(const std::vector<V>& m) { return m; }
   static Frozen<V> out(const std::vector<V>& m) { return {m}; }
   static std::vector<V> member(In&& m) { return std::move(m); }
+};
+/// Shown alone.
+template <typename V, std::size_t n>
+struct Passed<std::array<V, n>> {
+  static Frozen<V> out(const std::array<V, n>& m) { return {{m.begin(), m.end()}}; }
 };
 
 /// "Name(field=value, ...)".

@@ -30,7 +30,7 @@ struct Frames : TargetSource {
 };
 
 RecordedFrame next(const std::shared_ptr<Frames>& self) {
-  const OneThread::Use use(self->thread, "the iterator of an Input");
+  const OneThread::Use use(present(self, "InputFrames")->thread, "the iterator of an Input");
   auto data = std::make_shared<io::FrameData>();
   Frame frame;
   ++self->given;
@@ -78,10 +78,13 @@ void bind_bag_options(py::module_& m) {
       Field{"poses", &B::poses, "None: joints, or transforms where there are none."},
       Field{"robot", &B::robot, "URDF in place of /robot_description."},
       Field{"packages", &B::packages, "package://NAME to its folder."},
+      Field{"frame_prefix", &B::frame_prefix, "Before link names in tf, without a leading /."},
       Field{"camera_frame", &B::camera_frame, "In place of the images' frame_id."},
       Field{"parent", &B::parent, "Link that the camera sits on."},
       Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},
+      Field{"first_publisher", &B::first_publisher,
+            "Programs that tell the same are not compared: the first is believed."},
       Field{"time_offset", &B::time_offset, "Seconds added to an image's stamp."});
 }
 
@@ -94,13 +97,18 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 void bind_input_classes(py::module_& m) {
   py::class_<Frames, std::shared_ptr<Frames>>(m, "InputFrames", "The frames of an Input.")
-      .def("__iter__", [](const std::shared_ptr<Frames>& self) { return self; })
+      .def("__iter__",
+           [](const std::shared_ptr<Frames>& self) { return present(self, "InputFrames"); })
       .def("__next__", &next)
       .def_property_readonly(
           "size", [](const Frames& self) { return self.source->size(); },
           "How many there are in all; None: known at the end.")
       .def_property_readonly(
-          "notes", [](const Frames& self) { return Frozen<std::string>{self.source->notes()}; },
+          "notes",
+          [](Frames& self) {
+            const OneThread::Use use(self.thread, "the iterator of an Input");
+            return Frozen<std::string>{self.source->notes()};
+          },
           "What was found wrong with the source itself, a line each; all of it is "
           "known at the end.");
   py::class_<Input, std::shared_ptr<Input>>(
@@ -110,7 +118,9 @@ void bind_input_classes(py::module_& m) {
       "of "
       "its message.")
       .def("__iter__",
-           [](const std::shared_ptr<Input>& self) { return std::make_shared<Frames>(self); })
+           [](const std::shared_ptr<Input>& self) {
+             return std::make_shared<Frames>(present(self, "Input"));
+           })
       .def_property_readonly(
           "robot", [](const Input& self) { return self.input.robot; }, "The robot.")
       .def_property_readonly(

@@ -15,22 +15,37 @@ void bind_joint_answers(py::module_& m) {
       Field{"max_gap", &O::max_gap,
             "Seconds between two states of a joint that may be interpolated."},
       Field{"history", &O::history, "Seconds of states that are kept behind the newest."},
-      Field{"max_states", &O::max_states, "Of each variable; the oldest are dropped beyond."});
+      Field{"max_states", &O::max_states, "Of each variable; the oldest are dropped beyond."},
+      Field{"compare_sources", &O::compare_sources,
+            "What several programs tell of one joint is compared; else the first is believed."});
 
   py::class_<JointGap> gap(m, "JointGap",
                            "A variable that has no position at the stamp asked for.");
   show_fields(gap, Field{"variable", &JointGap::variable, "Index into Robot.variables."},
               Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
               Field{"last_seen", &JointGap::last_seen,
-                    "Stamp of its latest state at or before, nanoseconds; None: there is none."});
+                    "Stamp of its latest state at or before, nanoseconds; None: there is none."},
+              Field{"source", &JointGap::source,
+                    "Where several programs tell it: who is believed, and awaited."});
+
+  py::class_<JointDispute> dispute(
+      m, "JointDispute", "A variable of which two programs told different values near a stamp.");
+  show_fields(dispute, Field{"variable", &JointDispute::variable, "Index into Robot.variables."},
+              Field{"stamp", &JointDispute::stamp, "Of the values, nanoseconds."},
+              Field{"sources", &JointDispute::sources, "The two, as insert() was told."},
+              Field{"values", &JointDispute::values, "What each of them told, rad and m."});
 
   py::class_<JointAnswer> answer(m, "JointAnswer", "Where the joints are at a stamp.");
   using A = JointAnswer;
-  show_fields(answer, Field{"status", &A::status, "missing before stale, where both occur."},
-              Field{"positions", &A::positions,
-                    "In the order of Robot.variables, rad and m; valid only if status is ok."},
-              Field{"age", &A::age, "Nanoseconds from the stamp to the farthest used state."},
-              Field{"gaps", &A::gaps, "Empty if status is ok."});
+  show_fields(
+      answer,
+      Field{"status", &A::status, "missing before stale before disputed, where several occur."},
+      Field{"positions", &A::positions,
+            "In the order of Robot.variables, rad and m; valid only if status is ok or "
+            "disputed."},
+      Field{"age", &A::age, "Nanoseconds from the stamp to the farthest used state."},
+      Field{"gaps", &A::gaps, "Empty if status is ok or disputed."},
+      Field{"disputes", &A::disputes, "Empty if status is ok."});
 }
 
 }  // namespace
@@ -46,11 +61,13 @@ void bind_joint_buffer(py::module_& m) {
       .def(
           "insert",
           [](JointBuffer& self, std::int64_t stamp, const std::vector<std::string>& names,
-             const Numbers& positions) { return self.insert(stamp, names, positions.values); },
-          py::arg("stamp"), py::arg("names"), py::arg("positions"),
+             const Numbers& positions, const std::string& source) {
+            return self.insert(stamp, names, positions.values, source);
+          },
+          py::arg("stamp"), py::arg("names"), py::arg("positions"), py::arg("source") = "",
           "Adds one joint state; stamp in nanoseconds, positions in rad and m. Returns the number "
-          "of "
-          "values taken; names that are no variable are passed over.")
+          "of values taken; names that are no variable are passed over. source: a name for the "
+          "program that tells them, the same for all of its states.")
       .def(
           "at",
           [](const JointBuffer& self, std::int64_t stamp) {

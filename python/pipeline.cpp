@@ -71,12 +71,25 @@ void bind_pipeline_facts(py::class_<State, std::shared_ptr<State>>& pipeline) {
       .def_property_readonly(
           "robot", [](const State& s) { return s.pipeline.robot(); }, "The robot.")
       .def_property_readonly(
-          "renderer", [](const State& s) { return s.pipeline.renderer(); }, "What draws.")
+          "renderer",
+          [](State& s) {
+            const OneThread::Use use(s.thread, "Pipeline.renderer");
+            return s.pipeline.renderer();
+          },
+          "What draws.")
       .def_property_readonly(
-          "renderer_choice", [](const State& s) { return s.pipeline.renderer_choice(); },
+          "renderer_choice",
+          [](State& s) {
+            const OneThread::Use use(s.thread, "Pipeline.renderer_choice");
+            return s.pipeline.renderer_choice();
+          },
           "Why that renderer.")
       .def_property_readonly(
-          "triangle_count", [](const State& s) { return s.pipeline.triangle_count(); },
+          "triangle_count",
+          [](State& s) {
+            const OneThread::Use use(s.thread, "Pipeline.triangle_count");
+            return s.pipeline.triangle_count();
+          },
           "Of all links.")
       .def_property_readonly(
           "rule", [](const State& s) { return s.pipeline.rule(); },

@@ -41,7 +41,9 @@ OwnedJoints joints_of(const JointInput& joints) {
   JointAnswer answer;
   answer.status = joints.status;
   answer.age = joints.age.value_or(0);
+  answer.positions.assign(joints.positions.begin(), joints.positions.end());
   answer.gaps.assign(joints.gaps.begin(), joints.gaps.end());
+  answer.disputes.assign(joints.disputes.begin(), joints.disputes.end());
   return answer;
 }
 

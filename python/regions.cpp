@@ -24,7 +24,8 @@ namespace {
 /// NumPy's masks are mostly of bool, whose bytes are 0 and 1.
 Mask mask_of(const py::object& source) {
   py::object array = source;
-  if (py::isinstance<py::array>(source) && py::array(source).dtype().is(py::dtype::of<bool>()))
+  if (py::isinstance<py::array>(source) &&
+      py::array(source).dtype().num() == py::dtype::of<bool>().num())
     array = source.attr("view")("uint8");
   static constexpr PixelType types[] = {pixel_type<std::uint8_t>};
   (void)check_image(array, "mask (bool or uint8)", types);

@@ -74,7 +74,7 @@ namespace {
 
 VirtualDepth collected(const std::shared_ptr<Renderer>& self) {
   VirtualDepthView view;
-  const std::uint64_t number = self->collect(view);
+  const std::uint64_t number = present(self, "Renderer")->collect(view);
   return {self, number, view};
 }
 

@@ -21,7 +21,7 @@ py::array rows_of_three(const py::object& source, const char* argument) {
                                " with shape (N, 3) in C order; got " + description_of(source);
   if (!py::isinstance<py::array>(source)) throw py::type_error(expected);
   py::array array(source);
-  if (!array.dtype().is(py::dtype::of<T>())) throw py::type_error(expected);
+  if (!is_native(array.dtype(), py::dtype::of<T>().num())) throw py::type_error(expected);
   if (array.ndim() != 2 || array.shape(1) != 3 || (array.flags() & py::array::c_style) == 0)
     throw py::value_error(expected);
   return array;

@@ -33,6 +33,12 @@ def write_ply(path: pathlib.Path, points: NDArray[np.float32], colors: NDArray[n
     path.write_bytes("\n".join([*head, "end_header", ""]).encode() + vertices.tobytes())
 
 
+def measured(depth: NDArray[Any]) -> NDArray[np.bool_]:
+    """Where a depth image holds a distance: in 16 bits 0 and 65535 are none."""
+    most = 65535 if depth.dtype == np.uint16 else np.inf
+    return (depth > 0) & (depth < most)
+
+
 def main(source: str, out: pathlib.Path) -> None:
     given = penumbra.open_input(source, color=True)
     if given.camera.distortion.model is not penumbra.DistortionModel.none:
@@ -44,13 +50,13 @@ def main(source: str, out: pathlib.Path) -> None:
             print(f"frame {report.index}: no points: {report.message}")
             continue
         kept = (report.labels == penumbra.Label.clear) | (report.labels == penumbra.Label.front)
-        kept &= frame.depth > 0
+        kept &= measured(frame.depth)
         points = points_of(frame.depth, pipeline.intrinsics)[kept]
         points = points @ report.T_root_camera[:3, :3].T + report.T_root_camera[:3, 3]
         white = np.full((*kept.shape, 3), 255, np.uint8)
         colors = white if frame.color is None else frame.color
         write_ply(out / f"{report.index:06d}.ply", points.astype(np.float32), colors[kept])
-        robot = np.count_nonzero(frame.depth) - len(points)
+        robot = np.count_nonzero(measured(frame.depth)) - len(points)
         print(f"frame {report.index}: {len(points)} points, {robot} of the robot left out")
 
 

@@ -42,16 +42,19 @@ def hidden(target: penumbra.TargetReport) -> Tuple[float, float]:
     return by_robot, by_robot + 100 * (judgement.hidden_by_other or 0)
 
 
-def seconds(reports: List[penumbra.TargetReport]) -> List[float]:
-    stamps = [report.stamp or 0 for report in reports]
-    return [1e-9 * (stamp - stamps[0]) for stamp in stamps]
+def times_of(reports: List[penumbra.TargetReport]) -> Tuple[List[float], str]:
+    """Seconds since the first one, or numbers where there are no stamps; and what they are."""
+    stamps = [report.stamp for report in reports if report.stamp is not None]
+    if len(stamps) < len(reports):
+        return [float(i) for i in range(len(reports))], "frame"
+    return [1e-9 * (stamp - stamps[0]) for stamp in stamps], "time (s)"
 
 
 def plot(judged: Dict[str, List[penumbra.TargetReport]], file: str) -> None:
     figure, axes = plt.subplots(len(judged), sharex=True, squeeze=False,
                                 figsize=(8, 1.5 + 1.4 * len(judged)), layout="constrained")
     for axis, (name, reports) in zip(axes[:, 0], judged.items()):
-        times = seconds(reports)
+        times, unit = times_of(reports)
         by_robot, by_all = zip(*(hidden(report) for report in reports))
         axis.fill_between(times, by_robot, color="#bbbbbb", label="by the robot")
         axis.plot(times, by_all, color="#555555", zorder=1, label="by anything")
@@ -62,7 +65,7 @@ def plot(judged: Dict[str, List[penumbra.TargetReport]], file: str) -> None:
                          label=verdict.value.replace("_", " "))
         axis.set(ylabel=name, ylim=(-8, 108))
         axis.grid(alpha=0.3)
-    axes[-1, 0].set_xlabel("time (s)")
+    axes[-1, 0].set_xlabel(unit)
     figure.suptitle("Hidden share of each target's pixels (%), and its verdict")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=len(labels))

@@ -69,6 +69,7 @@ class JointStatus(enum.Enum):
     ok = "ok"
     missing = "missing"
     stale = "stale"
+    disputed = "disputed"
 
 class PoseSource(enum.Enum):
     joints = "joints"
@@ -379,6 +380,7 @@ class JointBufferOptions:
         max_gap: float = ...,
         history: float = ...,
         max_states: int = ...,
+        compare_sources: bool = ...,
     ) -> None: ...
     @property
     def max_gap(self) -> float: ...
@@ -386,12 +388,15 @@ class JointBufferOptions:
     def history(self) -> float: ...
     @property
     def max_states(self) -> int: ...
+    @property
+    def compare_sources(self) -> bool: ...
     def replace(
         self,
         *,
         max_gap: float = ...,
         history: float = ...,
         max_states: int = ...,
+        compare_sources: bool = ...,
     ) -> JointBufferOptions: ...
 
 @final
@@ -402,6 +407,19 @@ class JointGap:
     def why(self) -> JointStatus: ...
     @property
     def last_seen(self) -> Optional[int]: ...
+    @property
+    def source(self) -> str: ...
+
+@final
+class JointDispute:
+    @property
+    def variable(self) -> int: ...
+    @property
+    def stamp(self) -> int: ...
+    @property
+    def sources(self) -> Tuple[str, ...]: ...
+    @property
+    def values(self) -> Tuple[float, ...]: ...
 
 @final
 class JointAnswer:
@@ -413,6 +431,8 @@ class JointAnswer:
     def age(self) -> int: ...
     @property
     def gaps(self) -> Tuple[JointGap, ...]: ...
+    @property
+    def disputes(self) -> Tuple[JointDispute, ...]: ...
 
 @final
 class JointBuffer:
@@ -422,6 +442,7 @@ class JointBuffer:
         stamp: int,
         names: Sequence[str],
         positions: Annotated[ArrayLike, '(N,)'],
+        source: str = ...,
     ) -> int: ...
     def at(self, stamp: int) -> JointAnswer: ...
     def complete_until(self) -> Optional[int]: ...
@@ -1385,10 +1406,12 @@ class BagOptions:
         poses: Optional[PoseSource] = ...,
         robot: Optional[Union[str, os.PathLike[str]]] = ...,
         packages: Mapping[str, Union[str, os.PathLike[str]]] = ...,
+        frame_prefix: str = ...,
         camera_frame: Optional[str] = ...,
         parent: Optional[str] = ...,
         pose: Optional[Union[str, os.PathLike[str]]] = ...,
         rectified: bool = ...,
+        first_publisher: bool = ...,
         time_offset: float = ...,
     ) -> None: ...
     @property
@@ -1408,6 +1431,8 @@ class BagOptions:
     @property
     def packages(self) -> Mapping[str, pathlib.Path]: ...
     @property
+    def frame_prefix(self) -> str: ...
+    @property
     def camera_frame(self) -> Optional[str]: ...
     @property
     def parent(self) -> Optional[str]: ...
@@ -1415,6 +1440,8 @@ class BagOptions:
     def pose(self) -> Optional[pathlib.Path]: ...
     @property
     def rectified(self) -> bool: ...
+    @property
+    def first_publisher(self) -> bool: ...
     @property
     def time_offset(self) -> float: ...
     def replace(
@@ -1428,10 +1455,12 @@ class BagOptions:
         poses: Optional[PoseSource] = ...,
         robot: Optional[Union[str, os.PathLike[str]]] = ...,
         packages: Mapping[str, Union[str, os.PathLike[str]]] = ...,
+        frame_prefix: str = ...,
         camera_frame: Optional[str] = ...,
         parent: Optional[str] = ...,
         pose: Optional[Union[str, os.PathLike[str]]] = ...,
         rectified: bool = ...,
+        first_publisher: bool = ...,
         time_offset: float = ...,
     ) -> BagOptions: ...
 

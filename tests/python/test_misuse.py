@@ -2,13 +2,15 @@
 """Whatever is given wrongly is a TypeError or ValueError that says what is expected."""
 
 import copy
+import enum
 import pickle
+import re
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import SHIPPED, Opened
+from conftest import ROOT, SHIPPED, Opened
 
 GOOD = np.zeros((480, 640), np.uint16)
 
@@ -28,6 +30,7 @@ BAD_DEPTHS = [
     (np.asfortranarray(np.ones((480, 640), np.uint16)), ValueError, "side by side"),
     (np.ndarray((480, 640), np.uint16, bytes(2 * 640 * 480 + 1), 1), ValueError, "not aligned"),
     (np.ndarray((2, 640), np.uint16, bytes(4001), 0, (1281, 2)), ValueError, "not aligned"),
+    (np.ma.masked_array(GOOD, mask=GOOD == 0), TypeError, "its mask would be lost"),
     (GOOD[:10], ValueError, "(480, 640)"),
     (GOOD[:, :10], ValueError, "(480, 640)"),
 ]
@@ -46,6 +49,43 @@ def test_frames_refuse_images(depth, error, says):
     with pytest.raises(error) as raised:
         penumbra.Frame(depth, None)
     assert says in str(raised.value) and "depth: expected" in str(raised.value)
+
+
+def test_arrays_that_were_pickled_are_taken():
+    mask = pickle.loads(pickle.dumps(np.eye(4, dtype=bool)))
+    assert np.array_equal(penumbra.PixelMask(mask).mask, np.eye(4, dtype=np.uint8))
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    mesh = penumbra.TriangleMesh(pickle.loads(pickle.dumps(corners)),
+                                 pickle.loads(pickle.dumps(np.array([[0, 1, 2]], np.uint32))))
+    assert np.array_equal(mesh.vertices, corners)
+
+
+@pytest.mark.parametrize("call", [
+    lambda: penumbra.Renderer.collect(None), lambda: penumbra.Input.__iter__(None),
+    lambda: penumbra.InputFrames.__iter__(None), lambda: penumbra.InputFrames.__next__(None),
+    lambda: penumbra.Rectification.raw_to_pinhole.fget(None),
+    lambda: penumbra.Rectification.pinhole_to_raw.fget(None),
+    lambda: penumbra.Pipeline.renderer.fget(None), lambda: penumbra.InputFrames.notes.fget(None)])
+def test_none_is_no_object(call):
+    with pytest.raises(TypeError):
+        call()
+
+
+def test_enumerations_have_all_values_of_the_headers():
+    found = {}
+    for folder in ("penumbra", "io", "sim"):
+        for header in (ROOT / folder).rglob("*.hpp"):
+            for name, body in re.findall(r"enum class (\w+)[^{;]*\{([^}]*)\}", header.read_text()):
+                body = re.sub(r"//.*", "", body)
+                found.setdefault(name, []).append(
+                    {value.split("=")[0].strip() for value in body.split(",") if value.strip()})
+    compared = 0
+    for name, kind in vars(penumbra).items():
+        if isinstance(kind, enum.EnumMeta) or hasattr(kind, "__members__"):
+            values = {"none" if value == "none_" else value for value in kind.__members__}
+            assert values in found.get(name, [values]), name
+            compared += name in found
+    assert compared > 10
 
 
 def test_rows_may_lie_apart_and_run_upwards(opened):

@@ -131,3 +131,25 @@ def test_robots_tell_of_their_parts(shipped):
     assert meshes[0].vertices.dtype == np.float32 and not meshes[0].vertices.flags.writeable
     parsed = penumbra.Robot.parse("<robot name='r'><link name='l'/></robot>", "")
     assert parsed.links == ("l",) and parsed.variables == ()
+
+
+def test_two_programs_that_tell_one_joint_are_told_apart(shipped):
+    robot = shipped.robot
+    buffer = penumbra.JointBuffer(robot)
+    names, zeros = list(robot.variables), [0.0] * len(robot.variables)
+    for i in range(100):
+        buffer.insert(10_000_000 * i, names, zeros, source="driver")
+        buffer.insert(10_000_000 * i + 5, names, [0.5, *zeros[1:]], source="sliders")
+    answer = buffer.at(500_000_000)
+    assert answer.status is penumbra.JointStatus.disputed
+    (dispute,) = answer.disputes
+    assert dispute.variable == 0 and list(dispute.sources) == ["driver", "sliders"]
+    assert list(dispute.values) == [0.0, 0.5] and "disputed" in repr(answer)
+    frame = shipped.frames[0].frame.replace(joints=answer)
+    report = shipped.pipeline.process(frame)
+    assert report.status is penumbra.FrameStatus.poses_disagree
+    assert "sliders" in report.message
+    first = penumbra.JointBuffer(robot, penumbra.JointBufferOptions(compare_sources=False))
+    first.insert(0, names, zeros, source="driver")
+    first.insert(0, names, [0.5, *zeros[1:]], source="sliders")
+    assert first.at(0).positions[0] == 0.0
