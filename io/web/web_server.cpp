@@ -16,6 +16,7 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/web/waiting_answers-inl.hpp>
 #include <io/web/web_guard.hpp>
 #include <io/web/web_request.hpp>
 #include <io/web/web_server.hpp>
@@ -69,42 +70,6 @@ std::string machine_name() {
   return name.data();
 }
 
-/// The answers that wait for their clients. When they are too many, the oldest is given up: who is
-/// that slow must not cost the others their memory.
-class WaitingAnswers {
- public:
-  explicit WaitingAnswers(std::size_t most_bytes) : most_bytes_(most_bytes) {}
-
-  struct Answer {
-    std::size_t bytes;
-    std::function<void()> give_up;  // may be called by any thread
-  };
-  using Place = std::list<Answer>::iterator;
-
-  Place add(Answer answer) {
-    const std::lock_guard lock(mutex_);
-    bytes_ += answer.bytes;
-    for (auto old = answers_.begin(); bytes_ > most_bytes_ && old != answers_.end(); ++old) {
-      if (old->bytes == 0) continue;
-      bytes_ -= std::exchange(old->bytes, 0);
-      old->give_up();
-    }
-    return answers_.insert(answers_.end(), std::move(answer));
-  }
-
-  void remove(Place place) {
-    const std::lock_guard lock(mutex_);
-    bytes_ -= place->bytes;
-    answers_.erase(place);
-  }
-
- private:
-  std::mutex mutex_;
-  std::list<Answer> answers_;  // oldest first
-  std::size_t bytes_ = 0;
-  std::size_t most_bytes_;
-};
-
 class Channel;
 
 /// What the connections share.
@@ -143,6 +108,15 @@ class Counted {
   std::size_t before_;
 };
 
+/// What gives an answer up, by any thread: its connection is closed.
+template <typename Client>
+std::function<void()> close_of(std::weak_ptr<Client> weak) {
+  return [weak = std::move(weak)] {
+    if (const auto client = weak.lock())
+      asio::post(client->socket().get_executor(), [client] { client->socket().close(); });
+  };
+}
+
 /// A WebSocket client. One message is on its way at a time; what to send next is asked for when it
 /// has gone, so that a slow client holds one message and misses those in between.
 class Channel : public std::enable_shared_from_this<Channel> {
@@ -155,7 +129,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
         channel_(std::move(channel)) {}
 
   void run(const Request& request) {
-    beast::get_lowest_layer(stream_).expires_never();
+    socket().expires_never();
     auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.idle_timeout = std::chrono::seconds(30);
     times.keep_alive_pings = true;
@@ -173,6 +147,8 @@ class Channel : public std::enable_shared_from_this<Channel> {
       self->send();
     });
   }
+
+  [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
 
   void wake() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] { self->send(); });
@@ -196,24 +172,36 @@ class Channel : public std::enable_shared_from_this<Channel> {
 
   void close(websocket::close_code code) {
     closing_ = true;
-    if (sending_) return beast::get_lowest_layer(stream_).close();
+    if (sending_) return socket().close();
     stream_.async_close(code, [self = shared_from_this()](beast::error_code) {});
+  }
+
+  std::optional<std::vector<SharedBytes>> next() {
+    try {
+      return channel_->next();
+    } catch (const std::exception&) {  // as 500 is of requests
+      close(websocket::close_code::internal_error);
+      return std::nullopt;
+    }
   }
 
   void send() {
     if (sending_ || closing_ || !stream_.is_open()) return;
-    auto message = channel_->next();
+    auto message = next();
     if (!message) return;
     message_ = std::move(*message);
     sending_ = true;
+    const auto place = shared_.waiting.add({size_of(message_), close_of(weak_from_this())});
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : message_) buffers.emplace_back(part->data(), part->size());
     stream_.binary(true);
-    stream_.async_write(buffers, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    const auto written = [self = shared_from_this(), place](beast::error_code error, std::size_t) {
+      self->shared_.waiting.remove(place);
       self->sending_ = false;
       self->message_.clear();
       if (!error) self->send();
-    });
+    };
+    stream_.async_write(buffers, written);
   }
 
   Counted counted_;
@@ -238,6 +226,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     stream_.socket().set_option(tcp::no_delay(true), ignored);
   }
+
+  [[nodiscard]] beast::tcp_stream& socket() { return stream_; }
 
   void run() {
     asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
@@ -341,11 +331,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!is_head_) body_.insert(body_.end(), answer.body.begin(), answer.body.end());
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : body_) buffers.emplace_back(part->data(), part->size());
-    const auto place = shared_.waiting.add({size_of(body_), [weak = weak_from_this()] {
-                                              if (const auto self = weak.lock())
-                                                asio::post(self->stream_.get_executor(),
-                                                           [self] { self->stream_.close(); });
-                                            }});
+    const auto place = shared_.waiting.add({size_of(body_), close_of(weak_from_this())});
     stream_.expires_after(shared_.options.answer_time);
     asio::async_write(stream_, buffers,
                       [self = shared_from_this(), place](beast::error_code error, std::size_t) {
@@ -360,12 +346,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close() {
     beast::error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(refusal_time);
     drain();
   }
 
   /// Closing over bytes that were not read would take the answer back from the client.
   void drain() {
-    stream_.expires_after(refusal_time);
     buffer_.clear();
     stream_.async_read_some(buffer_.prepare(most_header_bytes),
                             [self = shared_from_this()](beast::error_code error, std::size_t got) {

@@ -25,7 +25,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t large_bytes = std::size_t{8} << 20U;
 
 /// Answers each request with what was asked for; /large is large; "/say" is a channel that repeats
-/// what it is told, and says "wake" when it is woken.
+/// what it is told, says something large to "large", fails at "fail", and says "wake" when it is
+/// woken.
 class Echo final : public io::WebHandler {
  public:
   class Channel final : public io::WebChannel {
@@ -37,6 +38,11 @@ class Echo final : public io::WebHandler {
       return true;
     }
     std::optional<std::vector<io::SharedBytes>> next() override {
+      if (said_ == "fail") throw std::runtime_error("a bug");
+      if (said_ == "large") {
+        said_.reset();
+        return std::vector{io::shared_bytes(std::string(large_bytes, 'x'))};
+      }
       if (said_) return std::vector{io::shared_bytes("you said "), io::shared_bytes(taken())};
       if (wakes_ == seen_) return std::nullopt;
       seen_ = wakes_;
@@ -204,6 +210,24 @@ TEST_F(ServerTest, BadWebSocketFramesCloseTheirConnectionAlone) {
   EXPECT_EQ(good.message()->payload, "you said still here");
 }
 
+TEST_F(ServerTest, AChannelThatFailsIsClosedAlone) {
+  WebClient one = client();
+  ASSERT_EQ(one.upgrade("/say").status, 101);
+  one.send_text("fail");
+  EXPECT_EQ(close_status(one), 1011);
+  EXPECT_EQ(client().get("/a").body, "/a");
+}
+
+// A byte now and then does not keep a connection that is being closed.
+TEST_F(ServerTest, ClosingIsNotHeldUpByWhatStillComes) {
+  WebClient one = client();
+  one.send("no HTTP at all\r\n\r\n");
+  EXPECT_EQ(one.reply().status, 400);
+  const auto patience = Clock::now() + 6s;  // three times as long as it waits
+  while (Clock::now() < patience && one.send("x")) std::this_thread::sleep_for(200ms);
+  EXPECT_LT(Clock::now(), patience);
+}
+
 TEST(ServerAddress, WhatCannotBeListenedOnIsTheUsersFault) {
   Echo echo;
   const io::WebServer first({}, echo);
@@ -286,9 +310,27 @@ TEST_F(SlowClientsTest, CostNoMemoryAndNobodyElsesTime) {
   }
 }
 
+// As answers: 40 messages of 8 MB that nobody takes.
+TEST_F(SlowClientsTest, MessagesCountAsAnswersDo) {
+  constexpr int count = 40;
+  constexpr std::size_t allowance = 3 * waiting_bytes;
+  const std::size_t before = resident_bytes();
+  std::vector<WebClient> slow;
+  for (int i = 0; i < count; ++i) {
+    slow.emplace_back(server_.port(), 4096);
+    ASSERT_EQ(slow.back().upgrade("/say").status, 101);
+    slow.back().send_text("large");
+  }
+  EXPECT_TRUE(slow.front().is_closed());
+  if (!PENUMBRA_IS_SANITIZED) {
+    EXPECT_LT(resident_bytes(), before + allowance);
+  }
+  EXPECT_EQ(client().get("/a").body, "/a");
+}
+
 class FewConnectionsTest : public ServerTest {
  protected:
-  FewConnectionsTest() : ServerTest({.max_connections = 4, .request_time = 500ms}) {}
+  FewConnectionsTest() : ServerTest({.max_connections = 4}) {}
 };
 
 TEST_F(FewConnectionsTest, MoreAreAnsweredThatThereAreTooMany) {
@@ -301,12 +343,21 @@ TEST_F(FewConnectionsTest, MoreAreAnsweredThatThereAreTooMany) {
   EXPECT_EQ(one.get("/a").status, 503);
   EXPECT_TRUE(one.is_closed());
   EXPECT_EQ(idle[0].get("/a").status, 200);
-  // Those that ask for nothing lose their place.
-  for (WebClient& other : idle) EXPECT_TRUE(other.is_closed());
+}
+
+class HurriedTest : public ServerTest {
+ protected:
+  HurriedTest() : ServerTest({.max_connections = 4, .request_time = 1s}) {}
+};
+
+TEST_F(HurriedTest, ThoseThatAskForNothingLoseTheirPlace) {
+  std::vector<WebClient> idle;
+  for (int i = 0; i < 4; ++i) idle.push_back(client());
+  for (WebClient& one : idle) EXPECT_TRUE(one.is_closed());
   EXPECT_EQ(client().get("/a").status, 200);
 }
 
-TEST_F(FewConnectionsTest, RequestsThatDoNotEndAreGivenUp) {
+TEST_F(HurriedTest, RequestsThatDoNotEndAreGivenUp) {
   WebClient one = client();
   one.send("GET / HTTP/1.1\r\nHost: 127.");
   EXPECT_TRUE(one.is_closed());
