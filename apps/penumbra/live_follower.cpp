@@ -76,6 +76,7 @@ void LiveFollower::follow() {
   auto told = told_;
   if (Clock::now() - told_at_ > silence)
     told = {{"stale", "nothing is heard of penumbra live on /diagnostics"}};
+  tell_rivals(told);
   view_.tell(std::move(told), missing());
 }
 
@@ -127,15 +128,15 @@ void LiveFollower::take_result(io::Result result, const io::Sample& sample) {
   static const io::Decoder<io::TargetsMessage> targets;
   if (result == io::Result::targets) {
     io::TargetsMessage message;
-    if (!targets.decode(sample.data, message)) matcher_.add(std::move(message));
+    if (!targets.decode(sample.data, message)) matcher_.add(std::move(message), sample.participant);
   } else if (result == io::Result::overlay) {
     io::CompressedImageMessage message;
     if (!compressed.decode(sample.data, message))
-      matcher_.add(result, io::keep_image(message, sample.owner));
+      matcher_.add(result, io::keep_image(message, sample.owner), sample.participant);
   } else {
     io::ImageMessage message;
     if (!images.decode(sample.data, message))
-      matcher_.add(result, io::keep_image(message, sample.owner));
+      matcher_.add(result, io::keep_image(message, sample.owner), sample.participant);
   }
 }
 
@@ -167,17 +168,46 @@ void LiveFollower::take_jobs() {
   }
 }
 
+/// Frames are of one program each, but which one's is chance.
+void LiveFollower::tell_rivals(std::vector<io::LiveView::Diagnostic>& told) const {
+  if (!results_[0]) return;
+  const int publishers = results_[0]->status().publishers;
+  if (publishers < 2) return;
+  told.push_back({"error", std::to_string(publishers) + " programs publish " + result_names_[0] +
+                               ": what is shown is of any of them; end all penumbra live but " +
+                               "one, or give each a --namespace"});
+}
+
+std::string LiveFollower::nobody_publishes(io::LiveRole role) const {
+  std::string names;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    if (inbox_.topics()[i].role != role || !inputs_[i]) continue;
+    if (inputs_[i]->status().publishers > 0) return {};
+    names += (names.empty() ? "" : ", ") + inbox_.topics()[i].name;
+  }
+  return names.empty() ? names : "nobody publishes " + names;
+}
+
 std::vector<std::string> LiveFollower::missing() const {
   std::vector<std::string> lines;
   const io::LiveCamera& camera = inbox_.camera(0);
   if (results_[0] && results_[0]->status().publishers == 0)
     lines.push_back("labels: nobody publishes " + result_names_[0] +
                     "; penumbra live does, with the same options of topics");
+  if (const auto nobody = nobody_publishes(io::LiveRole::depth); !nobody.empty())
+    lines.push_back("depth: " + nobody);
+  if (const auto nobody = nobody_publishes(io::LiveRole::joints);
+      inbox_.options().poses == PoseSource::joints && !nobody.empty())
+    lines.push_back("robot: " + nobody);
   if (!inbox_.robot().fault().empty())
     lines.push_back("robot: " + inbox_.robot().fault());
   else if (!inbox_.robot().posed())
     lines.push_back("robot: nothing was heard on " + inbox_.options().description_topic +
                     " yet; --robot names a URDF in its place");
+  else
+    for (const LinkReport& link : inbox_.robot().posed()->robot.report())
+      if (link.missing)
+        lines.push_back("link " + link.link + " is drawn without its geometry: " + link.reason);
   if (!camera.setup_fault().empty()) lines.push_back("camera: " + camera.setup_fault());
   if (camera.options().color_topic.empty())
     lines.push_back("color: no color images were found; --color-topic names them");

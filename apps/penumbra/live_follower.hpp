@@ -43,6 +43,9 @@ class LiveFollower {
   void take_diagnostics();
   void take_jobs();
   [[nodiscard]] std::vector<std::string> missing() const;
+  void tell_rivals(std::vector<io::LiveView::Diagnostic>& told) const;
+  /// Empty: somebody does, or that is not listened for.
+  [[nodiscard]] std::string nobody_publishes(io::LiveRole role) const;
 
   io::Participant& graph_;
   io::LiveInbox inbox_;

@@ -77,7 +77,8 @@ class LiveFrame final : public PacketFrame {
   mutable std::shared_ptr<const Image<Rgb8>> pixels_;  // once color is decoded
 };
 
-/// The frame's object of report.json, by what was published: what nobody publishes is null.
+/// The frame's object of report.json, by what was published: what nobody publishes is null. So are
+/// the counts of pixels where `labels` is empty: they could not be read.
 [[nodiscard]] std::string live_report(const TargetsMessage& message, std::uint64_t number,
                                       std::optional<std::int64_t> joint_age,
                                       const std::string& labels);

@@ -21,31 +21,39 @@ void LiveMatcher::add(LiveJob job) {
   to.job = std::move(job);
 }
 
-void LiveMatcher::add(TargetsMessage targets) {
-  LiveResults& results = entry(targets.header.stamp).results;
+void LiveMatcher::add(TargetsMessage targets, std::uint64_t program) {
+  LiveResults& results = entry(targets.header.stamp).published[program].results;
   results.targets = std::move(targets);
 }
 
-void LiveMatcher::add(Result result, KeptImage image) {
+void LiveMatcher::add(Result result, KeptImage image, std::uint64_t program) {
   Entry& to = entry(image.header().stamp);
+  LiveResults& results = to.published[program].results;
   if (result == Result::labels) {
-    to.number = labelled_++;
-    to.results.labels = std::move(image);
+    if (!to.number) to.number = labelled_++;
+    results.labels = std::move(image);
   } else if (result == Result::virtual_depth) {
-    to.results.virtual_depth = std::move(image);
+    results.virtual_depth = std::move(image);
   } else if (result == Result::overlay) {
-    to.results.overlay = std::move(image);
+    results.overlay = std::move(image);
   }
 }
 
-bool LiveMatcher::is_complete(Entry& entry, const Wanted& wanted, std::int64_t now) {
-  const LiveResults& results = entry.results;
-  if (!entry.job || !results.targets || !results.labels) return false;
-  if (!entry.ready_since) entry.ready_since = now;
+bool LiveMatcher::is_complete(Published& published, const Wanted& wanted, std::int64_t now) {
+  const LiveResults& results = published.results;
+  if (!results.targets || !results.labels) return false;
+  if (!published.ready_since) published.ready_since = now;
   const bool has_depth =
       !wanted.virtual_depth || results.virtual_depth || !has_live_pose(results.targets->status);
   const bool has_all = has_depth && (!wanted.overlay || results.overlay);
-  return has_all || now - *entry.ready_since >= companion_wait;
+  return has_all || now - *published.ready_since >= companion_wait;
+}
+
+LiveResults* LiveMatcher::complete(Entry& entry, const Wanted& wanted, std::int64_t now) {
+  if (!entry.job) return nullptr;
+  for (auto& [program, published] : entry.published)
+    if (is_complete(published, wanted, now)) return &published.results;
+  return nullptr;
 }
 
 std::shared_ptr<LiveScene> LiveMatcher::scene_of(const LiveJob& job) {
@@ -59,10 +67,11 @@ std::shared_ptr<LiveScene> LiveMatcher::scene_of(const LiveJob& job) {
 std::shared_ptr<LiveFrame> LiveMatcher::take(const Wanted& wanted, std::int64_t now) {
   for (auto at = entries_.rbegin(); at != entries_.rend(); ++at) {
     Entry& found = at->second;
-    if (!is_complete(found, wanted, now)) continue;
+    LiveResults* const results = complete(found, wanted, now);
+    if (results == nullptr) continue;
     auto scene = scene_of(*found.job);
     auto frame = std::make_shared<LiveFrame>(std::move(scene), std::move(*found.job),
-                                             std::move(found.results), found.number);
+                                             std::move(*results), *found.number);
     entries_.erase(entries_.begin(), at.base());
     return frame;
   }

@@ -13,7 +13,7 @@
 namespace penumbra::io {
 
 /// Brings together what belongs to one image: the image with the robot's pose at its stamp, and
-/// what was published of it, by stamp. Newest wins. Knows no thread and no clock: `now` is
+/// what one program published of it, by stamp. Newest wins. Knows no thread and no clock: `now` is
 /// nanoseconds of a steady clock.
 class LiveMatcher {
  public:
@@ -29,8 +29,9 @@ class LiveMatcher {
   };
 
   void add(LiveJob job);
-  void add(TargetsMessage targets);
-  void add(Result result, KeptImage image);
+  /// `program`: who says so, a number; what two programs say is never put into one frame.
+  void add(TargetsMessage targets, std::uint64_t program);
+  void add(Result result, KeptImage image, std::uint64_t program);
 
   /// The newest image of which all has come that is wanted; those before it are forgotten. Nothing:
   /// there is none (yet).
@@ -40,14 +41,21 @@ class LiveMatcher {
   [[nodiscard]] std::uint64_t labelled() const { return labelled_; }
 
  private:
-  struct Entry {
-    std::optional<LiveJob> job;
+  /// Of one program.
+  struct Published {
     LiveResults results;
     std::optional<std::int64_t> ready_since;
-    std::uint64_t number = 0;
+  };
+  struct Entry {
+    std::optional<LiveJob> job;
+    std::map<std::uint64_t, Published> published;  // by program
+    std::optional<std::uint64_t> number;           // once it is labelled
   };
   Entry& entry(std::int64_t stamp);
-  [[nodiscard]] static bool is_complete(Entry& entry, const Wanted& wanted, std::int64_t now);
+  [[nodiscard]] static bool is_complete(Published& published, const Wanted& wanted,
+                                        std::int64_t now);
+  /// The results of the first program of which all is there; null: none is.
+  [[nodiscard]] static LiveResults* complete(Entry& entry, const Wanted& wanted, std::int64_t now);
   std::shared_ptr<LiveScene> scene_of(const LiveJob& job);
 
   std::map<std::int64_t, Entry> entries_;  // by stamp

@@ -83,8 +83,12 @@ Json target_json(const TargetMessage& target) {
           {"reason", or_null(target.reason)}};
 }
 
-/// Uncovered pixels are published as unknown ones: how many they are is not known here.
+/// Uncovered pixels are published as unknown ones: how many they are is not known here. Nothing is
+/// of a label image that could not be read.
 Json pixels_json(const std::string& labels, bool has_pose) {
+  if (labels.empty())
+    return {{"robot", nullptr},   {"front", nullptr},  {"occluded", nullptr},
+            {"unknown", nullptr}, {"beyond", nullptr}, {"uncovered", nullptr}};
   std::array<std::size_t, 5> counts{};
   for (const char label : labels) {
     const auto value = static_cast<unsigned char>(label);
