@@ -34,6 +34,7 @@ struct FrameRange {
 
 struct RendererArguments {
   std::optional<Backend> backend = Backend::cpu;  ///< nothing: auto
+  bool is_named = false;                          ///< the backend, by --renderer
   RendererOptions options;
 };
 

@@ -23,7 +23,10 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 void add_renderer(CLI::App& app, RendererArguments& renderer) {
   add_option(app, "--renderer",
              "cpu (default), gl (OpenGL), reference, or auto: the faster of cpu and gl, measured",
-             "NAME", [&](const std::string& text) { renderer.backend = to_backend(text); });
+             "NAME", [&](const std::string& text) {
+               renderer.backend = to_backend(text);
+               renderer.is_named = true;
+             });
   add_option(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
              [&](const std::string& text) {
                renderer.options.gl_device = to_count("--gl-device", text, 0, most_gl_devices);

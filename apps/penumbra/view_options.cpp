@@ -47,6 +47,8 @@ void check_view_live(ViewArguments& view) {
   if (run.frames.first || run.frames.end) refuse("--frames");
   if (run.targets || run.no_targets) refuse("--targets");
   if (!run.bag.target_topics.empty()) refuse("--target-topic");
+  if (!view.input.empty())
+    throw InputError("--input: is of a run's results; view live has none, leave it out");
   if (view.live.cameras.size() > 1)
     throw InputError("--camera: one camera is shown at a time; start a penumbra view for each");
   view.live.judging = run;
@@ -85,7 +87,6 @@ void add_view(CLI::App& app, ViewArguments& view) {
 }
 
 void check_view(ViewArguments& view) {
-  check_renderer(view.judging.renderer);
   check_targets(view.judging);
   view.judging.is_shown = true;
   view.is_live = view.judging.input == "live";

@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/view_source.hpp>
 #include <io/bag/bag_file.hpp>
 
@@ -22,6 +23,7 @@ void refuse_choices(const RunArguments& run, const fs::path& folder) {
                      " holds the results of a run, which are shown as they were judged; leave it "
                      "out, or view the run's input");
   };
+  if (run.renderer.is_named) refuse("--renderer");
   if (run.geometry) refuse("--geometry");
   if (run.tolerance) refuse("--tolerance");
   if (run.front_min_width) refuse("--front-min-width");
@@ -115,7 +117,11 @@ bool is_run_folder(const fs::path& input) {
 
 ViewSource::ViewSource(const ViewArguments& arguments) {
   check_is_something(arguments.judging.input);
-  if (is_run_folder(arguments.judging.input))
+  const bool is_run = is_run_folder(arguments.judging.input);
+  if (!is_run && !arguments.input.empty())
+    throw InputError("--input: names the input of a run whose results are shown, and " +
+                     arguments.judging.input.string() + " is an input itself; leave it out");
+  if (is_run)
     open_run(arguments);
   else
     open_input(arguments.judging);
@@ -128,6 +134,7 @@ ViewSource::~ViewSource() {
 
 void ViewSource::open_input(const RunArguments& arguments) {
   judged_ = arguments;
+  check_renderer(judged_.renderer);
   judging_.emplace(judged_);
   const Pipeline& pipeline = judging_->pipeline();
   store_.emplace(pipeline.rectification());
@@ -149,6 +156,7 @@ void ViewSource::open_run(const ViewArguments& arguments) {
   RunArguments run = arguments.judging;
   run.input = arguments.input;
   judged_ = asked_of(report, run, folder);
+  check_renderer(judged_.renderer);
   std::string why;
   try {
     judging_.emplace(judged_);
@@ -193,7 +201,7 @@ std::string ViewSource::what_went_wrong() const {
   } catch (const std::exception& error) {
     return error.what();
   }
-  return {};
+  return judging_->lost();
 }
 
 void ViewSource::tell() {

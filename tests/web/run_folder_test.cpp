@@ -2,6 +2,8 @@
 // `penumbra view OUT`: nothing else is shown than what the run judged.
 #include "../apps/program.hpp"
 #include "../apps/tiny_recording.hpp"
+#include "../support/opengl.hpp"
+#include "../support/run_length.hpp"
 #include "viewer_process.hpp"
 
 #include <filesystem>
@@ -50,7 +52,10 @@ TEST_F(ViewRunTest, ShowsTheReportAndWhatItsInputGives) {
   const json session = viewer.complete_session();
   EXPECT_EQ(session["missing"], json::array());
   EXPECT_EQ(session["frames"], 2);
-  EXPECT_EQ(viewer.get_json("/api/report"), json::parse(read_file(out() / "report.json")));
+  json report = json::parse(read_file(out() / "report.json"));
+  EXPECT_EQ(viewer.get_json("/api/report"), report);
+  report["frames"].erase(0);
+  EXPECT_EQ(viewer.get_json("/api/report?from=1"), report);
   const Packet first = packet(viewer, 0);
   EXPECT_EQ(first.json["frame"]["index"], 1);
   EXPECT_EQ(first.parts.size(), 6U);
@@ -122,11 +127,32 @@ TEST_F(ViewRunTest, AnInputThatEndsEarlierIsTold) {
   EXPECT_EQ(viewer.complete_session()["missing"].size(), 1U);
 }
 
+#ifdef PENUMBRA_FAILING_DEVICE
+// It is not the input that has fewer frames.
+TEST_F(ViewRunTest, ADeviceThatFailsIsToldAsWhatItIs) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // it wants to be the first library
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  constexpr int most_questions = 40;  // that OpenGL is asked for a few frames
+  run({"--renderer", "gl", "--gl-device", std::to_string(*working_device())});
+  std::string missing;
+  for (int spared = 1; spared < most_questions && missing.find(" on: ") == std::string::npos;
+       ++spared) {
+    const ViewerProcess viewer({out(), "--gl-device", std::to_string(*working_device())},
+                               {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE,
+                                "PENUMBRA_TEST_SPARED=" + std::to_string(spared)});
+    missing = viewer.complete_session()["missing"].dump();
+  }
+  EXPECT_NE(missing.find("the graphics device was reset"), std::string::npos) << missing;
+  EXPECT_EQ(missing.find("fewer frames"), std::string::npos) << missing;
+}
+#endif
+
 TEST_F(ViewRunTest, ChoicesOfItsOwnAreRefused) {
   run();
   for (const std::vector<std::string>& choice : {std::vector<std::string>{"--labels", "paper"},
                                                  {"--geometry", "visual"},
                                                  {"--frames", "0:1"},
+                                                 {"--renderer", "reference"},
                                                  {"--targets", "none"}}) {
     const Outcome outcome = penumbra({"view", out(), choice[0], choice[1]});
     EXPECT_EQ(outcome.status, 2) << choice[0];
