@@ -21,8 +21,8 @@ class FrameArchive {
   /// Frames so far.
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual bool is_complete() const = 0;
-  /// report.json so far.
-  [[nodiscard]] virtual SharedBytes report() const = 0;
+  /// report.json so far, of its frames those from the given one on.
+  [[nodiscard]] virtual SharedBytes report(std::size_t from) const = 0;
   /// The i-th in the report's order; null: there is none (yet). This must outlive it.
   [[nodiscard]] virtual std::unique_ptr<PacketFrame> frame(std::size_t i) const = 0;
   /// What cannot be shown and which command gives it, a sentence each.

@@ -54,6 +54,7 @@ void FrameStore::begin(const ReportHead& head) {
   notes_.assign(head.notes.begin(), head.notes.end());
   const std::lock_guard lock(mutex_);
   text_ = report_start(head);
+  head_size_ = text_.size();
 }
 
 void FrameStore::add(const FrameReport& report, const FrameData& data,
@@ -133,9 +134,15 @@ bool FrameStore::is_complete() const {
   return !end_.empty();
 }
 
-SharedBytes FrameStore::report() const {
+SharedBytes FrameStore::report(std::size_t from) const {
   const std::lock_guard lock(mutex_);
-  return shared_bytes(text_ + (end_.empty() ? unfinished_report_end() : end_));
+  const std::string_view text(text_);
+  std::string report(text.substr(0, head_size_));
+  if (from < entries_.size()) {
+    report += '\n';
+    report += text.substr(entries_[from].report_offset);
+  }
+  return shared_bytes(report + (end_.empty() ? unfinished_report_end() : end_));
 }
 
 std::unique_ptr<PacketFrame> FrameStore::frame(std::size_t i) const {

@@ -34,7 +34,7 @@ class FrameStore final : public FrameArchive {
   // By any thread.
   [[nodiscard]] std::size_t size() const override;
   [[nodiscard]] bool is_complete() const override;
-  [[nodiscard]] SharedBytes report() const override;
+  [[nodiscard]] SharedBytes report(std::size_t from) const override;
   [[nodiscard]] std::unique_ptr<PacketFrame> frame(std::size_t i) const override;
   [[nodiscard]] std::vector<std::string> missing() const override;
 
@@ -73,8 +73,9 @@ class FrameStore final : public FrameArchive {
   std::string pixels_;
 
   mutable std::mutex mutex_;
-  std::string text_;  // of the report so far
-  std::string end_;   // of the report; empty until it is known
+  std::string text_;           // of the report so far
+  std::size_t head_size_ = 0;  // of it, before the frames
+  std::string end_;            // of the report; empty until it is known
   std::vector<Entry> entries_;
   std::size_t without_color_ = 0;
   std::string first_without_color_;

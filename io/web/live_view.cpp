@@ -17,6 +17,13 @@ std::int64_t system_now() {
       .count();
 }
 
+Json json_of(const std::vector<LiveView::Diagnostic>& diagnostics) {
+  Json json = Json::array();
+  for (const LiveView::Diagnostic& one : diagnostics)
+    json.push_back({{"level", one.level}, {"message", one.message}});
+  return json;
+}
+
 /// {"type": "want", "with": [...], "step": 4}; nothing: it is not that.
 std::optional<Wanted> wanted_of(const Json& message) {
   std::string with;
@@ -74,10 +81,10 @@ class LiveView::Client final : public WebChannel {
     last_ = number;
     const Json live{{"age_ms", 1e-6 * static_cast<double>(system_now() - moment.frame->stamp())},
                     {"dropped", dropped},
-                    {"rate_hz", moment.rate}};
-    std::string more = ", \"live\": " + json_text(live);
-    more.pop_back();
-    more += ", \"diagnostics\": " + moment.diagnostics + "}";
+                    {"rate_hz", moment.rate},
+                    {"missing", moment.missing},
+                    {"diagnostics", json_of(moment.diagnostics)}};
+    const std::string more = ", \"live\": " + json_text(live);
     const LiveScene& scene = moment.frame->scene();
     return make_packet(*moment.frame, wanted_, &scene.cloud, scene.version, more);
   }
@@ -114,12 +121,9 @@ void LiveView::publish(std::shared_ptr<const LiveFrame> frame, const Robot& robo
   while (now - published_.front() > rate_window) published_.pop_front();
 }
 
-void LiveView::tell(const std::vector<Diagnostic>& diagnostics, std::vector<std::string> missing) {
-  Json json = Json::array();
-  for (const Diagnostic& one : diagnostics)
-    json.push_back({{"level", one.level}, {"message", one.message}});
+void LiveView::tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing) {
   const std::lock_guard lock(mutex_);
-  diagnostics_ = json_text(json);
+  diagnostics_ = std::move(diagnostics);
   missing_ = std::move(missing);
 }
 
@@ -139,7 +143,7 @@ LiveView::Moment LiveView::newest() const {
   if (published_.size() > 1)
     rate = 1e9 * static_cast<double>(published_.size() - 1) /
            static_cast<double>(std::max<std::int64_t>(published_.back() - published_.front(), 1));
-  return {frame_, rate, diagnostics_};
+  return {frame_, rate, diagnostics_, missing_};
 }
 
 std::string LiveView::session() const {
@@ -147,17 +151,21 @@ std::string LiveView::session() const {
   SessionInfo info{.mode = "live", .input = input_, .links = links_};
   info.parts = {Part::color, Part::overlay, Part::labels, Part::vdi, Part::depth, Part::cloud};
   if (frame_) info.camera = frame_->scene().cameras.judged;
-  return session_json(info, 0, std::nullopt, false, scene_ ? scene_->version : 0, missing_);
+  std::string session =
+      session_json(info, 0, std::nullopt, false, scene_ ? scene_->version : 0, missing_);
+  session.pop_back();
+  return session + ", \"diagnostics\": " + json_text(json_of(diagnostics_)) + "}";
+}
+
+Scene LiveView::scene() const {
+  const std::lock_guard lock(mutex_);
+  return scene_ ? *scene_ : make_scene(links_);
 }
 
 WebAnswer LiveView::answer(const WebRequest& request) {
   if (request.path == "/api/session") return {.body = {shared_bytes(session())}};
-  if (request.path == "/api/scene" || request.path == "/api/scene.bin") {
-    const std::lock_guard lock(mutex_);
-    const Scene scene = scene_ ? *scene_ : make_scene(links_);
-    if (request.path == "/api/scene") return {.body = {scene.json}};
-    return {.type = "application/octet-stream", .body = {scene.geometry}};
-  }
+  if (request.path.starts_with("/api/scene"))
+    if (auto answer = scene_answer(request, scene())) return *std::move(answer);
   if (auto page = page_answer(request.path)) return *std::move(page);
   return web_error(404, "nothing is served live at " + request.path);
 }

@@ -30,7 +30,8 @@ class LiveView final : public WebHandler {
 
   /// The newest frame; `now`: nanoseconds of a steady clock. Then the server is to be woken.
   void publish(std::shared_ptr<const LiveFrame> frame, const Robot& robot, std::int64_t now);
-  void tell(const std::vector<Diagnostic>& diagnostics, std::vector<std::string> missing);
+  /// What penumbra live says of itself, and what is amiss here.
+  void tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
   [[nodiscard]] std::size_t clients() const;
   /// What the clients want, all together.
@@ -45,10 +46,12 @@ class LiveView final : public WebHandler {
   struct Moment {
     std::shared_ptr<const LiveFrame> frame;
     double rate = 0;  // frames in a second
-    std::string diagnostics;
+    std::vector<Diagnostic> diagnostics;
+    std::vector<std::string> missing;
   };
   [[nodiscard]] Moment newest() const;
   [[nodiscard]] std::string session() const;
+  [[nodiscard]] Scene scene() const;
 
   const std::string input_;
   mutable std::mutex mutex_;
@@ -56,7 +59,7 @@ class LiveView final : public WebHandler {
   std::deque<std::int64_t> published_;  // when, of the last second
   std::optional<Scene> scene_;
   std::vector<std::string> links_;
-  std::string diagnostics_ = "[]";
+  std::vector<Diagnostic> diagnostics_;
   std::vector<std::string> missing_;
   std::size_t clients_ = 0;
   std::array<std::size_t, part_count> wanted_{};  // by how many clients

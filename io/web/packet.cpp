@@ -12,6 +12,7 @@
 #include <io/png.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/packet.hpp>
+#include <io/web/server_id.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -126,8 +127,8 @@ std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wan
              ", \"height\": " + std::to_string(part->height) + "}";
     packet.push_back(part->bytes);
   }
-  std::string json = "{\"frame\": " + frame.report() +
-                     ", \"scene_version\": " + std::to_string(scene_version) + ", " +
+  std::string json = "{\"frame\": " + frame.report() + ", \"server\": \"" + server_id() +
+                     "\", \"scene_version\": " + std::to_string(scene_version) + ", " +
                      frame.poses() + ", \"parts\": [" + parts + "]" + std::string(more) + "}";
   const auto length = static_cast<std::uint32_t>(json.size());
   std::string head(sizeof length, '\0');

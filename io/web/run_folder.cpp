@@ -134,11 +134,11 @@ std::size_t RunFolder::size() const {
   return is_complete_ ? report_.frames.size() : std::min(agrees_.size(), report_.frames.size());
 }
 
-SharedBytes RunFolder::report() const {
+SharedBytes RunFolder::report(std::size_t from) const {
   const bool is_whole = is_complete_;
   const std::size_t count = size();
   std::string text = report_.start;
-  for (std::size_t i = 0; i < count; ++i) text += (i == 0 ? "\n" : ",\n") + report_.frames[i];
+  for (std::size_t i = from; i < count; ++i) text += (i == from ? "\n" : ",\n") + report_.frames[i];
   return shared_bytes(text + (is_whole ? report_.end : unfinished_report_end()));
 }
 

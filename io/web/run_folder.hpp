@@ -62,7 +62,7 @@ class RunFolder final : public FrameArchive {
 
   [[nodiscard]] std::size_t size() const override;
   [[nodiscard]] bool is_complete() const override { return is_complete_; }
-  [[nodiscard]] SharedBytes report() const override;
+  [[nodiscard]] SharedBytes report(std::size_t from) const override;
   [[nodiscard]] std::unique_ptr<PacketFrame> frame(std::size_t i) const override;
   [[nodiscard]] std::vector<std::string> missing() const override;
 

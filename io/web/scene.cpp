@@ -6,6 +6,7 @@
 
 #include <io/json-inl.hpp>
 #include <io/web/scene.hpp>
+#include <io/web/server_id.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -31,10 +32,9 @@ Json pose_json(const Eigen::Isometry3d& pose) {
 }
 
 Scene scene_of(std::uint64_t version, const std::string& root, Json links, std::string geometry) {
-  return {
-      version,
-      shared_bytes(json_text({{"version", version}, {"root", root}, {"links", std::move(links)}})),
-      shared_bytes(std::move(geometry))};
+  const Json json{
+      {"server", server_id()}, {"version", version}, {"root", root}, {"links", std::move(links)}};
+  return {version, shared_bytes(json_text(json)), shared_bytes(std::move(geometry))};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace penumbra::io {
 /// What is drawn of a robot: the very triangles of its renderer.
 struct Scene {
   std::uint64_t version = 1;
-  SharedBytes json;      ///< {"version", "root", "links": [{"name", "meshes": [...]}]}
+  SharedBytes json;      ///< {"server", "version", "root", "links": [{"name", "meshes": [...]}]}
   SharedBytes geometry;  ///< float32 x y z in the link's frame, metres, and uint32 indices
 };
 

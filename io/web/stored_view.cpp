@@ -7,6 +7,7 @@
 #include <io/json-inl.hpp>
 #include <io/numbers.hpp>
 #include <io/web/page_files.hpp>
+#include <io/web/server_id.hpp>
 #include <io/web/stored_view.hpp>
 
 namespace penumbra::io {
@@ -52,10 +53,10 @@ std::string session_json(const SessionInfo& info, std::size_t frames,
   Json parts = Json::array();
   for (const Part part : info.parts) parts.push_back(to_string(part));
   const Json json{
-      {"penumbra", PENUMBRA_VERSION},   {"mode", info.mode},   {"input", info.input},
-      {"complete", is_complete},        {"frames", frames},    {"expected", or_null(expected)},
-      {"scene_version", scene_version}, {"links", info.links}, {"camera", camera_json(info)},
-      {"parts", std::move(parts)},      {"missing", missing}};
+      {"penumbra", PENUMBRA_VERSION},  {"server", server_id()},          {"mode", info.mode},
+      {"input", info.input},           {"complete", is_complete},        {"frames", frames},
+      {"expected", or_null(expected)}, {"scene_version", scene_version}, {"links", info.links},
+      {"camera", camera_json(info)},   {"parts", std::move(parts)},      {"missing", missing}};
   return json_text(json);
 }
 
@@ -66,6 +67,20 @@ std::optional<WebAnswer> page_answer(const std::string& path) {
   return WebAnswer{.type = std::string(file->type),
                    .body = {shared_bytes(std::string(file->bytes))},
                    .keeps = path.starts_with("/assets/")};
+}
+
+std::optional<WebAnswer> scene_answer(const WebRequest& request, const Scene& scene) {
+  const bool is_index = request.path == "/api/scene";
+  if (!is_index && request.path != "/api/scene.bin") return std::nullopt;
+  const auto wants_other = [&](const char* name, const std::string& is) {
+    const auto wanted = query_of(request, name);
+    return !wanted.empty() && wanted != is;
+  };
+  if (wants_other("server", server_id()) || wants_other("version", std::to_string(scene.version)))
+    return web_error(
+        409, "the scene is another one by now, of version " + std::to_string(scene.version));
+  if (is_index) return WebAnswer{.body = {scene.json}};
+  return WebAnswer{.type = "application/octet-stream", .body = {scene.geometry}};
 }
 
 StoredView::StoredView(SessionInfo info, Scene scene, const FrameArchive& archive,
@@ -79,13 +94,18 @@ WebAnswer StoredView::answer(const WebRequest& request) {
     return {.body = {
                 shared_bytes(session_json(info_, archive_.size(), expected_, archive_.is_complete(),
                                           scene_.version, archive_.missing()))}};
-  if (request.path == "/api/report") return {.body = {archive_.report()}};
-  if (request.path == "/api/scene") return {.body = {scene_.json}};
-  if (request.path == "/api/scene.bin")
-    return {.type = "application/octet-stream", .body = {scene_.geometry}};
+  if (request.path == "/api/report") return report(request);
+  if (auto scene = scene_answer(request, scene_)) return *std::move(scene);
   if (request.path.starts_with(frames_path)) return packet(request);
   if (auto page = page_answer(request.path)) return *std::move(page);
   return web_error(404, "nothing is served at " + request.path);
+}
+
+WebAnswer StoredView::report(const WebRequest& request) const {
+  const std::string from = query_of(request, "from");
+  const auto first = parse_number<std::int64_t>(from.empty() ? "0" : from);
+  if (!first || *first < 0) return web_error(400, "from= takes the number of frames to leave out");
+  return {.body = {archive_.report(static_cast<std::size_t>(*first))}};
 }
 
 WebAnswer StoredView::packet(const WebRequest& request) const {

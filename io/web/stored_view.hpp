@@ -32,6 +32,10 @@ struct SessionInfo {
 /// The page's files; nothing where it has none of this path.
 [[nodiscard]] std::optional<WebAnswer> page_answer(const std::string& path);
 
+/// GET /api/scene and /api/scene.bin, of this version and server where the query names them;
+/// nothing for other paths.
+[[nodiscard]] std::optional<WebAnswer> scene_answer(const WebRequest& request, const Scene& scene);
+
 /// Serves the page and frames of an archive.
 class StoredView final : public WebHandler {
  public:
@@ -43,6 +47,7 @@ class StoredView final : public WebHandler {
   [[nodiscard]] std::unique_ptr<WebChannel> open_channel(const std::string& path) override;
 
  private:
+  [[nodiscard]] WebAnswer report(const WebRequest& request) const;
   [[nodiscard]] WebAnswer packet(const WebRequest& request) const;
 
   SessionInfo info_;

@@ -10,6 +10,7 @@
 #include <sys/random.h>
 
 #include <io/numbers.hpp>
+#include <io/web/server_id.hpp>
 #include <io/web/web_guard.hpp>
 
 namespace penumbra::io {
@@ -119,6 +120,11 @@ std::string random_token() {
     text += "0123456789abcdef"[byte & 15U];
   }
   return text;
+}
+
+const std::string& server_id() {
+  static const std::string id = random_token();
+  return id;
 }
 
 bool equal_secrets(std::string_view a, std::string_view b) {

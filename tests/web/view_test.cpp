@@ -74,6 +74,31 @@ TEST_F(ViewExampleTest, ReportIsThatOfRun) {
   EXPECT_EQ(session_["missing"], json::array());
 }
 
+TEST_F(ViewExampleTest, ReportIsHadFromAFrameOn) {
+  const json whole = viewer_->get_json("/api/report");
+  for (const std::size_t from : {0U, 1U, 11U, 12U, 99U}) {
+    json wanted = whole;
+    wanted["frames"] = json::array();
+    for (std::size_t i = from; i < example_frames; ++i)
+      wanted["frames"].push_back(whole["frames"][i]);
+    EXPECT_EQ(viewer_->get_json("/api/report?from=" + std::to_string(from)), wanted) << from;
+  }
+  for (const std::string from : {"-1", "x", "1.5"})
+    EXPECT_EQ(viewer_->client().get("/api/report?from=" + from).status, 400) << from;
+}
+
+// What another program on this port would count alike is not from here.
+TEST_F(ViewExampleTest, WhoServesIsToldEverywhere) {
+  const std::string server = session_["server"];
+  EXPECT_EQ(packet(0, "").json["server"], server);
+  EXPECT_EQ(viewer_->get_json("/api/scene")["server"], server);
+  EXPECT_EQ(viewer_->client().get("/api/scene.bin?version=1&server=" + server).status, 200);
+  EXPECT_EQ(viewer_->client().get("/api/scene.bin?version=2").status, 409);
+  EXPECT_EQ(viewer_->client().get("/api/scene?server=other").status, 409);
+  const ViewerProcess other({example});
+  EXPECT_NE(other.get_json("/api/session")["server"], server);
+}
+
 TEST_F(ViewExampleTest, ImagesAreThoseOfRunByteForByte) {
   const json report = json::parse(read_file(out() / "report.json"));
   for (std::size_t i = 0; i < example_frames; ++i) {
@@ -232,7 +257,9 @@ TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
       {{folder.write("some.txt", "text")}, "some.txt"},
       {{example, "--port", "70000"}, "--port"},
       {{example, "--address", "nowhere"}, "--address"},
-      {{example, "--frames", "50:60"}, "--frames"}};
+      {{example, "--frames", "50:60"}, "--frames"},
+      {{example, "--input", example}, "--input"},
+      {{"live", "--input", example}, "--input"}};
   for (const auto& [arguments, word] : faults) {
     std::vector<std::string> all{"view"};
     all.insert(all.end(), arguments.begin(), arguments.end());

@@ -4,24 +4,28 @@ import { fetchSession } from './api/client';
 import { LiveConnection } from './api/live';
 import type { Packet } from './api/packet';
 import type { FrameReport, Session } from './api/types';
+import { LiveWatch } from './live_watch';
+import { Throttle } from './model/throttle';
 import { bindControls } from './view/controls';
+import { coverReplaced, uncover } from './view/cover';
 import { byId, setText } from './view/dom';
-import { uncover } from './view/cover';
-import { showDiagnostics, showLink, showRate } from './view/live_status';
-import { showMissing } from './view/missing';
+import { showInput } from './view/input_name';
+import { showTold } from './view/live_status';
 import { Viewer } from './viewer';
 
 const keptFrames = 900;
-const pollMilliseconds = 1000;
 const timelineMilliseconds = 500; // the timeline is drawn again no oftener than this
 
 export class LiveView {
   private readonly frames: FrameReport[] = [];
   private readonly drops: number[] = [];
   private readonly viewer: Viewer;
+  private readonly watch: LiveWatch;
   private readonly connection: LiveConnection;
+  private readonly timeline = new Throttle(timelineMilliseconds, () =>
+    this.viewer.timeline.setFrames(this.frames.slice(), this.drops.slice()),
+  );
   private paused = false;
-  private drawn = 0;
   private sceneVersion: number;
 
   constructor(session: Session) {
@@ -29,6 +33,7 @@ export class LiveView {
     this.viewer = new Viewer(session, {
       seek: () => undefined, // frames that are gone cannot be shown again
       wantsChanged: () => this.connection?.want(this.wanted(), this.viewer.step),
+      chosen: () => undefined,
     });
     bindControls(this.viewer, {
       toggle: () => this.toggle(),
@@ -37,17 +42,20 @@ export class LiveView {
       speed: () => undefined,
     });
     document.documentElement.classList.add('live', 'playing');
+    this.watch = new LiveWatch({
+      told: (told) => this.told(told),
+      back: () => this.connection.renew(),
+    });
     this.connection = new LiveConnection(
       {
-        packet: (packet) => this.take(packet),
-        connected: () => showLink(null),
-        disconnected: (seconds) => showLink(seconds),
-        fault: (message) => showDiagnostics([{ level: 'error', message }]),
+        packet: (packet) => this.take(packet).finally(() => this.watch.ended()),
+        connected: () => this.watch.connected(),
+        disconnected: (seconds) => this.watch.disconnected(seconds),
+        fault: (message) => showTold([], [{ level: 'error', message }]),
       },
       this.wanted(),
       this.viewer.step,
     );
-    void this.tellWaiting();
     uncover();
   }
 
@@ -58,41 +66,51 @@ export class LiveView {
   private toggle(): void {
     this.paused = !this.paused;
     this.connection.setPaused(this.paused);
+    this.watch.setPaused(this.paused);
     document.documentElement.classList.toggle('playing', !this.paused);
+    this.timeline.flush(); // all that is shown is of one frame
+    this.viewer.flush();
   }
 
-  /** Until the first frame: what it waits for, in the server's words. */
-  private async tellWaiting(): Promise<void> {
-    while (this.frames.length === 0) {
-      const { missing } = await fetchSession().catch(() => ({ missing: [] }));
-      if (this.frames.length > 0) return;
-      showMissing(missing, 'Not there');
-      const note = byId('scene-note');
-      note.hidden = false;
-      setText(note, ['Waiting for the first frame.', ...missing].join('\n'));
-      await new Promise((resolve) => window.setTimeout(resolve, pollMilliseconds));
-    }
+  /** What the server says while no frame comes. */
+  private told(session: Session): void {
+    if (session.mode !== 'live') return coverReplaced();
+    showTold(session.missing, session.diagnostics ?? [], true);
+    if (this.frames.length > 0) return;
+    const note = byId('scene-note');
+    note.hidden = false;
+    setText(note, ['Waiting for the first frame.', ...session.missing].join('\n'));
   }
 
   private async take(packet: Packet): Promise<void> {
     const arrived = performance.now();
-    if (packet.sceneVersion !== this.sceneVersion || !this.viewer.session.camera)
-      await this.refresh(packet.sceneVersion);
+    this.watch.arrived();
+    const { server, camera } = this.viewer.session;
+    const isOther = packet.server !== server;
+    if (isOther || packet.sceneVersion !== this.sceneVersion || !camera)
+      await this.refresh(packet.sceneVersion, isOther);
     this.keep(packet);
-    if (!this.viewer.chosen) this.viewer.choose(packet.frame.targets[0]?.name ?? null);
+    const first = packet.frame.targets[0];
+    if (!this.viewer.chosen && first) this.viewer.choose(first.name);
     await this.viewer.show(packet, this.frames.length - 1);
     await new Promise((resolve) => requestAnimationFrame(resolve));
-    if (packet.live) {
-      showRate(packet.live, performance.now() - arrived);
-      showDiagnostics(packet.live.diagnostics);
-    }
+    if (packet.live) this.watch.drawn(packet.live, performance.now() - arrived);
   }
 
-  /** Camera, links and parts became known, or changed. */
-  private async refresh(version: number): Promise<void> {
+  /**
+   * Camera, links and parts became known, or changed.
+   * @param isOther by another program on the same port, whose frames have other numbers
+   */
+  private async refresh(version: number, isOther: boolean): Promise<void> {
     const session = await fetchSession();
     this.sceneVersion = version;
     this.viewer.setSession(session);
+    showInput(session);
+    if (isOther) {
+      this.viewer.choose(null);
+      this.frames.length = 0;
+      this.drops.length = 0;
+    }
     this.connection.want(this.wanted(), this.viewer.step);
   }
 
@@ -103,9 +121,6 @@ export class LiveView {
       this.frames.shift();
       this.drops.shift();
     }
-    const now = performance.now();
-    if (now - this.drawn < timelineMilliseconds) return;
-    this.drawn = now;
-    this.viewer.timeline.setFrames(this.frames.slice(), this.drops.slice());
+    this.timeline.request();
   }
 }

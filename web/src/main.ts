@@ -3,23 +3,27 @@ import './styles/base.css';
 import './styles/page.css';
 import './styles/timeline.css';
 import { fetchReport, fetchSession } from './api/client';
+import type { Session } from './api/types';
 import { LiveView } from './live_view';
 import { StoredView } from './stored';
 import { timelineLegend } from './timeline/legend';
 import { cover } from './view/cover';
-import { byId, setText } from './view/dom';
+import { byId } from './view/dom';
+import { showInput } from './view/input_name';
 import { ThemeSwitch } from './view/theme';
+
+/** What a session says was missing has to be of all frames that the report has. */
+async function openStored(session: Session): Promise<void> {
+  const report = await fetchReport();
+  await new StoredView(session.complete ? session : await fetchSession(), report).start();
+}
 
 async function start(): Promise<void> {
   const session = await fetchSession();
-  const name = session.input.replace(/\/+$/, '').split('/').at(-1) ?? session.input;
-  document.title = `${name} · Penumbra`;
-  setText(byId('input-name'), name);
-  byId('input-name').title = session.input;
-  if (session.mode === 'live') setText(byId('mode'), 'live');
+  showInput(session);
   byId('timeline-legend').replaceChildren(...timelineLegend());
   if (session.mode === 'live') new LiveView(session);
-  else await new StoredView(session, await fetchReport()).start();
+  else await openStored(session);
 }
 
 // The cookie holds the token from now on: out of the address, which is seen, kept and passed on.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording or its results: any frame at any time.
-import { fetchPacket, fetchReport, fetchSession } from './api/client';
-import type { Report, Session } from './api/types';
+import { ApiError, fetchPacket, fetchReport, fetchSession } from './api/client';
+import type { FrameReport, Report, Session } from './api/types';
 import { FrameCache } from './model/frame_cache';
 import { onsets } from './model/occlusions';
 import { Player } from './model/player';
 import { bindControls } from './view/controls';
-import { cover, coverWaiting, uncover } from './view/cover';
+import { cover, coverReplaced, coverWaiting, uncover } from './view/cover';
 import { byId, setText } from './view/dom';
 import { fragmentState, setFragment } from './view/fragment';
 import { showMissing } from './view/missing';
@@ -22,6 +22,7 @@ export class StoredView {
   private wish = 0;
   private resting = 0;
   private complete = false;
+  private frames: readonly FrameReport[] = [];
   private readonly viewer: Viewer;
   private readonly player: Player;
   private readonly cache: FrameCache;
@@ -30,6 +31,9 @@ export class StoredView {
     this.viewer = new Viewer(session, {
       seek: (frame) => void this.seek(frame),
       wantsChanged: () => this.wantsChanged(),
+      chosen: () => {
+        if (this.viewer.packet) setFragment(this.current, this.viewer.chosen);
+      },
     });
     this.cache = new FrameCache(
       (index, wanted, signal) => fetchPacket(index, wanted, this.viewer.step, signal),
@@ -74,6 +78,7 @@ export class StoredView {
     window.clearTimeout(this.resting);
     try {
       await this.fetchAndShow(wish, false);
+      if (wish !== this.wish) return;
       uncover();
     } catch (error) {
       if (error instanceof DOMException && error.name === 'AbortError') return;
@@ -82,7 +87,6 @@ export class StoredView {
       this.fail(error, wanted);
       return;
     }
-    if (wish !== this.wish) return;
     setFragment(this.current, this.viewer.chosen);
     if (this.player.playing) this.ahead();
     else this.rest(wish);
@@ -100,8 +104,22 @@ export class StoredView {
     this.cache.abortAllBut(index);
     const packet = await this.cache.get(index, this.viewer.wanted(withValues));
     if (wish !== this.wish) return;
-    this.shown = index;
-    await this.viewer.show(packet, index);
+    if (packet.server !== this.viewer.session.server) return this.replaced();
+    const before = this.shown;
+    this.shown = index; // pausing keeps what is being drawn
+    try {
+      await this.viewer.show(packet, index);
+    } catch (error) {
+      if (this.shown === index) this.shown = before;
+      throw error;
+    }
+  }
+
+  /** Another program answers on this port: nothing of it belongs to what is shown. */
+  private replaced(): void {
+    this.player.pause();
+    ++this.wish;
+    coverReplaced();
   }
 
   private ahead(): void {
@@ -122,8 +140,15 @@ export class StoredView {
   }
 
   private fail(error: unknown, frame: number): void {
+    if (error instanceof ApiError && error.status > 0) void this.look();
     const back = (): void => void this.go(this.shown);
     cover(error, () => void this.go(frame), this.viewer.packet ? back : undefined);
+  }
+
+  /** What was not had may be so as another input is served. */
+  private async look(): Promise<void> {
+    const session = await fetchSession().catch(() => null);
+    if (session && session.server !== this.viewer.session.server) this.replaced();
   }
 
   private playingChanged(): void {
@@ -133,22 +158,32 @@ export class StoredView {
     this.rest(++this.wish);
   }
 
+  /** @param report with the frames that are new */
   private take(session: Session, report: Report): void {
     this.complete = report.summary !== null;
     this.viewer.setSession(session);
-    this.viewer.timeline.setFrames(report.frames);
-    const judged = report.frames.length;
-    const of = session.expected ? ` of ${session.expected}` : '';
-    setText(byId('mode'), this.complete ? `${judged} frames` : `${judged}${of} frames, judging`);
-    showMissing(session.missing, 'Not there');
+    if (report.frames.length > 0) {
+      this.frames = this.frames.concat(report.frames);
+      this.viewer.timeline.setFrames(this.frames);
+    }
+    const judged = this.frames.length;
+    const isPart = (session.expected ?? judged) > judged;
+    const of = isPart ? ` of ${session.expected}` : '';
+    setText(byId('mode'), `${judged}${of} frames${this.complete ? '' : ', judging'}`);
+    byId('mode').classList.toggle('fault', this.complete && isPart);
+    const notes = report.summary?.notes ?? [];
+    showMissing([...session.missing, ...notes], session.missing.length ? 'Not there' : 'Notes');
   }
 
   /** A run that is still going on: more frames come. */
   private async follow(): Promise<void> {
     for (;;) {
       await new Promise((resolve) => window.setTimeout(resolve, pollMilliseconds));
-      const [session, report] = await Promise.all([fetchSession(), fetchReport()]).catch(() => []);
+      // The session after the report: what it says was missing is of all of its frames.
+      const report = await fetchReport(this.frames.length).catch(() => null);
+      const session = report && (await fetchSession().catch(() => null));
       if (!session || !report) continue; // said when a frame is asked for
+      if (session.server !== this.viewer.session.server) return this.replaced();
       const first = this.viewer.timeline.times.length === 0;
       this.take(session, report);
       if (first) await this.start();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows one frame everywhere: scene, image, numbers, timeline. Knows nothing of where frames come from.
-import { fetchScene, fetchSceneData } from './api/client';
+import { ApiError, fetchScene } from './api/client';
 import type { Packet } from './api/packet';
-import type { PartName, Session } from './api/types';
+import type { FrameReport, PartName, Session } from './api/types';
 import { seconds } from './model/format';
+import { Throttle } from './model/throttle';
 import { SceneView, type ScenePart } from './scene/scene_view';
 import { isSoftwareGl } from './scene/software_gl';
 import { TimelineView } from './timeline/timeline_view';
@@ -16,12 +17,15 @@ import { styleValue } from './view/theme';
 
 const valueParts: readonly PartName[] = ['color', 'overlay', 'labels', 'links', 'vdi', 'depth'];
 
-const liveNumbersMilliseconds = 200;
+const liveNumbersMilliseconds = 200; // nobody reads thirty tables a second
+const conflict = 409; // the status of a scene that another has replaced
 
 export interface ViewerHandlers {
   seek(frame: number): void;
   /** Other parts are wanted than before. */
   wantsChanged(): void;
+  /** Another target is looked at. */
+  chosen(): void;
 }
 
 export class Viewer {
@@ -34,8 +38,9 @@ export class Viewer {
   packet: Packet | null = null;
   private readonly hidden = new Set<ScenePart>();
   private readonly isSlow: boolean;
-  private sceneVersion = -1;
-  private numbersAt = -Infinity;
+  private readonly numbers: Throttle;
+  private sceneShown = ''; // server and version
+  private origin = 0n; // nanoseconds: the stamp that live time counts from
   private order = 0;
   private position = 0;
   private drawing: Promise<void> = Promise.resolve();
@@ -45,6 +50,8 @@ export class Viewer {
     readonly handlers: ViewerHandlers,
   ) {
     this.isSlow = isSoftwareGl();
+    const rest = session.mode === 'live' ? liveNumbersMilliseconds : 0;
+    this.numbers = new Throttle(rest, () => this.showNumbers());
     this.scene = makeScene(this.isSlow && session.mode === 'live');
     this.image = new ImageView((inside) => {
       this.inspecting = inside;
@@ -96,18 +103,22 @@ export class Viewer {
   }
 
   private async draw(packet: Packet, position: number): Promise<void> {
+    // What cannot be decoded is shown nowhere.
+    await Promise.all([this.image.show(packet, this.session.links), this.fetchRobot(packet)]);
     this.packet = packet;
     this.position = position;
-    await Promise.all([this.showScene(packet), this.image.show(packet, this.session.links)]);
+    this.showScene(packet);
     this.timeline.setCurrent(position, packet.frame);
     byId('timeline-legend').hidden = this.timeline.tracks.length === 0;
-    if (this.numbersAreDue()) this.showNumbers(packet, position);
+    this.numbers.request();
+    byId('main').dataset['layer'] = this.image.layer;
     byId('main').dataset['shown'] = [packet.frame.index, ...packet.has].join(' ');
   }
 
   choose(name: string | null): void {
     this.chosen = name;
     this.timeline.setChosen(name);
+    this.handlers.chosen();
     const { packet } = this;
     if (!packet) return;
     this.scene?.show(packet, this.step, name);
@@ -122,39 +133,64 @@ export class Viewer {
     if (this.packet) this.scene?.show(this.packet, this.step, this.chosen);
   }
 
+  /** Numbers that wait for their time, at once. */
+  flush(): void {
+    this.numbers.flush();
+  }
+
   applyTheme(): void {
     this.scene?.setTheme(styleValue('--scene'), styleValue('--scene-line'), styleValue('--ink'));
   }
 
-  private async showScene(packet: Packet): Promise<void> {
+  private showScene(packet: Packet): void {
     if (!this.scene) return;
-    if (packet.sceneVersion !== this.sceneVersion) {
-      const [index, data] = await Promise.all([fetchScene(), fetchSceneData()]);
-      this.sceneVersion = index.version;
-      this.scene.setRobot(index, data);
-    }
     this.scene.show(packet, this.step, this.chosen);
-    const reason = reasonOfNoRobot(packet, this.session.missing);
+    const reason = reasonOfNoRobot(packet, packet.live?.missing ?? this.session.missing);
     const note = byId('scene-note');
     note.hidden = reason === null;
     setText(note, reason ?? '');
   }
 
-  /** Live nobody reads thirty tables a second. */
-  private numbersAreDue(): boolean {
-    const now = performance.now();
-    if (this.session.mode === 'live' && now - this.numbersAt < liveNumbersMilliseconds)
-      return false;
-    this.numbersAt = now;
-    return true;
+  /** The packet's robot, where another one is shown. */
+  private async fetchRobot(packet: Packet): Promise<void> {
+    const { scene } = this;
+    const wanted = `${packet.server} ${packet.sceneVersion}`;
+    if (!scene || wanted === this.sceneShown) return;
+    scene.setRobot(null);
+    this.sceneShown = '';
+    try {
+      const { index, data } = await fetchScene(packet.server, packet.sceneVersion);
+      scene.setRobot({ index, data });
+      this.sceneShown = wanted;
+    } catch (error) {
+      // Live a newer frame, of the new robot, is on its way: this one is shown without.
+      const isReplaced = error instanceof ApiError && error.status === conflict;
+      if (!isReplaced || this.session.mode !== 'live') throw error;
+    }
   }
 
-  private showNumbers(packet: Packet, position: number): void {
+  /** Stored: the frame's place among all. Live: its number, and the time since the page was opened. */
+  private showPosition(frame: FrameReport): void {
+    const { times } = this.timeline;
+    const isLive = this.session.mode === 'live';
+    const time = isLive ? this.liveTime(frame.stamp_ns) : (times[this.position] ?? null);
+    const place = isLive ? `${frame.index}` : `${this.position + 1} / ${times.length}`;
+    setText(byId('position-frame'), place);
+    setText(byId('position-time'), time === null ? '' : seconds(time, 3));
+  }
+
+  private liveTime(stamp: string | null): number | null {
+    if (stamp === null) return null;
+    const now = BigInt(stamp);
+    if (this.origin === 0n || now < this.origin) this.origin = now; // or the clock was set back
+    return Number(now - this.origin) / 1e9;
+  }
+
+  private showNumbers(): void {
+    const { packet } = this;
+    if (!packet) return;
     const { frame } = packet;
-    const time = this.timeline.times[position];
-    const count = this.session.mode === 'live' ? '' : ` / ${this.timeline.times.length}`;
-    setText(byId('position-frame'), `${position + 1}${count}`);
-    setText(byId('position-time'), time === null || time === undefined ? '' : seconds(time, 3));
+    this.showPosition(frame);
     setText(byId('frame-number'), String(frame.index));
     byId('frame-details').replaceChildren(frameDetails(frame));
     const status = byId('frame-status');

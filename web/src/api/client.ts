@@ -25,7 +25,8 @@ async function get<T>(
     if (!response.ok) throw new ApiError(await reasonOf(response), response.status);
     return await read(response);
   } catch (error) {
-    if (!(error instanceof TypeError)) throw error; // fetch's own way to say that it failed
+    const isLate = error instanceof DOMException && error.name === 'TimeoutError';
+    if (!isLate && !(error instanceof TypeError)) throw error; // fetch's own way to say it failed
     throw new ApiError('the server does not answer: is penumbra view still running?', 0);
   }
 }
@@ -41,13 +42,26 @@ async function reasonOf(response: Response): Promise<string> {
 }
 
 const bytes = (response: Response): Promise<ArrayBuffer> => response.arrayBuffer();
-const json = async <T>(path: string): Promise<T> =>
-  parseJson<T>(await get(path, (response) => response.text()));
+const json = async <T>(path: string, signal?: AbortSignal): Promise<T> =>
+  parseJson<T>(await get(path, (response) => response.text(), signal));
 
-export const fetchSession = (): Promise<Session> => json<Session>('/api/session');
-export const fetchReport = (): Promise<Report> => json<Report>('/api/report');
-export const fetchScene = (): Promise<SceneIndex> => json<SceneIndex>('/api/scene');
-export const fetchSceneData = (): Promise<ArrayBuffer> => get('/api/scene.bin', bytes);
+export const fetchSession = (signal?: AbortSignal): Promise<Session> =>
+  json<Session>('/api/session', signal);
+/** @param from frames of it to leave out, which are known */
+export const fetchReport = (from = 0): Promise<Report> => json<Report>(`/api/report?from=${from}`);
+
+/** @throws ApiError of status 409 where that server has another scene by now, or is another */
+export async function fetchScene(
+  server: string,
+  version: number,
+): Promise<{ index: SceneIndex; data: ArrayBuffer }> {
+  const query = `?server=${encodeURIComponent(server)}&version=${version}`;
+  const [index, data] = await Promise.all([
+    json<SceneIndex>(`/api/scene${query}`),
+    get(`/api/scene.bin${query}`, bytes),
+  ]);
+  return { index, data };
+}
 
 /** @param step every step-th pixel in both directions becomes a point of the cloud */
 export async function fetchPacket(

@@ -42,11 +42,14 @@ export class LiveConnection {
     if (!paused && this.owing) this.ready();
   }
 
-  close(): void {
+  /** A new connection: over the old one, whose other end may be gone, nothing may come any more. */
+  renew(): void {
     window.clearTimeout(this.timer);
-    const socket = this.socket;
-    this.socket = null;
-    socket?.close();
+    const old = this.socket;
+    this.open();
+    if (!old) return;
+    old.onmessage = null;
+    old.close();
   }
 
   private open(): void {

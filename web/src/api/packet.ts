@@ -13,6 +13,7 @@ interface PartHeader {
 
 interface PacketHeader {
   readonly frame: FrameReport;
+  readonly server: string;
   readonly scene_version: number;
   readonly link_poses: readonly (Pose | null)[];
   readonly camera_pose: Pose | null;
@@ -39,6 +40,8 @@ export interface Cloud {
 
 export interface Packet {
   readonly frame: FrameReport;
+  /** Which process sent it. */
+  readonly server: string;
   readonly sceneVersion: number;
   readonly linkPoses: readonly (Pose | null)[];
   readonly cameraPose: Pose | null;
@@ -80,6 +83,7 @@ export function parsePacket(buffer: ArrayBuffer): Packet {
     throw new PacketError(`packet: ${buffer.byteLength - at} bytes too many`);
   return {
     frame: header.frame,
+    server: header.server,
     sceneVersion: header.scene_version,
     linkPoses: header.link_poses,
     cameraPose: header.camera_pose,

@@ -98,6 +98,8 @@ export interface CameraInfo {
 
 export interface Session {
   readonly penumbra: string;
+  /** Which process serves: another one on the same port has another. */
+  readonly server: string;
   readonly mode: 'stored' | 'live';
   readonly input: string;
   readonly complete: boolean;
@@ -110,9 +112,12 @@ export interface Session {
   readonly camera: CameraInfo | null;
   readonly parts: readonly string[];
   readonly missing: readonly string[];
+  /** Live alone. */
+  readonly diagnostics?: readonly Diagnostic[];
 }
 
 export interface SceneIndex {
+  readonly server: string;
   readonly version: number;
   readonly root: string;
   readonly links: readonly {
@@ -135,5 +140,6 @@ export interface LiveState {
   readonly age_ms: number;
   readonly dropped: number;
   readonly rate_hz: number;
+  readonly missing: readonly string[];
   readonly diagnostics: readonly Diagnostic[];
 }

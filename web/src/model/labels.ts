@@ -28,6 +28,13 @@ export const labelStyles: readonly LabelStyle[] = [
   { name: 'beyond', color: okabeIto.purple, meaning: 'the sensor sees past the model' },
 ];
 
+/** Of labels of a later Penumbra: like none of ours, and never like clear. */
+export const strangeLabelColor = '#ffffff';
+
+/** null: clear. */
+export const labelColor = (value: number): string | null =>
+  value < labelStyles.length ? (labelStyles[value]?.color ?? null) : strangeLabelColor;
+
 export const labelName = (value: number): string => labelStyles[value]?.name ?? `label ${value}?`;
 
 export const verdictNames: Readonly<Record<Verdict, string>> = {

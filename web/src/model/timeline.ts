@@ -87,6 +87,13 @@ export function condense<T>(
   return result;
 }
 
+/** Of as many values as there may be; null: none is known. */
+export function largest(values: readonly (number | null)[]): number | null {
+  let most: number | null = null;
+  for (const value of values) if (value !== null && (most === null || value > most)) most = value;
+  return most;
+}
+
 /** Neighbours that are alike, as one run. */
 export function runsOf<T>(values: readonly T[]): Run<T>[] {
   const runs: Run<T>[] = [];

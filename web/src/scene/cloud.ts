@@ -11,7 +11,7 @@ import {
 } from 'three';
 import { pointBytes, type Cloud } from '../api/packet';
 import type { Pose } from '../api/types';
-import { labelStyles, rgbOf } from '../model/labels';
+import { labelColor, labelStyles, rgbOf } from '../model/labels';
 import { place } from './pose';
 
 export type CloudColors = 'label' | 'color';
@@ -19,10 +19,12 @@ export type CloudColors = 'label' | 'color';
 const floatsOfPoint = pointBytes / 4;
 const labelBytes = 12; // of a point, before its label and colour
 
+const paletteSize = labelStyles.length + 1;
+
 const vertexShader = /* glsl */ `
   const float robotSkin = 0.03; // metres
   attribute vec4 style; // label, r, g, b
-  uniform vec3 palette[5];
+  uniform vec3 palette[${paletteSize}]; // the last one's: labels that are not known
   uniform bool byLabel;
   uniform float metresPerDepth; // a point's size at 1 m: the pixels that it stands for
   uniform float pixelsHigh;
@@ -38,7 +40,7 @@ const vertexShader = /* glsl */ `
     vec3 color = style.yzw;
     if (byLabel) {
       float grey = dot(color, vec3(0.299, 0.587, 0.114));
-      color = label == 0 ? mix(vec3(grey), color, 0.4) : palette[min(label, 4)] * (0.7 + 0.5 * grey);
+      color = label == 0 ? mix(vec3(grey), color, 0.4) : palette[min(label, ${paletteSize - 1})] * (0.7 + 0.5 * grey);
     }
     shade = color;
   }`;
@@ -56,8 +58,8 @@ export class CloudModel {
   private styles: InterleavedBuffer | null = null;
 
   constructor() {
-    const palette = labelStyles.map((style) => {
-      const [r, g, b] = rgbOf(style.color ?? '#808080');
+    const palette = Array.from({ length: paletteSize }, (_, value) => {
+      const [r, g, b] = rgbOf(labelColor(value) ?? '#808080');
       return new Vector3(r / 255, g / 255, b / 255);
     });
     const material = new ShaderMaterial({

@@ -83,13 +83,14 @@ export class SceneView {
     this.invalidate();
   }
 
-  setRobot(index: SceneIndex, data: ArrayBuffer): void {
+  /** @param robot null: none, until the next one is there */
+  setRobot(robot: { readonly index: SceneIndex; readonly data: ArrayBuffer } | null): void {
     if (this.robot) {
       this.scene.remove(this.robot.root);
       this.robot.dispose();
     }
-    this.robot = new RobotModel(index, data);
-    this.scene.add(this.robot.root);
+    this.robot = robot && new RobotModel(robot.index, robot.data);
+    if (this.robot) this.scene.add(this.robot.root);
     this.invalidate();
   }
 

@@ -31,19 +31,16 @@ function stack(samples: readonly (Sample | null)[], width: number): SVGElement[]
     samples.forEach((sample, i) => (base[i] = Math.min(1, (base[i] ?? 0) + (sample?.[part] ?? 0))));
     return areaPath(below, base.slice(), width, fractionHeight, `area ${part}`);
   });
-  const nothing = runsOf(samples.map((sample) => sample?.occluded == null)).filter(
-    (run) => run.value,
-  );
-  const gaps = nothing.map((run) =>
-    svg('rect', {
-      ...span(run, samples.length, width),
-      y: 1,
-      height: fractionHeight - 1,
-      class: 'gap',
-    }),
-  );
+  const isUnknown = samples.map((sample) => sample?.occluded == null);
   const line = svg('path', { d: `M0 ${fractionHeight - 0.5}H${width}`, class: 'base-line' });
-  return [...gaps, ...layers, line];
+  return [...gaps(isUnknown, width, fractionHeight), ...layers, line];
+}
+
+/** Where nothing is known. */
+function gaps(isUnknown: readonly boolean[], width: number, height: number): SVGElement[] {
+  const runs = runsOf(isUnknown).filter((run) => run.value);
+  const boxes = runs.map((run) => ({ ...span(run, isUnknown.length, width), y: 1 }));
+  return boxes.map((box) => svg('rect', { ...box, height: height - 1, class: 'gap' }));
 }
 
 function areaPath(
@@ -130,10 +127,13 @@ export function seriesChart(
   const columns = Math.floor(width);
   const larger = (a: number | null, b: number | null): number | null =>
     a === null ? b : b === null ? a : Math.max(a, b);
-  const layers = series.map(({ values }) => condense(values, columns, larger).map((v) => v ?? 0));
+  const known = series.map(({ values }) => condense(values, columns, larger));
+  const layers = known.map((values) => values.map((value) => value ?? 0));
   const sums = (layers[0] ?? []).map((_, i) => layers.reduce((sum, one) => sum + (one[i] ?? 0), 0));
   const top = Math.max(...sums, Number.EPSILON);
   const chart = rowSvg(width, height, label);
+  const isUnknown = sums.map((_, i) => known.every((values) => (values[i] ?? null) === null));
+  chart.append(...gaps(isUnknown, width, height));
   let below = sums.map(() => 0);
   layers.forEach((values, index) => {
     const above = below.map((low, i) => low + (values[i] ?? 0) / top);

@@ -3,7 +3,7 @@
 import type { FrameReport } from '../api/types';
 import { milliseconds, percent, seconds } from '../model/format';
 import { verdictNames, verdictOf } from '../model/labels';
-import { secondsOf, tracksOf, type Track } from '../model/timeline';
+import { largest, secondsOf, tracksOf, type Track } from '../model/timeline';
 import { element, setText } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 import { rowSvg, seriesChart, statusChart, targetChart } from './charts';
@@ -167,11 +167,11 @@ export class TimelineView {
     const sums = this.frames.map((frame) =>
       stages.reduce((sum, stage) => sum + (frame.timing_ms?.[stage] ?? 0), 0),
     );
-    const ages = this.frames.map((frame) => frame.joint_age_ms);
-    const known = ages.filter((age) => age !== null);
+    const time = largest(sums) ?? 0;
+    const age = largest(this.frames.map(({ joint_age_ms: ms }) => ms && Math.abs(ms)));
     const texts: Readonly<Record<string, string>> = {
-      stages: Math.max(...sums) > 0 ? `≤ ${milliseconds(Math.max(...sums))}` : 'not told',
-      ages: known.length ? `≤ ${milliseconds(Math.max(...known.map(Math.abs)))}` : 'not known',
+      stages: time > 0 ? `≤ ${milliseconds(time)}` : 'not told',
+      ages: age === null ? 'not known' : `≤ ${milliseconds(age)}`,
       drops: this.drops ? `${this.drops.reduce((sum, drops) => sum + drops, 0)}` : '',
       frames: `${this.frames.filter((frame) => frame.status !== 'ok').length} bad`,
     };

@@ -7,8 +7,16 @@ import { byId, element } from './dom';
  */
 export function cover(error: unknown, retry: () => void, back?: () => void): void {
   const message = error instanceof Error ? error.message : String(error);
-  const button = element('button', 'primary', 'Try again');
-  button.addEventListener('click', retry);
+  show(message, 'Try again', retry, back);
+}
+
+/** Over the page: what it shows is not what is served here any more. */
+export const coverReplaced = (): void =>
+  show('Another input is served here now: reload the page.', 'Reload', () => location.reload());
+
+function show(message: string, label: string, action: () => void, back?: () => void): void {
+  const button = element('button', 'primary', label);
+  button.addEventListener('click', action);
   const sheet = byId('cover');
   sheet.replaceChildren(element('p', 'fault', message), button);
   if (back) {

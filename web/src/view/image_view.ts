@@ -7,7 +7,7 @@ import { readoutAt } from '../model/readout';
 import { CompareSlider } from './compare_slider';
 import { byId, setText } from './dom';
 import { layerLegend } from './legend';
-import { Painter, clear, noMeasurement, noRobot } from './painters';
+import { Painter, clear, decoded, noMeasurement, noRobot } from './painters';
 import { showReadout } from './readout_view';
 
 export type Layer = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth';
@@ -53,14 +53,25 @@ export class ImageView {
     return (['color', layer] as PartName[]).filter((part) => available.includes(part));
   }
 
+  /** Both are decoded before either is drawn: no layer is ever over another frame's picture. */
   async show(packet: Packet, links: readonly string[]): Promise<void> {
+    const overlay = this.layer === 'overlay' ? packet.overlay : undefined;
+    let bitmaps: readonly (ImageBitmap | null)[];
+    try {
+      bitmaps = await Promise.all([decoded(packet.color), decoded(overlay)]);
+    } catch (error) {
+      this.packet = null;
+      for (const canvas of [this.below, this.above]) clear(canvas);
+      throw error;
+    }
     this.packet = packet;
     this.links = links;
-    const [color] = await Promise.all([
-      packet.color ? this.painter.encoded(this.below, packet.color) : null,
-      this.showLayer(packet),
-    ]);
-    if (color === null) clear(this.below);
+    const [color, layer] = bitmaps;
+    if (color) this.painter.bitmap(this.below, color);
+    else clear(this.below);
+    if (layer) this.painter.bitmap(this.above, layer);
+    else this.showLayer(packet);
+    layerLegend(this.layer, this.links, this.range);
     const size = packet.labels ?? packet.vdi ?? packet.depth ?? this.above;
     if (!packet.color && size.width > 0) this.below.width = size.width;
     if (!packet.color && size.height > 0) this.below.height = size.height;
@@ -69,10 +80,8 @@ export class ImageView {
     this.readOut();
   }
 
-  private async showLayer(packet: Packet): Promise<void> {
+  private showLayer(packet: Packet): void {
     const { above, painter } = this;
-    layerLegend(this.layer, this.links, this.range);
-    if (this.layer === 'overlay' && packet.overlay) return painter.encoded(above, packet.overlay);
     if (this.layer === 'overlay' && packet.labels) return painter.overlay(above, packet.labels);
     if (this.layer === 'labels' && packet.labels) return painter.labels(above, packet.labels);
     if (this.layer === 'links' && packet.links)
@@ -80,7 +89,6 @@ export class ImageView {
     const depth = this.layer === 'vdi' ? packet.vdi : this.layer === 'depth' ? packet.depth : null;
     if (!depth) return clear(above);
     this.widen(depthRange(depth.values));
-    layerLegend(this.layer, this.links, this.range);
     painter.depth(above, depth, this.range, this.layer === 'vdi' ? noRobot : noMeasurement);
   }
 

@@ -2,21 +2,19 @@
 // One layer of the image view as RGBA pixels, from a packet's part.
 import type { EncodedImage, Grid } from '../api/packet';
 import { depthColors } from '../model/depth_colors';
-import { labelStyles, linkColor, rgbOf, type Rgb } from '../model/labels';
+import { labelColor, linkColor, rgbOf, type Rgb } from '../model/labels';
 
 const opaque = ([r, g, b]: Rgb, alpha = 255): number =>
   ((alpha << 24) | (b << 16) | (g << 8) | r) >>> 0;
 
 const white = opaque([255, 255, 255]);
-const labelTable = Uint32Array.from({ length: 256 }, (_, value) => {
-  const color = labelStyles[value]?.color;
-  if (color) return opaque(rgbOf(color));
-  return value === 0 ? 0 : white;
-});
-const overlayTable = Uint32Array.from({ length: 256 }, (_, value) => {
-  const color = labelStyles[value]?.color;
-  return color ? opaque(rgbOf(color), 150) : 0;
-});
+const tableOf = (alpha: number): Uint32Array =>
+  Uint32Array.from({ length: 256 }, (_, value) => {
+    const color = labelColor(value);
+    return color ? opaque(rgbOf(color), alpha) : 0;
+  });
+export const labelTable = tableOf(255);
+export const overlayTable = tableOf(150);
 export const noRobot: readonly [number, number] = [0, 0];
 export const noMeasurement: readonly [number, number] = [
   opaque([38, 38, 38]),
@@ -29,8 +27,8 @@ export class Painter {
   private image: ImageData | null = null;
   private linkTable = new Uint32Array(0);
 
-  async encoded(canvas: HTMLCanvasElement, picture: EncodedImage): Promise<void> {
-    const bitmap = await createImageBitmap(new Blob([picture.bytes], { type: picture.type }));
+  /** The bitmap is used up. */
+  bitmap(canvas: HTMLCanvasElement, bitmap: ImageBitmap): void {
     resize(canvas, bitmap.width, bitmap.height);
     canvas.getContext('2d')?.drawImage(bitmap, 0, 0);
     bitmap.close();
@@ -99,6 +97,10 @@ export class Painter {
     return { pixels: new Uint32Array(this.image.data.buffer), image: this.image };
   }
 }
+
+/** null: there is none. */
+export const decoded = async (picture: EncodedImage | undefined): Promise<ImageBitmap | null> =>
+  picture ? createImageBitmap(new Blob([picture.bytes], { type: picture.type })) : null;
 
 export function clear(canvas: HTMLCanvasElement): void {
   canvas.getContext('2d')?.clearRect(0, 0, canvas.width, canvas.height);

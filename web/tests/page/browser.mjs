@@ -24,8 +24,8 @@ export function launch() {
 }
 
 /** `penumbra view`, once all frames are judged. */
-export async function serve(input) {
-  const child = spawn(program, ['view', input, '--port', '0'], {
+export async function serve(input, port = '0') {
+  const child = spawn(program, ['view', input, '--port', port], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const lines = createInterface({ input: child.stdout });
@@ -89,5 +89,23 @@ export async function showsFrame(page, number) {
     const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
     return shown === String(wanted) && parts.includes('labels');
   }, number);
+  await drawn(page);
+}
+
+/** Until a layer of the image is drawn. */
+export async function showsLayer(page, layer) {
+  await page.waitForFunction(
+    (wanted) => document.getElementById('main').dataset.layer === wanted,
+    layer,
+  );
+  await drawn(page);
+}
+
+/** Until the page shows a frame that was fetched without this part. */
+export async function showsWithout(page, part) {
+  await page.waitForFunction((unwanted) => {
+    const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
+    return shown !== '' && !parts.includes(unwanted);
+  }, part);
   await drawn(page);
 }

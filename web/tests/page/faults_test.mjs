@@ -5,7 +5,16 @@ import { cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { desktop, drawn, example, launch, open, serve, showsFrame } from './browser.mjs';
+import {
+  desktop,
+  drawn,
+  example,
+  launch,
+  open,
+  serve,
+  showsFrame,
+  showsWithout,
+} from './browser.mjs';
 import { changedShare } from './pictures.mjs';
 
 let browser, server, folder;
@@ -31,8 +40,7 @@ test('a frame without a pose shows no robot, and says why', async () => {
   const { page } = shown;
   await showsFrame(page, 1);
   for (const part of ['cloud', 'camera', 'targets']) await page.click(`[data-part=${part}]`);
-  await page.waitForLoadState('networkidle');
-  await drawn(page);
+  await showsWithout(page, 'cloud');
   const canvas = page.locator('#scene-canvas');
   const robot = await canvas.screenshot();
   assert.ok(await page.locator('#scene-note').isHidden());
@@ -96,13 +104,72 @@ test('a damaged packet is told, and nothing of it shown', async () => {
   await close();
 });
 
+test('a picture that cannot be decoded is told, and leaves nothing of its frame', async () => {
+  const { page, close } = await open(browser, server.url, desktop);
+  await page.route('**/api/frames/1/packet*', async (route) => {
+    const body = await (await route.fetch()).body();
+    const start = body.indexOf(Buffer.from([0xff, 0xd8, 0xff])); // of the JPEG
+    assert.ok(start > 0);
+    body.fill(0, start, start + 64);
+    await route.fulfill({ body });
+  });
+  await page.keyboard.press('ArrowRight');
+  await page.locator('#cover .fault').waitFor();
+  const inked = await page.evaluate(() =>
+    ['picture-below', 'picture-above'].map((id) => {
+      const canvas = document.getElementById(id);
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return data.some((value) => value > 0);
+    }),
+  );
+  assert.deepEqual(inked, [false, false], 'no labels over another frame’s picture');
+  await page.getByText('Back to the frame before').click();
+  await page.locator('#cover').waitFor({ state: 'hidden' });
+  await showsFrame(page, 0);
+  await close();
+});
+
+test('another program on the same port is told, and nothing of it shown', async () => {
+  const first = await serve(example);
+  const { page, close } = await open(browser, first.url, desktop);
+  await first.stop();
+  const second = await serve(folder, new URL(first.url).port);
+  await page.keyboard.press('End');
+  await page.getByText('Another input is served here now').waitFor();
+  await page.getByRole('button', { name: 'Reload' }).click();
+  await page.locator('#cover').waitFor({ state: 'hidden' });
+  assert.equal(await page.locator('#input-name').textContent(), path.basename(folder));
+  await close();
+  await second.stop();
+});
+
+test('a run that ended early says so, and why', async () => {
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  const note = 'frame 3 and later ones are not judged: the device failed';
+  await page.route('**/api/report*', async (route) => {
+    const report = JSON.parse((await (await route.fetch()).body()).toString());
+    const summary = { ...report.summary, notes: [note] };
+    await route.fulfill({ json: { ...report, frames: report.frames.slice(0, 3), summary } });
+  });
+  await page.goto(server.url);
+  await showsFrame(page, 0);
+  assert.equal(await page.locator('#mode').textContent(), '3 of 12 frames');
+  await page.click('#missing-button');
+  assert.match(await page.locator('#missing').textContent(), new RegExp(note));
+  await context.close();
+});
+
 test('frames appear as they are judged', async () => {
   const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   let judged = 0;
-  await page.route('**/api/report', async (route) => {
+  const asked = [];
+  await page.route('**/api/report*', async (route) => {
+    const from = Number(new URL(route.request().url()).searchParams.get('from'));
+    asked.push(from);
     const report = JSON.parse((await (await route.fetch()).body()).toString());
-    const frames = report.frames.slice(0, judged);
+    const frames = report.frames.slice(0, Math.max(0, judged - from));
     await route.fulfill({
       json: { ...report, frames, summary: judged < 12 ? null : report.summary },
     });
@@ -118,6 +185,7 @@ test('frames appear as they are judged', async () => {
   await page.getByText('12 frames', { exact: true }).waitFor();
   await page.keyboard.press('End');
   await showsFrame(page, 11);
+  assert.deepEqual([...new Set(asked)], [0, 3], 'what is known is not fetched again');
   await context.close();
 });
 

@@ -54,6 +54,13 @@ after(async () => {
   await Promise.all(running.map(stop));
 });
 
+const showsLive = (page) =>
+  page.waitForFunction(
+    () => /lag \d+ ms/.test(document.getElementById('mode').textContent),
+    undefined,
+    { timeout: patience },
+  );
+
 const frameOf = async (page) => Number(await page.locator('#frame-number').textContent());
 
 async function heapOf(page) {
@@ -80,13 +87,14 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
     if (message.type() === 'error' && !/WebSocket|ERR_CONNECTION/.test(message.text()))
       faults.push(message.text());
   });
+  let scenes = 0;
+  page.on('request', (request) => (scenes += request.url().includes('/api/scene.bin') ? 1 : 0));
   await page.goto(view.url);
   await page.getByText('Waiting for the first frame').waitFor();
-  start('play', bag, '--loop', '--restamp', '--rate', rate);
+  const playing = () => start('play', bag, '--loop', '--restamp', '--rate', rate);
+  const camera = playing();
 
-  await page.waitForFunction(() => /lag \d+ ms/.test(document.getElementById('mode').textContent), {
-    timeout: patience,
-  });
+  await showsLive(page);
   await page.waitForTimeout(3000); // buffers grow to what a frame needs
   const [heap, resident] = [await heapOf(page), await residentOf(view.child)];
   const first = await frameOf(page);
@@ -112,18 +120,29 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
   const held = await frameOf(page);
   await page.waitForTimeout(1500);
   assert.equal(await frameOf(page), held, 'paused');
+  assert.match(await page.locator('#mode').textContent(), /^paused/);
+  const drawnFrame = (await page.locator('#main').getAttribute('data-shown')).split(' ')[0];
+  assert.equal(drawnFrame, String(held), 'numbers and picture are of one frame');
   await page.click('#play');
   await page.waitForFunction(
     (number) => Number(document.getElementById('frame-number').textContent) > number,
     held,
   );
 
+  await stop(camera);
+  await page.getByText(/no new frame for \d s/).waitFor();
+  await page.locator('#missing-button.fault').waitFor();
+  assert.match(await page.locator('#missing').textContent(), /nobody publishes/);
+  assert.match(await page.locator('html').getAttribute('class'), /stale/);
+  playing();
+  await showsLive(page);
+  assert.doesNotMatch(await page.locator('html').getAttribute('class'), /stale/);
+
   await stop(view.child);
   await page.getByText('no connection: trying again').waitFor();
   await viewLive(new URL(view.url).port);
-  await page.waitForFunction(() => /lag \d+ ms/.test(document.getElementById('mode').textContent), {
-    timeout: patience,
-  });
+  await showsLive(page);
+  assert.equal(scenes, 2, 'the new program’s robot is fetched, though its version is the same');
   assert.deepEqual(faults, []);
   await context.close();
 });

@@ -17,6 +17,7 @@ import {
   program,
   serve,
   showsFrame,
+  showsLayer,
 } from './browser.mjs';
 import { againstBaseline } from './pictures.mjs';
 
@@ -47,23 +48,29 @@ const hideTimes = (page) =>
   });
 
 const views = [
-  ['desktop-light', desktop, '#frame=3&target=cylinder', async () => undefined],
+  ['desktop-light', desktop, '#frame=3&target=cylinder', 'overlay', async () => undefined],
   [
     'desktop-dark',
     { ...desktop, colorScheme: 'dark' },
     '#frame=8&target=lid',
+    'labels',
     (page) => page.keyboard.press('2'),
   ],
-  ['phone-scene', phone, '#frame=2&target=lid', async () => undefined],
-  ['phone-image', phone, '#frame=6&target=wrist', (page) => page.tap('[data-view=picture]')],
+  ['phone-scene', phone, '#frame=2&target=lid', 'overlay', async () => undefined],
+  [
+    'phone-image',
+    phone,
+    '#frame=6&target=wrist',
+    'overlay',
+    (page) => page.tap('[data-view=picture]'),
+  ],
 ];
-for (const [name, options, hash, prepare] of views)
+for (const [name, options, hash, layer, prepare] of views)
   test(`the page: ${name}`, async () => {
     const { page, faults, close } = await open(browser, server.url + hash, options);
     await showsFrame(page, Number(hash.match(/\d+/)[0]));
     await prepare(page);
-    await page.waitForLoadState('networkidle');
-    await drawn(page);
+    await showsLayer(page, layer);
     await hideTimes(page);
     const share = await againstBaseline(page, name, await page.screenshot());
     console.log(`${name}: ${(100 * share).toFixed(2)} % of blocks differ`);

@@ -2,7 +2,15 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { nextOnset, onsets } from '../../src/model/occlusions';
-import { condense, graver, runsOf, sampleOf, secondsOf, tracksOf } from '../../src/model/timeline';
+import {
+  condense,
+  graver,
+  largest,
+  runsOf,
+  sampleOf,
+  secondsOf,
+  tracksOf,
+} from '../../src/model/timeline';
 import { frame, framesOf, target } from './support';
 
 test('tracks come in order of appearance, with gaps where a target is not told of', () => {
@@ -77,4 +85,13 @@ test('jumps go to the nearest onset and end at the last', () => {
   assert.equal(nextOnset(tracks, 8, -1), 2);
   assert.equal(nextOnset(tracks, 2, -1), null);
   assert.equal(nextOnset([], 0, 1), null);
+});
+
+test('the largest of hours of frames', () => {
+  const values: (number | null)[] = new Array<number>(300_000).fill(1);
+  values[1234] = 7;
+  values[99] = null;
+  assert.equal(largest(values), 7);
+  assert.equal(largest([null]), null);
+  assert.equal(largest([-2, null, -1]), -1);
 });

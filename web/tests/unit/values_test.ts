@@ -8,10 +8,12 @@ import { FrameCache } from '../../src/model/frame_cache';
 import { waitOf } from '../../src/model/player';
 import { readoutAt } from '../../src/model/readout';
 import { niceStep } from '../../src/timeline/axis';
+import { labelTable, overlayTable } from '../../src/view/painters';
 import { frame } from './support';
 
 const packet: Packet = {
   frame: frame(0, []),
+  server: 'a',
   sceneVersion: 1,
   linkPoses: [],
   cameraPose: null,
@@ -88,4 +90,16 @@ test('the cache fetches a frame once, and forgets the longest unused', async () 
   }, 250);
   for (const index of [1, 1, 2, 1, 3, 1, 2]) await cache.get(index, ['color']);
   assert.deepEqual(fetched, [1, 2, 3, 2]);
+});
+
+test('labels of a later Penumbra are seen, and look like none of ours', () => {
+  for (const table of [labelTable, overlayTable]) {
+    assert.equal(table[0], 0, 'clear is clear');
+    const ours = new Set(table.slice(0, 5));
+    assert.equal(ours.size, 5);
+    for (const value of [5, 17, 255]) {
+      assert.ok((table[value] as number) >>> 24 > 0, `${value} is no clear`);
+      assert.ok(!ours.has(table[value] as number), `${value} is none of ours`);
+    }
+  }
 });
