@@ -17,7 +17,7 @@ ros=(cyclonedds-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
         python3-matplotlib)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
-     libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libwebp-dev)
+     libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
       clang libclang-rt-14-dev python3-pytest python3-mypy python3-yaml python3-pil)

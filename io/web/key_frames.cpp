@@ -2,14 +2,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <io/base64.hpp>
-#include <io/ros/jpeg.hpp>
 #include <io/web/key_frames.hpp>
+#include <io/web/picture_uri.hpp>
 
 namespace penumbra::io {
 namespace {
-
-constexpr int key_frame_quality = 80;  // of JPEG
 
 std::vector<std::string> state_of(const FrameReport& report) {
   std::vector<std::string> state{std::string(to_string(report.status))};
@@ -20,15 +17,9 @@ std::vector<std::string> state_of(const FrameReport& report) {
   return state;
 }
 
-std::vector<std::byte> jpeg_of(ImageView<const Rgb8> image) {
-  std::vector<std::byte> bytes;
-  encode_jpeg(image, key_frame_quality, bytes);
-  return bytes;
-}
-
-void append_frame(std::string& json, std::size_t frame, const std::vector<std::byte>& jpeg) {
+void append_frame(std::string& json, std::size_t frame, const std::string& picture) {
   json += (json.size() > 1 ? ",\n" : "") + std::string("{\"index\": ") + std::to_string(frame) +
-          ", \"image\": \"data:image/jpeg;base64," + base64(jpeg) + "\"}";
+          ", \"image\": \"" + picture + "\"}";
 }
 
 }  // namespace
@@ -42,7 +33,7 @@ void KeyFrames::add(const FrameReport& report, ImageView<const Rgb8> overlay) {
   std::vector<std::string> state = state_of(report);
   if (frame > 0 && state == state_) return;
   state_ = std::move(state);
-  pictures_.push_back({frame, jpeg_of(overlay)});
+  pictures_.push_back({frame, picture_uri(overlay)});
   if (pictures_.size() == most_frames) thin_out();  // the last frame needs a place
 }
 
@@ -56,9 +47,9 @@ void KeyFrames::thin_out() {
 
 std::string KeyFrames::json() const {
   std::string json = "[";
-  for (const Picture& picture : pictures_) append_frame(json, picture.frame, picture.jpeg);
+  for (const Picture& picture : pictures_) append_frame(json, picture.frame, picture.uri);
   const bool has_last = pictures_.empty() || pictures_.back().frame + 1 == frames_;
-  if (!has_last) append_frame(json, frames_ - 1, jpeg_of(std::as_const(last_).view()));
+  if (!has_last) append_frame(json, frames_ - 1, picture_uri(std::as_const(last_).view()));
   return json + "]";
 }
 

@@ -28,7 +28,7 @@ class KeyFrames {
  private:
   struct Picture {
     std::size_t frame;
-    std::vector<std::byte> jpeg;
+    std::string uri;
   };
   void thin_out();
 

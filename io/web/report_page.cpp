@@ -17,6 +17,19 @@ void fill_in(std::string& page, std::string_view id, std::string_view json) {
   page.replace(start + tag.size(), end - start - tag.size(), script_json(json));
 }
 
+/// The built-in template, with another start.
+std::string page_that_begins(std::string_view start) {
+  const PageFile* const made = find_page_file("/report.html");
+  if (made == nullptr) throw std::logic_error("the report's page is not built in");
+  std::string page(made->bytes);
+  constexpr std::string_view doctype = "<!doctype html>";
+  std::size_t head = 0;
+  for (std::size_t i = 0; i < doctype.size() && i < page.size(); ++i)
+    if ((page[i] | 0x20) == (doctype[i] | 0x20)) ++head;
+  page.replace(0, head == doctype.size() ? head : 0, start);
+  return page;
+}
+
 }  // namespace
 
 std::string script_json(std::string_view json) {
@@ -32,15 +45,17 @@ std::string script_json(std::string_view json) {
 }
 
 std::string report_page(std::string_view report, std::string_view key_frames) {
-  const PageFile* const made = find_page_file("/report.html");
-  if (made == nullptr) throw std::logic_error("the report's page is not built in");
-  std::string page(made->bytes);
-  constexpr std::string_view doctype = "<!doctype html>";
-  std::size_t head = 0;
-  for (std::size_t i = 0; i < doctype.size() && i < page.size(); ++i)
-    if ((page[i] | 0x20) == (doctype[i] | 0x20)) ++head;
-  page.replace(0, head == doctype.size() ? head : 0, report_page_start);
+  std::string page = page_that_begins(report_page_start);
   fill_in(page, "penumbra-report", report);
+  fill_in(page, "penumbra-frames", key_frames);
+  return page;
+}
+
+std::string experiment_page(std::string_view metrics, std::string_view experiment,
+                            std::string_view key_frames) {
+  std::string page = page_that_begins(experiment_page_start);
+  fill_in(page, "penumbra-report", metrics);
+  fill_in(page, "penumbra-experiment", experiment);
   fill_in(page, "penumbra-frames", key_frames);
   return page;
 }

@@ -24,6 +24,8 @@ struct PoseLane {
   std::string key, name;
   std::unique_ptr<Detector> detector;
   std::vector<PoseFollower> followers;
+  std::optional<Verdict> verdict = {};
+  std::vector<std::optional<Verdict>> verdicts = {};
 };
 
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -78,7 +80,7 @@ class ConveyorRun {
     for (PoseFollower& follower : lanes_.front().followers)
       run_.methods.push_back(follower.method().info());
     for (PoseLane& lane : lanes_) {
-      run_.lanes.push_back({lane.key, lane.name, {}});
+      run_.lanes.push_back({lane.key, lane.name, {}, std::move(lane.verdicts)});
       for (PoseFollower& follower : lane.followers) {
         if (run_.goal) follower.run().success = grasps(follower.run().samples.at(*run_.goal));
         run_.lanes.back().methods.push_back(std::move(follower.run()));
@@ -93,7 +95,7 @@ class ConveyorRun {
   }
 
   static bool grasps(const Sample& sample) {
-    return sample.known && sample.translation_error < grasp_distance &&
+    return sample.known() && sample.translation_error < grasp_distance &&
            sample.rotation_error < grasp_angle;
   }
 
@@ -134,6 +136,7 @@ class ConveyorRun {
       if (const auto& found = detections.back())
         part = part ? box_about(*part, found->box) : found->box;
     }
+    for (PoseLane& lane : lanes_) lane.verdict.reset();
     if (!part) return;
     const auto matches = estimator_.match(frame.color.view(), *part);
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
@@ -141,6 +144,7 @@ class ConveyorRun {
       for (PoseFollower& follower : lanes_[i].followers) {
         PoseAnswer answer = follower.method().look({sensed, *detections[i], matches});
         const Event event = event_of(answer, object);
+        lanes_[i].verdict = answer.verdict;  // the last method is ours
         follower.post(arrival, std::move(answer), event);
       }
     }
@@ -167,18 +171,20 @@ class ConveyorRun {
     const auto grasp = simulation_.grasp_stamp();
     if (grasp && stamp <= *grasp) run_.goal = run_.frames.size();
     run_.frames.push_back(truth);
-    for (PoseLane& lane : lanes_)
+    for (PoseLane& lane : lanes_) {
+      lane.verdicts.push_back(lane.verdict);
       for (PoseFollower& follower : lane.followers) {
         follower.deliver(stamp);
         const TrackedPose tracked = follower.method().at(stamp);
         Sample sample;
-        sample.known = tracked.source != Source::lost;
+        sample.source = tracked.source;
         sample.pose = tracked.pose;
         sample.translation_error =
             (tracked.pose.translation() - object.T_base_object.translation()).norm();
         sample.rotation_error = angle_between(tracked.pose, object.T_base_object);
         follower.run().samples.push_back(sample);
       }
+    }
   }
 
   RunSettings settings_;

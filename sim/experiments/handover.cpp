@@ -68,11 +68,12 @@ class HandoverRun {
       hooks.step();
     }
     if (simulation_.is_whole()) run_.goal = run_.frames.size() - 1;
-    run_.lanes.push_back({"keypoint", "Wrist key point of a pose network", {}});
+    run_.lanes.push_back(
+        {"keypoint", "Wrist key point of a pose network", {}, std::move(verdicts_)});
     for (PointFollower& follower : followers_) {
       const Sample& last = follower.run().samples.back();
       if (run_.goal)
-        follower.run().success = last.known && last.translation_error < reached_distance;
+        follower.run().success = last.known() && last.translation_error < reached_distance;
       run_.methods.push_back(follower.method().info());
       run_.lanes.back().methods.push_back(std::move(follower.run()));
     }
@@ -98,10 +99,12 @@ class HandoverRun {
     std::uniform_real_distribution<double> latency(settings_.latency.least, settings_.latency.most);
     const auto arrival = frame.stamp + static_cast<std::int64_t>(latency(random_) * 1e9);
     const auto keypoint = keypoints_->detect(frame);
+    verdict_.reset();
     if (!keypoint) return;
     for (PointFollower& follower : followers_) {
       const PointAnswer answer = follower.method().look(sensed, *keypoint);
       follower.post(arrival, answer, event_of(answer, frame, truth));
+      verdict_ = answer.verdict;  // the last method is ours
     }
   }
 
@@ -134,11 +137,12 @@ class HandoverRun {
     if (wrist.seen && !in_view_since_) in_view_since_ = truth.time;
     truth.counted = in_view_since_ && truth.time >= *in_view_since_ + settings_.counted_after;
     run_.frames.push_back(truth);
+    verdicts_.push_back(verdict_);
     for (PointFollower& follower : followers_) {
       follower.deliver(stamp);
       const TrackedPoint tracked = follower.method().at(stamp);
       Sample sample;
-      sample.known = tracked.source != Source::lost;
+      sample.source = tracked.source;
       sample.pose.translation() = tracked.position;
       sample.translation_error = (tracked.position - wrist.position).norm();
       follower.run().samples.push_back(sample);
@@ -152,6 +156,8 @@ class HandoverRun {
   std::mt19937_64 random_;
   std::unique_ptr<KeypointDetector> keypoints_;
   std::vector<PointFollower> followers_;
+  std::optional<Verdict> verdict_;
+  std::vector<std::optional<Verdict>> verdicts_;
   SeedRun run_;
   std::int64_t first_stamp_ = 0;
   std::optional<double> in_view_since_;

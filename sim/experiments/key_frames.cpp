@@ -57,19 +57,10 @@ void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb
 }
 
 std::string error_text(const Sample& sample) {
-  if (!sample.known) return "no pose";
+  if (!sample.known()) return "no pose";
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f cm off", 100 * sample.translation_error);
   return text.data();
-}
-
-std::string captioned(const char* what, const SeedRun& run, std::size_t i) {
-  const std::vector<MethodRun>& methods = run.lanes.front().methods;
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%s: t = %.2f s, %.0f %% hidden by the robot. ", what,
-                run.frames[i].time, 100 * run.frames[i].hidden);
-  return text.data() + ("Raw: " + error_text(methods.front().samples[i])) +
-         ", handled: " + error_text(methods.back().samples[i]) + ".";
 }
 
 /// The frame of the largest hidden share in the first span of some length, the middle one of
@@ -129,7 +120,7 @@ std::vector<Picture> KeyFrames::choose(const SeedRun& run) const {
                    [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<Picture> pictures;
   pictures.reserve(story.size());
-  for (const auto& [what, i] : story) pictures.push_back({draw(run, i), captioned(what, run, i)});
+  for (const auto& [what, i] : story) pictures.push_back({i, draw(run, i), what});
   return pictures;
 }
 
@@ -147,7 +138,7 @@ Image<io::Rgb8> KeyFrames::draw(const SeedRun& run, std::size_t i) const {
 
 void KeyFrames::draw_target(const Sample& sample, const Look& look, Image<io::Rgb8>& image) const {
   const Eigen::Isometry3d pose = cell_.T_base_camera.inverse() * sample.pose;
-  if (!sample.known || pose.translation().z() <= 0) return;
+  if (!sample.known() || pose.translation().z() <= 0) return;
   Eigen::AlignedBox2d extent;
   for (const auto& [from, to] : edges_of(pose)) {
     draw_line(from, to, look, image);

@@ -36,7 +36,7 @@ class ReportFiles {
 /// Settings, each method's measures over all seeds with confidence, and each seed's.
 [[nodiscard]] std::string metrics_json(const ExperimentResult& result);
 
-/// One file with everything in it: styles, plots, pictures.
-[[nodiscard]] std::string report_html(const ExperimentResult& result);
+/// The page: metrics_json(), what was compared, the first seed over time, and pictures.
+[[nodiscard]] std::string report_page(const ExperimentResult& result);
 
 }  // namespace penumbra::sim

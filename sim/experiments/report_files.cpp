@@ -20,7 +20,7 @@ ReportFiles::Opened::Opened(const std::filesystem::path& path_of_it,
 
 ReportFiles::ReportFiles(const std::filesystem::path& folder)
     : files_{Opened(folder / "metrics.json", metrics_json),
-             Opened(folder / "report.html", report_html)} {}
+             Opened(folder / "report.html", report_page)} {}
 
 void ReportFiles::write(const ExperimentResult& result) {
   for (Opened& one : files_) {

@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/occlusion/target.hpp>
+#include <penumbra/tracking/track.hpp>
 
 #include <io/png.hpp>
 #include <sim/experiments/method_info.hpp>
@@ -43,9 +45,10 @@ struct FrameTruth {
 /// Where a method believed the target to be at one frame.
 struct Sample {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the base frame
-  bool known = false;
+  Source source = Source::lost;
   double translation_error = 0;  ///< metres
   double rotation_error = 0;     ///< radians; 0 for a point
+  [[nodiscard]] bool known() const { return source != Source::lost; }
 };
 
 /// What became of one image's estimate, once it had arrived.
@@ -69,6 +72,8 @@ struct MethodRun {
 struct LaneRun {
   std::string key, name;
   std::vector<MethodRun> methods;
+  std::vector<std::optional<Verdict>> verdicts;  ///< ours, one per frame: of the last image that
+                                                 ///< perception worked on; nothing undetected
 };
 
 struct SeedRun {
@@ -83,8 +88,9 @@ struct SeedRun {
 
 /// A key frame for the report.
 struct Picture {
+  std::size_t frame = 0;
   Image<io::Rgb8> image;
-  std::string caption;
+  std::string title;
 };
 
 /// All runs of one experiment.

@@ -23,7 +23,7 @@ Value hidden_error(double Sample::*error, double q, double scale) {
       for (std::size_t i = 0; i < run.seed->frames.size(); ++i) {
         const FrameTruth& truth = run.seed->frames[i];
         const Sample& sample = run.method->samples[i];
-        if (truth.counted && truth.hidden > occluded_share && sample.known)
+        if (truth.counted && truth.hidden > occluded_share && sample.known())
           errors.push_back(scale * sample.*error);
       }
     return quantile(std::move(errors), q);
@@ -62,7 +62,7 @@ std::optional<double> seconds_without_pose(Runs runs) {
   double seconds = 0;
   for (const Watched& run : runs)
     for (std::size_t i = 0; i < run.seed->frames.size(); ++i)
-      if (run.seed->frames[i].counted && !run.method->samples[i].known)
+      if (run.seed->frames[i].counted && !run.method->samples[i].known())
         seconds += run.seed->frame_seconds;
   return seconds / static_cast<double>(runs.size());
 }

@@ -13,8 +13,8 @@ const std::vector<std::string>& experiments() {
 void run_experiment(const ExperimentOptions&, const std::function<void(std::size_t)>&,
                     const std::function<void()>&) {
   throw InputError(
-      "this build has no experiments; install libmujoco-dev, libopencv-calib3d-dev, "
-      "libopencv-features2d-dev and libwebp-dev (scripts/packages.sh --install build sim) "
+      "this build has no experiments; install libmujoco-dev, libopencv-calib3d-dev "
+      "and libopencv-features2d-dev (scripts/packages.sh --install build sim) "
       "and build with -DPENUMBRA_WITH_SIMULATION=ON");
 }
 

@@ -59,9 +59,8 @@ const std::vector<Library>& libraries() {
                                         {"boost/", "io/web", 1},
                                         {"dds/", "io/dds", 8},
                                         {"mujoco/", "sim", 1},
-                                        {"nlohmann/", "sim", 1},
+                                        {"nlohmann/", "sim", 2},
                                         {"opencv2/", "sim", 1},
-                                        {"webp/", "sim", 1},
                                         {"epoxy/egl.h", "sim", 1},
                                         {"CLI/", "apps", 8},
                                         {"pybind11/", "python", 6}};

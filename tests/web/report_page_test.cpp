@@ -2,6 +2,7 @@
 // `penumbra run --report`, and what goes into its page.
 #include "../apps/program.hpp"
 #include "../apps/tiny_recording.hpp"
+#include "../support/page_json.hpp"
 
 #include <filesystem>
 
@@ -19,21 +20,14 @@ namespace {
 
 using nlohmann::json;
 
-/// The JSON in a page's script.
-json embedded(const std::string& page, const std::string& id) {
-  const std::string tag = "id=\"" + id + "\">";
-  const auto start = page.find(tag) + tag.size();
-  return json::parse(page.substr(start, page.find("</script", start) - start));
-}
-
 TEST(ReportPage, HoldsReportAndKeyFrames) {
   const TemporaryFolder folder;
   write_tiny_recording(folder.path());
   const auto out = folder.path() / "out";
   ASSERT_EQ(penumbra({"run", folder.path(), "-o", out, "--report"}).status, 0);
   const std::string page = read_file(out / "report.html");
-  EXPECT_EQ(embedded(page, "penumbra-report"), json::parse(read_file(out / "report.json")));
-  const json frames = embedded(page, "penumbra-frames");
+  EXPECT_EQ(page_json(page, "penumbra-report"), json::parse(read_file(out / "report.json")));
+  const json frames = page_json(page, "penumbra-frames");
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["index"], 0);
   EXPECT_EQ(frames[1]["index"], 2);
@@ -54,7 +48,21 @@ TEST(ReportPage, NamesCannotEndItsScripts) {
   const json report{{"input", "</script><script>alert(1)</script><!-- "}};
   const std::string page = io::report_page(report.dump(), "[]");
   EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
-  EXPECT_EQ(embedded(page, "penumbra-report"), report);
+  EXPECT_EQ(page_json(page, "penumbra-report"), report);
+}
+
+TEST(ReportPage, OfAnExperimentHoldsItsJsonAndIsNoRuns) {
+  const json metrics{{"experiment", "</script><script>alert(1)</script>"}};
+  const json experiment{{"title", "<!-- <script>alert(2)"}};
+  const std::string page = io::experiment_page(metrics.dump(), experiment.dump(), "[1]");
+  EXPECT_TRUE(page.starts_with(io::experiment_page_start));
+  EXPECT_FALSE(page.starts_with(io::report_page_start));
+  EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
+  EXPECT_EQ(page.find("<script>alert(2)"), std::string::npos);
+  EXPECT_EQ(page_json(page, "penumbra-report"), metrics);
+  EXPECT_EQ(page_json(page, "penumbra-experiment"), experiment);
+  EXPECT_EQ(page_json(page, "penumbra-frames"), json::array({1}));
+  EXPECT_TRUE(page_json(io::report_page("{}", "[]"), "penumbra-experiment").is_null());
 }
 
 /// A report whose verdict changes every `period` frames.

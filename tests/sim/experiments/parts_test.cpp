@@ -6,7 +6,6 @@
 
 #include <sim/experiments/follower.hpp>
 #include <sim/experiments/object_cloud.hpp>
-#include <sim/experiments/picture_data.hpp>
 #include <sim/experiments/robot_filters.hpp>
 #include <sim/experiments/statistics.hpp>
 
@@ -35,7 +34,7 @@ std::pair<std::vector<SeedRun>, std::vector<MethodRun>> runs_of(const std::vecto
     MethodRun method;
     method.success = false;
     method.samples.resize(2);
-    method.samples[0].known = true;
+    method.samples[0].source = Source::held;
     method.samples[0].translation_error = error;
     methods.push_back(method);
   }
@@ -204,13 +203,6 @@ TEST(Follower, DeliversWhatHasArrivedInTheOrderOfArrival) {
   EXPECT_EQ(follower.method().taken, (std::vector<int>{2, 3, 1}));
   EXPECT_FALSE(follower.run().events.back().accepted);
   EXPECT_TRUE(follower.run().events.front().accepted);
-}
-
-TEST(DataUri, HoldsAWebPFile) {
-  const Image<io::Rgb8> image(16, 9, {1, 2, 3});
-  const std::string uri = data_uri(image);
-  EXPECT_TRUE(uri.starts_with("data:image/webp;base64,UklGR"));  // "RIFF"
-  EXPECT_EQ((uri.size() - std::string("data:image/webp;base64,").size()) % 4, 0U);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Report } from '../api/types';
 import { milliseconds } from '../model/format';
-import { timelineLegend } from '../timeline/legend';
+import { verdictOf } from '../model/labels';
 import { TimelineView } from '../timeline/timeline_view';
 import { element } from '../view/dom';
 import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
+import { verdictIcon } from '../view/verdict_icon';
 import { keyFrames, type KeyFrame } from './key_frames';
+import { card, onArrows, row, section, timelinePanel } from './parts';
 import { headOf, notesOf, tilesOf } from './summary';
 import { targetsTable } from './targets_table';
 
@@ -22,33 +24,44 @@ export class ReportPage {
     private readonly report: Report,
     pictures: readonly KeyFrame[],
   ) {
-    const chart = element('div', '');
-    chart.id = 'timeline';
+    const [chart, panel] = timelinePanel();
     this.timeline = new TimelineView(chart, {
       seek: (frame) => this.seek(frame),
       choose: (name) => this.choose(name),
     });
     this.target = report.frames[0]?.targets[0]?.name ?? null;
     this.timeline.setFrames(report.frames);
-    const legend = element('div', '', ...timelineLegend());
-    legend.id = 'timeline-legend';
-    const seek = (frame: number): void => this.seek(frame);
+    const frames = {
+      numberOf: (frame: number) => this.numberOf(frame),
+      seek: (frame: number) => this.seek(frame),
+    };
     host.replaceChildren(
       headOf(report),
       tilesOf(report),
       ...notesOf(report),
-      section('Timeline', element('div', 'panel', legend, chart), this.details),
-      section('Targets', targetsTable(report, this.timeline.tracks, seek)),
-      ...(pictures.length ? [section('Key frames', keyFrames(pictures, report, seek))] : []),
+      section('Timeline', panel, this.details),
+      section('Targets', targetsTable(this.timeline.tracks, frames)),
+      ...(pictures.length ? [section('Key frames', this.pictures(pictures))] : []),
       stageTable(report),
     );
     this.choose(this.target);
-    document.addEventListener('keydown', (event) => this.key(event));
+    onArrows((by) => this.seek(this.frame + by));
   }
 
-  private key(event: KeyboardEvent): void {
-    const by = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
-    if (by !== 0) this.seek(this.frame + by);
+  private numberOf(frame: number): string {
+    return String(this.report.frames[frame]?.index ?? frame);
+  }
+
+  private pictures(pictures: readonly KeyFrame[]): HTMLElement {
+    const captionOf = ({ index }: KeyFrame): (Node | string)[] => {
+      const targets = this.report.frames[index]?.targets ?? [];
+      const verdicts = targets.map(({ name, verdict }) =>
+        element('span', 'legend-entry', verdictIcon(verdictOf(verdict)), name),
+      );
+      return [element('b', '', `frame ${this.numberOf(index)}`), ...verdicts];
+    };
+    const known = pictures.filter(({ index }) => this.report.frames[index]);
+    return keyFrames(known, captionOf, (frame) => this.seek(frame));
   }
 
   private seek(frame: number): void {
@@ -78,18 +91,9 @@ export class ReportPage {
   }
 }
 
-const section = (title: string, ...content: (Node | string)[]): HTMLElement =>
-  element('section', '', element('h2', '', title), ...content);
-
-const card = (title: string, content: Node): HTMLElement =>
-  element('div', 'panel card', element('h3', '', title), content);
-
 function stageTable({ summary }: Report): HTMLElement {
   const table = element('table', '', row('th', ['stage', 'median', 'p99', 'max']));
   for (const [stage, time] of Object.entries(summary?.timing_ms ?? {}))
     table.append(row('td', [stage, ...[time?.median, time?.p99, time?.max].map(milliseconds)]));
   return section('Stage times', element('div', 'panel card scroll', table));
 }
-
-const row = (tag: 'th' | 'td', cells: readonly string[]): HTMLTableRowElement =>
-  element('tr', '', ...cells.map((cell) => element(tag, '', cell)));

@@ -3,6 +3,7 @@ import type { FrameReport, Report, Summary } from '../api/types';
 import { count, milliseconds, percent, seconds, stamp } from '../model/format';
 import { secondsOf } from '../model/timeline';
 import { element } from '../view/dom';
+import { tile } from './parts';
 
 export function headOf(report: Report): HTMLElement {
   const { backend = '?', isa, device } = report.renderer ?? {};
@@ -54,12 +55,6 @@ function statuses(frames: readonly FrameReport[]): string {
   for (const { status } of frames)
     if (status !== 'ok') counts.set(status, (counts.get(status) ?? 0) + 1);
   return [...counts].map(([status, times]) => `${status} ${times}`).join(', ');
-}
-
-function tile(name: string, value: string, more: string, fault = false): HTMLElement {
-  const strong = element('strong', '', value);
-  const lines = [element('span', 'hint', name), strong, element('span', 'hint', more)];
-  return element('div', `panel tile${fault ? ' fault' : ''}`, ...lines);
 }
 
 /** What the run said of itself: notes, faults, missing links. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Report, Source, Verdict } from '../api/types';
+import type { Source, Verdict } from '../api/types';
 import { percent } from '../model/format';
 import { verdictNames } from '../model/labels';
 import { onsets } from '../model/occlusions';
@@ -11,35 +11,38 @@ const verdicts = Object.keys(verdictNames) as Verdict[];
 const sources: readonly Source[] = ['measured', 'predicted', 'held', 'lost'];
 const mostOnsets = 12;
 
+interface Frames {
+  numberOf(frame: number): string;
+  seek(frame: number): void;
+}
+
 /** How often each verdict was given, where occlusions began, and by which link. */
-export function targetsTable(
-  report: Report,
-  tracks: readonly Track[],
-  seek: (frame: number) => void,
-): HTMLElement {
+export function targetsTable(tracks: readonly Track[], frames: Frames): HTMLElement {
   if (tracks.length === 0) return element('p', 'hint', 'No targets were judged.');
   const head = element('tr', '', element('th', '', 'target'));
   for (const verdict of verdicts)
     head.append(element('th', '', verdictIcon(verdict), verdictNames[verdict]));
-  const more = ['most occluded', 'by', 'handled', 'occlusions begin'];
-  head.append(...more.map((title) => element('th', '', title)));
+  const blames = tracks.some(({ samples }) => samples.some((sample) => sample?.blame));
+  head.append(element('th', '', 'most occluded'));
+  const more = [...(blames ? ['by'] : []), 'handled', 'occlusions begin'];
+  head.append(...more.map((title) => element('th', 'text', title)));
   const table = element('table', '', head);
-  for (const track of tracks) table.append(rowOf(report, track, seek));
+  for (const track of tracks) table.append(rowOf(track, blames, frames));
   return element('div', 'panel card scroll', table);
 }
 
-function rowOf(report: Report, track: Track, seek: (frame: number) => void): HTMLTableRowElement {
+function rowOf(track: Track, blames: boolean, frames: Frames): HTMLTableRowElement {
   const row = element('tr', '', element('th', '', track.name));
   for (const verdict of verdicts) {
     const times = track.samples.filter((sample) => sample?.verdict === verdict).length;
     row.append(element('td', times ? '' : 'none', String(times)));
   }
   const worst = mostOccluded(track);
+  row.append(element('td', '', percent(worst?.occluded ?? null)));
+  if (blames) row.append(element('td', 'text', worst?.occluded ? (worst.blame ?? '') : ''));
   row.append(
-    element('td', '', percent(worst?.occluded ?? null)),
-    element('td', 'text', worst?.occluded ? (worst.blame ?? '') : ''),
     element('td', 'text', handledText(track)),
-    element('td', 'text', ...onsetButtons(report, track, seek)),
+    element('td', 'text', ...onsetButtons(track, frames)),
   );
   return row;
 }
@@ -59,17 +62,13 @@ function handledText(track: Track): string {
   return parts.filter(Boolean).join(', ');
 }
 
-function onsetButtons(
-  report: Report,
-  track: Track,
-  seek: (frame: number) => void,
-): (Node | string)[] {
-  const frames = onsets([track]);
-  const shown: (Node | string)[] = frames.slice(0, mostOnsets).map((frame) => {
-    const button = element('button', 'small', String(report.frames[frame]?.index ?? frame));
+function onsetButtons(track: Track, { numberOf, seek }: Frames): (Node | string)[] {
+  const begin = onsets([track]);
+  const shown: (Node | string)[] = begin.slice(0, mostOnsets).map((frame) => {
+    const button = element('button', 'small', numberOf(frame));
     button.addEventListener('click', () => seek(frame));
     return button;
   });
-  if (frames.length > mostOnsets) shown.push(` and ${frames.length - mostOnsets} more`);
+  if (begin.length > mostOnsets) shown.push(` and ${begin.length - mostOnsets} more`);
   return shown;
 }

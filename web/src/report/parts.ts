@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pages of runs and of experiments are put together from.
+import { timelineLegend } from '../timeline/legend';
+import { element } from '../view/dom';
+
+export const section = (title: string, ...content: (Node | string)[]): HTMLElement =>
+  element('section', '', element('h2', '', title), ...content);
+
+export const card = (title: string, content: Node): HTMLElement =>
+  element('div', 'panel card', element('h3', '', title), content);
+
+export function tile(name: string, value: string, more: string, fault = false): HTMLElement {
+  const strong = element('strong', '', value);
+  const lines = [element('span', 'hint', name), strong, element('span', 'hint', more)];
+  return element('div', `panel tile${fault ? ' fault' : ''}`, ...lines);
+}
+
+export const row = (tag: 'th' | 'td', cells: readonly string[]): HTMLTableRowElement =>
+  element('tr', '', ...cells.map((cell) => element(tag, '', cell)));
+
+/** Where a timeline is drawn, and the panel that holds it below its legend. */
+export function timelinePanel(...legends: readonly HTMLElement[]): [HTMLElement, HTMLElement] {
+  const chart = element('div', '');
+  chart.id = 'timeline';
+  const legend = element('div', '', ...timelineLegend(), ...legends);
+  legend.id = 'timeline-legend';
+  return [chart, element('div', 'panel', legend, chart)];
+}
+
+/** The arrow keys go from frame to frame. */
+export function onArrows(step: (by: number) => void): void {
+  document.addEventListener('keydown', ({ key }) => {
+    const by = key === 'ArrowRight' ? 1 : key === 'ArrowLeft' ? -1 : 0;
+    if (by !== 0) step(by);
+  });
+}
