@@ -10,13 +10,12 @@
 #include <sim/experiments/report.hpp>
 #include <sim/experiments/report_words.hpp>
 #include <sim/experiments/statistics.hpp>
+#include <sim/experiments/units-inl.hpp>
 
 namespace penumbra::sim {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-constexpr double millimetres = 1e3, degrees = 180.0 / M_PI;
 
 /// The measure that methods are compared by; in both experiments'.
 constexpr const char* compared = "translation_p95_mm";
@@ -48,7 +47,7 @@ OrderedJson verdicts_json(const LaneRun& lane) {
 }
 
 /// What our verdict and each method's belief were, frame by frame.
-OrderedJson lane_json(const SeedRun& run, const LaneRun& lane, bool turns) {
+OrderedJson lane_json(const SeedRun& run, const LaneRun& lane, bool has_rotations) {
   OrderedJson sources = OrderedJson::array(), errors;
   for (const Sample& sample : lane.methods.back().samples)  // ours
     sources.push_back(to_string(sample.source));
@@ -56,7 +55,7 @@ OrderedJson lane_json(const SeedRun& run, const LaneRun& lane, bool turns) {
     OrderedJson& of_method = errors[run.methods[i].key];
     of_method["translation_mm"] =
         errors_json(lane.methods[i], &Sample::translation_error, millimetres);
-    if (turns)
+    if (has_rotations)
       of_method["rotation_deg"] = errors_json(lane.methods[i], &Sample::rotation_error, degrees);
   }
   return {{"verdicts", verdicts_json(lane)},
@@ -64,7 +63,7 @@ OrderedJson lane_json(const SeedRun& run, const LaneRun& lane, bool turns) {
           {"errors", std::move(errors)}};
 }
 
-OrderedJson run_json(const SeedRun& run, bool turns) {
+OrderedJson run_json(const SeedRun& run, bool has_rotations) {
   OrderedJson json{{"seed", run.seed},
                    {"frame_s", run.frame_seconds},
                    {"goal", run.goal ? OrderedJson(*run.goal) : OrderedJson(nullptr)}};
@@ -74,7 +73,8 @@ OrderedJson run_json(const SeedRun& run, bool turns) {
     json["counted"].push_back(truth.counted);
     json["before_robot"].push_back(truth.before_robot);
   }
-  for (const LaneRun& lane : run.lanes) json["lanes"][lane.key] = lane_json(run, lane, turns);
+  for (const LaneRun& lane : run.lanes)
+    json["lanes"][lane.key] = lane_json(run, lane, has_rotations);
   return json;
 }
 

@@ -4,13 +4,14 @@
 #include <random>
 
 #include <sim/experiments/statistics.hpp>
+#include <sim/experiments/units-inl.hpp>
 
 namespace penumbra::sim {
 namespace {
 
 constexpr double wrong_pose = 0.02;   // metres (conveyor)
 constexpr double wrong_wrist = 0.10;  // metres (handover)
-constexpr double millimetres = 1e3, degrees = 180.0 / M_PI, percent = 100.0;
+constexpr double percent = 100.0;
 
 using Runs = std::span<const Watched>;
 using Value = std::function<std::optional<double>(Runs)>;
