@@ -17,6 +17,10 @@ DATA = pathlib.Path(os.environ.get("PENUMBRA_DATA") or
 PROGRAM = pathlib.Path(penumbra.__file__).parent / "bin" / "penumbra"
 
 
+# What takes long, or says little beside other tests.
+only_in_full = pytest.mark.skipif(not os.environ.get("PENUMBRA_FULL"), reason="set PENUMBRA_FULL")
+
+
 def skip_without_data():
     if not DATA.is_dir():
         assert "data" not in os.environ.get("PENUMBRA_REQUIRE", ""), f"{DATA} is not there"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import PROGRAM, run
+from conftest import PROGRAM, only_in_full, run
 
 SEEDS = 2  # that confidence be made of more than one
 SECONDS = 1.5  # of each run
@@ -29,6 +29,7 @@ def handover(tmp_path_factory):
     return folder
 
 
+@only_in_full
 def test_files_are_the_command_lines(handover, tmp_path):
     run("experiment", "handover", "-o", tmp_path, "--seeds", f"0:{SEEDS}", "--duration", SECONDS,
         "--threads", 1)
@@ -37,6 +38,7 @@ def test_files_are_the_command_lines(handover, tmp_path):
     assert sorted(os.listdir(handover)) == ["metrics.json", "report.html"]
 
 
+@only_in_full
 def test_metrics_are_those_of_their_seeds(handover):
     metrics = json.loads((handover / "metrics.json").read_text())
     assert metrics["experiment"] == "handover" and metrics["seeds"] == [0, SEEDS]

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 import penumbra
-from conftest import ROOT
+from conftest import ROOT, only_in_full
 
 STUBS = ROOT / "python" / "penumbra" / "__init__.pyi"
 
@@ -19,6 +19,7 @@ def test_the_stubs_fit_the_module(tmp_path):
     assert made.read_text() == STUBS.read_text(), "run scripts/python_stubs.py"
 
 
+@only_in_full
 def test_mypy_finds_in_the_module_what_the_stubs_say():
     pytest.importorskip("mypy")
     done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "penumbra",
@@ -39,6 +40,7 @@ def test_examples_are_typed():
     assert done.returncode == 0, done.stdout
 
 
+@only_in_full
 def test_wrong_use_does_not_pass_mypy(tmp_path):
     pytest.importorskip("mypy")
     script = tmp_path / "wrong.py"

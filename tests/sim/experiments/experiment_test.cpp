@@ -2,6 +2,7 @@
 // Both experiments in small, through the door that the command line uses.
 #include "../../support/page_json.hpp"
 #include "../../support/run_length.hpp"
+#include "../../support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -33,18 +34,13 @@ struct Results {
 };
 
 Results run(sim::ExperimentOptions options) {
-  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      (test + options.experiment + std::to_string(options.threads));
-  std::filesystem::remove_all(folder);
-  options.output = folder;
+  const TemporaryFolder folder;
+  options.output = folder.path() / "results";
   Results results;
   sim::run_experiment(
       options, [&](std::size_t total) { results.total = total; }, [&] { ++results.steps; });
-  results.metrics = text_of(folder / "metrics.json");
-  results.report = text_of(folder / "report.html");
-  std::filesystem::remove_all(folder);
+  results.metrics = text_of(options.output / "metrics.json");
+  results.report = text_of(options.output / "report.html");
   return results;
 }
 
@@ -217,7 +213,8 @@ TEST(Experiment, TakesDetectorsOfOnesOwn) {
 
 /// Before the runs, which take minutes.
 TEST(Experiment, AFolderThatCannotBeWrittenIsRefusedAtOnce) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "unwritable";
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path() / "unwritable";
   for (const char* const taken : {"metrics.json", "report.html", "frames"}) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -244,7 +241,6 @@ TEST(Experiment, AFolderThatCannotBeWrittenIsRefusedAtOnce) {
     const auto left = std::filesystem::directory_iterator(folder);
     for (const auto& entry : left) EXPECT_FALSE(entry.is_regular_file() && entry.file_size() == 0);
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Experiment, RefusesWhatMakesNoSense) {
