@@ -152,6 +152,8 @@ void BagSource::take_depth(const BagMessage& message) {
   waiting.message.data = waiting.payload;
   waiting.stamp = image.header.stamp;
   pairs_.add_image(waiting.stamp);
+  camera_changes_.add_image(waiting.stamp);
+  color_changes_.add_image(waiting.stamp);
   if (frame_name(image.header.frame_id) != frame_name(*options_.scene.depth_frame))
     waiting.fault = "the depth image is of the frame '" + printable(image.header.frame_id) +
                     "', the first one of '" + printable(*options_.scene.depth_frame) + "'";
@@ -160,31 +162,15 @@ void BagSource::take_depth(const BagMessage& message) {
 }
 
 void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& first,
-                          std::vector<CameraChange>& changes) {
+                          CameraChanges& changes) {
   CameraInfoMessage info;
   if (!inbox_.decode(message, info)) return;
-  const bool is_depths = &changes == &camera_changes_;
-  if (is_depths) pairs_.add_info(info.header.stamp);
-  std::int64_t& newest = is_depths ? newest_camera_ : newest_color_;
-  newest = std::max(newest, info.header.stamp);
+  if (&changes == &camera_changes_) pairs_.add_info(info.header.stamp);
   const bool differs = !is_same_camera(info, first);
-  const bool before = !changes.empty() && changes.back().differs;
-  if (differs == before) return;
-  if (differs)
+  if (differs && !changes.differs())
     inbox_.add_fault(inbox_.topic_of(message).name, message.log_time,
                      "it is another camera than at first");
-  changes.push_back({info.header.stamp, differs});
-}
-
-bool BagSource::camera_differs(std::int64_t stamp) const {
-  bool any = false;
-  for (const auto* changes : {&camera_changes_, &color_changes_}) {
-    bool differs = false;
-    for (const CameraChange& change : *changes)
-      if (change.stamp <= stamp) differs = change.differs;
-    any |= differs;
-  }
-  return any;
+  changes.add_info(info.header.stamp, differs);
 }
 
 void BagSource::take_joints(const BagMessage& message) {
@@ -254,9 +240,9 @@ bool BagSource::is_presentable() const {
     return true;
   const bool has_color =
       !options_.with_color || !options_.topics.color || colors_.reaches(image.stamp);
-  const bool has_color_info = !options_.topics.color_info || newest_color_ >= image.stamp;
+  const bool has_color_info = !options_.topics.color_info || color_changes_.reaches(image.stamp);
   const bool has_info =
-      pairs_.are_certain() ? pairs_.covers(image.stamp) : newest_camera_ >= image.stamp;
+      pairs_.are_certain() ? pairs_.covers(image.stamp) : camera_changes_.reaches(image.stamp);
   return has_info && has_color && has_color_info;
 }
 
@@ -302,7 +288,8 @@ std::string BagSource::decode(const Waiting& image, DepthView& depth) {
   if (!image.fault.empty()) return image.fault;
   if (pairs_.are_certain() && image.stamp > 0 && !pairs_.covers(image.stamp))
     return "its camera_info did not come, as those of other images did: it may be another camera's";
-  if (camera_differs(image.stamp)) return "camera_info is of another camera than at first";
+  if (camera_changes_.differs(image.stamp) || color_changes_.differs(image.stamp))
+    return "camera_info is of another camera than at first";
   const auto decode_as = [&](auto message) -> std::string {
     if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
     return depth_.decode(message, depth);

@@ -18,6 +18,7 @@
 #include <io/bag_frames/bag_inbox.hpp>
 #include <io/bag_frames/bag_scene.hpp>
 #include <io/bag_frames/bag_topics.hpp>
+#include <io/bag_frames/camera_changes.hpp>
 #include <io/frame_source.hpp>
 #include <io/ros/target_inbox.hpp>
 #include <io/ros_frames/color_images.hpp>
@@ -67,19 +68,13 @@ class BagSource final : public FrameSource {
     Waiting image;
     QueuedFrame pose;
   };
-  /// From this stamp on the camera_info is another than at first, or is the first again.
-  struct CameraChange {
-    std::int64_t stamp = 0;
-    bool differs = false;
-  };
 
   void check_range();
   void read_message();
   void take(const BagMessage& message);
   template <typename M>
   void take_depth(const BagMessage& message);
-  void take_info(const BagMessage& message, const CameraInfoMessage& first,
-                 std::vector<CameraChange>& changes);
+  void take_info(const BagMessage& message, const CameraInfoMessage& first, CameraChanges& changes);
   void take_joints(const BagMessage& message);
   void take_transforms(const BagMessage& message, bool is_static);
   void take_targets(const BagMessage& message);
@@ -93,7 +88,6 @@ class BagSource final : public FrameSource {
   void present(FrameData& data, Frame& frame);
   [[nodiscard]] std::string decode(const Waiting& image, DepthView& depth);
   void show_color(std::int64_t stamp, FrameData& data);
-  [[nodiscard]] bool camera_differs(std::int64_t stamp) const;
 
   BagSourceOptions options_;
   BagInbox inbox_;
@@ -108,9 +102,8 @@ class BagSource final : public FrameSource {
   std::deque<Ready> ready_;
   Ready current_;  // what the caller works on
   TransformAnswer T_color_depth_;
-  std::vector<CameraChange> camera_changes_, color_changes_;
-  std::int64_t newest_camera_ = 0, newest_color_ = 0;  // stamps of camera_infos
-  InfoPairs pairs_;                                    // of the depth images
+  CameraChanges camera_changes_, color_changes_;
+  InfoPairs pairs_;  // of the depth images
   std::optional<std::size_t> size_;
   std::uint64_t images_ = 0;  // read so far
   std::uint64_t given_ = 0;

@@ -11,13 +11,16 @@ namespace {
 constexpr std::size_t most_waiting_images = 8;
 /// Images may come late: 2 s and more at 90 Hz.
 constexpr std::size_t most_infos = 256;
-/// Stamps of an image and its camera_info: drivers make them equal.
-constexpr std::int64_t same_stamp = 1'000'000;
 /// A camera_info is no word on images that are older by more. Of a clock that began anew all that
 /// came before is later than what comes now.
 constexpr std::int64_t longest_cover = 1'000'000'000;
+constexpr std::int64_t clock_jump = 1'000'000'000;
 
 }  // namespace
+
+bool InfoPairs::is_jump(std::int64_t newest, std::int64_t stamp) {
+  return stamp < newest - clock_jump;
+}
 
 void InfoPairs::match(ImageStamp& image, std::int64_t info) {
   if (image.stamp <= 0 || std::abs(image.stamp - info) > same_stamp) return;
@@ -33,6 +36,12 @@ void InfoPairs::look_for_two() {
 }
 
 void InfoPairs::add_image(std::int64_t stamp) {
+  const bool jumped = stamp > 0 && is_jump(newest_image_, stamp);
+  newest_image_ = jumped ? stamp : std::max(newest_image_, stamp);
+  if (jumped && is_jump(newest_info_, stamp)) {
+    infos_.clear();
+    newest_info_ = 0;
+  }
   images_.push_back({stamp});
   if (images_.size() > most_waiting_images) images_.pop_front();
   for (const std::int64_t info : infos_) match(images_.back(), info);
@@ -40,7 +49,7 @@ void InfoPairs::add_image(std::int64_t stamp) {
 }
 
 void InfoPairs::add_info(std::int64_t stamp) {
-  if (stamp < newest_info_ - longest_cover) {
+  if (is_jump(newest_info_, stamp)) {
     infos_.clear();
     newest_info_ = stamp;
   }

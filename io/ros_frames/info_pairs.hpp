@@ -11,6 +11,13 @@ namespace penumbra::io {
 /// again. All stamps are nanoseconds.
 class InfoPairs {
  public:
+  /// Stamps of an image and its camera_info: drivers make them equal.
+  static constexpr std::int64_t same_stamp = 1'000'000;
+
+  /// Whether a stamp is that far behind the newest one that the clock was set back, as PoseHistory
+  /// has it.
+  [[nodiscard]] static bool is_jump(std::int64_t newest, std::int64_t stamp);
+
   void add_image(std::int64_t stamp);
   void add_info(std::int64_t stamp);
 
@@ -36,7 +43,7 @@ class InfoPairs {
 
   std::deque<ImageStamp> images_;
   std::deque<std::int64_t> infos_;  // as they came
-  std::int64_t newest_info_ = 0;
+  std::int64_t newest_image_ = 0, newest_info_ = 0;
   bool certain_ = false, likely_ = false;
 };
 

@@ -162,61 +162,6 @@ TEST_F(BagTest, JointPositionsThatAreNoNumbersAreTold) {
   EXPECT_NE(notes.find("joint positions not used: 2 "), std::string::npos) << notes;
 }
 
-TEST_F(BagTest, AnotherCamerasInfoIsNotTaken) {
-  int info = 0;
-  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
-    if (++info == 2) camera.k[0] = 61;
-  });
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(status(0), "ok");
-  EXPECT_EQ(status(1), "bad_depth");
-  EXPECT_EQ(status(2), "ok");
-}
-
-/// Recorded 120 ms after the image, when the image's pose has long been known.
-TEST_F(BagTest, AnotherCamerasInfoIsNotTakenWhenItComesLate) {
-  int info = 0;
-  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
-    if (++info == 2) camera.k[0] = 61;
-  });
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic == "/camera/depth/camera_info") message.log_time += 120'000'000;
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(status(0), "ok");
-  EXPECT_EQ(status(1), "bad_depth");
-  EXPECT_EQ(status(2), "ok");
-}
-
-/// Where camera_infos come with images, one whose own is not there may be of another camera.
-TEST_F(BagTest, AnImageWithoutItsOwnCameraInfoIsNotJudgedByAnotherOnes) {
-  std::vector<TinyBag::Message> kept;
-  int info = 0;
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic != "/camera/depth/camera_info" || ++info <= 2) kept.push_back(message);
-  bag_.messages = std::move(kept);
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(status(0), "ok");
-  EXPECT_EQ(status(1), "ok");
-  EXPECT_EQ(status(2), "bad_depth");
-  EXPECT_NE(report()["frames"][2]["message"].get<std::string>().find("its camera_info did not"),
-            std::string::npos);
-}
-
-/// One for all, as of a driver that latches it.
-TEST_F(BagTest, OneCameraInfoHoldsForAllImages) {
-  std::vector<TinyBag::Message> kept;
-  int info = 0;
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic != "/camera/depth/camera_info" || ++info <= 1) kept.push_back(message);
-  bag_.messages = std::move(kept);
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const std::size_t frame : {0U, 1U, 2U}) EXPECT_EQ(status(frame), "ok");
-}
-
 TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
   bag_.write_mcap(folder_.path() / "whole.mcap");
   const std::string whole = read_file(folder_.path() / "whole.mcap");

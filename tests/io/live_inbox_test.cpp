@@ -277,6 +277,27 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 3U);
 }
 
+/// The clock is set back by less than camera_infos are kept for: those that came before are not of
+/// the images that come now.
+TEST_F(LiveInboxTest, CameraInfosFromBeforeAJumpOfTheClockAreOfNoImageAfterIt) {
+  bench_.tell_all();
+  const auto drive = [&](std::int64_t from, int images, bool with_info) {
+    std::size_t judged = 0;
+    for (int i = 0; i < images; ++i) {
+      const std::int64_t stamp = from + i * 33 * milliseconds;
+      if (with_info) bench_.tell_info(stamp);
+      tell_joints_around(stamp);
+      bench_.tell_depth(stamp);
+      bench_.now += 33 * milliseconds;
+      judged += bench_.work();
+    }
+    return judged;
+  };
+  EXPECT_EQ(drive(start, 90, true), 90U);
+  EXPECT_EQ(drive(start + 1500 * milliseconds, 20, false), 0U) << "the clock went back by 1.5 s";
+  EXPECT_EQ(drive(start + 1500 * milliseconds + seconds, 3, true), 3U);
+}
+
 TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   bench_.tell_all();
   std::size_t judged = 0;
