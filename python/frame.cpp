@@ -26,6 +26,7 @@ Frame OwnedFrame::view(std::vector<Target>& views) const {
   frame.source_status = source_status;
   frame.source_message = source_message;
   frame.index = index;
+  frame.doubts = {doubted_links, doubt};
   return frame;
 }
 
@@ -36,7 +37,8 @@ OwnedFrame make_frame(std::optional<DepthArgument<"depth">> depth, OwnedJoints j
                       std::optional<Poses> T_root_link,
                       std::optional<Eigen::Isometry3d> T_parent_camera, FrameStatus source_status,
                       std::string source_message, std::optional<std::size_t> index,
-                      std::optional<std::int64_t> joint_age) {
+                      std::optional<std::int64_t> joint_age, std::vector<std::size_t> doubted_links,
+                      std::string doubt) {
   return {std::move(depth),
           std::move(joints),
           joint_age,
@@ -46,13 +48,15 @@ OwnedFrame make_frame(std::optional<DepthArgument<"depth">> depth, OwnedJoints j
           std::move(targets),
           source_status,
           std::move(source_message),
-          index};
+          index,
+          std::move(doubted_links),
+          std::move(doubt)};
 }
 
 const std::vector<const char*>& arguments() {
   static const std::vector<const char*> names{
-      "depth",           "joints",        "stamp",          "targets", "T_root_link",
-      "T_parent_camera", "source_status", "source_message", "index",   "joint_age"};
+      "depth",         "joints",         "stamp", "targets",   "T_root_link",   "T_parent_camera",
+      "source_status", "source_message", "index", "joint_age", "doubted_links", "doubt"};
   return names;
 }
 
@@ -73,6 +77,7 @@ void bind_frame(py::module_& m) {
            py::arg("source_status") = defaults.source_status,
            py::arg("source_message") = std::string(), py::arg("index") = defaults.index,
            py::arg("joint_age") = std::optional<std::int64_t>(),
+           py::arg("doubted_links") = std::vector<std::size_t>(), py::arg("doubt") = std::string(),
            "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
            "measurement; None: there is none. joints: positions in the order of Robot.variables, "
            "rad "
@@ -80,7 +85,10 @@ void bind_frame(py::module_& m) {
            "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
            "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
            "configuration's. source_status, source_message: what is known to be wrong with the "
-           "frame. joint_age: of positions, nanoseconds.")
+           "frame. joint_age: of positions, nanoseconds. doubted_links, doubt: indices of links "
+           "that "
+           "are not drawn and whose place is not known, and one line that says why: targets and "
+           "estimates in them are not judged.")
       .def_property_readonly(
           "depth",
           [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
@@ -113,6 +121,11 @@ void bind_frame(py::module_& m) {
           "index", [](const F& f) { return f.index; }, "In its source.")
       .def_property_readonly(
           "joint_age", [](const F& f) { return f.joint_age; }, "Nanoseconds.")
+      .def_property_readonly(
+          "doubted_links", [](const F& f) { return f.doubted_links; },
+          "Indices of links whose place is not known.")
+      .def_property_readonly(
+          "doubt", [](const F& f) { return f.doubt; }, "One line that says why.")
       .def(
           "replace",
           [](const py::object& self, const py::kwargs& changes) {

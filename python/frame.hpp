@@ -28,6 +28,8 @@ struct OwnedFrame {
   FrameStatus source_status;
   std::string source_message;
   std::optional<std::size_t> index;
+  std::vector<std::size_t> doubted_links;
+  std::string doubt;
 
   /// Refers to this and to `views`, which it fills.
   [[nodiscard]] Frame view(std::vector<Target>& views) const;

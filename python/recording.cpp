@@ -61,7 +61,9 @@ RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
                    .targets = std::move(targets),
                    .source_status = frame.source_status,
                    .source_message = std::string(frame.source_message),
-                   .index = frame.index};
+                   .index = frame.index,
+                   .doubted_links = {frame.doubts.links.begin(), frame.doubts.links.end()},
+                   .doubt = std::string(frame.doubts.why)};
   return {std::move(data), std::move(owned)};
 }
 

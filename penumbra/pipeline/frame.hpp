@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -59,6 +60,18 @@ struct JointInput {
   JointInput(const JointAnswer& answer);       // NOLINT(google-explicit-constructor)
 };
 
+/// Links whose place in a frame is not known though the robot's is: nothing is drawn of them, and
+/// the camera is not on them. Targets and estimates that are given in them are not judged. Refers
+/// to the caller's memory.
+struct LinkDoubts {
+  std::span<const std::size_t> links;  ///< indices into Robot::links()
+  std::string_view why;                ///< one line
+
+  [[nodiscard]] bool holds(std::size_t link) const {
+    return std::find(links.begin(), links.end(), link) != links.end();
+  }
+};
+
 /// What goes into Pipeline::process. Refers to the caller's memory, needed during the call only.
 struct Frame {
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
@@ -70,6 +83,7 @@ struct Frame {
   /// The camera's pose in its parent link in this frame; nothing: the configuration's.
   std::optional<Eigen::Isometry3d> T_parent_camera = {};
   std::span<const Target> targets = {};
+  LinkDoubts doubts = {};
 
   /// What the frame's source knows to be wrong with it, and one line that says so. What the
   /// pipeline finds on its own is added.

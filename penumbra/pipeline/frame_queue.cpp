@@ -44,6 +44,7 @@ Frame QueuedFrame::frame() const {
     frame.T_root_link = pose.T_root_link;
   frame.joints.age = pose.age;
   frame.T_parent_camera = pose.T_parent_camera;
+  frame.doubts = {pose.doubted_links, pose.doubt};
   return frame;
 }
 

@@ -129,9 +129,9 @@ struct Pipeline::State {
   void label(const Frame& frame);
   void without_pose(FrameStatus status);
   void finish(FrameStatus status, const VirtualDepthView& virtual_depth, const LabelView& labels);
-  void judge_targets(std::span<const Target> given);
+  void judge_targets(const Frame& frame);
   void forget_unidentified(std::span<const Target> given);
-  [[nodiscard]] JudgedFrame judged_frame() const;
+  [[nodiscard]] JudgedFrame judged_frame(const LinkDoubts& doubts) const;
 
   Robot robot;
   Camera camera;
@@ -222,7 +222,7 @@ const FrameReport& Pipeline::process(const Frame& frame) {
     s.report.message = fault.what();
     throw;
   }
-  s.judge_targets(frame.targets);
+  s.judge_targets(frame);
   return s.report;
 }
 
@@ -351,19 +351,19 @@ void Pipeline::State::forget_unidentified(std::span<const Target> given) {
   }
 }
 
-void Pipeline::State::judge_targets(std::span<const Target> given) {
+void Pipeline::State::judge_targets(const Frame& frame) {
   std::optional<double> time;
   {
     const StageTimer timer(time);
-    forget_unidentified(given);
-    report.targets = targets.process(given, judged_frame());
+    forget_unidentified(frame.targets);
+    report.targets = targets.process(frame.targets, judged_frame(frame.doubts));
   }
-  if (!given.empty()) report.timing.targets = time;
+  if (!frame.targets.empty()) report.timing.targets = time;
 }
 
-JudgedFrame Pipeline::State::judged_frame() const {
+JudgedFrame Pipeline::State::judged_frame(const LinkDoubts& doubts) const {
   JudgedFrame frame{report.stamp, report.status, report.message, {}, {}};
-  if (report.T_root_camera) frame.poses = {report.T_root_link, *report.T_root_camera};
+  if (report.T_root_camera) frame.poses = {report.T_root_link, *report.T_root_camera, doubts};
   if (has_pose(report.status))
     frame.images = {.labels = labels,
                     .virtual_depth = report.virtual_depth,

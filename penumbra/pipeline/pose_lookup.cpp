@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -71,16 +72,28 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
   note_movers();
 }
 
+/// Whether a variable that moves the link is meant.
+template <typename F>
+bool PoseLookup::any_variable_above(std::size_t link, const F& is_meant) const {
+  for (std::size_t at = link; at > 0;) {
+    const Joint& joint = robot_.joints()[at - 1];  // whose child it is
+    for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
+      if (is_meant(*joint.variable + i)) return true;
+    at = joint.parent;
+  }
+  return false;
+}
+
 void PoseLookup::note_movers() {
   moves_.resize(robot_.variables().size());
+  counts_.resize(frames_.size());
   for (std::size_t link = 0; link < frames_.size(); ++link) {
-    if (!robot_.report()[link].drawn && link != camera_parent_) continue;
-    for (std::size_t at = link; at > 0;) {
-      const Joint& joint = robot_.joints()[at - 1];  // whose child it is
-      for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
-        moves_[*joint.variable + i] = true;
-      at = joint.parent;
-    }
+    counts_[link] = robot_.report()[link].drawn || link == camera_parent_;
+    if (!counts_[link]) continue;
+    static_cast<void>(any_variable_above(link, [this](std::size_t variable) {
+      moves_[variable] = true;
+      return false;
+    }));
   }
 }
 
@@ -90,6 +103,8 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& 
   answer.age = 0;
   answer.T_parent_camera.reset();
   answer.disagreement.reset();
+  answer.doubted_links.clear();
+  answer.doubt.clear();
   const bool by_joints = options_.source != PoseSource::transforms;
   const bool by_transforms = options_.source != PoseSource::joints;
   answer.by_joints = by_joints;
@@ -105,13 +120,27 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
   history.joints().at(stamp, answer.joints);
   answer.age = answer.joints.age;
   if (answer.joints.status == JointStatus::ok) return;
-  if (answer.joints.status == JointStatus::disputed) {
-    std::erase_if(answer.joints.disputes,
-                  [this](const JointDispute& dispute) { return !moves_[dispute.variable]; });
-    if (answer.joints.disputes.empty()) answer.joints.status = JointStatus::ok;
-  }
+  if (answer.joints.status == JointStatus::disputed) judge_disputes(answer);
   answer.status = status_of(answer.joints.status);
   if (answer.status != FrameStatus::ok) answer.message = describe(robot_, answer.joints);
+}
+
+void PoseLookup::judge_disputes(PoseAnswer& answer) const {
+  auto& disputes = answer.joints.disputes;
+  const auto counts = [this](const JointDispute& dispute) { return moves_[dispute.variable]; };
+  if (std::any_of(disputes.begin(), disputes.end(), counts)) {
+    std::erase_if(disputes, std::not_fn(counts));
+    return;
+  }
+  const auto is_disputed = [&](std::size_t variable) {
+    return std::any_of(disputes.begin(), disputes.end(),
+                       [&](const JointDispute& dispute) { return dispute.variable == variable; });
+  };
+  for (std::size_t link = 0; link < frames_.size(); ++link)
+    if (any_variable_above(link, is_disputed)) answer.doubted_links.push_back(link);
+  answer.doubt = describe(robot_, answer.joints);
+  answer.joints.status = JointStatus::ok;
+  disputes.clear();
 }
 
 void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stamp,
@@ -150,13 +179,20 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
 void PoseLookup::compare(PoseAnswer& answer) {
   robot_.forward_kinematics(answer.joints.positions, T_root_link_);
   Disagreement& most = answer.disagreement.emplace();
+  Disagreement most_doubted;
   for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
-    if (!robot_.report()[i].drawn && i != camera_parent_) continue;
     const double distance = distance_between(T_root_link_[i], answer.T_root_link[i]);
-    if (distance <= most.distance) continue;
-    most = {i, distance};
+    Disagreement& among = counts_[i] ? most : most_doubted;
+    if (distance > among.distance) among = {i, distance};
+    if (!counts_[i] && distance > options_.agreement) answer.doubted_links.push_back(i);
   }
-  if (most.distance <= options_.agreement) return;
+  if (most.distance <= options_.agreement) {
+    if (most_doubted.distance <= options_.agreement) return;
+    answer.doubt += (answer.doubt.empty() ? "" : "; ") +
+                    disagreement_text(robot_.links()[most_doubted.link], most_doubted.distance,
+                                      options_.agreement);
+    return;
+  }
   answer.status = FrameStatus::poses_disagree;
   answer.message = disagreement_text(robot_.links()[most.link], most.distance, options_.agreement);
 }

@@ -54,6 +54,9 @@ struct PoseAnswer {
   std::vector<Eigen::Isometry3d> T_root_link;        ///< of PoseSource::transforms and both: TF's
   std::optional<Eigen::Isometry3d> T_parent_camera;  ///< if the camera's frame is in TF
   std::optional<Disagreement> disagreement;          ///< of PoseSource::both; ok or not
+  /// Of an answer that is ok: links that two sources put elsewhere, and why, as LinkDoubts has it.
+  std::vector<std::size_t> doubted_links;
+  std::string doubt;
 };
 
 /// Finds poses of a robot's links and its camera in a history. Takes nothing that is not of the
@@ -66,7 +69,8 @@ class PoseLookup {
 
   /// From TF every link is looked up in its parent link. A fixed joint's link whose frame TF never
   /// named is where the URDF says; any other one is missing_transform. A joint of which two sources
-  /// tell different values is poses_disagree, if it moves a drawn link or the camera's parent.
+  /// tell different values is poses_disagree, if it moves a drawn link or the camera's parent; else
+  /// the links that it moves are doubted.
   /// Allocates nothing for an answer that is ok, once the answer has been used.
   void at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer);
 
@@ -74,7 +78,10 @@ class PoseLookup {
 
  private:
   void note_movers();
+  template <typename F>
+  [[nodiscard]] bool any_variable_above(std::size_t link, const F& is_meant) const;
   void find_joints(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) const;
+  void judge_disputes(PoseAnswer& answer) const;
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void compare(PoseAnswer& answer);
@@ -85,7 +92,8 @@ class PoseLookup {
   PoseOptions options_;
   std::vector<std::string> frames_;  // of each link, in TF
   std::size_t camera_parent_;
-  std::vector<bool> moves_;    // of each variable: a drawn link or the camera's parent
+  std::vector<bool> counts_;   // of each link: whether it is drawn or the camera's parent
+  std::vector<bool> moves_;    // of each variable: one of these
   TransformAnswer transform_;  // of the last lookup
   std::vector<Eigen::Isometry3d> T_root_link_;  // by the joint states
 };

@@ -25,6 +25,7 @@ namespace penumbra {
 struct FramePoses {
   std::span<const Eigen::Isometry3d> T_root_link;
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
+  LinkDoubts doubts = {};
 
   [[nodiscard]] bool known() const { return !T_root_link.empty(); }
 };
@@ -36,6 +37,20 @@ struct JudgedFrame {
   std::string_view message;  ///< of a status that is not ok
   JudgedImages images;       ///< empty where targets cannot be judged
   FramePoses poses;
+};
+
+/// A copy of a frame's doubts.
+class KeptDoubts {
+ public:
+  void keep(const LinkDoubts& doubts) {
+    links_.assign(doubts.links.begin(), doubts.links.end());
+    why_ = doubts.why;
+  }
+  [[nodiscard]] LinkDoubts view() const { return {links_, why_}; }
+
+ private:
+  std::vector<std::size_t> links_;
+  std::string why_;
 };
 
 /// The poses of the last frames.
@@ -53,6 +68,7 @@ class RecentPoses {
   struct Entry {
     std::optional<std::int64_t> stamp;
     Eigen::Isometry3d T_root_camera;
+    KeptDoubts doubts;
   };
   [[nodiscard]] std::span<const Eigen::Isometry3d> links_of(std::size_t entry) const;
 
@@ -88,6 +104,7 @@ class RecentFrames {
     JudgedFrame frame;
     std::string message;
     std::vector<Eigen::Isometry3d> T_root_link;
+    KeptDoubts doubts;
     Image<std::uint8_t> labels;
     Image<float> depth;
     Image<std::uint16_t> links;

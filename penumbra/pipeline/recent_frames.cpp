@@ -52,14 +52,17 @@ void RecentPoses::keep(std::int64_t stamp, const FramePoses& poses) {
     at = static_cast<std::size_t>(same - entries_.begin());
   else
     next_ = (next_ + 1) % frames;
-  entries_[at] = {stamp, poses.T_root_camera};
+  entries_[at].stamp = stamp;
+  entries_[at].T_root_camera = poses.T_root_camera;
+  entries_[at].doubts.keep(poses.doubts);
   std::copy(poses.T_root_link.begin(), poses.T_root_link.end(),
             T_root_link_.begin() + static_cast<std::ptrdiff_t>(at * links_));
 }
 
 std::optional<FramePoses> RecentPoses::find(std::int64_t stamp) const {
   for (std::size_t i = 0; i < frames; ++i)
-    if (entries_[i].stamp == stamp) return FramePoses{links_of(i), entries_[i].T_root_camera};
+    if (entries_[i].stamp == stamp)
+      return FramePoses{links_of(i), entries_[i].T_root_camera, entries_[i].doubts.view()};
   return std::nullopt;
 }
 
@@ -85,6 +88,8 @@ void RecentFrames::keep(const JudgedFrame& frame) {
     copy.T_root_link.assign(frame.poses.T_root_link.begin(), frame.poses.T_root_link.end());
     copy.frame.poses.T_root_link = copy.T_root_link;
   }
+  copy.doubts.keep(frame.poses.doubts);
+  copy.frame.poses.doubts = copy.doubts.view();
   if (!frame.images.labels.labels.empty()) copy_images(frame.images, copy);
 }
 

@@ -44,6 +44,11 @@ bool is_known(const LinkFrame& frame, const Robot& robot) {
   return !frame || frame->empty() || robot.find_link(*frame);
 }
 
+bool is_doubted(const LinkFrame& frame, const FramePoses& poses, const Robot& robot) {
+  const auto link = frame ? robot.find_link(*frame) : std::nullopt;
+  return link && poses.doubts.holds(*link);
+}
+
 void check_link(const LinkFrame& frame, const Robot& robot) {
   if (is_known(frame, robot)) return;
   throw InputError("estimate is given in '" + std::string(*frame) + "', no link of robot '" +
@@ -275,7 +280,8 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
   if (!verdict || !verdict->was_judged) return Outcome::refused_verdict;
   const auto poses = recent_poses_.find(stamp);
   if (!poses) return Outcome::refused_verdict;
-  if (!is_known(estimate.frame, robot_)) return Outcome::refused_invalid;
+  if (!is_known(estimate.frame, robot_) || is_doubted(estimate.frame, *poses, robot_))
+    return Outcome::refused_invalid;
   const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, *poses, robot_);
   if (is_in_camera(estimate, poses->T_root_camera.inverse() * T_root_frame))
     return Outcome::refused_invalid;

@@ -24,7 +24,8 @@
 
 namespace penumbra {
 
-/// T_root_frame in a frame whose poses are known. Throws InputError for a link that is none.
+/// T_root_frame in a frame whose poses are known. Throws InputError for a link that is none, or
+/// that is doubted.
 [[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses,
                                         const Robot& robot);
 

@@ -58,7 +58,11 @@ bool shows_anything(const VirtualDepthView& view) {
 Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const Robot& robot) {
   if (!frame) return poses.T_root_camera;
   if (frame->empty()) return Eigen::Isometry3d::Identity();
-  if (const auto link = robot.find_link(*frame)) return poses.T_root_link[*link];
+  const auto link = robot.find_link(*frame);
+  if (link && poses.doubts.holds(*link))
+    throw InputError("where link '" + std::string(*frame) +
+                     "' is that it is given in is not known: " + std::string(poses.doubts.why));
+  if (link) return poses.T_root_link[*link];
   throw InputError("'" + std::string(*frame) + "' is no link of robot '" + robot.name() + "'");
 }
 

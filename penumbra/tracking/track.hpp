@@ -23,8 +23,9 @@ enum class Outcome {
   refused_verdict,  ///< its target was not visible enough
   refused_gate,     ///< too far from where the target can be: an outlier
   refused_late,     ///< older than what is remembered
-  refused_invalid   ///< not finite, no rotation, a covariance that is none, or another estimate of
-                    ///< this stamp stands already (accepted or an outlier)
+  refused_invalid  ///< not finite, no rotation, a covariance that is none, in a link whose place is
+                   ///< not known, or another estimate of this stamp stands already (accepted or an
+                   ///< outlier)
 };
 
 [[nodiscard]] std::string_view to_string(Outcome outcome);

@@ -1139,6 +1139,8 @@ class Frame:
         source_message: str = ...,
         index: Optional[int] = ...,
         joint_age: Optional[int] = ...,
+        doubted_links: Sequence[int] = ...,
+        doubt: str = ...,
     ) -> None: ...
     @property
     def depth(self) -> Optional[Annotated[Union[NDArray[uint16], NDArray[float32]], '(H, W)']]: ...
@@ -1160,6 +1162,10 @@ class Frame:
     def index(self) -> Optional[int]: ...
     @property
     def joint_age(self) -> Optional[int]: ...
+    @property
+    def doubted_links(self) -> List[int]: ...
+    @property
+    def doubt(self) -> str: ...
     def replace(
         self,
         *,
@@ -1173,6 +1179,8 @@ class Frame:
         source_message: str = ...,
         index: Optional[int] = ...,
         joint_age: Optional[int] = ...,
+        doubted_links: Sequence[int] = ...,
+        doubt: str = ...,
     ) -> Frame: ...
 
 @final

@@ -368,5 +368,34 @@ TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
       << "an object that a detector first sees beside the robot may be larger than what it sees";
 }
 
+/// A turntable of which nothing is drawn, and which two programs see turned differently.
+TEST_F(BagTest, TargetsInALinkThatTwoProgramsPutElsewhereAreUnknown) {
+  bag_.edit<io::StringMessage>("/robot_description", [](auto& urdf) {
+    urdf.data.insert(urdf.data.rfind("</robot>"), R"(<link name="turntable"/>
+      <joint name="turn" type="continuous"><parent link="base"/><child link="turntable"/></joint>)");
+  });
+  bag_.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+    state.names[0] = "turn";
+    state.positions[0] = 0.0;
+  });
+  bag_.add("/goal", tiny_stamp(1) + 300'000'000,
+           io::PoseStampedMessage{{tiny_stamp(1), "turntable"},
+                                  Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2))});
+  const std::vector<std::string> options = {"--target-topic", "/goal"};
+  const auto target = [&] {
+    EXPECT_EQ(run(options).status, 0);
+    expect_recorded_labels();
+    return report()["frames"][2]["targets"].at(0);
+  };
+  EXPECT_EQ(target()["verdict"], "hidden");
+  for (std::int64_t stamp = tiny_stamp(0) - 190'000'000; stamp < tiny_stamp(3); stamp += 50'000'000)
+    bag_.add("/joint_states", stamp,
+             io::JointStateMessage{.header = {stamp, ""}, .names = {"turn"}, .positions = {0.7}});
+  const Json told = target();
+  EXPECT_EQ(told["verdict"], "unknown");
+  for (const char* const part : {"'turntable'", "joint 'turn' is at "})
+    EXPECT_NE(std::string(told["reason"]).find(part), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace penumbra::test

@@ -423,27 +423,6 @@ TEST_F(LiveInboxTest, ImagesOfAnotherFrameThanTheirCameraInfoAreRefused) {
   EXPECT_EQ(judge(start + 33 * milliseconds), 1U);
 }
 
-TEST_F(LiveInboxTest, TargetsComeWithTheNextImage) {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/wrist"};
-  LiveBench bench(options);
-  bench.tell_all();
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::LiveRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-  bench.tell_depth(start - seconds);
-  io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-  bench.tell("/wrist", encoded(pose));
-  bench.tell_joints(start);
-  bench.tell_depth(start);
-  ASSERT_EQ(bench.work(), 1U);
-  const auto targets = bench.results.last<io::TargetsMessage>(io::Result::targets);
-  ASSERT_EQ(targets.targets.size(), 1U);
-  EXPECT_EQ(targets.targets[0].name, "/wrist");
-  EXPECT_EQ(targets.targets[0].verdict, io::TargetMessage::visible);
-}
-
 TEST_F(LiveInboxTest, EveryImageIsAccountedFor) {
   bench_.tell_all();
   for (int i = 0; i < 20; ++i) {

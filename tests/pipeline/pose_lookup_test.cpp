@@ -137,9 +137,35 @@ TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
   lookup.at(history, 205 * ms, answer_);
   EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
   EXPECT_EQ(answer_.joints.status, JointStatus::ok);
+  EXPECT_EQ(answer_.doubted_links, (std::vector<std::size_t>{*robot.find_link("frame")}));
+  EXPECT_NE(answer_.doubt.find("joint 'b' is at 0.7 by driver"), std::string::npos)
+      << answer_.doubt;
   PoseLookup by_camera(robot, {.camera_parent = "frame"});
   by_camera.at(history, 205 * ms, answer_);
   EXPECT_EQ(answer_.status, FrameStatus::poses_disagree);
+}
+
+TEST_F(PoseLookupTest, LinksOfWhichNothingIsDrawnMayBeElsewhereByTF) {
+  const Robot robot = Robot::parse(slab_urdf(R"(<link name="tray"/>
+    <joint name="lift" type="prismatic"><parent link="base"/><child link="tray"/></joint>)"),
+                                   ".");
+  PoseHistory history(robot);
+  const std::string names[] = {"slide", "lift"};
+  const double positions[] = {0.1, 0.2};
+  history.add_joints(10 * ms, names, positions);
+  history.add_transform(10 * ms, "base", "slab", shift(0, 0, 1.1));
+  history.add_transform(10 * ms, "base", "tray", shift(0.2, 0, 0));
+  PoseLookup lookup(robot, {.source = PoseSource::both});
+  lookup.at(history, 10 * ms, answer_);
+  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+  EXPECT_TRUE(answer_.doubted_links.empty()) << answer_.doubt;
+  history.add_joints(20 * ms, names, positions);
+  history.add_transform(20 * ms, "base", "slab", shift(0, 0, 1.1));
+  history.add_transform(20 * ms, "base", "tray", shift(0.21, 0, 0));
+  lookup.at(history, 20 * ms, answer_);
+  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+  EXPECT_EQ(answer_.doubted_links, (std::vector<std::size_t>{*robot.find_link("tray")}));
+  EXPECT_NE(answer_.doubt.find("'tray' 10 mm apart"), std::string::npos) << answer_.doubt;
 }
 
 TEST_F(PoseLookupTest, ATurnDisagreesByItsArc) {

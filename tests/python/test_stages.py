@@ -153,3 +153,17 @@ def test_two_programs_that_tell_one_joint_are_told_apart(shipped):
     first.insert(0, names, zeros, source="driver")
     first.insert(0, names, [0.5, *zeros[1:]], source="sliders")
     assert first.at(0).positions[0] == 0.0
+
+
+def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
+    link = shipped.robot.links[-1]
+    target = penumbra.Target("t", penumbra.PointTarget([0, 0, 0.2], frame=link))
+    frame = shipped.frames[0].frame.replace(targets=[target])
+    assert frame.doubted_links == [] and frame.doubt == ""
+    assert shipped.pipeline.process(frame).targets[0].judgement is not None
+    doubted = frame.replace(doubted_links=[len(shipped.robot.links) - 1], doubt="two tell it")
+    for given in (doubted, doubted.replace(index=7)):
+        report = shipped.pipeline.process(given)
+        assert report.status == penumbra.FrameStatus.ok
+        assert report.targets[0].verdict == penumbra.Verdict.unknown
+        assert link in report.targets[0].reason and "two tell it" in report.targets[0].reason
