@@ -207,6 +207,7 @@ bool LiveCamera::next(std::int64_t now, bool with_overlay, LiveJob& job) {
 void LiveCamera::done(const LiveOutcome& outcome) {
   --counts_.in_work;
   ++(outcome.is_published ? counts_.judged : counts_.failed);
+  targets_.discarded += outcome.unjudged_targets;
 }
 
 std::optional<std::int64_t> LiveCamera::wake_at() const {

@@ -69,9 +69,10 @@ struct LiveCounts {
 
 /// Targets that were never judged.
 struct LiveTargets {
-  std::size_t replaced = 0;   ///< newer ones of their names came first
-  std::size_t discarded = 0;  ///< TargetInbox::discarded, and those that waited for another setup
-  std::size_t early = 0;      ///< messages: there was no robot or no camera yet
+  std::size_t replaced = 0;  ///< newer ones of their names came first
+  /// TargetInbox::discarded, those that waited for another setup, and those of images that failed.
+  std::size_t discarded = 0;
+  std::size_t early = 0;  ///< messages: there was no robot or no camera yet
 };
 
 /// The messages of one camera: keeps depth images until they can be judged, newest first. Knows no

@@ -64,7 +64,8 @@ struct LiveOutcome {
   bool is_published = false;
   std::string fault;  ///< why nothing could be said of the image; empty if it is published
   FrameStatus status = FrameStatus::ok;
-  std::string message;  ///< one line for every status but ok
+  std::string message;               ///< one line for every status but ok
+  std::size_t unjudged_targets = 0;  ///< that came with an image of which nothing could be said
   StageTimes timing;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;

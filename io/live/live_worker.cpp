@@ -58,6 +58,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   outcome.arrived = job.arrived;
   if (!follow(job.setup)) {
     outcome.fault = fault_;
+    outcome.unjudged_targets = job.targets.size();
     return outcome;
   }
   Frame frame = job.pose.frame();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 #include <utility>
+
+#include <penumbra/pipeline/frame.hpp>
 
 #include <io/live/trouble_news.hpp>
 
@@ -9,12 +13,33 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A message without its numbers.
-std::string kind_of(const std::string& message) {
+bool is_sign(char c) { return c == '-' || c == '+'; }
+
+/// Where a number ends that begins at `i`, with its sign and exponent; `i` where none does.
+std::size_t number_end(std::string_view text, std::size_t i) {
+  const auto digit_at = [&](std::size_t at) { return at < text.size() && is_digit(text[at]); };
+  const std::size_t first = i + (is_sign(text[i]) ? 1 : 0);
+  if (!digit_at(first)) return i;
+  std::size_t end = first;
+  while (digit_at(end) || (end < text.size() && text[end] == '.')) ++end;
+  if (end >= text.size() || text[end] != 'e') return end;
+  std::size_t exponent = end + 1;
+  if (exponent < text.size() && is_sign(text[exponent])) ++exponent;
+  if (!digit_at(exponent)) return end;
+  while (digit_at(exponent)) ++exponent;
+  return exponent;
+}
+
+/// A message without its numbers. Which joints contradict each other is no kind: of an arm that
+/// moves it is now these, now those.
+std::string kind_of(std::string_view message) {
+  const std::string_view disagree = to_string(FrameStatus::poses_disagree);
+  if (message.starts_with(disagree)) return std::string(disagree);
   std::string kind;
-  for (std::size_t i = 0; i < message.size(); ++i) {
-    const bool in_number = message[i] == '.' && i > 0 && is_digit(message[i - 1]);
-    if (!is_digit(message[i]) && !in_number) kind += message[i];
+  for (std::size_t i = 0; i < message.size();) {
+    const std::size_t end = number_end(message, i);
+    if (end == i) kind += message[i++];
+    i = std::max(i, end);
   }
   return kind;
 }

@@ -263,6 +263,28 @@ TEST(TroubleNews, TellsEachStatusByItself) {
   EXPECT_EQ(news.look(of_cameras("", "")), Words{});
 }
 
+TEST(TroubleNews, NumbersAreNoNewsWhateverTheirSignAndSize) {
+  io::TroubleNews news;
+  EXPECT_EQ(news.look(of_cameras("frame 'a-b' is 0.25 m off, at 7 ns", "")).size(), 1U);
+  for (const char* const same :
+       {"frame 'a-b' is -0.25 m off, at 7 ns", "frame 'a-b' is 2.5e-05 m off, at -12 ns",
+        "frame 'a-b' is -1e+06 m off, at 0 ns"})
+    EXPECT_EQ(news.look(of_cameras(same, "")), Words{}) << same;
+  EXPECT_EQ(news.look(of_cameras("frame 'ab' is 0.25 m off, at 7 ns", "")).size(), 1U);
+}
+
+/// Of an arm that moves: other joints, values and publishers each second.
+TEST(TroubleNews, JointsThatContradictEachOtherAreOneTrouble) {
+  io::TroubleNews news;
+  const auto told = [&](const std::string& why) {
+    return news.look(of_cameras("poses_disagree: joint " + why, "")).size();
+  };
+  EXPECT_EQ(told("'a' is at 0.1 by one and at 0.5 by other (7 ns)"), 1U);
+  EXPECT_EQ(told("'a' is at -0.1 by one and at 1e-05 by other (9 ns); so is 'b', 'c'"), 0U);
+  EXPECT_EQ(told("'b' is at 0.2 by other and at 0.1 by one (11 ns); so is 'c'"), 0U);
+  EXPECT_EQ(news.look(of_cameras("stale_joints: joint 'a' has no position", "")).size(), 1U);
+}
+
 TEST_F(LiveDiagnosticsTest, IsAMessage) {
   bench_.tell_all();
   judge();
