@@ -209,5 +209,36 @@ TEST_F(LivePoses, OfBothAreTakenWhereTheyAgree) {
   EXPECT_NE(judge(bench, later), "ok") << "one of both alone is not enough";
 }
 
+/// Of two cameras that share a robot, one's clock is set back alone.
+TEST(LiveClocks, ACameraThatIsSetBackHoldsTheOthersUpForAMomentAlone) {
+  io::LiveOptions options;
+  for (const std::string name : {"left", "right"})
+    options.cameras.push_back({.name = name,
+                               .depth_topic = "/" + name + "/depth",
+                               .info_topic = "/" + name + "/camera_info"});
+  LiveBench bench(options);
+  bench.tell_robot();
+  bench.tell_mount();
+  for (const char* const info : {"/left/camera_info", "/right/camera_info"})
+    bench.tell(info, encoded(live_info(0)));
+  constexpr int images = 30;
+  constexpr int set_back_at = 10;
+  for (int i = 0; i < images; ++i) {
+    const std::int64_t stamp = start + i * 33 * milliseconds;
+    bench.tell_joints(stamp - 10 * milliseconds);
+    bench.tell("/left/depth", live_depth(stamp));
+    bench.tell("/right/depth", live_depth(i < set_back_at ? stamp : stamp - 5 * seconds));
+    bench.tell_joints(stamp + 10 * milliseconds);
+    bench.now += 33 * milliseconds;
+    bench.work();
+  }
+  EXPECT_EQ(bench.inbox.robot().posed()->history.clock_jumps(), 1U);
+  EXPECT_EQ(bench.counts().of(io::LiveDrop::clock_jump), 1U) << "the one that waited";
+  bench.now += 200 * milliseconds;
+  bench.work();
+  LiveTruth truth;
+  EXPECT_EQ(expect_true_labels(bench.results.told, truth), images - 1U);
+}
+
 }  // namespace
 }  // namespace penumbra::test
