@@ -10,7 +10,7 @@ namespace penumbra::io {
 namespace {
 
 /// Images wait for their poses: 2 s and more at 90 Hz.
-constexpr std::size_t most_infos = 256;
+constexpr std::size_t most_kept_infos = 256;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void CameraChanges::add_info(std::int64_t stamp, bool differs) {
   if (InfoPairs::is_jump(newest_info_, stamp)) begin_anew();
   newest_info_ = std::max(newest_info_, stamp);
   infos_.push_back({stamp, differs});
-  if (infos_.size() > most_infos) infos_.pop_front();
+  if (infos_.size() > most_kept_infos) infos_.pop_front();
   last_differs_ = differs;
 }
 

@@ -17,10 +17,9 @@ constexpr std::size_t long_file = 400;      // lines: worth a look
 constexpr std::size_t too_long_file = 500;  // lines: wants splitting
 
 const std::vector<std::string>& code_folders() {
-  static const std::vector<std::string> folders{"penumbra", "io",    "sim",   "apps",
-                                                "examples", "tests", "bench", "scripts",
-                                                "cmake",    ".ci",   "ros",   "python",
-                                                "docs"};
+  static const std::vector<std::string> folders{
+      "penumbra", "io",    "sim", "apps", "examples", "tests", "bench",
+      "scripts",  "cmake", ".ci", "ros",  "python",   "docs"};
   return folders;
 }
 
