@@ -134,7 +134,7 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
 }
 
 bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
-  const auto around = tracks_[variable].track_at(stamp).around(stamp, max_gap_);
+  const auto around = tracks_[variable].around(stamp);
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
   answer.positions[variable] = a.value;
@@ -147,7 +147,7 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
 
 bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
                               JointAnswer& answer) const {
-  const auto around = rotation.track.track_at(stamp).around(stamp, max_gap_);
+  const auto around = rotation.track.around(stamp);
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
   Eigen::Quaterniond q = a.value;

@@ -100,8 +100,8 @@ struct RotationRule {
 ///
 /// Where several sources tell a variable, its value is that of one of them, and what they say of
 /// the same time is compared: see ToldTrack. A variable of which two contradict each other near a
-/// stamp is "disputed" there; it is "stale" while the one whose word is taken is silent. Where one
-/// alone tells it, nothing is compared.
+/// stamp is "disputed" there; it is "stale" while one of them is waited for, or nobody knows which
+/// is right. Where one alone tells it, nothing is compared.
 class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.

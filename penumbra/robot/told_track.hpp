@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,6 +11,7 @@
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/robot/stamped_track.hpp>
+#include <penumbra/robot/track_ways.hpp>
 
 namespace penumbra {
 
@@ -25,17 +25,19 @@ namespace penumbra {
 /// an encoder that is read more seldom than it is told. What does not agree is a contradiction.
 /// Nothing is compared where the two do not overlap, as of a source that ends and one that begins.
 ///
-/// Of sources that agree one is taken: the one that moves, and that is ahead. What stands still or
-/// lags may be a copy, or agree by chance. Until the next state of the one that is taken has come,
-/// nothing is known. When it falls silent, another one takes over that begins after it, or moves on
-/// its own: what stands still may be its copy. So it is where one of two who contradicted each
-/// other falls silent. Who told nothing within the history is forgotten.
+/// A value is known where all sources tell it, but for those that are seen to lag: within the
+/// rule's noise of each other. The one whose states are closest there gives it. A source that
+/// falls silent is waited for until one succeeds it that begins after it, or moves on its own: what
+/// stands still may be its copy. Who told nothing within the history is forgotten.
+///
+/// A source lags that is where another one was before, and moves: it is a copy. It leads when it
+/// moves on its own while all others are silent.
 ///
 /// Two values of one source and stamp contradict each other, too, where the rule says so, if they
 /// are farther apart than either is from the state before: stamps may be coarse.
 ///
-/// Without comparing, the first source is taken, or one that begins after it has ended; others that
-/// were there beside it are never taken.
+/// Without comparing, the first source is taken, or while that is silent one that began since;
+/// others that were there beside it are never taken.
 ///
 /// Rule: double distance(Value, Value), Value between(Value, double share, Value), double noise(),
 /// bool one_value_of_a_stamp.
@@ -44,6 +46,7 @@ class ToldTrack {
  public:
   using Track = StampedTrack<Value>;
   using State = typename Track::State;
+  using Bracket = typename Track::Bracket;
 
   /// Nanoseconds that stamps of one instant may be apart: two threads' scheduling and a message's
   /// way between two programs.
@@ -52,6 +55,10 @@ class ToldTrack {
   /// Nanoseconds that a contradiction lasts at least: longer than messages fail to come now and
   /// then, and short enough for results to be back a second after one of the two ended.
   static constexpr std::uint64_t memory = 800'000'000;
+
+  /// Nanoseconds for which a silent source is remembered however short the history is: longer than
+  /// a slow driver's time between two states.
+  static constexpr std::int64_t shortest_history = 2'000'000'000;
 
   /// Sources that are kept; of more the one that is silent for longest is forgotten.
   static constexpr std::size_t most_sources = 32;
@@ -73,210 +80,214 @@ class ToldTrack {
   /// Adds a state; replaces the one of the same stamp and source.
   void put(const State& state, std::uint32_t source) {
     if (all_.states().empty()) only_ = source;
-    if (sources_.empty() && source != only_)
-      sources_.push_back({only_, all_, all_.states().front().stamp, true});
+    if (sources_.empty() && source != only_) {
+      const auto told = all_.states();
+      const std::size_t n = told.size();
+      sources_.push_back({only_, all_, told.front().stamp,
+                          n < 2 ? 0 : stamp_distance(told[n - 2].stamp, told[n - 1].stamp)});
+    }
     if (Rule::one_value_of_a_stamp && compares_) compare_with_itself(state, source);
     all_.put(state);
     if (sources_.empty()) return;
     const std::size_t teller = find_or_add(source, state.stamp);
-    sources_[teller].track.put(state);
-    sources_[teller].began = std::min(sources_[teller].began, state.stamp);
-    if (compares_) compare(teller, state);
-    if (takes_over(sources_[teller], state.stamp)) take(teller);
+    Source& own = sources_[teller];
+    if (!own.track.states().empty() && state.stamp > end_of(own)) {
+      own.period = stamp_distance(end_of(own), state.stamp);
+      own.succeeded = never;
+    }
+    own.track.put(state);
+    own.began = std::min(own.began, state.stamp);
+    if (!compares_) return;
+    compare(teller, state);
+    succeed(own, state);
   }
 
-  /// As of a StampedTrack; a source that told nothing since `limit` is forgotten.
+  /// As of a StampedTrack; a source that told nothing since `limit` is forgotten, if one is left
+  /// that does not lag.
   void prune(std::int64_t limit, std::size_t max_states) {
     all_.prune(limit, max_states);
     contradictions_.prune(limit, max_states);
     if (sources_.empty()) return;
     for (Source& source : sources_) source.track.prune(limit, max_states);
-    for (std::size_t i = sources_.size(); i-- > 0;)
-      if (sources_[i].track.states().empty() ||
-          (end_of(sources_[i]) < limit && (compares_ || i != taken_)))
-        forget(i);
-    if (sources_.size() != 1) return;
-    only_ = sources_.front().number;
-    forget(0);
+    if (!compares_) return;  // who was there beside the first one is known for ever
+    const std::int64_t heard_since =
+        std::min(limit, stamp_after(all_.states().back().stamp, -shortest_history));
+    const auto is_left = [&](const Source& source) {
+      return !source.lags() && end_of(source) >= heard_since;
+    };
+    const bool forgets = std::any_of(sources_.begin(), sources_.end(), is_left);  // not for copies
+    std::erase_if(sources_, [&](const Source& source) {
+      return end_of(source) < heard_since && (forgets || source.lags());
+    });
+    if (sources_.size() > 1) return;
+    if (sources_.size() == 1) {
+      only_ = sources_.front().number;
+      all_ = sources_.front().track;
+    }
+    sources_.clear();
   }
 
   void clear() {
     all_.clear();
     sources_.clear();
     contradictions_.clear();
-    taken_ = 0;
   }
 
   /// States of all sources.
   [[nodiscard]] const Track& all() const { return all_; }
 
-  /// The track to interpolate at `stamp`: of the source that is taken there.
+  /// The states to interpolate between at `stamp`; none where nothing is known.
+  [[nodiscard]] Bracket around(std::int64_t stamp) const {
+    return sources_.empty() ? all_.around(stamp, max_gap_) : word_at(stamp).around;
+  }
+
+  /// The track of the source that tells `stamp`, or of the one that is waited for.
   [[nodiscard]] const Track& track_at(std::int64_t stamp) const {
-    const Source* const source = source_at(stamp);
+    const Source* const source = word_at(stamp).source;
     return source == nullptr ? all_ : source->track;
   }
 
   /// Whose track that is; nothing where one source alone tells the value.
   [[nodiscard]] std::optional<std::uint32_t> teller_at(std::int64_t stamp) const {
-    const Source* const source = source_at(stamp);
+    const Source* const source = word_at(stamp).source;
     return source == nullptr ? std::nullopt : std::optional(source->number);
   }
 
   /// A contradiction that holds at `stamp`: max_gap before or after it at most; of certain ones,
-  /// `memory` before it, and for as long as one of the two is silent and the other has not moved.
-  /// Null: there is none.
+  /// `memory` before it. Null: there is none.
   [[nodiscard]] const typename StampedTrack<Contradiction>::State* contradiction_near(
       std::int64_t stamp) const {
     const auto all = contradictions_.states();
-    if (all.empty()) return nullptr;
     const auto is_near = [&](const auto& found) {
       return stamp_distance(found.stamp, stamp) <= static_cast<std::uint64_t>(max_gap_);
     };
     const std::size_t split = contradictions_.up_to(stamp).size();
     for (std::size_t i = split; i > 0 && stamp_distance(all[i - 1].stamp, stamp) <= memory; --i)
       if (all[i - 1].value.is_certain || is_near(all[i - 1])) return &all[i - 1];
-    if (split < all.size() && is_near(all[split])) return &all[split];
-    return unsettled_before(stamp);
+    return split < all.size() && is_near(all[split]) ? &all[split] : nullptr;
   }
 
  private:
+  static constexpr std::int64_t always = std::numeric_limits<std::int64_t>::min();
+  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
   struct Source {
     std::uint32_t number;
     Track track;
-    std::int64_t began;  // its first stamp
-    bool was_taken = false;
-    bool lags = false;  // it was last seen behind the one that was taken
+    std::int64_t began;                // its first stamp
+    std::uint64_t period = 0;          // between its last two states; 0: it told one
+    std::int64_t leads_from = always;  // never: it was seen to lag
+    std::int64_t succeeded =
+        never;  // since it is silent: the stamp from which another one may tell
+
+    [[nodiscard]] bool lags() const { return leads_from == never; }
+  };
+
+  /// Who tells a stamp, and its states there; none: it is waited for.
+  struct Word {
+    const Source* source = nullptr;
+    Bracket around;
   };
 
   /// The longest way between two states of a source that others are compared with.
-  [[nodiscard]] std::int64_t longest() const {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    return max_gap_ > most / 2 ? most : 2 * max_gap_;
-  }
+  [[nodiscard]] std::int64_t longest() const { return max_gap_ > never / 2 ? never : 2 * max_gap_; }
 
   [[nodiscard]] static std::int64_t end_of(const Source& source) {
     return source.track.states().back().stamp;
   }
 
+  /// Whether a source is silent at a stamp, up to which it told nothing since `last`.
+  [[nodiscard]] bool is_silent(const Source& source, std::int64_t last, std::int64_t stamp) const {
+    const std::uint64_t due =
+        source.period == 0 ? static_cast<std::uint64_t>(shortest_history) : 2 * source.period;
+    return last < stamp &&
+           stamp_distance(last, stamp) > std::max(due, static_cast<std::uint64_t>(max_gap_));
+  }
+
   std::size_t find_or_add(std::uint32_t number, std::int64_t stamp) {
     for (std::size_t i = 0; i < sources_.size(); ++i)
       if (sources_[i].number == number) return i;
-    if (sources_.size() == most_sources) forget(silent_for_longest());
+    if (sources_.size() == most_sources) {
+      // Without comparing the first one is kept.
+      const auto longest_silent =
+          std::min_element(sources_.begin() + (compares_ ? 0 : 1), sources_.end(),
+                           [](const Source& a, const Source& b) { return end_of(a) < end_of(b); });
+      sources_.erase(longest_silent);
+    }
     sources_.push_back({number, {}, stamp});
     return sources_.size() - 1;
   }
 
-  [[nodiscard]] std::size_t silent_for_longest() const {
-    std::size_t found = taken_ == 0 ? 1 : 0;
-    for (std::size_t i = 0; i < sources_.size(); ++i)
-      if (i != taken_ && end_of(sources_[i]) < end_of(sources_[found])) found = i;
-    return found;
-  }
-
-  void forget(std::size_t source) {
-    sources_.erase(sources_.begin() + static_cast<std::ptrdiff_t>(source));
-    if (taken_ > source)
-      --taken_;
-    else if (taken_ == source && !sources_.empty())
-      take(0);
-  }
-
-  void take(std::size_t source) {
-    taken_ = source;
-    sources_[source].was_taken = true;
-  }
-
-  /// Whose word is taken at a stamp; null: one source alone tells the value.
-  [[nodiscard]] const Source* source_at(std::int64_t stamp) const {
-    if (sources_.empty()) return nullptr;
-    const Source& taken = sources_[taken_];
-    if (taken.track.around(stamp, max_gap_) || stamp > end_of(taken)) return &taken;
-    // Before its first state those that were taken before it are; in a gap of it who agrees does.
-    const bool is_before = stamp < taken.track.states().front().stamp;
-    for (const Source& source : sources_)
-      if ((is_before ? source.was_taken : compares_ && !source.lags) &&
-          source.track.around(stamp, max_gap_))
-        return &source;
-    return &taken;
-  }
-
-  /// Whether a source that tells a state takes over from the one that is taken: as that one is
-  /// silent, or tells too seldom to be interpolated.
-  [[nodiscard]] bool takes_over(const Source& source, std::int64_t stamp) const {
-    const Source& taken = sources_[taken_];
-    if (&source == &taken) return false;
-    const std::int64_t end = end_of(taken);
-    if (stamp > end && stamp_distance(stamp, end) > static_cast<std::uint64_t>(max_gap_) &&
-        succeeds(source, end, stamp))
-      return true;
-    return compares_ && is_seldom(taken) && !source.lags && source.track.states().size() > 2 &&
-           !is_seldom(source);
-  }
-
-  /// Whether the last two times between states are both too long.
-  [[nodiscard]] bool is_seldom(const Source& source) const {
-    const auto all = source.track.states();
-    if (all.size() < 3) return false;
-    const auto is_long = [&](std::size_t i) {
-      return stamp_distance(all[i].stamp, all[i - 1].stamp) > static_cast<std::uint64_t>(max_gap_);
-    };
-    return is_long(all.size() - 1) && is_long(all.size() - 2);
-  }
-
-  /// Whether a source is no copy of one that ended, at `stamp`: it began later, or moved since. A
-  /// copy may move on for as long as it lags.
-  [[nodiscard]] bool succeeds(const Source& source, std::int64_t end, std::int64_t stamp) const {
-    const auto all = source.track.states();
-    if (source.began > end) return true;
-    if (!compares_) return false;
-    const auto caught_up = source.track.up_to(stamp_after(end, longest()));
-    const Value& from = caught_up.empty() ? all.front().value : caught_up.back().value;
-    for (std::size_t i = caught_up.size(); i < all.size() && all[i].stamp <= stamp; ++i)
-      if (rule_.distance(from, all[i].value) > rule_.noise()) return true;
-    return false;
-  }
-
-  /// The last certain contradiction of two sources that is not settled at `stamp`.
-  [[nodiscard]] const typename StampedTrack<Contradiction>::State* unsettled_before(
-      std::int64_t stamp) const {
-    if (sources_.empty()) return nullptr;
-    const auto before = contradictions_.up_to(stamp);
-    std::array<std::array<std::uint32_t, 2>, 8> looked_at{};
-    std::size_t pairs = 0;
-    for (auto found = before.rbegin(); found != before.rend(); ++found) {
-      const auto end = looked_at.begin() + static_cast<std::ptrdiff_t>(pairs);
-      if (!found->value.is_certain ||
-          std::find(looked_at.begin(), end, found->value.sources) != end)
-        continue;
-      if (pairs == looked_at.size() || !is_settled(found->value.sources, stamp)) return &*found;
-      looked_at[pairs++] = found->value.sources;
+  [[nodiscard]] Word word_at(std::int64_t stamp) const {
+    if (sources_.empty()) return {};
+    if (!compares_) {
+      const Source& first = first_at(stamp);
+      return {&first, first.track.around(stamp, max_gap_)};
     }
-    return nullptr;
-  }
-
-  /// Of two sources that contradicted each other more than `memory` ago: whether both were heard
-  /// since, so that they agree, or one of them has proven itself since the other one fell silent.
-  [[nodiscard]] bool is_settled(const std::array<std::uint32_t, 2>& pair,
-                                std::int64_t stamp) const {
-    if (pair[0] == pair[1]) return true;
-    std::array<const Source*, 2> both{};
-    for (const Source& source : sources_)
-      for (std::size_t i = 0; i < 2; ++i)
-        if (source.number == pair[i]) both[i] = &source;
-    if (both[0] == nullptr || both[1] == nullptr) return true;  // forgotten
-    const std::array ends = {heard_until(*both[0], stamp), heard_until(*both[1], stamp)};
-    const std::size_t silent = ends[0] < ends[1] ? 0 : 1;
-    const auto is_silent = [&](std::int64_t end) {
-      return stamp_distance(end, stamp) > static_cast<std::uint64_t>(longest());
+    const auto is_asked = [&](const Source& source) {
+      return source.began <= stamp && source.leads_from <= stamp && !source.lags() &&
+             source.succeeded > stamp;
     };
-    if (!is_silent(ends[silent]) || is_silent(ends[1 - silent])) return true;
-    return succeeds(*both[1 - silent], ends[silent], stamp);
+    // What is disputed needs a value, too, and waits for nobody.
+    const bool is_disputed = contradiction_near(stamp) != nullptr;
+    Word word;
+    for (const Source& source : sources_) {
+      if (!is_asked(source)) continue;
+      const Bracket around = source.track.around(stamp, longest());
+      if (around && (!word.around || around.gap() < word.around.gap())) word = {&source, around};
+      if (!around && !is_disputed) return {&source, {}};
+    }
+    if (!word.around || word.around.gap() > static_cast<std::uint64_t>(max_gap_))
+      return {word.source, {}};
+    if (is_disputed) return word;
+    const Value told = value_at(rule_, word.around, stamp);
+    for (const Source& source : sources_)
+      if (is_asked(source) &&
+          rule_.distance(told, value_at(rule_, source.track.around(stamp, longest()), stamp)) >
+              rule_.noise())
+        return {&source, {}};
+    return word;
   }
 
-  /// The last state of a source at or before a stamp.
-  [[nodiscard]] static std::int64_t heard_until(const Source& source, std::int64_t stamp) {
-    const auto before = source.track.up_to(stamp);
-    return before.empty() ? std::numeric_limits<std::int64_t>::min() / 2 : before.back().stamp;
+  /// Without comparing: the first source, or while it is silent the first one that began since.
+  [[nodiscard]] const Source& first_at(std::int64_t stamp) const {
+    const Source* first = &sources_.front();
+    while (true) {
+      const auto before = first->track.up_to(stamp);
+      if (before.empty() || first->track.around(stamp, max_gap_) ||
+          !is_silent(*first, before.back().stamp, stamp))
+        return *first;
+      const Source* next = nullptr;
+      for (const Source& source : sources_)
+        if (source.began > before.back().stamp && source.began <= stamp &&
+            (next == nullptr || source.began < next->began))
+          next = &source;
+      if (next == nullptr) return *first;
+      first = next;
+    }
+  }
+
+  /// Notes whom a source succeeds by a state: one that is silent, and that it is no copy of, as it
+  /// began later, or moved since. A copy may move on for as long as it lags.
+  void succeed(Source& by, const State& state) {
+    const auto is_out = [&](const Source& source) {
+      return &source == &by || source.lags() || is_silent(source, end_of(source), state.stamp);
+    };
+    if (by.lags() && !std::all_of(sources_.begin(), sources_.end(), is_out)) return;
+    for (Source& source : sources_) {
+      if (&source == &by || source.lags() || source.succeeded != never ||
+          !is_silent(source, end_of(source), state.stamp))
+        continue;
+      if (by.began <= end_of(source)) {
+        const std::int64_t caught_up = stamp_after(end_of(source), longest());
+        if (state.stamp <= caught_up) continue;
+        const auto before = by.track.up_to(caught_up);
+        const Value& from = before.empty() ? by.track.states().front().value : before.back().value;
+        if (rule_.distance(from, state.value) <= rule_.noise()) continue;
+      }
+      source.succeeded = state.stamp;
+      by.leads_from = std::min(by.leads_from, state.stamp);
+    }
   }
 
   /// Compares a new state with what its source told of the very stamp.
@@ -318,27 +329,22 @@ class ToldTrack {
     const auto around = theirs.around(state.stamp, longest());
     if (!around) return;
     const State* const last = own_track.last_before(state.stamp);
+    const std::uint64_t own_gap = last == nullptr ? 0 : gap(*last, state);
     const std::uint64_t lag =
-        static_cast<std::uint64_t>(jitter) +
-        std::max(2 * gap_before(theirs, around), last == nullptr ? 0 : gap(*last, state));
-    const Value told = value_at(around, state.stamp);
+        static_cast<std::uint64_t>(jitter) + std::max(2 * gap_before(theirs, around), own_gap);
+    const Value told = value_at(rule_, around, state.stamp);
     const double apart = rule_.distance(state.value, told);
     if (apart <= rule_.noise()) return;
-    const double own = travel(own_track, state.stamp, lag, state.value);
-    const double other_ones = travel(theirs, state.stamp, lag, told);
+    const double own = travel(rule_, own_track, state.stamp, lag, state.value);
+    const double other_ones = travel(rule_, theirs, state.stamp, lag, told);
     if (apart > rule_.noise() + own + other_ones) {
       note({state.stamp,
             {{sources_[teller].number, sources_[other].number},
              {state.value, told},
              last != nullptr && is_known_for(own_track, state.stamp, lag) &&
                  is_known_for(theirs, state.stamp, lag)}});
-    } else if (taken_ == teller || taken_ == other) {
-      const bool is_still = std::min(own, other_ones) <= rule_.noise();
-      const double ahead = is_still ? own - other_ones : lead(state, told, {teller, other}, lag);
-      if (std::abs(ahead) <= rule_.noise()) return;
-      take(ahead > 0.0 ? teller : other);
-      sources_[taken_].lags = false;
-      sources_[taken_ == teller ? other : teller].lags = !is_still;
+    } else if (around.gap() <= 2 * own_gap) {
+      find_ahead(state, told, {teller, other}, 2 * lag);
     }
   }
 
@@ -352,36 +358,23 @@ class ToldTrack {
     if (!known || !known->is_certain || found.value.is_certain) contradictions_.put(found);
   }
 
-  [[nodiscard]] static bool is_known_for(const Track& track, std::int64_t stamp,
-                                         std::uint64_t lag) {
-    const std::int64_t first = track.states().front().stamp;
-    return first <= stamp && stamp_distance(first, stamp) >= lag;
-  }
-
-  /// Of two sources that agree, but are apart, the one is ahead that has come farther on the way of
-  /// both; the other sends on what it said. Above 0: the first one, which tells `state`.
-  [[nodiscard]] double lead(const State& state, const Value& told,
-                            const std::array<std::size_t, 2>& of, std::uint64_t lag) const {
-    double ahead = 0.0;
-    for (const std::size_t source : of) {
-      const auto states = sources_[source].track.within(state.stamp, lag);
-      if (states.empty()) continue;
-      const Value& from = states.front().value;
-      ahead += rule_.distance(state.value, from) - rule_.distance(told, from);
-    }
-    return ahead;
-  }
-
-  [[nodiscard]] Value value_at(const typename Track::Bracket& around, std::int64_t stamp) const {
-    if (around.before == around.after) return around.before->value;
-    const double share = static_cast<double>(stamp_distance(around.before->stamp, stamp)) /
-                         static_cast<double>(around.gap());
-    return rule_.between(around.before->value, share, around.after->value);
+  /// Of two sources that agree, but are apart, notes that the one lags that the other one is ahead
+  /// of, if it moves: what stands may be nobody's copy.
+  void find_ahead(const State& state, const Value& told, const std::array<std::size_t, 2>& of,
+                  std::uint64_t lag) {
+    const std::array values = {state.value, told};
+    const std::array<const Track*, 2> paths = {&sources_[of[0]].track, &sources_[of[1]].track};
+    const auto ahead = who_is_ahead(rule_, paths, state.stamp, values, lag);
+    if (!ahead) return;
+    Source& behind = sources_[of[1 - *ahead]];
+    if (travel(rule_, behind.track, state.stamp, lag, values[1 - *ahead]) <= rule_.noise()) return;
+    behind.leads_from = never;
+    if (std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.lags(); }))
+      sources_[of[*ahead]].leads_from = always;
   }
 
   /// The time between states there, 0 if it is not known.
-  [[nodiscard]] std::uint64_t gap_before(const Track& track,
-                                         const typename Track::Bracket& around) const {
+  [[nodiscard]] std::uint64_t gap_before(const Track& track, const Bracket& around) const {
     if (around.before != around.after) return around.gap();
     const State* const last = track.last_before(around.before->stamp);
     return last == nullptr ? 0 : gap(*last, *around.before);
@@ -392,20 +385,10 @@ class ToldTrack {
     return std::min(stamp_distance(a.stamp, b.stamp), static_cast<std::uint64_t>(longest()));
   }
 
-  /// How far a source gets from a value there.
-  [[nodiscard]] double travel(const Track& track, std::int64_t stamp, std::uint64_t lag,
-                              const Value& from) const {
-    double most = 0.0;
-    for (const State& state : track.within(stamp, lag))
-      most = std::max(most, rule_.distance(state.value, from));
-    return most;
-  }
-
   Rule rule_;
   std::int64_t max_gap_;
   bool compares_;
   std::uint32_t only_ = 0;  // who tells all, where sources_ is empty
-  std::size_t taken_ = 0;
   Track all_;
   std::vector<Source> sources_;  // empty, or two at least
   StampedTrack<Contradiction> contradictions_;

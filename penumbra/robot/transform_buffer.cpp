@@ -261,7 +261,7 @@ bool TransformBuffer::interpolate(const FrameNode& frame, std::int64_t stamp, Po
     return true;
   }
   answer.is_static = false;
-  const auto around = frame.states.track_at(stamp).around(stamp, max_gap_);
+  const auto around = frame.states.around(stamp);
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
   if (a.stamp == stamp) {

@@ -60,8 +60,8 @@ struct TransformAnswer {
 ///
 /// Where several sources tell a moving frame, its pose is that of one of them, and what they say of
 /// the same time is compared: see ToldTrack. So are two poses of one source and stamp: a bag does
-/// not tell who sent them. A frame of which two contradict each other within max_gap of a stamp is
-/// "disputed" there.
+/// not tell who sent them. A frame of which two contradict each other near a stamp is "disputed"
+/// there; it is "stale" while one of them is waited for, or nobody knows which is right.
 ///
 /// Frame names lose one leading "/". Each frame has one parent, the first that was given, until
 /// clear().

@@ -24,6 +24,10 @@ constexpr std::int64_t longest_relay = 15 * ms;
 /// Noise of the states, and the tolerance where the arm comes to the sliders' pose, rad.
 constexpr double largest_error = 0.004 + JointRule::turn_noise;
 
+/// What the way bends between two states of a driver, two of its longest periods apart as one is
+/// lost, and where a relay was that nobody knows for one yet, rad.
+constexpr double largest_bend = largest_error + strongest * 0.21 * 0.21 / 8.0;
+
 /// By then it is known of two programs how they came where they are: two times of 105 ms between
 /// states, half as many again lost, and 0.2 s around what was not certain.
 constexpr std::int64_t first_certain = 650 * ms;
@@ -90,6 +94,8 @@ void append(std::vector<Told>& all, const std::vector<Told>& more) {
 TEST(JointSourcesProperty, TruthIsNeverDisputed) {
   std::mt19937_64 random = seeded_random(21);
   Draw draw(random);
+  std::int64_t known = 0, asked = 0;
+  double worst = 0.0;
   for (int round = 0; round < samples(300); ++round) {
     const Way way = draw.way();
     const Program driver{.source = "driver", .way = way, .period = draw.period(), .end = length};
@@ -106,7 +112,17 @@ TEST(JointSourcesProperty, TruthIsNeverDisputed) {
     ASSERT_EQ(joint.count(JointStatus::disputed, first_certain, length), 0)
         << "round " << round << ", periods " << driver.period / ms << " and " << second.period / ms
         << " or " << relay.period / ms << " ms";
+    for (std::int64_t stamp = first_certain; stamp < length - 400 * ms; stamp += ms) {
+      const JointAnswer& answer = joint.at(stamp);
+      if (answer.status != JointStatus::ok) continue;
+      ++known;
+      worst = std::max(worst, std::abs(answer.positions[0] - way(stamp)));
+    }
+    asked += (length - 400 * ms - first_certain) / ms;
   }
+  std::cout << known << " of " << asked << " known, to " << worst << " rad\n";
+  EXPECT_LT(worst, largest_bend);
+  EXPECT_GT(known, asked / 10 * 8);
 }
 
 TEST(JointSourcesProperty, WhatIsAnotherPoseAlwaysIs) {

@@ -123,7 +123,8 @@ TEST(JointSources, TheFirstStateIsEnough) {
   EXPECT_EQ(joint.at(110 * ms).status, JointStatus::ok);
   joint.add(105 * ms, 0.0, "sliders");
   EXPECT_EQ(joint.at(110 * ms).status, JointStatus::disputed);
-  EXPECT_EQ(joint.at(310 * ms).status, JointStatus::ok) << "it may have been a copy of before";
+  EXPECT_EQ(joint.at(310 * ms).status, JointStatus::stale)
+      << "it may have been a copy of before, or the driver: its next state is waited for";
   joint.add(125 * ms, 0.0, "sliders");
   joint.add(145 * ms, 0.0, "sliders");
   EXPECT_EQ(joint.at(310 * ms).status, JointStatus::disputed) << "now it is certain";
@@ -134,7 +135,10 @@ TEST(JointSources, AJointMayGoAnywhereBetweenTwoStates) {
   OneJoint joint;
   for (std::int64_t i = 0; i < 20; ++i) joint.add(100 * i * ms, 0.3, "driver");
   for (std::int64_t i = 0; i < 40; ++i) joint.add((50 * i + 7) * ms, i == 21 ? 0.4 : 0.3, "second");
-  EXPECT_EQ(joint.count(JointStatus::ok, 50 * ms, 1850 * ms), 1800);
+  EXPECT_EQ(joint.count(JointStatus::disputed, 0, 2000 * ms), 0);
+  EXPECT_EQ(joint.count(JointStatus::ok, 50 * ms, 1000 * ms), 950);
+  EXPECT_EQ(joint.at(1057 * ms).status, JointStatus::stale) << "the two are not one there";
+  EXPECT_EQ(joint.count(JointStatus::ok, 1110 * ms, 1850 * ms), 740);
 }
 
 TEST(JointSources, ADriverThatAlternatesItsNamesAgreesWithItself) {
@@ -299,7 +303,9 @@ TEST(JointSources, AreKeptWithinBounds) {
   // As of a bag each of whose joint states has a frame_id of its own.
   OneJoint joint;
   for (std::int64_t i = 0; i < 20000; ++i) joint.add(i * ms, 0.3, std::to_string(i));
-  EXPECT_EQ(joint.at(19000 * ms + ms / 2).status, JointStatus::stale);
+  const JointAnswer& answer = joint.at(19999 * ms + ms / 2);
+  ASSERT_EQ(answer.status, JointStatus::stale);
+  EXPECT_EQ(answer.gaps.at(0).source, std::to_string(20000 - 32)) << "the oldest of those kept";
 }
 
 TEST(SourceNames, AreRememberedWithinBounds) {

@@ -80,17 +80,21 @@ TEST(JointTakeover, WhoeverBeginsIsNotBelievedBesideTheDriver) {
   }
 }
 
-TEST(JointTakeover, WhoTellsOftenIsTakenAfterOneWhoDoesNot) {
-  // One driver, whose states look different once in half a second; those are heard first.
+TEST(JointTakeover, WhoTellsSeldomIsWaitedFor) {
+  // One driver, whose states look different once in half a second. It might as well be a driver
+  // and its copy.
   OneJoint joint;
   const auto out =
       joint.live({{.source = "whole", .way = moving(0.5), .period = 500 * ms, .end = 5000 * ms},
                   {.source = "short", .way = moving(0.5), .first = 3 * ms, .end = 5000 * ms}});
+  std::size_t known = 0;
   for (const auto& [stamp, status, value] : out) {
-    if (stamp < 1300 * ms) continue;
-    ASSERT_EQ(status, JointStatus::ok) << stamp;
+    if (status != JointStatus::ok) continue;
+    ++known;
     ASSERT_NEAR(value, moving(0.5)(stamp), exact);
   }
+  EXPECT_GE(known, 10U) << "on its own states";
+  EXPECT_LT(known, out.size() / 3);
 }
 
 TEST(JointTakeover, WithoutComparingTheFirstOneIsWaitedFor) {

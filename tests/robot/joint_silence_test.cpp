@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// One of several programs that tell one joint falls silent, lags or tells seldom: nothing is known
+// then, or what is known is right. Asked as frames are, as states arrive.
+#include "told_sources.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+// Two programs that stand at one pose are believed to within the noise of a joint.
+constexpr double tolerance = JointRule::turn_noise + 1e-9;
+
+/// From 0 at `start` with 5 rad/s^2 up to 1 rad/s, to `far`.
+Way starting(std::int64_t start, double far = 2.0) {
+  return [=](std::int64_t t) {
+    const double s = std::max(0.0, 1e-9 * static_cast<double>(t - start));
+    return std::min(far, s < 0.2 ? 2.5 * s * s : 0.1 + (s - 0.2));
+  };
+}
+
+/// What a driver that tells every `period` until `end` told last, `late` before.
+Way copy_of(const Way& driver, std::int64_t period, std::int64_t late, std::int64_t end) {
+  return [=](std::int64_t t) {
+    const std::int64_t heard = std::min(std::max<std::int64_t>(0, t - late), end - 1);
+    return driver(heard / period * period);
+  };
+}
+
+struct Frames {
+  std::int64_t all = 0, known = 0, disputed = 0;
+};
+
+/// Every frame whose pose is known has the true one; counts those from `from` to before `to`.
+Frames check(const std::vector<OneJoint::GivenOut>& out, const Way& truth, std::int64_t from,
+             std::int64_t to, double within = tolerance) {
+  Frames frames;
+  for (const auto& [stamp, status, value] : out) {
+    if (stamp < from || stamp >= to) continue;
+    ++frames.all;
+    if (status == JointStatus::disputed) ++frames.disputed;
+    if (status != JointStatus::ok) continue;
+    ++frames.known;
+    EXPECT_NEAR(value, truth(stamp), within) << stamp / ms << " ms";
+  }
+  return frames;
+}
+
+class HeardFirst : public testing::TestWithParam<std::int64_t> {};  // the driver's period, ms
+
+TEST_P(HeardFirst, SlidersAreNotTheArmThatStartsFromTheirPose) {
+  const Way arm = starting(1000 * ms);
+  OneJoint joint;
+  const auto out =
+      joint.live({{.source = "sliders", .way = standing(0.0), .first = 3 * ms},
+                  {.source = "driver", .way = arm, .period = GetParam() * ms, .first = 20 * ms}});
+  const Frames before = check(out, arm, 250 * ms, 650 * ms);
+  EXPECT_EQ(before.known, before.all);
+  check(out, arm, 0, 2000 * ms);
+  EXPECT_EQ(check(out, arm, 1300 * ms, 2000 * ms).known, 0);
+}
+
+TEST_P(HeardFirst, ACopyIsNotTheDriver) {
+  // Round the driver's turns, too: its straight ways between states are within 0.01 rad there.
+  const Way arm = [](std::int64_t t) { return 0.4 * std::sin(3.5e-9 * static_cast<double>(t)); };
+  const Way copy = copy_of(arm, GetParam() * ms, 4 * ms, 6000 * ms);
+  OneJoint joint;
+  const auto out = joint.live({{.source = "copy", .way = copy, .first = 3 * ms, .end = 6000 * ms},
+                               {.source = "driver",
+                                .way = arm,
+                                .period = GetParam() * ms,
+                                .first = 20 * ms,
+                                .end = 6000 * ms}});
+  const Frames frames = check(out, arm, 500 * ms, 6000 * ms);
+  EXPECT_EQ(frames.known, frames.all);
+}
+
+TEST_P(HeardFirst, ACopyAtRestIsNotBelievedWhenTheDriverDies) {
+  const Way arm = starting(1800 * ms, 0.5);  // which nobody tells any more
+  OneJoint joint;
+  const auto out =
+      joint.live({{.source = "copy", .way = standing(0.0), .first = 3 * ms, .end = 9000 * ms},
+                  {.source = "driver",
+                   .way = arm,
+                   .period = GetParam() * ms,
+                   .first = 20 * ms,
+                   .end = 1500 * ms}});
+  EXPECT_GT(check(out, arm, 0, 1500 * ms).known, 200);
+  EXPECT_EQ(check(out, arm, 1500 * ms, 9000 * ms).known, 0);
+}
+
+TEST_P(HeardFirst, ACopyIsNotBelievedWhenTheDriverDiesAtWork) {
+  const Way arm = starting(500 * ms, 100.0);
+  const Way copy = copy_of(arm, GetParam() * ms, 4 * ms, 2000 * ms);
+  OneJoint joint;
+  const auto out = joint.live({{.source = "copy", .way = copy, .first = 3 * ms, .end = 15000 * ms},
+                               {.source = "driver", .way = arm, .period = GetParam() * ms}});
+  EXPECT_GT(check(out, arm, 0, 2000 * ms).known, 300);
+  EXPECT_EQ(check(out, arm, 2000 * ms, 15000 * ms).known, 0) << "also when 10 s are over";
+}
+
+TEST_P(HeardFirst, ACopyDoesNotHideADriverThatIsStartedAgain) {
+  const std::int64_t period = GetParam() * ms;
+  const Way arm = starting(500 * ms, 1.2);
+  const Way first = copy_of(arm, period, 4 * ms, 1300 * ms);
+  const Way second = copy_of(arm, period, 4 * ms, 9000 * ms);
+  const Way copy = [&](std::int64_t t) { return t < 3010 * ms ? first(t) : second(t); };
+  OneJoint joint;
+  const auto out = joint.live(
+      {{.source = "copy", .way = copy, .first = 3 * ms, .end = 5000 * ms},
+       {.source = "writer 1", .way = arm, .period = period, .end = 1300 * ms},
+       {.source = "writer 2", .way = arm, .period = period, .first = 3000 * ms, .end = 5000 * ms}});
+  EXPECT_EQ(check(out, arm, 1300 * ms, 3000 * ms).known, 0);
+  const Frames again = check(out, arm, 4200 * ms, 4800 * ms);
+  EXPECT_EQ(again.known, again.all);
+}
+
+INSTANTIATE_TEST_SUITE_P(Periods, HeardFirst, testing::Values(10, 20, 50, 100));
+
+TEST(JointSilence, NobodyAnswersInAGapOfTheDriver) {
+  // It begins to move there.
+  const Way arm = starting(1000 * ms);
+  for (const std::int64_t gap : {210 * ms, 300 * ms, 390 * ms}) {
+    const Way copy = [&](std::int64_t t) {
+      return t > 1000 * ms && t < 1000 * ms + gap ? 0.0 : arm(t / (10 * ms) * 10 * ms);
+    };
+    for (const Way& other : {standing(0.0), copy}) {
+      std::vector<Told> told;
+      tell({.source = "driver", .way = arm}, told);
+      std::erase_if(told, [&](const Told& each) {
+        return each.stamp > 1000 * ms && each.stamp < 1000 * ms + gap;
+      });
+      tell({.source = "other", .way = other, .first = 5 * ms}, told);
+      OneJoint joint;
+      check(joint.live(std::move(told)), arm, 0, 2000 * ms);
+    }
+  }
+}
+
+TEST(JointSilence, ASeldomDriverIsNotItsCopy) {
+  const Way arm = starting(1500 * ms);
+  for (const std::int64_t period : {210 * ms, 300 * ms, 500 * ms})
+    for (const Way& other : {standing(0.0), copy_of(arm, period, 4 * ms, 9000 * ms)}) {
+      OneJoint joint;
+      check(joint.live({{.source = "driver", .way = arm, .period = period, .end = 5000 * ms},
+                        {.source = "other", .way = other, .first = 5 * ms, .end = 5000 * ms}}),
+            arm, 0, 5000 * ms);
+    }
+}
+
+TEST(JointSilence, SlidersThatBeginBesideASeldomDriverAreNotBelieved) {
+  OneJoint joint;
+  const auto out = joint.live({{.source = "driver", .way = standing(1.0), .period = 500 * ms},
+                               {.source = "sliders", .way = standing(0.0), .first = 105 * ms}});
+  check(out, standing(1.0), 0, 2000 * ms);
+}
+
+TEST(JointSilence, WhoEndsIsWaitedForUntilTheArmMoves) {
+  // A copy that a user ends, or one of two true programs: it may have been the driver.
+  const Way arm = starting(3000 * ms, 0.5);
+  OneJoint joint;
+  const auto out =
+      joint.live({{.source = "second", .way = arm, .end = 1000 * ms},
+                  {.source = "driver", .way = arm, .first = 5 * ms, .end = 5000 * ms}});
+  EXPECT_EQ(check(out, arm, 1000 * ms, 3000 * ms).known, 0);
+  const Frames frames = check(out, arm, 3100 * ms, 4900 * ms);
+  EXPECT_EQ(frames.known, frames.all);
+}
+
+TEST(JointSilence, TwoTrueProgramsAreKnownWhileTheArmMoves) {
+  const Way arm = [](std::int64_t t) { return std::sin(2e-9 * static_cast<double>(t)); };
+  for (const std::int64_t period : {10 * ms, 33 * ms, 100 * ms}) {
+    OneJoint joint;
+    const auto out = joint.live(
+        {{.source = "slow", .way = arm, .period = period, .end = 6000 * ms},
+         {.source = "fast", .way = arm, .first = 5 * ms, .end = 6000 * ms, .latency = 3 * ms}});
+    const Frames frames = check(out, arm, 300 * ms, 5800 * ms);
+    EXPECT_EQ(frames.known, frames.all) << period / ms << " ms";
+  }
+}
+
+TEST(JointSilence, AShortHistoryMakesNoValueBetweenTwoPrograms) {
+  for (const double history : {0.0, 0.05, 0.15, 0.3}) {
+    OneJoint joint("revolute", {.history = history});
+    const auto out = joint.live(
+        {{.source = "driver", .way = standing(1.0), .period = 125 * ms, .first = 20 * ms},
+         {.source = "sliders", .way = standing(0.0), .first = 3 * ms}});
+    EXPECT_EQ(check(out, standing(1.0), 250 * ms, 2000 * ms).known, 0);
+  }
+}
+
+struct Pause {
+  std::int64_t period, from, to;  // of the driver, ms
+};
+
+TEST(JointSilence, WithoutComparingAPauseDoesNotLoseTheFirstOne) {
+  for (const auto& [period, from, to] : {Pause{10, 500, 760}, Pause{10, 40, 300}, Pause{250, 0, 0},
+                                         Pause{500, 0, 0}, Pause{190, 0, 0}}) {
+    std::vector<Told> told;
+    tell({.source = "driver", .way = standing(1.0), .period = period * ms, .end = 6000 * ms}, told);
+    std::erase_if(told, [&, from = from, to = to](const Told& each) {
+      return each.stamp > from * ms && each.stamp < to * ms;
+    });
+    tell({.source = "sliders", .way = standing(0.0), .first = 55 * ms, .end = 6000 * ms}, told);
+    OneJoint joint("revolute", {.compare_sources = false});
+    const auto out = joint.live(std::move(told));
+    const Frames after = check(out, standing(1.0), std::max<std::int64_t>(to, 100) * ms, 5800 * ms);
+    EXPECT_GT(after.known, period > 200 ? 10 : 1000) << period;
+  }
+}
+
+TEST(JointSilence, WithoutComparingWhoWasThereBeforeIsNotTakenForNew) {
+  std::vector<Told> told;
+  tell({.source = "driver", .way = standing(1.0), .end = 20000 * ms}, told);
+  tell({.source = "driver", .way = standing(1.0), .first = 20600 * ms, .end = 22000 * ms}, told);
+  tell({.source = "sliders", .way = standing(0.0), .first = 500 * ms, .end = 5000 * ms}, told);
+  tell({.source = "sliders", .way = standing(0.0), .first = 20100 * ms, .end = 22000 * ms}, told);
+  OneJoint joint("revolute", {.compare_sources = false});
+  check(joint.live(std::move(told)), standing(1.0), 0, 22000 * ms);
+}
+
+}  // namespace
+}  // namespace penumbra::test
