@@ -200,7 +200,7 @@ std::string describe(const Robot& robot, const JointInput& joints) {
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
     if (!gap.last_seen) continue;
     text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";
-    if (!gap.source.empty()) text += " by " + gap.source + ", who is believed";
+    if (!gap.source.empty()) text += " by " + gap.source + ", who is waited for";
     text += ")";
   }
   return text;

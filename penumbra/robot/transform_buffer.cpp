@@ -292,7 +292,7 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
   else
     answer.message += "it turns by more than a right angle between two states";
   if (const auto teller = frame.states.teller_at(stamp))
-    answer.message += ", by " + sources_.name_of(*teller) + ", who is believed";
+    answer.message += ", by " + sources_.name_of(*teller) + ", who is waited for";
 }
 
 void TransformBuffer::say_disputed(const FrameNode& frame, std::int64_t stamp,

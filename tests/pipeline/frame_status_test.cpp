@@ -81,7 +81,7 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   expect_pose_unknown(
       with_joints(answer), FrameStatus::stale_joints,
       "'slide' has no position near the stamp (last seen at 42 ns by driver, who is "
-      "believed)");
+      "waited for)");
   answer.status = JointStatus::missing;
   answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}, .source = {}}};
   expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
