@@ -60,35 +60,32 @@ const std::vector<const char*>& arguments() {
   return names;
 }
 
-}  // namespace
+using FrameClass = py::class_<OwnedFrame>;
 
-void bind_frame(py::module_& m) {
+void bind_constructor(FrameClass& frame) {
   const Frame defaults;
+  frame.def(
+      py::init(&make_frame), py::arg("depth"), py::arg("joints"), py::kw_only(),
+      py::arg("stamp") = defaults.stamp, py::arg("targets") = OwnedTargets(),
+      py::arg("T_root_link") = std::optional<Poses>(),
+      py::arg("T_parent_camera") = defaults.T_parent_camera,
+      py::arg("source_status") = defaults.source_status, py::arg("source_message") = std::string(),
+      py::arg("index") = defaults.index, py::arg("joint_age") = std::optional<std::int64_t>(),
+      py::arg("doubted_links") = std::vector<std::size_t>(), py::arg("doubt") = std::string(),
+      "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
+      "measurement; None: there is none. joints: positions in the order of Robot.variables, rad "
+      "and m, or what JointBuffer.at() says; None: not known. stamp: of the depth image, "
+      "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
+      "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
+      "configuration's. source_status, source_message: what is known to be wrong with the frame. "
+      "joint_age: of positions, nanoseconds. doubted_links, doubt: indices of links that are not "
+      "drawn and whose place is not known, and one line that says why: targets and estimates in "
+      "them are not judged.");
+}
+
+void bind_values(FrameClass& frame) {
   using F = OwnedFrame;
-  py::class_<F> frame(m, "Frame",
-                      "What goes into Pipeline.process. The depth image is looked at where it "
-                      "lies: do not change it "
-                      "while it is judged.");
   frame
-      .def(py::init(&make_frame), py::arg("depth"), py::arg("joints"), py::kw_only(),
-           py::arg("stamp") = defaults.stamp, py::arg("targets") = OwnedTargets(),
-           py::arg("T_root_link") = std::optional<Poses>(),
-           py::arg("T_parent_camera") = defaults.T_parent_camera,
-           py::arg("source_status") = defaults.source_status,
-           py::arg("source_message") = std::string(), py::arg("index") = defaults.index,
-           py::arg("joint_age") = std::optional<std::int64_t>(),
-           py::arg("doubted_links") = std::vector<std::size_t>(), py::arg("doubt") = std::string(),
-           "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
-           "measurement; None: there is none. joints: positions in the order of Robot.variables, "
-           "rad "
-           "and m, or what JointBuffer.at() says; None: not known. stamp: of the depth image, "
-           "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
-           "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
-           "configuration's. source_status, source_message: what is known to be wrong with the "
-           "frame. joint_age: of positions, nanoseconds. doubted_links, doubt: indices of links "
-           "that "
-           "are not drawn and whose place is not known, and one line that says why: targets and "
-           "estimates in them are not judged.")
       .def_property_readonly(
           "depth",
           [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
@@ -125,13 +122,24 @@ void bind_frame(py::module_& m) {
           "doubted_links", [](const F& f) { return f.doubted_links; },
           "Indices of links whose place is not known.")
       .def_property_readonly(
-          "doubt", [](const F& f) { return f.doubt; }, "One line that says why.")
-      .def(
-          "replace",
-          [](const py::object& self, const py::kwargs& changes) {
-            return replaced(self, arguments(), changes);
-          },
-          "The same with other values.");
+          "doubt", [](const F& f) { return f.doubt; }, "One line that says why.");
+}
+
+}  // namespace
+
+void bind_frame(py::module_& m) {
+  FrameClass frame(
+      m, "Frame",
+      "What goes into Pipeline.process. The depth image is looked at where it lies: do "
+      "not change it while it is judged.");
+  bind_constructor(frame);
+  bind_values(frame);
+  frame.def(
+      "replace",
+      [](const py::object& self, const py::kwargs& changes) {
+        return replaced(self, arguments(), changes);
+      },
+      "The same with other values.");
 }
 
 }  // namespace penumbra::python

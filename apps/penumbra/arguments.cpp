@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
 #include <iostream>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -90,31 +93,22 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
   app.require_subcommand(0, 1);
-  CLI::App* const run_app = app.add_subcommand("run", "label every frame of a recording");
-  CLI::App* const render_app = app.add_subcommand("render", "render one virtual depth image");
-  CLI::App* const inspect_app = app.add_subcommand("inspect", "tell what of a URDF is drawn");
-  CLI::App* const doctor_app = app.add_subcommand("doctor", "tell what this machine offers");
-  CLI::App* const experiment_app =
-      app.add_subcommand("experiment", "compare methods in simulation, as the paper does");
-  add_run(*run_app, run);
-  add_render(*render_app, render);
-  add_inspect(*inspect_app, inspect);
-  add_doctor(*doctor_app, doctor);
-  add_experiment(*experiment_app, experiment);
-  CLI::App* const simulate_app =
-      app.add_subcommand("simulate", "record a simulated scene with its truth");
-  add_simulate(*simulate_app, simulate);
-  CLI::App* const topics_app =
-      app.add_subcommand("topics", "list the live topics of ROS 2's graph");
-  add_topics(*topics_app, topics);
-  CLI::App* const play_app = app.add_subcommand("play", "publish a bag on ROS 2's graph");
-  add_play(*play_app, play);
-  CLI::App* const live_app =
-      app.add_subcommand("live", "label ROS 2's live topics, and publish the results");
-  add_live(*live_app, live);
-  CLI::App* const view_app =
-      app.add_subcommand("view", "show a recording in the browser: 3-D, images, timeline");
-  add_view(*view_app, view);
+  std::vector<std::pair<const CLI::App*, std::function<Command()>>> commands;
+  const auto add = [&](const char* name, const char* what, auto& arguments, auto add_options) {
+    CLI::App* const of = app.add_subcommand(name, what);
+    add_options(*of, arguments);
+    commands.emplace_back(of, [&arguments] { return Command(arguments); });
+  };
+  add("run", "label every frame of a recording", run, add_run);
+  add("render", "render one virtual depth image", render, add_render);
+  add("inspect", "tell what of a URDF is drawn", inspect, add_inspect);
+  add("doctor", "tell what this machine offers", doctor, add_doctor);
+  add("experiment", "compare methods in simulation, as the paper does", experiment, add_experiment);
+  add("simulate", "record a simulated scene with its truth", simulate, add_simulate);
+  add("topics", "list the live topics of ROS 2's graph", topics, add_topics);
+  add("play", "publish a bag on ROS 2's graph", play, add_play);
+  add("live", "label ROS 2's live topics, and publish the results", live, add_live);
+  add("view", "show a recording in the browser: 3-D, images, timeline", view, add_view);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -127,16 +121,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   check_live(live);
   check_view(view);
   check_renderer(render.renderer);
-  if (run_app->parsed()) return run;
-  if (render_app->parsed()) return render;
-  if (inspect_app->parsed()) return inspect;
-  if (doctor_app->parsed()) return doctor;
-  if (experiment_app->parsed()) return experiment;
-  if (simulate_app->parsed()) return simulate;
-  if (topics_app->parsed()) return topics;
-  if (play_app->parsed()) return play;
-  if (live_app->parsed()) return live;
-  if (view_app->parsed()) return view;
+  for (const auto& [command, made] : commands)
+    if (command->parsed()) return made();
   throw InputError(
       "a command is needed: run, render, inspect, doctor, simulate, experiment, topics, play, "
       "live or view (penumbra --help tells more)");

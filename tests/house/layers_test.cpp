@@ -56,7 +56,7 @@ const std::vector<Library>& libraries() {
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
                                         {"sqlite3.h", "io/bag", 1},
-                                        {"boost/", "io/web", 1},
+                                        {"boost/", "io/web", 2},
                                         {"dds/", "io/dds", 8},
                                         {"mujoco/", "sim", 1},
                                         {"nlohmann/", "sim", 2},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import './styles/base.css';
 import './styles/page.css';
+import './styles/targets.css';
 import './styles/timeline.css';
 import { fetchReport, fetchSession } from './api/client';
 import type { Session } from './api/types';

@@ -2,6 +2,7 @@
 // One file that tells a run or an experiment: summary, targets over time, key frames. Opens from the
 // disk, prints.
 import '../styles/base.css';
+import '../styles/targets.css';
 import '../styles/timeline.css';
 import '../styles/report.css';
 import '../styles/experiment.css';

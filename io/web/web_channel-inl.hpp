@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the server's connections share, and those that became WebSockets.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+
+#include <io/web/waiting_answers-inl.hpp>
+#include <io/web/web_guard.hpp>
+#include <io/web/web_server.hpp>
+#include <io/web/web_types.hpp>
+
+namespace penumbra::io {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+
+using Request = http::request<http::empty_body>;
+
+inline std::size_t size_of(const std::vector<SharedBytes>& body) {
+  std::size_t bytes = 0;
+  for (const SharedBytes& part : body) bytes += part->size();
+  return bytes;
+}
+
+class Channel;
+
+/// What the connections share.
+struct Shared {
+  Shared(const WebOptions& options_, WebHandler& handler_, WebGuard guard_)
+      : options(options_),
+        handler(handler_),
+        guard(std::move(guard_)),
+        waiting(options.max_waiting_bytes) {}
+
+  WebOptions options;
+  WebHandler& handler;
+  WebGuard guard;
+  WaitingAnswers waiting;
+  std::atomic<std::size_t> connections{0};
+  std::mutex channels_mutex;
+  std::list<std::weak_ptr<Channel>> channels;
+};
+
+/// Counts a connection as long as it lives.
+class Counted {
+ public:
+  explicit Counted(std::atomic<std::size_t>& count) : count_(&count), before_(count++) {}
+  Counted(Counted&& other) noexcept
+      : count_(std::exchange(other.count_, nullptr)), before_(other.before_) {}
+  Counted& operator=(Counted&&) = delete;
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  ~Counted() {
+    if (count_ != nullptr) --*count_;
+  }
+  [[nodiscard]] std::size_t before() const { return before_; }
+
+ private:
+  std::atomic<std::size_t>* count_;
+  std::size_t before_;
+};
+
+/// What gives an answer up, by any thread: its connection is closed.
+template <typename Client>
+std::function<void()> close_of(std::weak_ptr<Client> weak) {
+  return [weak = std::move(weak)] {
+    if (const auto client = weak.lock())
+      asio::post(client->socket().get_executor(), [client] { client->socket().close(); });
+  };
+}
+
+/// A WebSocket client. One message is on its way at a time; what to send next is asked for when it
+/// has gone, so that a slow client holds one message and misses those in between.
+class Channel : public std::enable_shared_from_this<Channel> {
+ public:
+  static constexpr std::size_t most_message_bytes = 4 * 1024;  // of a client's
+
+  Channel(beast::tcp_stream stream, Shared& shared, Counted counted,
+          std::unique_ptr<WebChannel> channel)
+      : counted_(std::move(counted)),
+        shared_(shared),
+        stream_(std::move(stream)),
+        channel_(std::move(channel)) {}
+
+  void run(const Request& request) {
+    socket().expires_never();
+    auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    times.idle_timeout = std::chrono::seconds(30);
+    times.keep_alive_pings = true;
+    stream_.set_option(times);
+    stream_.read_message_max(most_message_bytes);
+    stream_.auto_fragment(false);  // into 4 KB
+    stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+      if (error) return;
+      {
+        const std::lock_guard lock(self->shared_.channels_mutex);
+        self->shared_.channels.remove_if([](const auto& other) { return other.expired(); });
+        self->shared_.channels.push_back(self);
+      }
+      self->read();
+      self->send();
+    });
+  }
+
+  [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
+
+  void wake() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] { self->send(); });
+  }
+
+ private:
+  void read() {
+    stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (!error) self->take();
+    });
+  }
+
+  void take() {
+    const std::string text = beast::buffers_to_string(buffer_.data());
+    buffer_.consume(buffer_.size());
+    if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
+    if (!channel_->take(text)) return close(websocket::close_code::policy_error);
+    read();
+    send();
+  }
+
+  void close(websocket::close_code code) {
+    closing_ = true;
+    if (sending_) return socket().close();
+    stream_.async_close(code, [self = shared_from_this()](beast::error_code) {});
+  }
+
+  std::optional<std::vector<SharedBytes>> next() {
+    try {
+      return channel_->next();
+    } catch (const std::exception&) {  // as 500 is of requests
+      close(websocket::close_code::internal_error);
+      return std::nullopt;
+    }
+  }
+
+  void send() {
+    if (sending_ || closing_ || !stream_.is_open()) return;
+    auto message = next();
+    if (!message) return;
+    message_ = std::move(*message);
+    sending_ = true;
+    const auto place = shared_.waiting.add({size_of(message_), close_of(weak_from_this())});
+    std::vector<asio::const_buffer> buffers;
+    for (const SharedBytes& part : message_) buffers.emplace_back(part->data(), part->size());
+    stream_.binary(true);
+    const auto written = [self = shared_from_this(), place](beast::error_code error, std::size_t) {
+      self->shared_.waiting.remove(place);
+      self->sending_ = false;
+      self->message_.clear();
+      if (!error) self->send();
+    };
+    stream_.async_write(buffers, written);
+  }
+
+  Counted counted_;
+  Shared& shared_;
+  websocket::stream<beast::tcp_stream> stream_;
+  std::unique_ptr<WebChannel> channel_;
+  beast::flat_buffer buffer_;
+  std::vector<SharedBytes> message_;  // on its way
+  bool sending_ = false, closing_ = false;
+};
+
+}  // namespace penumbra::io
