@@ -64,7 +64,7 @@ struct JointInput {
 /// the camera is not on them. Targets and estimates that are given in them are not judged. Refers
 /// to the caller's memory.
 struct LinkDoubts {
-  std::span<const std::size_t> links;  ///< indices into Robot::links()
+  std::span<const std::size_t> links;  ///< indices into Robot::links(); process() throws for others
   std::string_view why;                ///< one line
 
   [[nodiscard]] bool holds(std::size_t link) const {

@@ -18,10 +18,11 @@ class FrameCheck {
              std::span<const std::string> missing_links);
 
   /// Writes the frame's status; the message says all that is wrong, in one line. Allocates nothing
-  /// for a good frame.
+  /// for a good frame. Throws InputError for doubts of what is no link.
   void operator()(const Frame& frame, FrameReport& report) const;
 
  private:
+  void check_doubts(const LinkDoubts& doubts) const;
   FrameStatus check_source(const Frame& frame, std::string& message) const;
   FrameStatus check_poses(const Frame& frame, std::string& message) const;
   FrameStatus check_joints(const JointInput& joints, std::string& message) const;

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <variant>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
@@ -79,12 +80,22 @@ void FrameCheck::operator()(const Frame& frame, FrameReport& report) const {
   std::string& message = report.message;
   message.clear();
   report.nothing_measured = false;
+  check_doubts(frame.doubts);
   const FrameStatus source = check_source(frame, message);
   const FrameStatus poses = has_pose(source) ? check_poses(frame, message) : FrameStatus::ok;
   const FrameStatus depth = has_depth(source) ? check_depth(frame, report) : FrameStatus::ok;
   const FrameStatus links = missing_links_.empty() ? FrameStatus::ok : FrameStatus::missing_link;
   if (!missing_links_.empty()) add_line(message, missing_links_);
   report.status = worse(worse(source, poses), worse(depth, links));
+}
+
+/// No frame's fault: whoever made it counts other links.
+void FrameCheck::check_doubts(const LinkDoubts& doubts) const {
+  const std::size_t count = robot_.links().size();
+  for (const std::size_t link : doubts.links)
+    if (link >= count)
+      throw InputError("doubted link " + std::to_string(link) + " is none of robot '" +
+                       robot_.name() + "': expected an index below " + std::to_string(count));
 }
 
 FrameStatus FrameCheck::check_source(const Frame& frame, std::string& message) const {

@@ -3,7 +3,10 @@
 #include "targets_fixture.hpp"
 
 #include <array>
+#include <string>
 #include <string_view>
+
+#include <penumbra/base/error.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -68,6 +71,29 @@ TEST_F(DoubtedTargetsTest, EstimatesInThatLinkAreRefused) {
   target.estimate = TargetEstimate{.value = Eigen::Vector3d(0.1, 0.0, 0.2), .frame = "plate"};
   EXPECT_EQ(frame_at(0, true, {&target, 1}).targets[0].estimate, Outcome::refused_invalid);
   EXPECT_EQ(frame_at(100 * ms, false, {&target, 1}).targets[0].estimate, Outcome::accepted);
+}
+
+TEST_F(DoubtedTargetsTest, WhatIsNoLinkIsRefused) {
+  const std::size_t count = slab_robot().links().size();
+  const auto process = [&](std::size_t link) {
+    const std::array links = {plate_[0], link};
+    return pipeline_
+        .process({.depth = depth_.view(), .joints = positions_, .doubts = {links, "no reason"}})
+        .status;
+  };
+  EXPECT_EQ(process(count - 1), FrameStatus::ok);
+  for (const std::size_t none : {count, std::size_t{1000000}}) {
+    std::string said;
+    try {
+      process(none);
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(said, "doubted link " + std::to_string(none) +
+                        " is none of robot 'slabs': expected an index below " +
+                        std::to_string(count));
+  }
+  EXPECT_EQ(process(0), FrameStatus::ok);  // a good frame is judged after it
 }
 
 }  // namespace
