@@ -56,8 +56,7 @@ std::size_t check_image(py::handle source, const char* argument, std::span<const
   };
   if (!py::isinstance<py::array>(source)) throw py::type_error(complain(""));
   const auto array = py::reinterpret_borrow<py::array>(source);
-  if (!py::type::of(source).is(py::type::of(py::array())) && py::hasattr(source, "mask"))
-    throw py::type_error(complain(": its mask would be lost: take .filled(0)"));
+  if (is_masked(source)) throw py::type_error(complain(mask_fault));
   const py::dtype dtype = array.dtype();
   std::size_t type = 0;
   while (type < types.size() && !is_native(dtype, types[type].number)) ++type;

@@ -20,6 +20,7 @@ py::array rows_of_three(const py::object& source, const char* argument) {
   const std::string expected = std::string(argument) + ": expected numpy.ndarray of " + type +
                                " with shape (N, 3) in C order; got " + description_of(source);
   if (!py::isinstance<py::array>(source)) throw py::type_error(expected);
+  if (is_masked(source)) throw py::type_error(expected + mask_fault);
   py::array array(source);
   if (!is_native(array.dtype(), py::dtype::of<T>().num())) throw py::type_error(expected);
   if (array.ndim() != 2 || array.shape(1) != 3 || (array.flags() & py::array::c_style) == 0)

@@ -25,8 +25,15 @@ struct Numbers {
   std::vector<double> values;
 };
 
+/// Whether it is an array with a mask (numpy.ma's), which no conversion would keep.
+[[nodiscard]] bool is_masked(py::handle object);
+
+/// What is wrong with one: behind what was expected, and what came.
+inline constexpr const char* mask_fault = ": its mask would be lost: take .filled(value)";
+
 /// An array of float64 of that shape in C order; -1 stands for any extent. Throws TypeError for
-/// what holds no real numbers and ValueError for another shape; `what` says what they are.
+/// what holds no real numbers, or is masked, and ValueError for another shape; `what` says what
+/// they are.
 [[nodiscard]] py::array_t<double> numbers_of(py::handle source, std::span<const py::ssize_t> shape,
                                              const char* what);
 
