@@ -26,6 +26,23 @@ template <typename T>
   return self;
 }
 
+/// A member function without arguments. pybind11 would call it on a pointer, which None makes null.
+template <typename T, typename Result>
+[[nodiscard]] auto method(Result (T::*member)()) {
+  return [member](T& self) -> Result { return (self.*member)(); };
+}
+template <typename T, typename Result>
+[[nodiscard]] auto method(Result (T::*member)() const) {
+  return [member](const T& self) -> Result { return (self.*member)(); };
+}
+
+/// The object that a method was called on, as Python has it. None, or another's, is a TypeError.
+template <typename T>
+class Self : public py::object {
+  static bool is_one(PyObject* object) { return py::isinstance<T>(object); }
+  PYBIND11_OBJECT_DEFAULT(Self, py::object, is_one)
+};
+
 // One topic each. Those before are known to those behind: signatures name their types.
 void bind_errors(py::module_& m);
 void bind_enums(py::module_& m);
@@ -46,3 +63,12 @@ void bind_input(py::module_& m);
 void bind_experiments(py::module_& m);
 
 }  // namespace penumbra::python
+
+namespace pybind11::detail {
+
+template <typename T>
+struct handle_type_name<penumbra::python::Self<T>> {
+  static constexpr auto name = make_caster<T>::name;
+};
+
+}  // namespace pybind11::detail

@@ -27,12 +27,12 @@ void bind_intrinsics(py::module_& m) {
       .def(py::init<int, int, double, double, double, double>(), py::arg("width"),
            py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"),
            "Raises InputError for sizes or focal lengths out of bounds.")
-      .def_property_readonly("width", &Intrinsics::width, "Pixels.")
-      .def_property_readonly("height", &Intrinsics::height, "Pixels.")
-      .def_property_readonly("fx", &Intrinsics::fx, "Focal length, pixels.")
-      .def_property_readonly("fy", &Intrinsics::fy, "Focal length, pixels.")
-      .def_property_readonly("cx", &Intrinsics::cx, "Principal point, pixels.")
-      .def_property_readonly("cy", &Intrinsics::cy, "Principal point, pixels.")
+      .def_property_readonly("width", method(&Intrinsics::width), "Pixels.")
+      .def_property_readonly("height", method(&Intrinsics::height), "Pixels.")
+      .def_property_readonly("fx", method(&Intrinsics::fx), "Focal length, pixels.")
+      .def_property_readonly("fy", method(&Intrinsics::fy), "Focal length, pixels.")
+      .def_property_readonly("cx", method(&Intrinsics::cx), "Principal point, pixels.")
+      .def_property_readonly("cy", method(&Intrinsics::cy), "Principal point, pixels.")
       .def("binned", &Intrinsics::binned, py::arg("bx"), py::arg("by"),
            "The camera whose pixels each cover bx x by of this one's.")
       .def("cropped", &Intrinsics::cropped, py::arg("x"), py::arg("y"), py::arg("width"),
@@ -44,7 +44,7 @@ void bind_intrinsics(py::module_& m) {
       .def(
           "__eq__", [](const Intrinsics& a, const Intrinsics& b) { return a == b; },
           py::is_operator())
-      .def("__repr__", [](const py::object& self) {
+      .def("__repr__", [](const Self<Intrinsics>& self) {
         return repr_of(self, {"width", "height", "fx", "fy", "cx", "cy"});
       });
   intrinsics.attr("__hash__") = py::none();
@@ -60,15 +60,15 @@ void bind_distortion(py::module_& m) {
            py::arg("name"), py::arg("coefficients"),
            "By ROS's names: plumb_bob (4 or 5 coefficients), rational_polynomial (8), equidistant "
            "(4). Raises InputError for an unknown name or a wrong number of coefficients.")
-      .def_property_readonly("model", &Distortion::model, "The lens model.")
-      .def_property_readonly("is_none", &Distortion::is_none, "Whether rays stay straight.")
-      .def_property_readonly("max_radius", &Distortion::max_radius,
+      .def_property_readonly("model", method(&Distortion::model), "The lens model.")
+      .def_property_readonly("is_none", method(&Distortion::is_none), "Whether rays stay straight.")
+      .def_property_readonly("max_radius", method(&Distortion::max_radius),
                              "Largest undistorted radius up to which the model is one-to-one.")
       .def("distort", &Distortion::distort, py::arg("undistorted"),
            "Where the lens puts the ray through the point.")
       .def("undistort", &Distortion::undistort, py::arg("distorted"),
            "The point that the lens puts there; None where there is none.")
-      .def("__repr__", [](const py::object& self) {
+      .def("__repr__", [](const Self<Distortion>& self) {
         return repr_of(self, {"model", "max_radius"});
       });
 }
@@ -124,9 +124,9 @@ void bind_rectification(py::module_& m) {
              return std::make_shared<Rectification>(raw);
            }),
            py::arg("raw"), "Raises InputError if the lens reaches no pixel.")
-      .def_property_readonly("pinhole", &Rectification::pinhole, "Size and projection.")
+      .def_property_readonly("pinhole", method(&Rectification::pinhole), "Size and projection.")
       .def_property_readonly(
-          "half_angle", &Rectification::half_angle,
+          "half_angle", method(&Rectification::half_angle),
           "Rays farther than this from the optical axis, radians, are not covered.")
       .def_property_readonly(
           "raw_to_pinhole",

@@ -89,7 +89,17 @@ void show_fields(py::class_<T>& of, Field<T, M>... fields) {
        fields.doc),
    ...);
   const std::vector<const char*> names{fields.name...};
-  of.def("__repr__", [names](const py::object& self) { return repr_of(self, names); });
+  of.def("__repr__", [names](const Self<T>& self) { return repr_of(self, names); });
+}
+
+template <typename T, typename... Options>
+void bind_replace(py::class_<T, Options...>& of, const std::vector<const char*>& names) {
+  of.def(
+      "replace",
+      [names](const Self<T>& self, const py::kwargs& changes) {
+        return replaced(self, names, changes);
+      },
+      "The same with other values.");
 }
 
 /// Properties, a constructor by keywords and replace().
@@ -103,13 +113,7 @@ void bind_fields(py::class_<T>& of, Field<T, M>... fields) {
          }),
          py::kw_only(), (py::arg(fields.name) = Passed<M>::in(defaults.*fields.member))...);
   show_fields(of, fields...);
-  const std::vector<const char*> names{fields.name...};
-  of.def(
-      "replace",
-      [names](const py::object& self, const py::kwargs& changes) {
-        return replaced(self, names, changes);
-      },
-      "The same with other values.");
+  bind_replace(of, {fields.name...});
 }
 
 }  // namespace penumbra::python

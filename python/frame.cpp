@@ -134,12 +134,7 @@ void bind_frame(py::module_& m) {
       "not change it while it is judged.");
   bind_constructor(frame);
   bind_values(frame);
-  frame.def(
-      "replace",
-      [](const py::object& self, const py::kwargs& changes) {
-        return replaced(self, arguments(), changes);
-      },
-      "The same with other values.");
+  bind_replace(frame, arguments());
 }
 
 }  // namespace penumbra::python

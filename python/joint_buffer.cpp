@@ -76,10 +76,10 @@ void bind_joint_buffer(py::module_& m) {
             return answer;
           },
           py::arg("stamp"), "Positions at a stamp, nanoseconds.")
-      .def("complete_until", &JointBuffer::complete_until,
+      .def("complete_until", method(&JointBuffer::complete_until),
            "Stamp of the newest state up to which every joint is known, nanoseconds; else None.")
-      .def("clear", &JointBuffer::clear, "Forgets every state.")
-      .def_property_readonly("refused_values", &JointBuffer::refused_values,
+      .def("clear", method(&JointBuffer::clear), "Forgets every state.")
+      .def_property_readonly("refused_values", method(&JointBuffer::refused_values),
                              "Positions of the robot's joints that insert() did not take.");
 }
 

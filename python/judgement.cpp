@@ -59,7 +59,7 @@ void bind_judgements(py::module_& m) {
                              "Trusted depths behind the point.")
       .def_property_readonly("point_spread", &of_judgement<&J::point_spread>,
                              "Metres: 1.4826 * median absolute deviation.")
-      .def("__repr__", [](const py::object& self) {
+      .def("__repr__", [](const Self<OwnedJudgement>& self) {
         return repr_of(
             self, {"covered", "inside", "occluded", "front", "unknown", "clear", "hidden_by_other",
                    "measured", "seen_past", "blame", "point_pixels", "point_spread"});

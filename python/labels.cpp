@@ -32,7 +32,8 @@ void bind_rule(py::module_& m) {
               Field{"range", &R::range, "Measured depths outside of it are no measurements."});
   rule.def_static("paper", &R::paper,
                   "The paper as written: 0.01 m everywhere, no clean-up, beyond folded.");
-  rule.def("check", &R::check, "Raises InputError, with the values, for a rule that is none.");
+  rule.def("check", method(&R::check),
+           "Raises InputError, with the values, for a rule that is none.");
 }
 
 /// A classifier and the rule of its result.
@@ -98,10 +99,10 @@ Labels classify_array(const std::shared_ptr<Labeller>& self,
 void bind_classifier(py::module_& m) {
   py::class_<Labels>(m, "Labels", "What a classifier said of an image.")
       .def_property_readonly(
-          "labels", &Labels::labels,
+          "labels", method(&Labels::labels),
           "Label values. A read-only view: while it is in use the classifier's next call raises "
           "ValueError, and after that call it is not to be had any more.")
-      .def_property_readonly("pixels", &Labels::pixels, "How many pixels have each Label.");
+      .def_property_readonly("pixels", method(&Labels::pixels), "How many pixels have each Label.");
   py::class_<Labeller, std::shared_ptr<Labeller>>(
       m, "Classifier", "Labels depth images of one size. Serves one thread at a time.")
       .def(py::init<int, int, const LabelRule&, const std::string&>(), py::arg("width"),

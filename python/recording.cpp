@@ -90,7 +90,7 @@ void bind_description(py::module_& m) {
           "open", &R::open, py::arg("folder_or_yaml"), WithoutGil(),
           "Reads a recording.yaml, or the one in a folder. Raises InputError with file, line "
           "and key.")
-      .def("pipeline_config", &R::pipeline_config,
+      .def("pipeline_config", method(&R::pipeline_config),
            "The defaults of a pipeline with what the recording says.");
   show_fields(recording, Field{"file", &R::file, "The recording.yaml."},
               Field{"urdf", &R::urdf, "The robot's file."},
@@ -166,7 +166,7 @@ void bind_recorded_frames(py::module_& m) {
            "color: read colour images, too. Raises InputError for a joint file that is none.")
       .def("__len__", [](const Reader& self) { return self.reader.size(); })
       .def("__getitem__", &read, py::arg("i"))
-      .def("__iter__", [](const py::object& self) {
+      .def("__iter__", [](const Self<Reader>& self) {
         return py::reinterpret_steal<FrameIterator>(PySeqIter_New(self.ptr()));
       });
 }

@@ -124,9 +124,9 @@ void bind_renderer_classes(py::module_& m) {
       "views: "
       "while one is in use, the call that would overwrite it raises ValueError; after that call "
       "they are not to be had any more.")
-      .def_property_readonly("depth", &VirtualDepth::depth,
+      .def_property_readonly("depth", method(&VirtualDepth::depth),
                              "Metres along the optical axis; 0: no body on the ray.")
-      .def_property_readonly("links", &VirtualDepth::links,
+      .def_property_readonly("links", method(&VirtualDepth::links),
                              "Body index + 1 of the nearest surface; 0: none.");
   py::class_<Renderer, std::shared_ptr<Renderer>>(
       m, "Renderer",

@@ -179,7 +179,7 @@ void bind_robot_class(py::module_& m) {
              const RobotOptions& options) { return Robot::parse(xml, folder, options); },
           py::arg("xml"), py::arg("folder"), py::arg("options") = RobotOptions(), WithoutGil(),
           "The same from text; relative mesh paths start at folder.")
-      .def_property_readonly("name", &Robot::name, "The URDF's name.")
+      .def_property_readonly("name", method(&Robot::name), "The URDF's name.")
       .def_property_readonly(
           "links", [](const Robot& r) { return frozen(r.links()); },
           "Names, parents before children; index 0 is the root.")

@@ -36,7 +36,8 @@ void bind_pose_settings(py::module_& m) {
       Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
       Field{"max_estimates", &C::max_estimates, "That are remembered."},
       Field{"worst", &C::worst, worst_doc});
-  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
+  config.def("check", method(&C::check),
+             "Raises InputError, with the values, for settings out of bounds.");
 }
 
 void bind_point_settings(py::module_& m) {
@@ -56,7 +57,8 @@ void bind_point_settings(py::module_& m) {
       Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
       Field{"max_estimates", &C::max_estimates, "That are remembered."},
       Field{"worst", &C::worst, worst_doc});
-  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
+  config.def("check", method(&C::check),
+             "Raises InputError, with the values, for settings out of bounds.");
 }
 
 void bind_tracks(py::module_& m) {
@@ -95,7 +97,7 @@ void bind_pose_tracker(py::module_& m) {
           "of "
           "the target at that stamp; covariance: of position and rotation vector.")
       .def("at", &PoseTracker::at, py::arg("stamp"), "The target at a stamp, nanoseconds.")
-      .def("reset", &PoseTracker::reset, "Forgets all estimates.");
+      .def("reset", method(&PoseTracker::reset), "Forgets all estimates.");
 }
 
 void bind_point_tracker(py::module_& m) {
@@ -114,7 +116,7 @@ void bind_point_tracker(py::module_& m) {
           "stamp in nanoseconds; position: fixed frame, metres; verdict: of the target at that "
           "stamp.")
       .def("at", &PointTracker::at, py::arg("stamp"), "The target at a stamp, nanoseconds.")
-      .def("reset", &PointTracker::reset, "Forgets all estimates.");
+      .def("reset", method(&PointTracker::reset), "Forgets all estimates.");
 }
 
 }  // namespace

@@ -60,15 +60,48 @@ def test_arrays_that_were_pickled_are_taken():
     assert np.array_equal(mesh.vertices, corners)
 
 
+def own_members():
+    """What is called on an object: methods, and how properties are read."""
+    for of in vars(penumbra).values():
+        if type(of).__name__ != "pybind11_type":
+            continue
+        for name, member in vars(of).items():
+            read = getattr(member, "fget", member)
+            if callable(read) and not isinstance(member, staticmethod) and name != "__hash__":
+                yield f"{of.__name__}.{name}", read
+
+
+def test_none_and_others_are_no_objects():
+    members = dict(own_members())
+    assert len(members) > 300 and "Frame.replace" in members
+    for name, call in members.items():
+        for other in (None, 3):
+            if name == "Intrinsics.__eq__":
+                continue
+            with pytest.raises(TypeError):
+                call(other)
+                pytest.fail(f"{name} took {other}")
+
+
 @pytest.mark.parametrize("call", [
-    lambda: penumbra.Renderer.collect(None), lambda: penumbra.Input.__iter__(None),
-    lambda: penumbra.InputFrames.__iter__(None), lambda: penumbra.InputFrames.__next__(None),
-    lambda: penumbra.Rectification.raw_to_pinhole.fget(None),
-    lambda: penumbra.Rectification.pinhole_to_raw.fget(None),
-    lambda: penumbra.Pipeline.renderer.fget(None), lambda: penumbra.InputFrames.notes.fget(None)])
-def test_none_is_no_object(call):
+    lambda: penumbra.Frame.replace(None, index=1),
+    lambda: penumbra.PipelineConfig.replace(None, backend=None),
+    lambda: penumbra.Pipeline.process(None, penumbra.Frame(GOOD, None)),
+    lambda: penumbra.Renderer.render(None, np.eye(4)[None]),
+    lambda: penumbra.Intrinsics.ray(None, 1, 1)])
+def test_none_is_no_object_beside_arguments(call):
     with pytest.raises(TypeError):
         call()
+
+
+def test_doubts_of_what_is_no_link_are_refused(opened):
+    frame = opened.frames[0].frame.replace(doubt="two tell it")
+    count = len(opened.robot.links)
+    for link in (count, 10**6):
+        with pytest.raises(penumbra.InputError, match=f"link {link} .* below {count}"):
+            opened.pipeline.process(frame.replace(doubted_links=[count - 1, link]))
+    good = opened.pipeline.process(frame.replace(doubted_links=[count - 1]))
+    assert good.status is penumbra.FrameStatus.ok
 
 
 def test_enumerations_have_all_values_of_the_headers():
