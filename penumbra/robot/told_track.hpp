@@ -12,6 +12,7 @@
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/robot/stamped_track.hpp>
+#include <penumbra/robot/told_source.hpp>
 #include <penumbra/robot/track_ways.hpp>
 
 namespace penumbra {
@@ -26,13 +27,16 @@ namespace penumbra {
 /// an encoder that is read more seldom than it is told. What does not agree is a contradiction.
 /// Nothing is compared where the two do not overlap, as of a source that ends and one that begins.
 ///
-/// A value is known where all sources tell it, but for those that are seen to lag: within the
-/// rule's noise of each other. The one whose states are closest there gives it. A source that
-/// falls silent is waited for until one succeeds it that begins after it, or moves on its own: what
-/// stands still may be its copy. Who told nothing within the history is forgotten.
+/// A value is known where all sources tell it, but for copies: within the rule's noise of each
+/// other. The one whose states are closest there gives it. A source that falls silent is waited for
+/// until one succeeds it that begins after it, or moves on its own: what stands still may be its
+/// copy. Who told nothing within the history is forgotten.
 ///
-/// A source lags that is where another one was before, and moves: it is a copy. It leads when it
-/// moves on its own while all others are silent.
+/// A copy is a source whose new values are those that another one told before: heard before, and
+/// of an earlier stamp or the same. A program that is ahead of the driver, as with commands, or
+/// that only looks ahead, as by a clock that is behind, is none, and makes nobody one. A copy is
+/// compared with nobody, and tells nothing, until it tells values of its own beside those that are
+/// heard.
 ///
 /// Two values of one source and stamp contradict each other, too, where the rule says so, if they
 /// are farther apart than either is from the state before: stamps may be coarse.
@@ -57,9 +61,8 @@ class ToldTrack {
   /// then, and short enough for results to be back a second after one of the two ended.
   static constexpr std::uint64_t memory = 800'000'000;
 
-  /// Nanoseconds for which a silent source is remembered however short the history is: longer than
-  /// a slow driver's time between two states.
-  static constexpr std::int64_t shortest_history = 2'000'000'000;
+  /// Nanoseconds that a copy may be late by; what is later is another program's word.
+  static constexpr std::int64_t longest_lag = 2'000'000'000;
 
   /// Sources that are kept; of more the one that is silent for longest is forgotten.
   static constexpr std::size_t most_sources = 32;
@@ -92,19 +95,20 @@ class ToldTrack {
     if (sources_.empty()) return;
     const std::size_t teller = find_or_add(source, state.stamp);
     Source& own = sources_[teller];
-    if (!own.track.states().empty() && state.stamp > end_of(own)) {
-      own.period = stamp_distance(end_of(own), state.stamp);
-      own.succeeded = never;
+    if (compares_) weigh(own, state);
+    if (!own.track.states().empty() && state.stamp > own.end()) {
+      own.period = stamp_distance(own.end(), state.stamp);
+      own.succeeded = own.missed_since = never;
     }
     own.track.put(state);
     own.began = std::min(own.began, state.stamp);
     if (!compares_) return;
+    for (Source& each : sources_) settle(each);
     compare(teller, state);
     succeed(own, state);
   }
 
-  /// As of a StampedTrack; a source that told nothing since `limit` is forgotten, if one is left
-  /// that does not lag.
+  /// As of a StampedTrack; a source that told nothing since `limit` is forgotten.
   void prune(std::int64_t limit, std::size_t max_states) {
     all_.prune(limit, max_states);
     contradictions_.prune(limit, max_states);
@@ -112,15 +116,9 @@ class ToldTrack {
     for (Source& source : sources_) source.track.prune(limit, max_states);
     if (!compares_) return;  // who was there beside the first one is known for ever
     const std::int64_t heard_since =
-        std::min(limit, stamp_after(all_.states().back().stamp, -shortest_history));
-    const auto is_left = [&](const Source& source) {
-      return !source.lags() && end_of(source) >= heard_since;
-    };
-    const bool forgets = std::any_of(sources_.begin(), sources_.end(), is_left);  // not for copies
-    std::erase_if(sources_, [&](const Source& source) {
-      return end_of(source) < heard_since && (forgets || source.lags());
-    });
-    if (sources_.size() > 1) return;
+        std::min(limit, stamp_after(all_.states().back().stamp, -Source::shortest_history));
+    std::erase_if(sources_, [&](const Source& source) { return source.end() < heard_since; });
+    if (sources_.size() > 1 || (sources_.size() == 1 && sources_.front().is_copy())) return;
     if (sources_.size() == 1) {
       only_ = sources_.front().number;
       all_ = sources_.front().track;
@@ -169,20 +167,9 @@ class ToldTrack {
   }
 
  private:
-  static constexpr std::int64_t always = std::numeric_limits<std::int64_t>::min();
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
-  struct Source {
-    std::uint32_t number;
-    Track track;
-    std::int64_t began;                // its first stamp
-    std::uint64_t period = 0;          // between its last two states; 0: it told one
-    std::int64_t leads_from = always;  // never: it was seen to lag
-    std::int64_t succeeded =
-        never;  // since it is silent: the stamp from which another one may tell
-
-    [[nodiscard]] bool lags() const { return leads_from == never; }
-  };
+  using Source = ToldSource<Value>;
 
   /// Who tells a stamp, and its states there; none: it is waited for.
   struct Word {
@@ -193,18 +180,6 @@ class ToldTrack {
   /// The longest way between two states of a source that others are compared with.
   [[nodiscard]] std::int64_t longest() const { return max_gap_ > never / 2 ? never : 2 * max_gap_; }
 
-  [[nodiscard]] static std::int64_t end_of(const Source& source) {
-    return source.track.states().back().stamp;
-  }
-
-  /// Whether a source is silent at a stamp, up to which it told nothing since `last`.
-  [[nodiscard]] bool is_silent(const Source& source, std::int64_t last, std::int64_t stamp) const {
-    const std::uint64_t due =
-        source.period == 0 ? static_cast<std::uint64_t>(shortest_history) : 2 * source.period;
-    return last < stamp &&
-           stamp_distance(last, stamp) > std::max(due, static_cast<std::uint64_t>(max_gap_));
-  }
-
   std::size_t find_or_add(std::uint32_t number, std::int64_t stamp) {
     for (std::size_t i = 0; i < sources_.size(); ++i)
       if (sources_[i].number == number) return i;
@@ -212,7 +187,7 @@ class ToldTrack {
       // Without comparing the first one is kept.
       const auto longest_silent =
           std::min_element(sources_.begin() + (compares_ ? 0 : 1), sources_.end(),
-                           [](const Source& a, const Source& b) { return end_of(a) < end_of(b); });
+                           [](const Source& a, const Source& b) { return a.end() < b.end(); });
       sources_.erase(longest_silent);
     }
     sources_.push_back({number, {}, stamp});
@@ -226,15 +201,15 @@ class ToldTrack {
       return {&first, first.track.around(stamp, max_gap_)};
     }
     const auto is_asked = [&](const Source& source) {
-      return source.began <= stamp && source.leads_from <= stamp && !source.lags() &&
-             source.succeeded > stamp;
+      return source.began <= stamp && !source.is_copy() && source.succeeded > stamp;
     };
     // What is disputed needs a value, too, and waits for nobody.
     const bool is_disputed = contradiction_near(stamp) != nullptr;
     Word word;
     for (const Source& source : sources_) {
       if (!is_asked(source)) continue;
-      const Bracket around = source.track.around(stamp, longest());
+      Bracket around = source.track.around(stamp, longest());
+      if (around && is_pause(source.track, around, max_gap_)) around = {};
       if (around && (!word.around || around.gap() < word.around.gap())) word = {&source, around};
       if (!around && !is_disputed) return {&source, {}};
     }
@@ -256,7 +231,7 @@ class ToldTrack {
     while (true) {
       const auto before = first->track.up_to(stamp);
       if (before.empty() || first->track.around(stamp, max_gap_) ||
-          !is_silent(*first, before.back().stamp, stamp))
+          !first->is_silent(max_gap_, before.back().stamp, stamp))
         return *first;
       const Source* next = nullptr;
       for (const Source& source : sources_)
@@ -268,27 +243,65 @@ class ToldTrack {
     }
   }
 
-  /// Notes whom a source succeeds by a state: one that is silent, and that it is no copy of, as it
-  /// began later, or moved since. A copy may move on for as long as it lags.
-  void succeed(Source& by, const State& state) {
-    const auto is_out = [&](const Source& source) {
-      return &source == &by || source.lags() || is_silent(source, end_of(source), state.stamp);
-    };
-    if (by.lags() && !std::all_of(sources_.begin(), sources_.end(), is_out)) return;
-    for (Source& source : sources_) {
-      if (&source == &by || source.lags() || source.succeeded != never ||
-          !is_silent(source, end_of(source), state.stamp))
-        continue;
-      if (by.began <= end_of(source)) {
-        const std::int64_t caught_up = stamp_after(end_of(source), longest());
-        if (state.stamp <= caught_up) continue;
-        const auto before = by.track.up_to(caught_up);
-        const Value& from = before.empty() ? by.track.states().front().value : before.back().value;
-        if (rule_.distance(from, state.value) <= rule_.noise()) continue;
+  /// Whether a source tells what another one told before, since it began itself.
+  [[nodiscard]] bool is_echo(const Source& by, const State& state) const {
+    const std::int64_t since = std::max(by.began, stamp_after(state.stamp, -longest_lag));
+    return std::any_of(sources_.begin(), sources_.end(), [&](const Source& source) {
+      return &source != &by && has_told(rule_, source.track, since, state.stamp, state.value);
+    });
+  }
+
+  /// Takes a state of a source, before it is put, as evidence of whether it is a copy, if it moved
+  /// to where it was not before.
+  void weigh(Source& by, const State& state) {
+    if (by.weighed && rule_.distance(*by.weighed, state.value) <= rule_.noise()) return;
+    by.weighed = state.value;
+    if (has_told(rule_, by.track, stamp_after(state.stamp, -2 * longest_lag), state.stamp,
+                 state.value))
+      return;
+    if (is_echo(by, state))
+      by.evidence.add_echo();
+    else
+      by.evidence.add_own(state.stamp);
+  }
+
+  /// Counts what a source told on its own where another one was heard, or if there is none.
+  void settle(Source& by) {
+    by.evidence.settle([&](std::int64_t stamp) -> std::optional<bool> {
+      bool is_alone = true, waits = false;
+      for (const Source& source : sources_) {
+        if (&source == &by || source.is_copy()) continue;
+        is_alone = false;
+        const auto around = source.track.around(stamp, longest());
+        if (around && !is_pause(source.track, around, 2 * jitter)) return true;
+        const std::int64_t end = source.end();
+        waits = waits || (end < stamp && !source.is_silent(max_gap_, end, stamp));
       }
-      source.succeeded = state.stamp;
-      by.leads_from = std::min(by.leads_from, state.stamp);
+      return waits ? std::nullopt : std::optional(is_alone);
+    });
+  }
+
+  /// Notes whom a source succeeds by a state: one that is silent, and that it is no copy of, as it
+  /// began later, or moved on its own beside others, and since.
+  void succeed(const Source& by, const State& state) {
+    if (by.is_copy()) return;
+    for (Source& source : sources_) {
+      if (&source == &by || source.is_copy() || source.succeeded != never ||
+          !source.is_silent(max_gap_, source.end(), state.stamp))
+        continue;
+      source.missed_since = std::min(source.missed_since, state.stamp);
+      // It may be silent by its stamps alone, as late as its messages come.
+      if (stamp_distance(source.missed_since, state.stamp) < 2 * source.period + jitter) continue;
+      if (by.began > source.end() || moves_on(by, state, stamp_after(source.end(), longest())))
+        source.succeeded = state.stamp;
     }
+  }
+
+  /// Whether a source that is no copy moved from its first state after a stamp to this one.
+  [[nodiscard]] bool moves_on(const Source& by, const State& state, std::int64_t after) const {
+    const auto since = by.track.states().subspan(by.track.up_to(after).size());
+    return by.evidence.is_own() && !since.empty() &&
+           rule_.distance(since.front().value, state.value) > rule_.noise() && !is_echo(by, state);
   }
 
   /// Compares a new state with what its source told of the very stamp.
@@ -313,7 +326,7 @@ class ToldTrack {
     const bool is_newest = until.size() == own.states().size();
     const std::int64_t next = is_newest ? state.stamp : own.states()[until.size()].stamp;
     for (std::size_t other = 0; other < sources_.size(); ++other) {
-      if (other == teller) continue;
+      if (other == teller || sources_[teller].is_copy() || sources_[other].is_copy()) continue;
       judge(state, teller, other);
       const std::int64_t first = last == nullptr ? state.stamp : last->stamp;
       const auto all = sources_[other].track.states();
@@ -344,8 +357,6 @@ class ToldTrack {
              {state.value, told},
              last != nullptr && is_known_for(own_track, state.stamp, lag) &&
                  is_known_for(theirs, state.stamp, lag)}});
-    } else if (around.gap() <= 2 * own_gap) {
-      find_ahead(state, told, {teller, other}, 2 * lag);
     }
   }
 
@@ -357,21 +368,6 @@ class ToldTrack {
     }
     const auto known = contradictions_.value_at(found.stamp);
     if (!known || !known->is_certain || found.value.is_certain) contradictions_.put(found);
-  }
-
-  /// Of two sources that agree, but are apart, notes that the one lags that the other one is ahead
-  /// of, if it moves: what stands may be nobody's copy.
-  void find_ahead(const State& state, const Value& told, const std::array<std::size_t, 2>& of,
-                  std::uint64_t lag) {
-    const std::array values = {state.value, told};
-    const std::array<const Track*, 2> paths = {&sources_[of[0]].track, &sources_[of[1]].track};
-    const auto ahead = who_is_ahead(rule_, paths, state.stamp, values, lag);
-    if (!ahead) return;
-    Source& behind = sources_[of[1 - *ahead]];
-    if (travel(rule_, behind.track, state.stamp, lag, values[1 - *ahead]) <= rule_.noise()) return;
-    behind.leads_from = never;
-    if (std::all_of(sources_.begin(), sources_.end(), [](const Source& s) { return s.lags(); }))
-      sources_[of[*ahead]].leads_from = always;
   }
 
   /// The time between states there, 0 if it is not known.

@@ -2,12 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/robot/stamped_track.hpp>
@@ -34,6 +29,16 @@ template <typename Value>
   return first <= stamp && stamp_distance(first, stamp) >= lag;
 }
 
+/// Whether a source told nothing between two states for longer than it may, and than it did before:
+/// what was lost in between is not known.
+template <typename Value>
+[[nodiscard]] bool is_pause(const StampedTrack<Value>& track,
+                            const typename StampedTrack<Value>::Bracket& around, std::int64_t may) {
+  if (around.gap() <= static_cast<std::uint64_t>(may)) return false;
+  const auto* const last = track.last_before(around.before->stamp);
+  return last == nullptr || around.gap() > 2 * stamp_distance(last->stamp, around.before->stamp);
+}
+
 /// How far a source gets from a value there.
 template <typename Value, typename Rule>
 [[nodiscard]] double travel(const Rule& rule, const StampedTrack<Value>& track, std::int64_t stamp,
@@ -44,43 +49,16 @@ template <typename Value, typename Rule>
   return most;
 }
 
-/// How far a value is from the way of a source to a state.
+/// Whether a source told a value from one stamp to another.
 template <typename Value, typename Rule>
-[[nodiscard]] double from_path(const Rule& rule, const StampedTrack<Value>& track,
-                               const typename StampedTrack<Value>::State& to, std::uint64_t lag,
-                               const Value& value) {
-  constexpr double pieces = 8.0;
-  const double step = rule.distance(to.value, value) / pieces;
-  double nearest = std::numeric_limits<double>::infinity();
-  Value end = to.value;
-  const auto before = track.up_to(to.stamp);
-  for (auto state = before.rbegin();
-       state != before.rend() && stamp_distance(state->stamp, to.stamp) <= lag; ++state) {
-    const double length = rule.distance(state->value, end);
-    const double parts = std::clamp(std::ceil(length / step), 1.0, pieces);
-    for (double part = 0.0; part <= parts; ++part)
-      nearest =
-          std::min(nearest, rule.distance(value, rule.between(state->value, part / parts, end)));
-    end = state->value;
-  }
-  return nearest;
-}
-
-/// Of two tracks that are apart at a stamp, by these values: the one is ahead that was where the
-/// other one is within `lag` before it, if that one was not where this one is. Nothing: neither, or
-/// both, as where they turn back.
-template <typename Value, typename Rule>
-[[nodiscard]] std::optional<std::size_t> who_is_ahead(
-    const Rule& rule, const std::array<const StampedTrack<Value>*, 2>& tracks, std::int64_t stamp,
-    const std::array<Value, 2>& values, std::uint64_t lag) {
-  constexpr double there = 0.25, elsewhere = 0.75;  // of what is between them
-  const double apart = rule.distance(values[0], values[1]);
-  std::array<double, 2> missed{};
-  for (std::size_t i = 0; i < 2; ++i)
-    missed[i] = from_path(rule, *tracks[i], {stamp, values[i]}, lag, values[1 - i]);
-  const std::size_t ahead = missed[0] < missed[1] ? 0 : 1;
-  if (missed[ahead] > there * apart || missed[1 - ahead] < elsewhere * apart) return std::nullopt;
-  return ahead;
+[[nodiscard]] bool has_told(const Rule& rule, const StampedTrack<Value>& track, std::int64_t from,
+                            std::int64_t to, const Value& value) {
+  // A float's digits, and an angle's between two equal rotations; no two measurements agree so.
+  constexpr double same = 1e-6;  // radians or metres
+  const auto told = track.up_to(to);
+  for (auto state = told.rbegin(); state != told.rend() && state->stamp >= from; ++state)
+    if (rule.distance(state->value, value) <= same) return true;
+  return false;
 }
 
 }  // namespace penumbra

@@ -5,8 +5,8 @@
 #include "../support/run_length.hpp"
 #include "told_sources.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -20,6 +20,9 @@ constexpr double strongest = 40.0;  // rad/s^2
 
 /// What a driver and a program that sends it on may be late by, beside the driver's period.
 constexpr std::int64_t longest_relay = 15 * ms;
+
+/// How late a message is heard at the most.
+constexpr std::int64_t longest_way = 60 * ms;
 
 /// Noise of the states, and the tolerance where the arm comes to the sliders' pose, rad.
 constexpr double largest_error = 0.004 + JointRule::turn_noise;
@@ -70,15 +73,15 @@ class Draw {
   std::int64_t period() { return time(2, 100) * ms; }
 
   /// What becomes of a program's messages on their way.
-  std::vector<Told> sent(const Program& program, double most_lost = 0.1) {
+  std::vector<Told> sent(const Program& program, double most_lost = 0.1, double noise = 0.004) {
     std::vector<Told> told;
-    const std::int64_t latency = time(0, 30 * ms), scatter = time(0, 30 * ms);
+    const std::int64_t latency = time(0, longest_way / 2), scatter = time(0, longest_way / 2);
     const double lost = chance(0.5) ? 0.0 : most_lost;
     for (std::int64_t at = program.first; at < program.end; at += program.period) {
       if (chance(lost)) continue;
       const std::int64_t stamp = at + time(0, program.period / 20);
       told.push_back({stamp + latency + time(0, scatter), stamp,
-                      program.way(stamp) + number(-0.004, 0.004), program.source});
+                      program.way(stamp) + number(-noise, noise), program.source});
     }
     return told;
   }
@@ -86,6 +89,15 @@ class Draw {
  private:
   std::mt19937_64& random_;
 };
+
+/// What had been told last `late` before.
+Way sent_on(const std::vector<Told>& told, std::int64_t late) {
+  return [told, late](std::int64_t t) {
+    const auto next = std::find_if(told.begin() + 1, told.end(),
+                                   [&](const Told& each) { return each.stamp + late > t; });
+    return std::prev(next)->value;
+  };
+}
 
 void append(std::vector<Told>& all, const std::vector<Told>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -100,18 +112,20 @@ TEST(JointSourcesProperty, TruthIsNeverDisputed) {
     const Way way = draw.way();
     const Program driver{.source = "driver", .way = way, .period = draw.period(), .end = length};
     const Program second{.source = "second", .way = way, .period = draw.period(), .end = length};
-    const std::int64_t late = draw.time(0, longest_relay);
-    const Way heard = [&](std::int64_t t) {
-      return way((t - late) / driver.period * driver.period);
-    };
-    const Program relay{.source = "relay", .way = heard, .period = draw.period(), .end = length};
-    OneJoint joint;
     std::vector<Told> told = draw.sent(driver);
-    append(told, draw.sent(draw.chance(0.5) ? relay : second));
+    std::vector<Told> other = draw.sent(second);
+    if (draw.chance(0.5)) {
+      const Way heard = sent_on(told, draw.time(0, longest_relay));
+      const Program relay{.source = "relay", .way = heard, .period = second.period, .end = length};
+      other = draw.sent(relay, 0.1, 0.0);
+      for (Told& each : other) each.arrival += longest_way;  // after what it sends on
+    }
+    append(told, other);
+    OneJoint joint;
     joint.hear(std::move(told));
     ASSERT_EQ(joint.count(JointStatus::disputed, first_certain, length), 0)
         << "round " << round << ", periods " << driver.period / ms << " and " << second.period / ms
-        << " or " << relay.period / ms << " ms";
+        << " ms";
     for (std::int64_t stamp = first_certain; stamp < length - 400 * ms; stamp += ms) {
       const JointAnswer& answer = joint.at(stamp);
       if (answer.status != JointStatus::ok) continue;

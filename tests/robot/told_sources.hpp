@@ -50,6 +50,30 @@ inline void tell(const Program& program, std::vector<Told>& all) {
     all.push_back({stamp + program.latency, stamp, program.way(stamp), program.source});
 }
 
+/// What a program told last, `late` before: as joint_state_publisher sends it on, or a relay.
+inline Way copy_of(const Program& program, std::int64_t late) {
+  return [=](std::int64_t t) {
+    const std::int64_t heard = std::min(t - late - program.latency, program.end - 1);
+    const std::int64_t whole = std::max<std::int64_t>(0, heard - program.first) / program.period;
+    return program.way(program.first + whole * program.period);
+  };
+}
+
+/// Without the messages of a program from after one stamp to before another.
+inline std::vector<Told> without(std::vector<Told> all, const std::string& source,
+                                 std::int64_t after, std::int64_t before) {
+  std::erase_if(all, [&](const Told& told) {
+    return told.source == source && told.stamp > after && told.stamp < before;
+  });
+  return all;
+}
+
+inline std::vector<Told> all_of(const std::vector<Program>& programs) {
+  std::vector<Told> all;
+  for (const Program& program : programs) tell(program, all);
+  return all;
+}
+
 /// A buffer for one joint of a type, and its states as they arrive.
 class OneJoint {
  public:
@@ -66,11 +90,7 @@ class OneJoint {
     sort(all);
     for (const Told& told : all) add(told.stamp, told.value, told.source);
   }
-  void hear(const std::vector<Program>& programs) {
-    std::vector<Told> all;
-    for (const Program& program : programs) tell(program, all);
-    hear(std::move(all));
-  }
+  void hear(const std::vector<Program>& programs) { hear(all_of(programs)); }
 
   const JointAnswer& at(std::int64_t stamp) {
     buffer_.at(stamp, answer_);
@@ -107,9 +127,7 @@ class OneJoint {
     return out;
   }
   std::vector<GivenOut> live(const std::vector<Program>& programs) {
-    std::vector<Told> all;
-    for (const Program& program : programs) tell(program, all);
-    return live(std::move(all));
+    return live(all_of(programs));
   }
 
   /// How many of the milliseconds from `from` to before `to` have a status.
@@ -132,5 +150,35 @@ class OneJoint {
   JointBuffer buffer_;
   JointAnswer answer_;
 };
+
+/// From 0 at `start` with 5 rad/s^2 up to 1 rad/s, to `far`.
+inline Way starting_at(std::int64_t start, double far = 2.0) {
+  return [=](std::int64_t t) {
+    const double s = std::max(0.0, 1e-9 * static_cast<double>(t - start));
+    return std::min(far, s < 0.2 ? 2.5 * s * s : 0.1 + (s - 0.2));
+  };
+}
+
+/// Two programs that stand at one pose are believed to within the noise of a joint.
+inline constexpr double tolerance = JointRule::turn_noise + 1e-9;
+
+struct Frames {
+  std::int64_t all = 0, known = 0, disputed = 0;
+};
+
+/// Every frame whose pose is known has the true one; counts those from `from` to before `to`.
+inline Frames check(const std::vector<OneJoint::GivenOut>& out, const Way& truth, std::int64_t from,
+                    std::int64_t to, double within = tolerance) {
+  Frames frames;
+  for (const auto& [stamp, status, value] : out) {
+    if (stamp < from || stamp >= to) continue;
+    ++frames.all;
+    if (status == JointStatus::disputed) ++frames.disputed;
+    if (status != JointStatus::ok) continue;
+    ++frames.known;
+    EXPECT_NEAR(value, truth(stamp), within) << stamp / ms << " ms";
+  }
+  return frames;
+}
 
 }  // namespace penumbra::test

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that sends on what another one tells: it is seen to, and never answers. One that runs
+// ahead of the driver is no driver, and makes no copy of it. Asked as frames are.
+#include "told_sources.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+// Of a driver's own track beside the swing between two of its states.
+constexpr double of_driver = 1e-3;
+
+// Two new values of a copy that tells each 100 ms, and the way to the first one.
+constexpr std::int64_t recognised = 500 * ms;
+
+/// At most 1.26 rad/s, with no symmetry that makes two times alike.
+double swing(std::int64_t t) {
+  const double s = 1e-9 * static_cast<double>(t);
+  return 0.6 * std::sin(1.57 * s) + 0.1 * std::sin(2.9 * s);
+}
+
+Program driver_of(std::int64_t period = 10 * ms) {
+  return {.source = "driver", .way = swing, .period = period, .end = 9000 * ms, .latency = 3 * ms};
+}
+
+Program copier(const Program& driver, std::int64_t late, std::int64_t period = 10 * ms) {
+  return {.source = "copy",
+          .way = copy_of(driver, late),
+          .period = period,
+          .first = 5 * ms,
+          .end = 9000 * ms};
+}
+
+TEST(JointCopies, WhoRunsAheadIsNotTheDriver) {
+  // Commands, and a copy whose clock is behind: what is known is what both tell.
+  for (const std::int64_t ahead : {20 * ms, 50 * ms, 100 * ms}) {
+    const Program driver = driver_of();
+    const Way commanded = [=](std::int64_t t) { return swing(t + ahead); };
+    Program behind = copier(driver, 2 * ms);
+    behind.way = [=, copy = behind.way](std::int64_t t) { return copy(t + ahead); };
+    behind.latency = ahead + ms;
+    for (const Program& other :
+         {Program{.source = "commands", .way = commanded, .first = 5 * ms, .end = 9000 * ms},
+          behind}) {
+      OneJoint joint;
+      const Frames frames = check(joint.live({driver, other}), swing, recognised, 8800 * ms);
+      EXPECT_LT(frames.known, frames.all * 7 / 10) << "where it is slow, " << ahead / ms;
+    }
+  }
+}
+
+TEST(JointCopies, SlidersThatBeginAreNotTheDriverWhoseMessagesAreLate) {
+  for (const std::int64_t latency : {150 * ms, 230 * ms, 400 * ms}) {
+    Program driver = driver_of();
+    driver.latency = latency;
+    const auto out = OneJoint().live(
+        {driver,
+         {.source = "sliders", .way = standing(0.3), .first = 2000 * ms, .end = 9000 * ms}});
+    check(out, swing, 0, 9000 * ms);
+  }
+}
+
+TEST(JointCopies, TheDriverIsKnownOnceWhoRanAheadIsForgotten) {
+  Program driver = driver_of();
+  driver.end = 25000 * ms;
+  const Way commanded = [](std::int64_t t) { return swing(t + 60 * ms); };
+  OneJoint joint;
+  const auto out = joint.live(
+      {driver, {.source = "commands", .way = commanded, .first = 5 * ms, .end = 9000 * ms}});
+  const Frames frames = check(out, swing, 10500 * ms, 24800 * ms, of_driver);
+  EXPECT_EQ(frames.known, frames.all) << "as it moved on its own beside it, and since";
+}
+
+TEST(JointCopies, NoneIsTooLateToBeSeen) {
+  for (const std::int64_t late : {2 * ms, 40 * ms, 450 * ms, 1500 * ms})
+    for (const std::int64_t period : {10 * ms, 100 * ms}) {
+      const Program driver = driver_of(20 * ms);
+      const auto out = OneJoint().live({driver, copier(driver, late, period)});
+      // A contradiction that was seen before holds for 0.8 s.
+      const Frames frames = check(out, swing, recognised + late + 800 * ms, 8800 * ms, of_driver);
+      EXPECT_EQ(frames.known, frames.all) << late / ms << " ms, each " << period / ms;
+    }
+}
+
+TEST(JointCopies, OfACopyToo) {
+  const Program driver = driver_of();
+  Program first = copier(driver, 4 * ms, 20 * ms);
+  Program second = copier(first, 4 * ms, 50 * ms);
+  second.source = "copy's copy", second.first = 45 * ms;
+  const Frames frames =
+      check(OneJoint().live({driver, first, second}), swing, recognised, 8800 * ms, of_driver);
+  EXPECT_EQ(frames.known, frames.all);
+}
+
+TEST(JointCopies, ALateOneIsNotTheDriverThatDies) {
+  for (const std::int64_t late : {100 * ms, 450 * ms, 600 * ms, 900 * ms})
+    for (const double speed : {0.2, 1.0}) {
+      Program driver = driver_of();
+      driver.way = moving(speed), driver.end = 4000 * ms;
+      const auto out = OneJoint().live({driver, copier(driver, late)});
+      EXPECT_EQ(check(out, driver.way, 4000 * ms, 9000 * ms).known, 0) << late / ms << " ms";
+    }
+}
+
+TEST(JointCopies, OneThatIsUnheardWhenTheDriverDiesIsNotTheDriver) {
+  for (const std::int64_t again : {300 * ms, 410 * ms, 800 * ms})
+    for (const std::int64_t start : {500 * ms, 3700 * ms}) {  // it is known to be a copy, or not
+      Program driver = driver_of();
+      driver.way = starting_at(start, 100.0), driver.end = 4000 * ms;
+      const auto told =
+          without(all_of({driver, copier(driver, 4 * ms)}), "copy", 3700 * ms, 4000 * ms + again);
+      EXPECT_EQ(check(OneJoint().live(told), driver.way, 4000 * ms, 9000 * ms).known, 0);
+    }
+}
+
+TEST(JointCopies, DoNotAnswerWhileTheyAloneHearTheDriver) {
+  for (const std::int64_t late : {4 * ms, 40 * ms})
+    for (const std::int64_t lost : {300 * ms, 2000 * ms})
+      for (const std::int64_t start : {0 * ms, 3000 * ms}) {  // known to be copies, or not yet
+        Program driver = driver_of();
+        driver.way = [=](std::int64_t t) { return swing(std::max<std::int64_t>(0, t - start)); };
+        const auto told =
+            without(all_of({driver, copier(driver, late)}), "driver", 3000 * ms, 3000 * ms + lost);
+        const auto out = OneJoint().live(told);
+        check(out, driver.way, recognised, 9000 * ms, start == 0 ? of_driver : tolerance);
+        const Frames since = check(out, driver.way, 3900 * ms + lost, 8800 * ms);
+        EXPECT_EQ(since.known, since.all) << "it is back";
+      }
+}
+
+TEST(JointCopies, AnswerOnceTheDriverIsForgotten) {
+  // A relay that is all that is heard any more.
+  Program driver = driver_of();
+  driver.end = 30000 * ms;
+  Program relay = copier(driver, 0);
+  relay.end = 30000 * ms;
+  const auto out =
+      OneJoint().live(without(all_of({driver, relay}), "driver", 5000 * ms, 30000 * ms));
+  EXPECT_EQ(check(out, swing, 5005 * ms, 14700 * ms).known, 0);
+  const Frames frames = check(out, swing, 17000 * ms, 29800 * ms, 0.02);  // as late as it is
+  EXPECT_EQ(frames.known, frames.all);
+}
+
+TEST(JointCopies, ADriverThatTellsTheSameAgainIsNone) {
+  // A recording that is played in a loop by one program, and sent on by another.
+  for (const std::int64_t loop : {1000 * ms, 2000 * ms, 3990 * ms}) {
+    Program driver = driver_of();
+    driver.way = [=](std::int64_t t) {
+      const std::int64_t along = t % loop;
+      return swing(2000 * ms + std::min(along, loop - along));
+    };
+    const auto out = OneJoint().live({driver, copier(driver, 15 * ms)});
+    const Frames frames = check(out, driver.way, recognised, 8800 * ms, tolerance);
+    EXPECT_EQ(frames.known, frames.all) << loop / ms;
+  }
+}
+
+TEST(JointCopies, TwoThatReadOneEncoderAreKnown) {
+  // Ticks of 4096 a turn: both tell the same numbers, now the one first and now the other.
+  const Way ticks = [](std::int64_t t) { return std::round(swing(t) / 0.00153) * 0.00153; };
+  for (const std::int64_t period : {10 * ms, 13 * ms, 50 * ms}) {
+    const auto out = OneJoint().live(
+        {{.source = "a", .way = ticks, .end = 9000 * ms},
+         {.source = "b", .way = ticks, .period = period, .first = 4 * ms, .end = 9000 * ms}});
+    const Frames frames = check(out, swing, recognised, 8800 * ms);
+    EXPECT_GT(frames.known, frames.all * 99 / 100) << period / ms;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
