@@ -142,6 +142,20 @@ TEST(JointSilence, WhoEndsIsWaitedFor) {
   }
 }
 
+TEST(JointSilence, WhoReturnsIsBelievedAgain) {
+  // Of two true programs the one is away, then the other one for good.
+  const Way arm = [](std::int64_t t) { return std::sin(2e-9 * static_cast<double>(t)); };
+  const auto told = all_of({{.source = "a", .way = arm, .end = 9000 * ms},
+                            {.source = "b", .way = arm, .first = 5 * ms, .end = 5000 * ms}});
+  OneJoint joint;
+  const auto out = joint.live(without(told, "a", 1500 * ms, 3500 * ms));
+  check(out, arm, 0, 9000 * ms);
+  for (const std::int64_t back : {2200 * ms, 5700 * ms}) {
+    const Frames frames = check(out, arm, back, back + 1000 * ms);
+    EXPECT_EQ(frames.known, frames.all) << back / ms;
+  }
+}
+
 TEST(JointSilence, TwoTrueProgramsAreKnownWhileTheArmMoves) {
   const Way arm = [](std::int64_t t) { return std::sin(2e-9 * static_cast<double>(t)); };
   for (const std::int64_t period : {10 * ms, 33 * ms, 100 * ms}) {
