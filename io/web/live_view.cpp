@@ -118,7 +118,8 @@ void LiveView::publish(std::shared_ptr<const LiveFrame> frame, const Robot& robo
   links_.assign(robot.links().begin(), robot.links().end());
   frame_ = std::move(frame);
   published_.push_back(now);
-  while (now - published_.front() > rate_window) published_.pop_front();
+  // The last interval stays, however long: a slow camera has a rate, too.
+  while (published_.size() > 2 && now - published_.front() > rate_window) published_.pop_front();
 }
 
 void LiveView::tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing) {

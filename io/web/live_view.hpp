@@ -56,7 +56,7 @@ class LiveView final : public WebHandler {
   const std::string input_;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;
-  std::deque<std::int64_t> published_;  // when, of the last second
+  std::deque<std::int64_t> published_;  // when, of the last two seconds; the last two in any case
   std::optional<Scene> scene_;
   std::vector<std::string> links_;
   std::vector<Diagnostic> diagnostics_;
