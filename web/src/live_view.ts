@@ -11,6 +11,7 @@ import { coverReplaced, uncover } from './view/cover';
 import { byId, setText } from './view/dom';
 import { showInput } from './view/input_name';
 import { showTold } from './view/live_status';
+import { showPlaying } from './view/mode';
 import { Viewer } from './viewer';
 
 const keptFrames = 900;
@@ -41,9 +42,10 @@ export class LiveView {
       current: () => this.frames.length - 1,
       speed: () => undefined,
     });
-    document.documentElement.classList.add('live', 'playing');
+    document.documentElement.classList.add('live');
+    showPlaying(true);
     this.watch = new LiveWatch({
-      told: (told) => this.told(told),
+      told: (told, fault) => this.told(told, fault),
       back: () => this.connection.renew(),
     });
     this.connection = new LiveConnection(
@@ -51,7 +53,7 @@ export class LiveView {
         packet: (packet) => this.take(packet).finally(() => this.watch.ended()),
         connected: () => this.watch.connected(),
         disconnected: (seconds) => this.watch.disconnected(seconds),
-        fault: (message) => showTold([], [{ level: 'error', message }]),
+        fault: (message) => this.watch.failed(message),
       },
       this.wanted(),
       this.viewer.step,
@@ -67,19 +69,23 @@ export class LiveView {
     this.paused = !this.paused;
     this.connection.setPaused(this.paused);
     this.watch.setPaused(this.paused);
-    document.documentElement.classList.toggle('playing', !this.paused);
+    showPlaying(!this.paused);
     this.timeline.flush(); // all that is shown is of one frame
     this.viewer.flush();
   }
 
-  /** What the server says while no frame comes. */
-  private told(session: Session): void {
+  /** What the server says while no frame comes, or while none can be drawn. */
+  private told(session: Session, fault: string | null): void {
     if (session.mode !== 'live') return coverReplaced();
-    showTold(session.missing, session.diagnostics ?? [], true);
+    const ours = fault ? [{ level: 'error', message: fault }] : [];
+    showTold(session.missing, [...ours, ...(session.diagnostics ?? [])], true);
     if (this.frames.length > 0) return;
     const note = byId('scene-note');
     note.hidden = false;
-    setText(note, ['Waiting for the first frame.', ...session.missing].join('\n'));
+    const what = fault
+      ? `Frames come that cannot be drawn: ${fault}`
+      : 'Waiting for the first frame.';
+    setText(note, [what, ...session.missing].join('\n'));
   }
 
   private async take(packet: Packet): Promise<void> {

@@ -7,14 +7,16 @@ import { onsets } from './model/occlusions';
 import { Player } from './model/player';
 import { bindControls } from './view/controls';
 import { cover, coverReplaced, coverWaiting, uncover } from './view/cover';
-import { byId, setText } from './view/dom';
 import { fragmentState, setFragment } from './view/fragment';
 import { showMissing } from './view/missing';
+import { showMode, showPlaying } from './view/mode';
 import { Viewer } from './viewer';
 
 const cacheBytes = 192 * 2 ** 20;
 const restMilliseconds = 180; // standing still this long, a frame's values are fetched too
 const pollMilliseconds = 1500;
+const answerMilliseconds = 10_000; // frames of an hour are some megabytes
+const mostUnanswered = 2; // questions, until that is told
 
 export class StoredView {
   private current = 0;
@@ -22,6 +24,7 @@ export class StoredView {
   private wish = 0;
   private resting = 0;
   private complete = false;
+  private unanswered = 0; // questions, one after another
   private frames: readonly FrameReport[] = [];
   private readonly viewer: Viewer;
   private readonly player: Player;
@@ -152,7 +155,7 @@ export class StoredView {
   }
 
   private playingChanged(): void {
-    document.documentElement.classList.toggle('playing', this.player.playing);
+    showPlaying(this.player.playing);
     if (this.player.playing) return;
     this.current = this.shown; // what is on its way is not waited for
     this.rest(++this.wish);
@@ -169,8 +172,8 @@ export class StoredView {
     const judged = this.frames.length;
     const isPart = (session.expected ?? judged) > judged;
     const of = isPart ? ` of ${session.expected}` : '';
-    setText(byId('mode'), `${judged}${of} frames${this.complete ? '' : ', judging'}`);
-    byId('mode').classList.toggle('fault', this.complete && isPart);
+    const text = `${judged}${of} frames${this.complete ? '' : ', judging'}`;
+    showMode(text, this.complete ? text : 'judging', this.complete && isPart);
     const notes = report.summary?.notes ?? [];
     showMissing([...session.missing, ...notes], session.missing.length ? 'Not there' : 'Notes');
   }
@@ -180,14 +183,24 @@ export class StoredView {
     for (;;) {
       await new Promise((resolve) => window.setTimeout(resolve, pollMilliseconds));
       // The session after the report: what it says was missing is of all of its frames.
-      const report = await fetchReport(this.frames.length).catch(() => null);
-      const session = report && (await fetchSession().catch(() => null));
-      if (!session || !report) continue; // said when a frame is asked for
+      const signal = AbortSignal.timeout(answerMilliseconds);
+      const report = await fetchReport(this.frames.length, signal).catch(() => null);
+      const session = report && (await fetchSession(signal).catch(() => null));
+      this.unanswered = session ? 0 : this.unanswered + 1;
+      if (this.unanswered === mostUnanswered) this.showUnanswered();
+      if (!session || !report) continue;
       if (session.server !== this.viewer.session.server) return this.replaced();
       const first = this.viewer.timeline.times.length === 0;
       this.take(session, report);
       if (first) await this.start();
       if (this.complete) return;
     }
+  }
+
+  private showUnanswered(): void {
+    const judged = this.frames.length;
+    const said = 'the server does not answer';
+    showMode(`${said} · ${judged} frames so far`, said, true);
+    if (judged === 0) coverWaiting(`${said}: is penumbra view still running?`, true);
   }
 }

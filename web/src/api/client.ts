@@ -48,7 +48,8 @@ const json = async <T>(path: string, signal?: AbortSignal): Promise<T> =>
 export const fetchSession = (signal?: AbortSignal): Promise<Session> =>
   json<Session>('/api/session', signal);
 /** @param from frames of it to leave out, which are known */
-export const fetchReport = (from = 0): Promise<Report> => json<Report>(`/api/report?from=${from}`);
+export const fetchReport = (from = 0, signal?: AbortSignal): Promise<Report> =>
+  json<Report>(`/api/report?from=${from}`, signal);
 
 /** @throws ApiError of status 409 where that server has another scene by now, or is another */
 export async function fetchScene(

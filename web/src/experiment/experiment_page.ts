@@ -2,7 +2,7 @@
 import { percent, seconds } from '../model/format';
 import { verdictNames, verdictOf } from '../model/labels';
 import { keyFrames, type KeyFrame } from '../report/key_frames';
-import { card, onArrows, section, tile, timelinePanel } from '../report/parts';
+import { card, onFrameKeys, section, tile, timelinePanel } from '../report/parts';
 import { targetsTable } from '../report/targets_table';
 import { element } from '../view/dom';
 import { factList } from '../view/target_panel';
@@ -59,7 +59,10 @@ export class ExperimentPage {
     );
     document.title = experiment.title;
     this.show();
-    onArrows((by) => this.seek(this.frame + by));
+    onFrameKeys(
+      () => this.frame,
+      (frame) => this.seek(frame),
+    );
   }
 
   private seek(frame: number): void {

@@ -55,20 +55,35 @@ export function tracksOf(frames: readonly FrameReport[]): Track[] {
   return [...byName].map(([name, samples]) => ({ name, samples }));
 }
 
-const gravity: Readonly<Record<Verdict, number>> = {
-  visible: 1,
-  out_of_view: 0,
-  partial: 2,
-  unknown: 3,
-  hidden: 4,
-};
+/** By the robot and by others; null: not known. */
+export const hiddenShare = ({
+  occluded,
+  other,
+}: Pick<Sample, 'occluded' | 'other'>): number | null =>
+  occluded === null ? null : occluded + (other ?? 0);
 
-/** The graver of two: where several frames share a pixel, none that is hidden gets lost. */
+/** Who hides most of it: a link, or others than the robot; empty: not known. */
+export const hiderOf = ({ occluded, other, blame }: Sample): string =>
+  (other ?? 0) > (occluded ?? 0) ? 'others' : (blame ?? '');
+
+const gravity: Readonly<Record<Verdict | 'none', number>> = {
+  visible: 0,
+  out_of_view: 1,
+  none: 2, // the frame says nothing of it
+  partial: 3,
+  unknown: 4,
+  hidden: 5,
+};
+const gravityOf = (sample: Sample | null): number => gravity[sample?.verdict ?? 'none'];
+
+/**
+ * The graver of two: where several frames share a pixel, none that is hidden gets lost, and the pixel
+ * says visible only where all of them do.
+ */
 export function graver(a: Sample | null, b: Sample | null): Sample | null {
-  if (!a || !b) return a ?? b;
-  const difference = gravity[b.verdict] - gravity[a.verdict];
+  const difference = gravityOf(b) - gravityOf(a);
   if (difference !== 0) return difference > 0 ? b : a;
-  return (b.occluded ?? 0) > (a.occluded ?? 0) ? b : a;
+  return b && (hiddenShare(b) ?? 0) > ((a && hiddenShare(a)) ?? 0) ? b : a;
 }
 
 /** Joins neighbours until at most `columns` are left. */

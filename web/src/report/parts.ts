@@ -27,10 +27,19 @@ export function timelinePanel(...legends: readonly HTMLElement[]): [HTMLElement,
   return [chart, element('div', 'panel', legend, chart)];
 }
 
-/** The arrow keys go from frame to frame. */
-export function onArrows(step: (by: number) => void): void {
-  document.addEventListener('keydown', ({ key }) => {
+/**
+ * The arrow keys go from frame to frame; on the playhead Home and End to the first and the last one.
+ * Elsewhere these scroll.
+ * @param seek takes any number, and goes to the nearest frame
+ */
+export function onFrameKeys(current: () => number, seek: (frame: number) => void): void {
+  document.addEventListener('keydown', (event) => {
+    const { key, target } = event;
     const by = key === 'ArrowRight' ? 1 : key === 'ArrowLeft' ? -1 : 0;
-    if (by !== 0) step(by);
+    const ends: Readonly<Record<string, number>> = { Home: 0, End: Infinity };
+    const isPlayhead = target instanceof Element && target.closest('[role=slider]') !== null;
+    const end = isPlayhead ? ends[key] : undefined;
+    if (end !== undefined) event.preventDefault();
+    if (end !== undefined || by !== 0) seek(end ?? current() + by);
   });
 }

@@ -8,7 +8,7 @@ import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
 import { verdictIcon } from '../view/verdict_icon';
 import { keyFrames, type KeyFrame } from './key_frames';
-import { card, onArrows, row, section, timelinePanel } from './parts';
+import { card, onFrameKeys, row, section, timelinePanel } from './parts';
 import { headOf, notesOf, tilesOf } from './summary';
 import { targetsTable } from './targets_table';
 
@@ -45,7 +45,10 @@ export class ReportPage {
       stageTable(report),
     );
     this.choose(this.target);
-    onArrows((by) => this.seek(this.frame + by));
+    onFrameKeys(
+      () => this.frame,
+      (frame) => this.seek(frame),
+    );
   }
 
   private numberOf(frame: number): string {

@@ -3,7 +3,7 @@ import type { Source, Verdict } from '../api/types';
 import { percent } from '../model/format';
 import { verdictNames } from '../model/labels';
 import { onsets } from '../model/occlusions';
-import type { Sample, Track } from '../model/timeline';
+import { hiddenShare, hiderOf, type Sample, type Track } from '../model/timeline';
 import { element } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 
@@ -22,8 +22,10 @@ export function targetsTable(tracks: readonly Track[], frames: Frames): HTMLElem
   const head = element('tr', '', element('th', '', 'target'));
   for (const verdict of verdicts)
     head.append(element('th', '', verdictIcon(verdict), verdictNames[verdict]));
-  const blames = tracks.some(({ samples }) => samples.some((sample) => sample?.blame));
-  head.append(element('th', '', 'most occluded'));
+  const blames = tracks.some(({ samples }) =>
+    samples.some((sample) => sample?.blame || sample?.other),
+  );
+  head.append(element('th', '', 'most hidden'));
   const more = [...(blames ? ['by'] : []), 'handled', 'occlusions begin'];
   head.append(...more.map((title) => element('th', 'text', title)));
   const table = element('table', '', head);
@@ -37,9 +39,9 @@ function rowOf(track: Track, blames: boolean, frames: Frames): HTMLTableRowEleme
     const times = track.samples.filter((sample) => sample?.verdict === verdict).length;
     row.append(element('td', times ? '' : 'none', String(times)));
   }
-  const worst = mostOccluded(track);
-  row.append(element('td', '', percent(worst?.occluded ?? null)));
-  if (blames) row.append(element('td', 'text', worst?.occluded ? (worst.blame ?? '') : ''));
+  const worst = mostHidden(track);
+  row.append(element('td', '', percent(worst && hiddenShare(worst))));
+  if (blames) row.append(element('td', 'text', worst && hiddenShare(worst) ? hiderOf(worst) : ''));
   row.append(
     element('td', 'text', handledText(track)),
     element('td', 'text', ...onsetButtons(track, frames)),
@@ -47,10 +49,10 @@ function rowOf(track: Track, blames: boolean, frames: Frames): HTMLTableRowEleme
   return row;
 }
 
-function mostOccluded(track: Track): Sample | null {
+function mostHidden(track: Track): Sample | null {
+  const shareOf = (sample: Sample | null): number => (sample && hiddenShare(sample)) ?? -1;
   let most: Sample | null = null;
-  for (const sample of track.samples)
-    if ((sample?.occluded ?? -1) > (most?.occluded ?? -1)) most = sample;
+  for (const sample of track.samples) if (shareOf(sample) > shareOf(most)) most = sample;
   return most;
 }
 

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The timeline's rows as SVG: as wide as the screen's pixels, whatever the number of frames.
 import type { FrameReport } from '../api/types';
-import { condense, graver, runsOf, type Run, type Sample, type Track } from '../model/timeline';
+import {
+  condense,
+  graver,
+  hiderOf,
+  runsOf,
+  type Run,
+  type Sample,
+  type Track,
+} from '../model/timeline';
 import { svg } from '../view/dom';
 import { verdictFill } from './patterns';
 
@@ -82,7 +90,7 @@ function verdictStrip(samples: readonly (Sample | null)[], width: number): SVGEl
 /** Who hides most of it, of targets that are partial or hidden. */
 function blameOf(sample: Sample): string {
   if (sample.verdict !== 'partial' && sample.verdict !== 'hidden') return '';
-  return (sample.other ?? 0) > (sample.occluded ?? 0) ? 'others' : (sample.blame ?? '');
+  return hiderOf(sample);
 }
 
 function sources(samples: readonly (Sample | null)[], width: number): SVGElement[] {

@@ -171,7 +171,9 @@ export class TimelineView {
     const blame = (target.blame ?? [])
       .map((one) => `${one.link} ${percent(one.fraction, 0)}`)
       .join(', ');
-    const occluded = `occluded ${percent(target.occluded_fraction)}`;
-    return verdictLine(name, verdictOf(target.verdict), occluded, blame, target.reason);
+    const occluded = `by robot ${percent(target.occluded_fraction)}`;
+    const other = target.hidden_by_other_fraction;
+    const others = other ? `by others ${percent(other)}` : '';
+    return verdictLine(name, verdictOf(target.verdict), occluded, blame, others, target.reason);
   }
 }

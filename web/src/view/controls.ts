@@ -8,6 +8,7 @@ import { byId, element, setText } from './dom';
 import { bindKeys } from './keys';
 import { layersOf, type Layer } from './image_view';
 import { playerIcon } from './player_icons';
+import { bindRadioKeys, markChosen } from './radio_keys';
 
 export interface Actions {
   toggle(): void;
@@ -22,6 +23,15 @@ const layerNames: Readonly<Record<Layer, readonly [string, string]>> = {
   links: ['Links', 'which link is on the ray'],
   vdi: ['Virtual', 'virtual depth: what the camera would measure of the robot alone'],
   depth: ['Measured', 'measured depth'],
+};
+
+/** The same key means the same layer, whichever there are. */
+export const layerKeys: Readonly<Record<string, Layer>> = {
+  1: 'overlay',
+  2: 'labels',
+  3: 'links',
+  4: 'vdi',
+  5: 'depth',
 };
 
 export function bindControls(viewer: Viewer, actions: Actions): void {
@@ -79,13 +89,14 @@ function bindSpeed(actions: Actions): (by: number) => void {
   };
 }
 
-function bindLayers(viewer: Viewer): (index: number) => void {
+/** @returns shows a layer, where it can be had */
+function bindLayers(viewer: Viewer): (layer: Layer) => void {
   const layers = layersOf(viewer.session.parts);
   const group = byId('layers');
   const show = (layer: Layer): void => {
     viewer.image.layer = layer;
-    for (const button of group.querySelectorAll('button'))
-      button.setAttribute('aria-checked', String(button.dataset['layer'] === layer));
+    const button = group.querySelector(`[data-layer=${layer}]`);
+    if (button) markChosen(group, 'aria-checked', button);
     viewer.handlers.wantsChanged();
     viewer.redraw();
   };
@@ -93,17 +104,18 @@ function bindLayers(viewer: Viewer): (index: number) => void {
     const [name, meaning] = layerNames[layer];
     const button = element('button', '', name);
     button.type = 'button';
-    button.title = meaning;
+    const key = Object.keys(layerKeys).find((one) => layerKeys[one] === layer) ?? '';
+    button.title = `${meaning} (${key})`;
     button.setAttribute('role', 'radio');
     button.dataset['layer'] = layer;
     button.addEventListener('click', () => show(layer));
     group.append(button);
   }
+  bindRadioKeys(group);
   const first = layers[0];
   if (first) show(first);
-  return (index) => {
-    const layer = layers[index];
-    if (layer) show(layer);
+  return (layer) => {
+    if (layers.includes(layer)) show(layer);
   };
 }
 
@@ -130,11 +142,12 @@ export function toggleCloudColors(viewer: Viewer): void {
 /** On a phone one of scene and image is shown. */
 function bindTabs(viewer: Viewer): void {
   const main = byId('main');
-  for (const tab of document.querySelectorAll<HTMLButtonElement>('#view-tabs [data-view]'))
+  const tabs = byId('view-tabs');
+  bindRadioKeys(tabs);
+  for (const tab of tabs.querySelectorAll('button'))
     tab.addEventListener('click', () => {
       main.dataset['view'] = tab.dataset['view'];
-      for (const other of document.querySelectorAll('#view-tabs [data-view]'))
-        other.setAttribute('aria-selected', String(other === tab));
+      markChosen(tabs, 'aria-selected', tab);
       viewer.scene?.invalidate();
     });
 }

@@ -28,11 +28,15 @@ function show(message: string, label: string, action: () => void, back?: () => v
   sheet.classList.add('failed');
 }
 
-/** Over the page, without fault: something is still to come. */
-export function coverWaiting(text: string): void {
+/**
+ * Over the page: something is still to come.
+ * @param isFault it may never come
+ */
+export function coverWaiting(text: string, isFault = false): void {
   const sheet = byId('cover');
-  sheet.replaceChildren(element('p', '', text));
+  sheet.replaceChildren(element('p', isFault ? 'fault' : '', text));
   sheet.hidden = false;
+  sheet.classList.remove('failed');
 }
 
 export function uncover(): void {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Viewer } from '../viewer';
-import { toggleCloudColors, type Actions } from './controls';
+import { layerKeys, toggleCloudColors, type Actions } from './controls';
 import { byId, element } from './dom';
+import { layersOf, type Layer } from './image_view';
 
 interface Bindings {
   readonly viewer: Viewer;
@@ -9,25 +10,45 @@ interface Bindings {
   step(by: number): () => void;
   jump(direction: 1 | -1): () => void;
   speed(by: number): void;
-  showLayer(index: number): void;
+  showLayer(layer: Layer): void;
 }
 
-const help: readonly (readonly [string, string])[] = [
-  ['space', 'play or pause'],
+type Help = readonly (readonly [string, string])[];
+
+const layerWords: Readonly<Record<Layer, string>> = {
+  overlay: 'overlay',
+  labels: 'labels',
+  links: 'links',
+  vdi: 'virtual depth',
+  depth: 'measured depth',
+};
+
+/** Live no frame but the newest can be shown. */
+const storedHelp: Help = [
   ['← →', 'one frame back or on; with shift ten'],
   ['Home End', 'first or last frame'],
   ['[ ]', 'previous or next occlusion'],
-  ['↑ ↓', 'previous or next target'],
   ['− +', 'slower or faster'],
-  ['1 … 5', 'overlay, labels, links, virtual depth, measured depth'],
-  ['L', 'points by label or by colour'],
-  ['V C', 'overview, or the view from the camera'],
-  ['T', 'light or dark'],
-  ['?', 'this help'],
 ];
 
+function helpOf({ session }: Viewer): Help {
+  const isLive = session.mode === 'live';
+  const layers = layersOf(session.parts);
+  const keys = Object.entries(layerKeys).filter(([, layer]) => layers.includes(layer));
+  return [
+    ['space', isLive ? 'hold the picture, or go on' : 'play or pause'],
+    ...(isLive ? [] : storedHelp),
+    ['↑ ↓', 'previous or next target'],
+    [keys.map(([key]) => key).join(' '), keys.map(([, layer]) => layerWords[layer]).join(', ')],
+    ['L', 'points by label or by colour'],
+    ['V C', 'overview, or the view from the camera'],
+    ['T', 'light or dark'],
+    ['?', 'this help'],
+  ];
+}
+
 export function bindKeys(bindings: Bindings): void {
-  const dialog = fillHelp();
+  const dialog = fillHelp(bindings.viewer);
   byId('help-button').addEventListener('click', () => dialog.showModal());
   // A button that was clicked would take the space key that plays; one reached by tab keeps it.
   document.addEventListener('click', ({ detail, target }) => {
@@ -52,21 +73,25 @@ function actionOf(
   { viewer, actions, step, jump, speed, showLayer }: Bindings,
   dialog: HTMLDialogElement,
 ): (() => void) | undefined {
-  if (/^[1-5]$/.test(event.key)) return () => showLayer(Number(event.key) - 1);
+  const layer = layerKeys[event.key];
+  if (layer) return () => showLayer(layer);
   const far = event.shiftKey ? 10 : 1;
-  const actionOfKey: Readonly<Record<string, () => void>> = {
-    ' ': () => actions.toggle(),
+  const ofStored: Readonly<Record<string, () => void>> = {
     ArrowLeft: step(-far),
     ArrowRight: step(far),
     Home: () => actions.seek(0),
     End: () => actions.seek(Infinity),
     '[': jump(-1),
     ']': jump(1),
-    ArrowUp: () => chooseNext(viewer, -1),
-    ArrowDown: () => chooseNext(viewer, 1),
     '-': () => speed(-1),
     '+': () => speed(1),
     '=': () => speed(1),
+  };
+  const actionOfKey: Readonly<Record<string, () => void>> = {
+    ...(viewer.session.mode === 'live' ? {} : ofStored),
+    ' ': () => actions.toggle(),
+    ArrowUp: () => chooseNext(viewer, -1),
+    ArrowDown: () => chooseNext(viewer, 1),
     l: () => toggleCloudColors(viewer),
     v: () => viewer.scene?.frameAll(),
     c: () => viewer.scene?.frameCamera(),
@@ -83,12 +108,12 @@ function chooseNext(viewer: Viewer, by: number): void {
   if (name !== undefined) viewer.choose(name);
 }
 
-function fillHelp(): HTMLDialogElement {
+function fillHelp(viewer: Viewer): HTMLDialogElement {
   const dialog = byId<HTMLDialogElement>('help');
   const heading = element('h2', '', 'Keys');
   heading.id = 'help-title';
   const list = element('dl', 'keys');
-  for (const [keys, meaning] of help) {
+  for (const [keys, meaning] of helpOf(viewer)) {
     const names = keys.split(' ').map((key) => (key === '…' ? key : element('kbd', '', key)));
     list.append(element('dt', '', ...names), element('dd', '', meaning));
   }

@@ -3,6 +3,7 @@
 import type { FrameReport, TargetReport } from '../api/types';
 import { count, metres, nothing, percent, seconds, vector } from '../model/format';
 import { verdictNames, verdictOf } from '../model/labels';
+import { hiddenShare } from '../model/timeline';
 import { element } from './dom';
 import { verdictIcon } from './verdict_icon';
 
@@ -126,6 +127,16 @@ function blameBars(target: TargetReport): HTMLElement {
   return list;
 }
 
+/**
+ * What of it is hidden, by robot and others, as the overlay's captions have it; null: not known. Where
+ * the verdict is unknown a share would look like one that is known.
+ */
+export function hiddenOf(target: TargetReport): number | null {
+  const isJudged = verdictOf(target.verdict) !== 'unknown' && (target.inside ?? 0) > 0;
+  const { occluded_fraction: occluded, hidden_by_other_fraction: other } = target;
+  return isJudged ? hiddenShare({ occluded, other }) : null;
+}
+
 /** Targets of a frame to choose from. */
 export function targetList(
   frame: FrameReport,
@@ -135,7 +146,9 @@ export function targetList(
   const list = element('div', 'target-list');
   for (const target of frame.targets) {
     const verdict = verdictOf(target.verdict);
-    const amount = element('span', 'amount', percent(target.occluded_fraction, 0));
+    const hidden = percent(hiddenOf(target), 0);
+    const amount = element('span', 'amount', hidden);
+    amount.title = 'hidden, by the robot or by others';
     const button = element(
       'button',
       '',
@@ -146,7 +159,7 @@ export function targetList(
     button.type = 'button';
     button.dataset['target'] = target.name;
     button.setAttribute('aria-pressed', String(target.name === chosen));
-    button.setAttribute('aria-label', `${target.name}: ${verdictNames[verdict]}`);
+    button.setAttribute('aria-label', `${target.name}: ${verdictNames[verdict]}, ${hidden} hidden`);
     button.addEventListener('click', () => choose(target.name));
     list.append(button);
   }

@@ -10,12 +10,14 @@ function stored(): Theme | null {
     const value = localStorage.getItem(key);
     return value === 'light' || value === 'dark' ? value : null;
   } catch {
-    return null; // storage is off: the system's choice holds
+    return null; // storage is off
   }
 }
 
 /** Light or dark: as the system says, until the user chooses. */
 export class ThemeSwitch {
+  private chosen = stored();
+
   constructor(
     private readonly button: HTMLButtonElement,
     private readonly changed: () => void,
@@ -26,14 +28,15 @@ export class ThemeSwitch {
   }
 
   get theme(): Theme {
-    return stored() ?? (dark.matches ? 'dark' : 'light');
+    return this.chosen ?? (dark.matches ? 'dark' : 'light');
   }
 
   toggle(): void {
+    this.chosen = this.theme === 'dark' ? 'light' : 'dark';
     try {
-      localStorage.setItem(key, this.theme === 'dark' ? 'light' : 'dark');
+      localStorage.setItem(key, this.chosen);
     } catch {
-      return;
+      // storage is off: the choice holds until the page is left
     }
     this.apply();
   }

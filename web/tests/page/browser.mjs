@@ -5,7 +5,7 @@ import { once } from 'node:events';
 import { existsSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import path from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
@@ -75,6 +75,23 @@ export async function open(browser, url, options = desktop) {
     seconds: (performance.now() - start) / 1000,
     close: () => context.close(),
   };
+}
+
+/** A page that is one file. It notes what must not happen: words on the console, any request. */
+export async function openFile(browser, file, options = desktop) {
+  const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
+  const page = await context.newPage();
+  const faults = [];
+  const address = pathToFileURL(file).href;
+  page.on('console', (message) => faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (url !== address && !url.startsWith('data:')) faults.push(`asks for ${url}`);
+  });
+  await page.goto(address);
+  await drawn(page);
+  return { page, faults, close: () => context.close() };
 }
 
 /** Two frames on: what was asked for is on the screen. */

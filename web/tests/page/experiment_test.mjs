@@ -6,8 +6,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import { desktop, drawn, launch, phone, program } from './browser.mjs';
+import { desktop, launch, openFile, phone, program } from './browser.mjs';
 
 const seconds = 8; // the robot hides the wrist meanwhile
 let browser, folder, html, metrics;
@@ -37,20 +36,10 @@ const held = (id) => JSON.parse(html.match(new RegExp(`id="${id}">([^]*?)</scrip
 
 /** Opens a page and fails for whatever it complains of or asks for. */
 async function visit(options, file = path.join(folder, 'report.html')) {
-  const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
-  const page = await context.newPage();
-  const faults = [];
-  const address = pathToFileURL(file).href;
-  page.on('console', (message) => faults.push(message.text()));
-  page.on('pageerror', (error) => faults.push(error.message));
-  page.on('request', (request) => {
-    if (request.url() !== address && !request.url().startsWith('data:')) faults.push(request.url());
-  });
-  await page.goto(address);
-  await drawn(page);
+  const { page, faults, close: closePage } = await openFile(browser, file, options);
   const close = async () => {
     assert.deepEqual(faults, []);
-    await context.close();
+    await closePage();
   };
   return { page, close };
 }

@@ -182,10 +182,39 @@ test('frames appear as they are judged', async () => {
   await page.keyboard.press('End');
   await page.waitForFunction(() => document.getElementById('frame-number').textContent === '2');
   judged = 12;
-  await page.getByText('12 frames', { exact: true }).waitFor();
+  await page.locator('#mode').getByText('12 frames', { exact: true }).waitFor();
   await page.keyboard.press('End');
   await showsFrame(page, 11);
   assert.deepEqual([...new Set(asked)], [0, 3], 'what is known is not fetched again');
+  await context.close();
+});
+
+test('a server that dies while it judges is told, and so is its return', async () => {
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  let judged = 0;
+  await page.route('**/api/report*', async (route) => {
+    const from = Number(new URL(route.request().url()).searchParams.get('from'));
+    const report = JSON.parse((await (await route.fetch()).body()).toString());
+    const frames = report.frames.slice(0, Math.max(0, judged - from));
+    await route.fulfill({ json: { ...report, frames, summary: null } });
+  });
+  const dies = () => page.route('**/api/**', (route) => route.abort());
+  const returns = () => page.unroute('**/api/**');
+  await page.goto(server.url);
+  await page.getByText('Judging the first frame').waitFor();
+  await dies();
+  await page.locator('#cover .fault', { hasText: 'does not answer' }).waitFor();
+  await returns();
+  judged = 3;
+  await showsFrame(page, 0);
+  assert.match(await page.locator('#mode').textContent(), /^3 of 12 frames, judging$/);
+  assert.equal(await page.locator('#mode-said').textContent(), 'judging');
+  await dies();
+  await page.locator('#mode.fault', { hasText: 'does not answer · 3 frames so far' }).waitFor();
+  assert.match(await page.locator('#mode-said').textContent(), /does not answer$/);
+  await returns();
+  await page.locator('#mode:not(.fault)', { hasText: '3 of 12 frames, judging' }).waitFor();
   await context.close();
 });
 

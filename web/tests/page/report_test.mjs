@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { example, launch, program } from './browser.mjs';
+import { example, launch, openFile, program } from './browser.mjs';
 
 let browser, folder;
 
@@ -42,6 +42,26 @@ test('a run without targets has a report, with dashes for their time', async () 
   assert.deepEqual(rows.targets, ['–', '–', '–']);
   assert.match(rows.render[0], /^[\d.]+ ms$/);
   assert.match(tiles.at(-1), /[\d.]+ ms.*kinematics, render, classify$/);
+});
+
+test('the playhead of a report goes to its ends', async () => {
+  const { page, faults, close } = await openFile(browser, path.join(folder, 'report.html'));
+  const playhead = page.locator('.playhead');
+  await playhead.focus();
+  for (const [key, frame] of [
+    ['End', 11],
+    ['ArrowLeft', 10],
+    ['Home', 0],
+    ['ArrowRight', 1],
+  ]) {
+    await page.keyboard.press(key);
+    assert.equal(await playhead.getAttribute('aria-valuenow'), String(frame), key);
+  }
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('End');
+  assert.equal(await playhead.getAttribute('aria-valuenow'), '1', 'elsewhere the page scrolls');
+  assert.deepEqual(faults, []);
+  await close();
 });
 
 test('pixels and times that no frame told are dashes, not zeros', async () => {

@@ -338,6 +338,85 @@ test('light and dark: the system’s, until one is chosen', async () => {
   });
 });
 
+test('light and dark can be chosen where nothing may be stored', async () => {
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  await page.addInitScript(() =>
+    Object.defineProperty(window, 'localStorage', {
+      get() {
+        throw new DOMException('off', 'SecurityError');
+      },
+    }),
+  );
+  await page.goto(server.url);
+  await showsFrame(page, 0);
+  for (const theme of ['dark', 'light']) {
+    await page.click('#theme');
+    assert.equal(await page.locator('html').getAttribute('data-theme'), theme);
+  }
+  await context.close();
+});
+
+test('layers are radio buttons to the keyboard, and arrows step elsewhere', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    await showsFrame(page, 3);
+    const focused = () => page.evaluate(() => document.activeElement.dataset.layer);
+    const checked = () => page.locator('#layers [aria-checked=true]').getAttribute('data-layer');
+    assert.equal(await page.locator('#layers [tabindex="0"]').count(), 1, 'one stop for tab');
+    await page.focus('#layers [aria-checked=true]');
+    for (const [key, layer] of [
+      ['ArrowRight', 'labels'],
+      ['ArrowDown', 'links'],
+      ['ArrowLeft', 'labels'],
+      ['End', 'depth'],
+      ['ArrowRight', 'overlay'],
+      ['ArrowUp', 'depth'],
+      ['Home', 'overlay'],
+    ]) {
+      await page.keyboard.press(key);
+      assert.deepEqual([await focused(), await checked()], [layer, layer], key);
+    }
+    assert.equal(await frameShown(page), 3, 'no frame was stepped');
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press('ArrowRight');
+    await showsFrame(page, 4);
+  }));
+
+test('the button says what it does', () =>
+  withPage('/', desktop, async (page) => {
+    const name = () => page.locator('#play').getAttribute('aria-label');
+    assert.equal(await name(), 'Play');
+    await page.selectOption('#speed', '0.25');
+    await page.click('#play');
+    assert.equal(await name(), 'Pause');
+    await page.click('#play');
+    assert.equal(await name(), 'Play');
+  }));
+
+test('the list says how much is hidden, by robot and others, as the overlay does', () =>
+  withPage('/', desktop, async (page) => {
+    let others = 0;
+    for (const frame of report.frames) {
+      await showsFrame(page, frame.index);
+      const shown = await page
+        .locator('#target-list [data-target]')
+        .evaluateAll((all) =>
+          all.map((one) => [one.querySelector('.amount').textContent, one.ariaLabel]),
+        );
+      frame.targets.forEach((target, i) => {
+        // As io/target_overlay.cpp writes it at the target.
+        const isTold = target.verdict !== 'unknown' && target.inside > 0;
+        const share = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
+        const text = isTold ? `${Math.round(100 * share)} %` : '–';
+        assert.equal(shown[i][0], text, `frame ${frame.index}: ${target.name}`);
+        assert.ok(shown[i][1].endsWith(`${text} hidden`), shown[i][1]);
+        others += isTold && target.hidden_by_other_fraction > 0.1 ? 1 : 0;
+      });
+      await page.keyboard.press('ArrowRight');
+    }
+    assert.ok(others > 0, 'there is one that others hide');
+  }));
+
 test('keys are told, and the page can be used by keys alone', () =>
   withPage('/', desktop, async (page) => {
     await page.keyboard.press('?');
@@ -382,6 +461,11 @@ for (const width of [360, 390])
         () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
       );
       assert.equal(overflow, 0, 'nothing sticks out at the side');
+      const mode = await page.locator('#mode').evaluate((node) => ({
+        whole: node.scrollWidth <= node.clientWidth,
+        text: node.textContent,
+      }));
+      assert.deepEqual(mode, { whole: true, text: '12 frames' });
       assert.ok(await page.locator('#scene').isVisible());
       await page.tap('[data-view=picture]');
       assert.ok(!(await page.locator('#scene').isVisible()));

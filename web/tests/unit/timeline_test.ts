@@ -5,11 +5,14 @@ import { nextOnset, onsets } from '../../src/model/occlusions';
 import {
   condense,
   graver,
+  hiddenShare,
+  hiderOf,
   largest,
   runsOf,
   sampleOf,
   secondsOf,
   tracksOf,
+  type Sample,
 } from '../../src/model/timeline';
 import { frame, framesOf, target } from './support';
 
@@ -55,6 +58,32 @@ test('condensing loses no hidden frame', () => {
     assert.ok(Math.abs((hidden[0] as number) - (617 * columns) / 1000) <= 1);
   }
   assert.equal(condense(samples, 2000, graver).length, 1000);
+});
+
+test('a pixel is visible where all of its frames are', () => {
+  const [track] = tracksOf(framesOf({ cup: 'vo.puh' }));
+  const samples = track?.samples ?? [];
+  const order = [...samples]; // each one graver than those before it
+  for (const [i, less] of order.entries())
+    for (const more of order.slice(i)) {
+      assert.equal(graver(less ?? null, more ?? null), more);
+      assert.equal(graver(more ?? null, less ?? null), more);
+    }
+  const seldom = tracksOf(framesOf({ cup: 'vv.vovpvvu' }))[0]?.samples ?? [];
+  assert.deepEqual(
+    condense(seldom, 5, graver).map((sample) => sample?.verdict ?? null),
+    ['visible', null, 'out_of_view', 'partial', 'unknown'],
+  );
+});
+
+test('of two that are hidden the one that is hidden more, by whomever', () => {
+  const by = (occluded: number, other: number): Sample =>
+    sampleOf(
+      target('cup', 'partial', { occluded_fraction: occluded, hidden_by_other_fraction: other }),
+    );
+  assert.equal(graver(by(0.2, 0), by(0, 0.5))?.other, 0.5);
+  assert.equal(hiderOf(by(0, 0.5)), 'others');
+  assert.equal(hiddenShare(by(0.25, 0.5)), 0.75);
 });
 
 test('runs cover all', () => {

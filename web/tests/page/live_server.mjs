@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Live frames made up here, of a stored one: any age, rate, verdict or damage, without cameras.
+
+/** The JSON of a packet, and the bytes of its parts. */
+function headOf(packet) {
+  const length = packet.readUInt32LE(0);
+  const head = JSON.parse(packet.subarray(4, 4 + length).toString());
+  return { head, parts: packet.subarray(4 + length) };
+}
+
+function packetOf(head, parts) {
+  const json = Buffer.from(JSON.stringify(head));
+  const length = Buffer.alloc(4);
+  length.writeUInt32LE(json.length);
+  return Buffer.concat([length, json, parts]);
+}
+
+/**
+ * Makes a page that is opened next a live one.
+ * @param url of a server of a recording, whose robot and frame 3 are shown
+ */
+export async function playLive(page, url) {
+  const query = '/api/frames/3/packet?with=color,labels,cloud,vdi,depth&step=6';
+  const stored = Buffer.from(await (await fetch(new URL(query, url))).arrayBuffer());
+  const { head, parts } = headOf(stored);
+  const session = await (await fetch(new URL('/api/session', url))).json();
+  const state = { sent: 0, asked: 0, connections: 0, socket: null, missing: [] };
+  await page.route('**/api/session', (route) =>
+    route.fulfill({
+      json: {
+        ...session,
+        mode: 'live',
+        complete: false,
+        parts: session.parts.filter((part) => !['links', 'overlay'].includes(part)),
+        missing: state.missing,
+        diagnostics: [],
+      },
+    }),
+  );
+  await page.routeWebSocket('**/api/live', (socket) => {
+    state.socket = socket;
+    ++state.connections;
+    socket.onMessage((message) => (state.asked += JSON.parse(message).type === 'ready' ? 1 : 0));
+  });
+
+  /** Sends a frame once the page has asked for one. */
+  state.send = async ({ age = 20, rate = 10, damage = false, verdict } = {}) => {
+    for (let tries = 0; state.asked <= state.sent; ++tries) {
+      if (tries > 500) throw new Error('the page asks for no frame');
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+    const targets = head.frame.targets.map((target) => ({
+      ...target,
+      verdict: verdict ?? target.verdict,
+    }));
+    const index = ++state.sent;
+    const live = { age_ms: age, dropped: 0, rate_hz: rate, missing: [], diagnostics: [] };
+    const packet = packetOf({ ...head, frame: { ...head.frame, index, targets }, live }, parts);
+    state.socket.send(damage ? packet.subarray(0, packet.length - 5) : packet);
+    return index;
+  };
+  return state;
+}
