@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page beside penumbra live, on a real recording played as if it were live.
-// PENUMBRA_LIVE_SECONDS=300: as long, with memory that has to stay flat.
+// PENUMBRA_FULL=1: five minutes of 1280x720 at 30 Hz, on a machine that does nothing else: lag and
+// rates are asserted then. PENUMBRA_LIVE_SECONDS and PENUMBRA_LIVE_RATE change length and rate.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { existsSync } from 'node:fs';
@@ -14,8 +15,17 @@ import { desktop, launch, program, root } from './browser.mjs';
 const data = process.env.PENUMBRA_DATA ?? path.join(root, '../shared/data');
 const bag = path.join(data, 'xarm7_realsense/xarm7.mcap');
 const meshes = `xarm_description=${path.join(data, 'robots/xarm7/xarm_description')}`;
-const seconds = Number(process.env.PENUMBRA_LIVE_SECONDS ?? 6);
-const rate = process.env.PENUMBRA_LIVE_RATE ?? '10'; // times one image a second
+const full = Boolean(process.env.PENUMBRA_FULL);
+const seconds = Number(process.env.PENUMBRA_LIVE_SECONDS ?? (full ? 300 : 6));
+const rate = process.env.PENUMBRA_LIVE_RATE ?? (full ? '30' : '10'); // times one image a second
+// What is promised, where nothing else runs. The short run shares two cores with compilers and
+// other tests: there it only finds a page that falls behind further and further, or hardly draws.
+const mostLag = full ? 300 : 5000; // milliseconds, median
+// Of the frames that are published, those that are shown: here a CPU draws, one frame in some 100 ms.
+const leastShare = full ? 0.15 : 0.02;
+const leastShown = full ? 4 : 0.3; // frames in a second
+// The page's own count of two seconds against ours of all: they end at other frames.
+const mostMiscount = full ? 0.25 : 1;
 const mostHeapGrowth = 8 * 2 ** 20; // bytes, after garbage is collected
 const mostServerGrowth = 24 * 2 ** 20;
 const patience = 60_000; // milliseconds
@@ -63,6 +73,45 @@ const showsLive = (page) =>
 
 const frameOf = async (page) => Number(await page.locator('#frame-number').textContent());
 
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+/** Looks for the test's time: what the page says of itself each second, and the frames it drew. */
+async function watched(page) {
+  const start = await page.evaluate(() => {
+    const main = document.getElementById('main');
+    window.framesDrawn = 0;
+    const count = () => ++window.framesDrawn;
+    new MutationObserver(count).observe(main, { attributeFilter: ['data-shown'] });
+    return performance.now();
+  });
+  const samples = [];
+  for (let second = 0; second < seconds; ++second) {
+    await page.waitForTimeout(1000);
+    samples.push(await page.locator('#mode').evaluate((mode) => ({ ...mode.dataset })));
+  }
+  const drawn = await page.evaluate((since) => {
+    return (1000 * window.framesDrawn) / (performance.now() - since);
+  }, start);
+  const of = (key) => samples.map((sample) => Number(sample[key]));
+  return {
+    lag: median(of('lag')),
+    mostLag: Math.max(...of('lag')),
+    published: median(of('rate')),
+    said: median(of('shown')),
+    shown: drawn,
+  };
+}
+
+/** The frame that stays, once those that were on their way are drawn. */
+async function heldFrame(page) {
+  for (let tries = 0; tries < 5; ++tries) {
+    const before = await frameOf(page);
+    await page.waitForTimeout(2000);
+    if ((await frameOf(page)) === before) return before;
+  }
+  throw new Error('frames go on while the page is paused');
+}
+
 async function heapOf(page) {
   const session = await page.context().newCDPSession(page);
   await session.send('HeapProfiler.collectGarbage');
@@ -97,29 +146,28 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
   await showsLive(page);
   await page.waitForTimeout(3000); // buffers grow to what a frame needs
   const [heap, resident] = [await heapOf(page), await residentOf(view.child)];
-  const first = await frameOf(page);
-  const lags = [];
-  for (let second = 0; second < seconds; ++second) {
-    await page.waitForTimeout(1000);
-    lags.push(Number(await page.locator('#mode').getAttribute('data-lag')));
-  }
+  const told = await watched(page);
   const shown = await page.locator('#mode').textContent();
-  assert.ok((await frameOf(page)) > first, 'frames came');
-  lags.sort((a, b) => a - b);
   const growth = (await heapOf(page)) - heap;
   const served = (await residentOf(view.child)) - resident;
   console.log(
-    `${seconds} s: ${shown}; lag median ${lags[lags.length >> 1]} ms, most ${lags.at(-1)} ms; ` +
+    `${seconds} s: ${shown}; lag median ${told.lag} ms, most ${told.mostLag} ms; ` +
+      `published ${told.published.toFixed(1)} Hz, shown ${told.shown.toFixed(1)} Hz; ` +
       `page's heap ${(growth / 2 ** 20).toFixed(1)} MiB more, server ${(served / 2 ** 20).toFixed(1)} MiB more`,
   );
+  assert.ok(told.lag < mostLag, `lag of ${told.lag} ms`);
+  assert.ok(told.shown > leastShown, `${told.shown} frames shown in a second`);
+  assert.ok(
+    told.shown > leastShare * told.published,
+    `${told.shown} of ${told.published} Hz shown`,
+  );
+  const miscount = Math.abs(told.said - told.shown) / told.shown;
+  assert.ok(miscount < mostMiscount, `${told.said} Hz said, ${told.shown} Hz shown`);
   assert.ok(growth < mostHeapGrowth, `${growth} bytes`);
   assert.ok(served < mostServerGrowth, `${served} bytes`);
 
   await page.click('#play');
-  await page.waitForTimeout(500);
-  const held = await frameOf(page);
-  await page.waitForTimeout(1500);
-  assert.equal(await frameOf(page), held, 'paused');
+  const held = await heldFrame(page);
   assert.match(await page.locator('#mode').textContent(), /^paused/);
   const drawnFrame = (await page.locator('#main').getAttribute('data-shown')).split(' ')[0];
   assert.equal(drawnFrame, String(held), 'numbers and picture are of one frame');
@@ -130,16 +178,18 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
   );
 
   await stop(camera);
-  await page.getByText(/no new frame for \d s/).waitFor();
+  await page.locator('#mode', { hasText: /no new frame for \d+ s/ }).waitFor();
   await page.locator('#missing-button.fault').waitFor();
-  assert.match(await page.locator('#missing').textContent(), /nobody publishes/);
-  assert.match(await page.locator('html').getAttribute('class'), /stale/);
+  await page
+    .locator('#missing', { hasText: 'nobody publishes' })
+    .waitFor({ state: 'attached', timeout: patience });
+  await page.locator('html.stale').waitFor(); // frames that were on their way came, too
   playing();
   await showsLive(page);
   assert.doesNotMatch(await page.locator('html').getAttribute('class'), /stale/);
 
   await stop(view.child);
-  await page.getByText('no connection: trying again').waitFor();
+  await page.locator('#mode', { hasText: 'no connection: trying again' }).waitFor();
   await viewLive(new URL(view.url).port);
   await showsLive(page);
   assert.equal(scenes, 2, 'the new program’s robot is fetched, though its version is the same');

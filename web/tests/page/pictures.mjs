@@ -8,8 +8,12 @@ import { fileURLToPath } from 'node:url';
 const folder = fileURLToPath(new URL('baselines', import.meta.url));
 const failed = fileURLToPath(new URL('failed', import.meta.url));
 
-/** Runs in the page: mean difference of blocks of 8 x 8 pixels, 0 to 255, of two PNGs. */
-async function blockDifferences([one, other]) {
+/**
+ * Runs in the page: of two PNGs, by how much the mean colour of each block of 8 x 8 pixels differs,
+ * 0 to 255. A line or a word that moves by a pixel changes that little, one that is gone a lot.
+ * @returns the differences within each of the boxes; null where the pictures' sizes differ
+ */
+async function blockDifferences([one, other, boxes]) {
   const pixelsOf = async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
@@ -20,14 +24,28 @@ async function blockDifferences([one, other]) {
   };
   const [a, b] = [await pixelsOf(one), await pixelsOf(other)];
   if (a.width !== b.width || a.height !== b.height) return null;
-  const columns = Math.ceil(a.width / 8);
-  const sums = new Float64Array(columns * Math.ceil(a.height / 8));
-  for (let i = 0; i < a.data.length; ++i) {
-    const pixel = i >> 2;
-    const at = ((pixel / a.width) >> 3) * columns + ((pixel % a.width) >> 3);
-    if ((i & 3) < 3) sums[at] += Math.abs(a.data[i] - b.data[i]);
-  }
-  return Array.from(sums, (sum) => sum / (3 * 64));
+  const difference = (left, top, right, bottom) => {
+    const sums = [0, 0, 0];
+    for (let y = top; y < bottom; ++y)
+      for (let x = left; x < right; ++x)
+        for (let channel = 0; channel < 3; ++channel) {
+          const at = 4 * (y * a.width + x) + channel;
+          sums[channel] += a.data[at] - b.data[at];
+        }
+    return Math.max(...sums.map(Math.abs)) / ((right - left) * (bottom - top));
+  };
+  const whole = { x: 0, y: 0, width: a.width, height: a.height };
+  return (boxes ?? [whole]).map((box) => {
+    const [right, bottom] = [
+      Math.min(a.width, Math.floor(box.x + box.width)),
+      Math.min(a.height, Math.floor(box.y + box.height)),
+    ];
+    const found = [];
+    for (let y = Math.max(0, Math.ceil(box.y)); y < bottom; y += 8)
+      for (let x = Math.max(0, Math.ceil(box.x)); x < right; x += 8)
+        found.push(difference(x, y, Math.min(x + 8, right), Math.min(y + 8, bottom)));
+    return found;
+  });
 }
 
 /** Runs in the page: half as large, as baselines are kept. */
@@ -44,28 +62,50 @@ async function half(base64) {
 
 const base64 = (buffer) => Buffer.from(buffer).toString('base64');
 
-/** Share of blocks that differ by more than a grey value of 6: noise of drawing stays below. */
+const changed = 6; // grey values: noise of drawing stays below
+
+const shareOf = (differences) =>
+  differences.filter((difference) => difference > changed).length / differences.length;
+
+/** Share of blocks that differ. */
 export async function changedShare(page, one, other) {
   const differences = await page.evaluate(blockDifferences, [base64(one), base64(other)]);
-  if (!differences) return 1;
-  return differences.filter((difference) => difference > 6).length / differences.length;
+  return differences ? shareOf(differences[0]) : 1;
+}
+
+/** Runs in the page: where its panels are in a picture of half the size; null: not in the picture. */
+function boxesOf(selectors) {
+  const boxOf = (selector) => {
+    const node = document.querySelector(selector);
+    const { left, top, width, height } = node?.getBoundingClientRect() ?? { width: 0 };
+    if (width === 0 || top >= innerHeight) return null;
+    return { x: left / 2, y: top / 2, width: width / 2, height: height / 2 };
+  };
+  return selectors.map(boxOf);
 }
 
 /**
- * The picture against the one that is kept; PENUMBRA_BASELINES=write keeps it anew.
- * @returns the share of blocks that changed
+ * The page against the picture that is kept; PENUMBRA_BASELINES=write keeps it anew.
+ * @param panels by name where each is: a selector
+ * @returns by panel the share of its blocks that changed; panels that cannot be seen are left out
  */
-export async function againstBaseline(page, name, picture) {
+export async function againstBaseline(page, name, panels) {
   const file = path.join(folder, `${name}.png`);
+  const picture = await page.screenshot();
   const small = Buffer.from(await page.evaluate(half, base64(picture)), 'base64');
   if (process.env.PENUMBRA_BASELINES === 'write') {
     await mkdir(folder, { recursive: true });
     await writeFile(file, small);
-    return 0;
   }
   if (!existsSync(file)) throw new Error(`${file} is not there`);
-  const share = await changedShare(page, await readFile(file), small);
+  const boxes = await page.evaluate(boxesOf, Object.values(panels));
+  const seen = Object.keys(panels).filter((_, index) => boxes[index]);
+  const kept = base64(await readFile(file));
+  const all = [kept, base64(small), boxes.filter((box) => box)];
+  const differences = await page.evaluate(blockDifferences, all);
   await mkdir(failed, { recursive: true });
   await writeFile(path.join(failed, `${name}.png`), small);
-  return share;
+  return Object.fromEntries(
+    seen.map((panel, index) => [panel, differences ? shareOf(differences[index]) : 1]),
+  );
 }
