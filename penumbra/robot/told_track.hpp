@@ -243,11 +243,13 @@ class ToldTrack {
     }
   }
 
-  /// Whether a source tells what another one told before, since it began itself.
-  [[nodiscard]] bool is_echo(const Source& by, const State& state) const {
+  /// Whether a source tells what another one told before, since it began itself; `for_sure`: not
+  /// by chance.
+  [[nodiscard]] bool is_echo(const Source& by, const State& state, bool for_sure) const {
     const std::int64_t since = std::max(by.began, stamp_after(state.stamp, -longest_lag));
     return std::any_of(sources_.begin(), sources_.end(), [&](const Source& source) {
-      return &source != &by && has_told(rule_, source.track, since, state.stamp, state.value);
+      return &source != &by && has_told(rule_, source.track, since, state.stamp, state.value) &&
+             (!for_sure || is_telling(rule_, source.track, since, state.stamp, state.value));
     });
   }
 
@@ -259,9 +261,9 @@ class ToldTrack {
     if (has_told(rule_, by.track, stamp_after(state.stamp, -2 * longest_lag), state.stamp,
                  state.value))
       return;
-    if (is_echo(by, state))
+    if (is_echo(by, state, true))
       by.evidence.add_echo();
-    else
+    else if (!is_echo(by, state, false))
       by.evidence.add_own(state.stamp);
   }
 
@@ -301,7 +303,8 @@ class ToldTrack {
   [[nodiscard]] bool moves_on(const Source& by, const State& state, std::int64_t after) const {
     const auto since = by.track.states().subspan(by.track.up_to(after).size());
     return by.evidence.is_own() && !since.empty() &&
-           rule_.distance(since.front().value, state.value) > rule_.noise() && !is_echo(by, state);
+           rule_.distance(since.front().value, state.value) > rule_.noise() &&
+           !is_echo(by, state, false);
   }
 
   /// Compares a new state with what its source told of the very stamp.

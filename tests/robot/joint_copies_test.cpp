@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -100,7 +101,7 @@ TEST(JointCopies, ALateOneIsNotTheDriverThatDies) {
   for (const std::int64_t late : {100 * ms, 450 * ms, 600 * ms, 900 * ms})
     for (const double speed : {0.2, 1.0}) {
       Program driver = driver_of();
-      driver.way = moving(speed), driver.end = 4000 * ms;
+      driver.way = moving_on(speed), driver.end = 4000 * ms;
       const auto out = OneJoint().live({driver, copier(driver, late)});
       EXPECT_EQ(check(out, driver.way, 4000 * ms, 9000 * ms).known, 0) << late / ms << " ms";
     }
@@ -159,15 +160,41 @@ TEST(JointCopies, ADriverThatTellsTheSameAgainIsNone) {
   }
 }
 
+/// A number of ticks of an encoder with so many of them a turn.
+Way read(const Way& way, double ticks) {
+  const double tick = 2.0 * std::numbers::pi / ticks;
+  return [=](std::int64_t t) { return std::round(way(t) / tick) * tick; };
+}
+
+TEST(JointCopies, CommandsInTheTicksOfTheEncoderAreNotTheDriver) {
+  // All numbers of the driver were commanded before.
+  for (const double ticks : {4096.0, 360.0})
+    for (const std::int64_t ahead : {30 * ms, 60 * ms, 250 * ms})
+      for (const std::int64_t period : {2 * ms, 10 * ms, 20 * ms}) {
+        Program driver = driver_of();
+        driver.way = read(swing, ticks);
+        const Way commanded = [=](std::int64_t t) { return driver.way(t + ahead); };
+        const Program commands{.source = "commands",
+                               .way = commanded,
+                               .period = period,
+                               .first = 5 * ms,
+                               .end = 9000 * ms};
+        check(OneJoint().live({driver, commands}), swing, recognised, 8800 * ms,
+              tolerance + 2.0 * std::numbers::pi / ticks);
+      }
+}
+
 TEST(JointCopies, TwoThatReadOneEncoderAreKnown) {
-  // Ticks of 4096 a turn: both tell the same numbers, now the one first and now the other.
-  const Way ticks = [](std::int64_t t) { return std::round(swing(t) / 0.00153) * 0.00153; };
-  for (const std::int64_t period : {10 * ms, 13 * ms, 50 * ms}) {
+  // Both tell the same numbers, now the one first and now the other, or the quick one always.
+  for (const std::int64_t period : {2 * ms, 10 * ms, 13 * ms, 50 * ms}) {
+    const Way ticks = read(swing, 4096.0);
     const auto out = OneJoint().live(
         {{.source = "a", .way = ticks, .end = 9000 * ms},
-         {.source = "b", .way = ticks, .period = period, .first = 4 * ms, .end = 9000 * ms}});
-    const Frames frames = check(out, swing, recognised, 8800 * ms);
-    EXPECT_GT(frames.known, frames.all * 99 / 100) << period / ms;
+         {.source = "b", .way = ticks, .period = period, .first = 4 * ms, .end = 5000 * ms}});
+    const Frames both = check(out, swing, recognised, 4800 * ms);
+    EXPECT_GT(both.known, both.all * 99 / 100) << period / ms;
+    const Frames one = check(out, swing, 6500 * ms, 8800 * ms);
+    EXPECT_EQ(one.known, one.all) << period / ms << ", since the other one ended";
   }
 }
 

@@ -114,7 +114,7 @@ TEST(JointSilence, ASeldomDriverIsNotItsCopy) {
       OneJoint joint;
       const auto out = joint.live(
           {driver, {.source = "other", .way = other, .first = 5 * ms, .end = 5000 * ms}});
-      check(out, arm, 0, 5000 * ms);
+      check(out, arm, 0, 5000 * ms, tolerance + 2e-3);  // what its way bends in half a second
     }
   }
 }

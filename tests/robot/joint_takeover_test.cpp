@@ -16,19 +16,17 @@ constexpr double exact = 1e-9;
 TEST(JointTakeover, TheOtherOneDoesNotTakeOverWhereTheDriverEnds) {
   // Sliders that contradicted it, and a copy that sends on its last value. What is known until it
   // ends is the driver's; then nothing, until the driver is forgotten.
-  const Way way = moving(1.0);
-  const Way last = [&](std::int64_t t) {
-    return way(std::min(t / (20 * ms) * (20 * ms), 980 * ms));
-  };
-  for (const Way& other : {standing(-3.0), last}) {
+  constexpr double bend = 1e-3 * 13.0 * 13.0 * 0.02 * 0.02 / 8.0;  // between its states, rad
+  const Way way = moving_on(1.0);
+  const Program driver{.source = "driver", .way = way, .period = 20 * ms, .end = 1000 * ms};
+  for (const Way& other : {standing(-3.0), copy_of(driver, 0)}) {
     OneJoint joint;
     const auto out =
-        joint.live({{.source = "driver", .way = way, .period = 20 * ms, .end = 1000 * ms},
-                    {.source = "other", .way = other, .first = 5 * ms, .end = 8000 * ms}});
+        joint.live({driver, {.source = "other", .way = other, .first = 5 * ms, .end = 8000 * ms}});
     for (const auto& [stamp, status, value] : out) {
       if (stamp < 250 * ms || status != JointStatus::ok) continue;
       ASSERT_LE(stamp, 980 * ms) << "what is known of " << value;
-      ASSERT_NEAR(value, way(stamp), exact);
+      ASSERT_NEAR(value, way(stamp), bend);
     }
     EXPECT_EQ(joint.count(JointStatus::ok, 1000 * ms, 7900 * ms), 0);
   }
@@ -51,15 +49,15 @@ TEST(JointTakeover, WhoMovesOnItsOwnTakesOver) {
 
 TEST(JointTakeover, TheNextStateOfTheDriverIsWaitedFor) {
   // Its copy tells ten times as often, with stamps of its own.
-  const Way way = moving(1.0);
-  const Way copy = [&](std::int64_t t) { return way(t / (100 * ms) * (100 * ms)); };
+  constexpr double bend = 1e-3 * 13.0 * 13.0 * 0.1 * 0.1 / 8.0;  // between its states, rad
+  const Program driver{.source = "driver", .way = moving_on(1.0), .period = 100 * ms};
   OneJoint joint;
-  const auto out = joint.live({{.source = "driver", .way = way, .period = 100 * ms},
-                               {.source = "copy", .way = copy, .first = 3 * ms}});
+  const auto out =
+      joint.live({driver, {.source = "copy", .way = copy_of(driver, 0), .first = 3 * ms}});
   for (const auto& [stamp, status, value] : out) {
-    if (stamp < 250 * ms) continue;
+    if (stamp < 350 * ms) continue;  // two of its numbers are known to be the driver's
     ASSERT_EQ(status, JointStatus::ok) << stamp;
-    ASSERT_NEAR(value, way(stamp), exact) << stamp;
+    ASSERT_NEAR(value, driver.way(stamp), bend) << stamp;
   }
 }
 

@@ -26,6 +26,12 @@ using Way = std::function<double(std::int64_t)>;
 inline Way moving(double speed) {
   return [=](std::int64_t t) { return speed * 1e-9 * static_cast<double>(t - 1000 * ms); };
 }
+/// Likewise, but for 1 mrad that no two of its steps are alike by, as of an arm.
+inline Way moving_on(double speed) {
+  return [=](std::int64_t t) {
+    return moving(speed)(t) + 0.001 * std::sin(13e-9 * static_cast<double>(t));
+  };
+}
 inline Way standing(double at) {
   return [=](std::int64_t) { return at; };
 }
@@ -151,11 +157,12 @@ class OneJoint {
   JointAnswer answer_;
 };
 
-/// From 0 at `start` with 5 rad/s^2 up to 1 rad/s, to `far`.
+/// From 0 at `start` with 5 rad/s^2 up to 1 rad/s, where it swings by some percent, to `far`.
 inline Way starting_at(std::int64_t start, double far = 2.0) {
   return [=](std::int64_t t) {
     const double s = std::max(0.0, 1e-9 * static_cast<double>(t - start));
-    return std::min(far, s < 0.2 ? 2.5 * s * s : 0.1 + (s - 0.2));
+    if (s < 0.2) return std::min(far, 2.5 * s * s);
+    return std::min(far, 0.1 + (s - 0.2) + 0.002 * (1.0 - std::cos(11.0 * (s - 0.2))));
   };
 }
 
