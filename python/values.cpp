@@ -42,7 +42,8 @@ bool holds_mask(py::handle source, std::size_t depth) {
 }  // namespace
 
 bool is_masked(py::handle object) {
-  return py::isinstance<py::array>(object) && !py::type::of(object).is(py::type::of(py::array())) &&
+  const auto* const plain = py::detail::npy_api::get().PyArray_Type_;
+  return Py_TYPE(object.ptr()) != plain && py::isinstance<py::array>(object) &&
          py::hasattr(object, "mask");
 }
 

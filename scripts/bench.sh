@@ -6,7 +6,7 @@
 #                             some 15 minutes
 #   scripts/bench.sh --gl     the OpenGL renderer alone, on this machine's device
 #   scripts/bench.sh --quick  a few rounds only, to see that it runs; writes to build/bench/results
-# Run it on a quiet machine. Packages: scripts/packages.sh --install build bench
+# Run it on a quiet machine. Packages: scripts/packages.sh --install build python bench
 set -euo pipefail
 cd "$(dirname "$0")/.."
 rounds=12 results=bench/results page=docs only_gl=false soak=(--soak)
@@ -23,7 +23,7 @@ esac
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
 targets=(gl_benchmark)
-$only_gl || targets+=(compare_renderers scaling target_benchmark pipeline_benchmark penumbra_app)
+$only_gl || targets+=(compare_renderers scaling target_benchmark pipeline_benchmark cpp_alone penumbra_app)
 cmake --build build/bench --target "${targets[@]}"
 mkdir -p "$results"
 if ! $only_gl; then
@@ -40,6 +40,8 @@ if ! $only_gl; then
     --benchmark_out="$results/frames.json" --benchmark_out_format=json |
     tee "$results/frames.txt"
   bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
+  PYTHONPATH=build/bench/python:build/bench/bench "${PYTHON:-/usr/bin/python3}" bench/python_overhead.py \
+    --rounds "$rounds" "${PENUMBRA_DATA:-../shared/data}/xarm7_realsense" | tee "$results/python.txt"
   sed -i '/"host_name"\|"executable"/d' "$results/targets.json" "$results/frames.json"
 fi
 device=$(build/bench/bench/gl_benchmark --name)

@@ -157,6 +157,9 @@ if $full; then
     check "render benchmark runs" build/release/bench/render_benchmark --benchmark_min_time=0.01
     check "label benchmark runs" build/release/bench/label_benchmark \
       --benchmark_min_time=0.01 --benchmark_filter=640x480
+    check "Python costs little beside C++" env PYTHONPATH=build/release/python:build/release/bench \
+      "${PYTHON:-/usr/bin/python3}" bench/python_overhead.py --check \
+      "${PENUMBRA_DATA:-../shared/data}/xarm7_realsense"
   else
     skipped=$((skipped + 1))
     echo "== benchmarks run: skipped: no data"
