@@ -122,10 +122,11 @@ tidy_scope='penumbra|io|apps'
 unity=ON  # many sources at once
 # GCC collects its garbage less often: a tenth of its time, for some 300 MB more.
 quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500000'
-# Each folder of tests once: what reads files and makes meshes is watched by AddressSanitizer, what
-# reckons in numbers alone is not, and ThreadSanitizer looks at the threads of renderer and graph.
-not_in_release=-DPENUMBRA_SKIP_TESTS='base;camera;robot;pipeline;io'
-not_in_asan=-DPENUMBRA_SKIP_TESTS='tracking;fast_dds;house'
+# Each folder of tests in one tree or two: what makes meshes and images is watched by
+# AddressSanitizer, what reads files and reckons in numbers alone is not, and ThreadSanitizer looks at
+# the renderer's threads.
+not_in_release=-DPENUMBRA_SKIP_TESTS='base;camera;robot'
+not_in_asan=-DPENUMBRA_SKIP_TESTS='tracking;pipeline;house'
 not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;camera;robot;occlusion;tracking;pipeline;house'
 if $full; then
   export PENUMBRA_FULL=1
@@ -142,8 +143,8 @@ check format check_format
 check "page is what its sources give" web/check_bundle.sh
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
-# The experiments once more, on other numbers of threads.
-once_more='^Experiment[.]DoesNotDependOnTheNumberOfThreads$'
+# Whole experiments, and once more on other numbers of threads.
+once_more='^Experiment[.](DoesNotDependOnTheNumberOfThreads|Handover.*|Conveyor.*)$'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
   "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&
