@@ -106,6 +106,10 @@ LabelVerdict LabelWatch::judge() const {
   all.unknown += half.unknown;
   all.wrong += half.wrong;
   if (half.wrong > 0) all.first_wrong = half.first_wrong;
+  const auto is_known = [](const HeardLabels& one) { return one.is_known; };
+  const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
+  all.lost_again =
+      static_cast<std::size_t>(heard_.end() - first - std::count_if(first, heard_.end(), is_known));
   return all;
 }
 

@@ -26,6 +26,7 @@ struct HeardLabels {
 /// What label images have come to.
 struct LabelVerdict {
   std::size_t known = 0, unknown = 0, wrong = 0;
+  std::size_t lost_again = 0;    ///< of the unknown, those after the first known
   std::int64_t first_wrong = 0;  ///< stamp
 };
 
