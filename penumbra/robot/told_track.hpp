@@ -390,7 +390,7 @@ class ToldTrack {
   bool compares_;
   std::uint32_t only_ = 0;  // who tells all, where sources_ is empty
   Track all_;
-  std::vector<Source> sources_;  // empty, or two at least
+  std::vector<Source> sources_;  // empty, or two at least, or one that is a copy
   StampedTrack<Contradiction> contradictions_;
 };
 

@@ -67,14 +67,21 @@ template <typename Value, typename Rule>
   return false;
 }
 
-/// The greatest step of which both are multiples, by Euclid's algorithm; as good as none if they
-/// are of no grid.
-[[nodiscard]] inline double common_step(double a, double b) {
-  while (b > 3.0 * same_value) {
-    const double rest = std::fmod(a, b);
-    a = std::exchange(b, std::min(rest, b - rest));
+/// A length that is known to within `error`.
+struct Spacing {
+  double length, error;
+};
+
+/// The greatest length that two are multiples of, by Euclid's algorithm, as far as they are known:
+/// too great a one where that is too little.
+[[nodiscard]] inline Spacing common_step(Spacing a, Spacing b) {
+  if (a.length < b.length) std::swap(a, b);
+  while (true) {
+    const double times = std::round(a.length / b.length);
+    const Spacing rest{std::abs(a.length - times * b.length), a.error + times * b.error};
+    if (rest.length <= 2.0 * rest.error) return b;
+    a = std::exchange(b, rest);
   }
-  return a;
 }
 
 /// Whether it is no chance that a source told a value from one stamp to another: the values that it
@@ -84,15 +91,23 @@ template <typename Value, typename Rule>
 [[nodiscard]] bool is_telling(const Rule& rule, const StampedTrack<Value>& track, std::int64_t from,
                               std::int64_t to, const Value& value) {
   constexpr double farther = 16.0;  // one in so many values of such a grid is hit by chance
-  double grid = 0.0, nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), last = 0.0;
+  Spacing grid{0.0, 0.0};  // none yet
+  const auto take = [&](const Spacing& gap) {
+    if (gap.length > gap.error) grid = grid.length > 0.0 ? common_step(grid, gap) : gap;
+  };
+  // On a grid, how far the others are from the value are multiples of its step, and so are the
+  // differences from one to the next.
   const auto told = track.up_to(to);
-  for (std::size_t i = told.size(); i > 0 && told[i - 1].stamp >= from; --i) {
-    const double away = rule.distance(told[i - 1].value, value);
+  for (auto state = told.rbegin(); state != told.rend() && state->stamp >= from; ++state) {
+    const double away = rule.distance(state->value, value);
     if (away > same_value) nearest = std::min(nearest, away);
-    const double step = i < 2 ? 0.0 : rule.distance(told[i - 2].value, told[i - 1].value);
-    if (step > same_value) grid = common_step(std::max(grid, step), std::min(grid, step));
+    if (state != told.rbegin()) take({std::abs(away - last), 2.0 * same_value});
+    last = away;
   }
-  return grid > 0.0 && nearest >= farther * grid;
+  if (nearest == std::numeric_limits<double>::infinity()) return false;
+  take({nearest, same_value});
+  return nearest >= farther * grid.length;
 }
 
 }  // namespace penumbra

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program that sends on what another one tells: it is seen to, and never answers. One that runs
 // ahead of the driver is no driver, and makes no copy of it. Asked as frames are.
+#include "../support/random.hpp"
 #include "told_sources.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
+
+#include <penumbra/robot/track_ways.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -160,28 +165,76 @@ TEST(JointCopies, ADriverThatTellsTheSameAgainIsNone) {
   }
 }
 
-/// A number of ticks of an encoder with so many of them a turn.
+/// A number of ticks of an encoder with so many of them a turn, to a float's digits as drivers of
+/// servos tell it.
 Way read(const Way& way, double ticks) {
   const double tick = 2.0 * std::numbers::pi / ticks;
-  return [=](std::int64_t t) { return std::round(way(t) / tick) * tick; };
+  return [=](std::int64_t t) {
+    return static_cast<double>(static_cast<float>(std::round(way(t) / tick) * tick));
+  };
 }
 
 TEST(JointCopies, CommandsInTheTicksOfTheEncoderAreNotTheDriver) {
-  // All numbers of the driver were commanded before.
+  // All numbers of the driver were commanded before. Far from 0 a float has fewer digits.
+  const Way quick = [](std::int64_t t) { return 3.0 + 2.0 * swing(t); };
   for (const double ticks : {4096.0, 360.0})
     for (const std::int64_t ahead : {30 * ms, 60 * ms, 250 * ms})
       for (const std::int64_t period : {2 * ms, 10 * ms, 20 * ms}) {
         Program driver = driver_of();
-        driver.way = read(swing, ticks);
+        driver.way = read(quick, ticks);
         const Way commanded = [=](std::int64_t t) { return driver.way(t + ahead); };
         const Program commands{.source = "commands",
                                .way = commanded,
                                .period = period,
                                .first = 5 * ms,
                                .end = 9000 * ms};
-        check(OneJoint().live({driver, commands}), swing, recognised, 8800 * ms,
+        check(OneJoint().live({driver, commands}), quick, recognised, 8800 * ms,
               tolerance + 2.0 * std::numbers::pi / ticks);
       }
+}
+
+struct Turns {
+  double distance(double a, double b) const { return std::abs(a - b); }
+};
+
+TEST(JointCopies, NumbersOfAGridProveNothing) {
+  // Random ways in a float's ticks, up to 200 between two states: no told one proves anything where
+  // a third of those about it are told, too. Of ways on no grid nearly all do, however few.
+  std::mt19937_64 random = seeded_random(24);
+  const auto draw = [&](int to) { return std::uniform_int_distribution<int>(0, to)(random); };
+  constexpr double tick = 2.0 * std::numbers::pi / 4096.0, near = 1e-6;
+  constexpr int about = 8, states = 100;
+  const Turns rule;
+  int dense = 0, told = 0, all = 0;
+  for (int round = 0; round < 3000; ++round) {
+    StampedTrack<double> ticks, free;
+    double at = 2000.0, angle = 1.0, speed = 0.4, way = 1.0;
+    const int longest = 2 + draw(round % 2 == 0 ? 10 : 198), kept = 4 + draw(states - 4);
+    for (int i = 0; i < states; ++i) {
+      if (draw(29) == 0) way = -way;
+      at += way * draw(longest);
+      ticks.put({i, static_cast<double>(static_cast<float>(at * tick))});
+      speed += 0.1 * std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+      angle += 0.1 * speed;
+      if (i < kept) free.put({i, angle});
+    }
+    const double value = ticks.states()[static_cast<std::size_t>(draw(states - 1))].value;
+    int hit = 0;
+    for (int i = -about; i <= about; ++i) {
+      const auto is_there = [&](const auto& s) {
+        return rule.distance(s.value, value + i * tick) < near;
+      };
+      hit += std::ranges::any_of(ticks.states(), is_there) ? 1 : 0;
+    }
+    if (3 * hit >= 2 * about + 1) {
+      ++dense;
+      EXPECT_FALSE(is_telling(rule, ticks, 0, states, value)) << round;
+    }
+    ++all;
+    told += is_telling(rule, free, 0, states, free.states().back().value) ? 1 : 0;
+  }
+  EXPECT_GT(dense, 300);
+  EXPECT_GT(told, all * 9 / 10);
 }
 
 TEST(JointCopies, TwoThatReadOneEncoderAreKnown) {
