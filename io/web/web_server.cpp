@@ -87,7 +87,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void refuse_malformed(beast::error_code error) {
-    if (error == http::error::end_of_stream || error == beast::error::timeout ||
+    if (error == beast::error::timeout) return;  // the stream closed itself: the place is free
+    if (error == http::error::end_of_stream ||
         error.category() != http::make_error_code(http::error::bad_method).category())
       return close();
     keep_alive_ = false;

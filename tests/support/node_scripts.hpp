@@ -23,6 +23,15 @@ struct ScriptResult {
 
 inline std::filesystem::path node_folder() { return PENUMBRA_NODE_FOLDER; }
 
+/// Copies a file unless it is there; another process that reads it finds the old one or the new.
+inline void put_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
+  namespace fs = std::filesystem;
+  if (fs::exists(to) && read_bytes(from) == read_bytes(to)) return;
+  const fs::path part = to.string() + ".part";
+  fs::copy_file(from, part, fs::copy_options::overwrite_existing);
+  fs::rename(part, to);
+}
+
 /// Puts the scripts and npm's packages, of the versions of the lock file, into node_folder(). Tests
 /// run at the same time: the first one installs, the others wait. Whether they are there.
 inline bool node_scripts_are_there() {
@@ -32,9 +41,7 @@ inline bool node_scripts_are_there() {
   const int lock = ::open((node_folder() / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (lock < 0 || ::flock(lock, LOCK_EX) != 0) return false;
   for (const auto& entry : fs::directory_iterator(source))
-    if (entry.is_regular_file())
-      fs::copy_file(entry.path(), node_folder() / entry.path().filename(),
-                    fs::copy_options::overwrite_existing);
+    if (entry.is_regular_file()) put_whole(entry.path(), node_folder() / entry.path().filename());
   const std::string wanted = read_bytes(source / "package-lock.json");
   const fs::path mark = node_folder() / "installed.json";  // the lock file of what is there
   if (!fs::exists(mark) || read_bytes(mark) != wanted) {

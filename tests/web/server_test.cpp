@@ -354,7 +354,11 @@ TEST_F(HurriedTest, ThoseThatAskForNothingLoseTheirPlace) {
   std::vector<WebClient> idle;
   for (int i = 0; i < 4; ++i) idle.push_back(client());
   for (WebClient& one : idle) EXPECT_TRUE(one.is_closed());
-  EXPECT_EQ(client().get("/a").status, 200);
+  // A client sees the end of its connection a moment before the server has counted it.
+  const auto deadline = Clock::now() + 5s;
+  int status = 503;
+  while (status == 503 && Clock::now() < deadline) status = client().get("/a").status;
+  EXPECT_EQ(status, 200);
 }
 
 TEST_F(HurriedTest, RequestsThatDoNotEndAreGivenUp) {
