@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Builds with warnings as errors and runs the tests, with and without sanitizers, the format and
 # clang-tidy.
-#   scripts/test.sh         under 15 minutes on two cores: what is slow is shortened or left out
+#   scripts/test.sh         some 15 minutes on two cores: what is slow is shortened or left out
 #   scripts/test.sh --full  all tests under the sanitizers, long fuzzing and soaks, benchmarks
 # What the packages bring, and the data where its folder is, has to be there: no test skips for it.
 # The last line is "N passed, N failed[, N skipped]"; the exit status is 0 if none failed.
@@ -118,7 +118,7 @@ benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 # UBSan's checks of every pointer take a third of the compilation; most of what they find ASan finds.
 undefined=bool,bounds,builtin,enum,float-cast-overflow,integer-divide-by-zero
 undefined+=,nonnull-attribute,pointer-overflow,return,shift,signed-integer-overflow,unreachable,vla-bound
-tidy_scope='penumbra|io|apps'
+tidy_scope='penumbra|io'
 unity=ON  # many sources at once
 # GCC collects its garbage less often: a tenth of its time, for some 300 MB more.
 quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500000'
@@ -136,15 +136,16 @@ if $full; then
   undefined=undefined
   unity=OFF
   benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=ON
-  tidy_scope+='|sim|tests|examples|bench'
+  tidy_scope+='|apps|sim|tests|examples|bench'
 fi
 
 check format check_format
 check "page is what its sources give" web/check_bundle.sh
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
-# Whole experiments, and once more on other numbers of threads.
+# Whole experiments, once more on other numbers of threads, and what others of their kind test, too.
 once_more='^Experiment[.](DoesNotDependOnTheNumberOfThreads|Handover.*|Conveyor.*)$'
+once_more+='|^Gl[.]RenderersMadeAndDroppedHoldNothing$|^LiveRenderers[.](ADevice|ASummary)'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
   "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&
