@@ -90,8 +90,18 @@ class LiveSoak : public testing::Test {
   void run_steadily(std::chrono::seconds length) {
     std::this_thread::sleep_for(2s);
     before_ = live_->usage();
-    std::this_thread::sleep_for(length);
+    const auto end = before_.when + length;
+    while (std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_until(std::min(end, std::chrono::steady_clock::now() + 1s));
+      note_memory();
+    }
     after_ = live_->usage();
+  }
+
+  /// Once a minute.
+  void note_memory() {
+    if (std::chrono::steady_clock::now() - before_.when < 1min * (minutes_.size() + 1)) return;
+    minutes_.push_back(live_->usage().memory.resident);
   }
 
   /// Ends all, publishers first; of what was written the count is kept.
@@ -166,8 +176,10 @@ class LiveSoak : public testing::Test {
     add_latencies(table);
     table.add("CPU of live, of one core",
               fixed(100 * (after_.cpu_seconds - before_.cpu_seconds) / length) + " %");
-    table.add("resident memory at start and end, MiB",
-              fixed(before_.memory.resident) + ", " + fixed(after_.memory.resident));
+    std::string minutes;
+    for (const double minute : minutes_) minutes += fixed(minute) + ", ";
+    table.add("resident memory at start, after each minute, and at end, MiB",
+              fixed(before_.memory.resident) + ", " + minutes + fixed(after_.memory.resident));
     table.add("open files at start and end", std::to_string(before_.memory.open_files) + ", " +
                                                  std::to_string(after_.memory.open_files));
     return table;
@@ -208,6 +220,7 @@ class LiveSoak : public testing::Test {
   std::unique_ptr<PeerProcess> overlay_;
   std::unique_ptr<LiveProgram> live_;
   ProcessUsage before_, after_;
+  std::vector<double> minutes_;  // MiB after each
   std::size_t written_ = 0;
   Json summary_;
   LabelVerdict verdict_;
@@ -269,8 +282,10 @@ void LiveSoak::soak_in_chaos(std::chrono::seconds length) {
   ASSERT_NO_FATAL_FAILURE(begin(scene, true));
   std::this_thread::sleep_for(1s);
   before_ = live_->usage();
-  while (std::chrono::steady_clock::now() - before_.when < length || recoveries_.empty())
+  while (std::chrono::steady_clock::now() - before_.when < length || recoveries_.empty()) {
     ASSERT_NO_FATAL_FAILURE(break_and_mend(random));
+    note_memory();
+  }
   after_ = live_->usage();
   finish();
   written_ = 0;  // of the last of several processes
