@@ -34,6 +34,7 @@ class Running {
   explicit Running(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), PENUMBRA_PROGRAM);
     std::vector<char*> words;
+    words.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);
     EXPECT_EQ(posix_spawn(&pid_, PENUMBRA_PROGRAM, nullptr, nullptr, words.data(), environ), 0);

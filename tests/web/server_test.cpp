@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The server alone: what it refuses, and what clients that behave badly cost the others.
+#include "../support/run_length.hpp"
 #include "web_client.hpp"
 
 #include <atomic>
@@ -66,7 +67,8 @@ class Echo final : public io::WebHandler {
     if (request.path == "/fault") throw InputError("not there");
     if (request.path == "/bug") throw std::runtime_error("a \"bug\"");
     std::string text = request.path;
-    for (const auto& [name, value] : request.query) text += " " + name + "=" + value;
+    for (const auto& [name, value] : request.query)
+      text.append(" ").append(name).append("=").append(value);
     return {.type = "text/plain", .body = {io::shared_bytes(text)}};
   }
   std::unique_ptr<io::WebChannel> open_channel(const std::string& path) override {
@@ -285,7 +287,7 @@ class SlowClientsTest : public ServerTest {
 // Each asks for 8 MB and takes nothing: unbounded, that would be 1.6 GB.
 TEST_F(SlowClientsTest, CostNoMemoryAndNobodyElsesTime) {
   // Sanitizers make each answer slow to make.
-  constexpr int count = PENUMBRA_IS_SANITIZED ? 40 : 200;
+  constexpr int count = sanitized ? 40 : 200;
   // What the allocator and a sanitizer keep beside the answers themselves.
   constexpr std::size_t allowance = 3 * waiting_bytes;
   const std::size_t before = resident_bytes();
@@ -303,7 +305,7 @@ TEST_F(SlowClientsTest, CostNoMemoryAndNobodyElsesTime) {
     longest = std::max(longest, Clock::now() - start);
   }
   EXPECT_EQ(good.get("/large").body.size(), large_bytes);
-  if (!PENUMBRA_IS_SANITIZED) {
+  if (!sanitized) {
     EXPECT_LT(resident_bytes(), before + allowance);
     // Behind 200 answers of 8 MB that are made at the same time.
     EXPECT_LT(longest, 2s);
@@ -322,7 +324,7 @@ TEST_F(SlowClientsTest, MessagesCountAsAnswersDo) {
     slow.back().send_text("large");
   }
   EXPECT_TRUE(slow.front().is_closed());
-  if (!PENUMBRA_IS_SANITIZED) {
+  if (!sanitized) {
     EXPECT_LT(resident_bytes(), before + allowance);
   }
   EXPECT_EQ(client().get("/a").body, "/a");
@@ -335,6 +337,7 @@ class FewConnectionsTest : public ServerTest {
 
 TEST_F(FewConnectionsTest, MoreAreAnsweredThatThereAreTooMany) {
   std::vector<WebClient> idle;
+  idle.reserve(4);
   for (int i = 0; i < 4; ++i) {
     idle.push_back(client());
     EXPECT_EQ(idle.back().get("/a").status, 200);
@@ -352,6 +355,7 @@ class HurriedTest : public ServerTest {
 
 TEST_F(HurriedTest, ThoseThatAskForNothingLoseTheirPlace) {
   std::vector<WebClient> idle;
+  idle.reserve(4);
   for (int i = 0; i < 4; ++i) idle.push_back(client());
   for (WebClient& one : idle) EXPECT_TRUE(one.is_closed());
   // A client sees the end of its connection a moment before the server has counted it.
@@ -369,6 +373,7 @@ TEST_F(HurriedTest, RequestsThatDoNotEndAreGivenUp) {
 
 TEST_F(ServerTest, ManyClientsAtATimeAreServed) {
   std::vector<std::thread> threads;
+  threads.reserve(8);
   std::atomic<int> right = 0;
   for (int i = 0; i < 8; ++i)
     threads.emplace_back([&] {

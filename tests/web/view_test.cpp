@@ -158,7 +158,8 @@ TEST_F(ViewExampleTest, CloudIsTheDepthUnprojected) {
   std::size_t at = 0;
   for (int v = 0; v < height; v += 3)
     for (int u = 0; u < width; u += 3) {
-      const auto i = static_cast<std::size_t>(v * width + u);
+      const auto i = static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(u);
       float z = 0;
       std::memcpy(&z, served.parts.at("depth").data() + i * sizeof z, sizeof z);
       if (z == 0) continue;

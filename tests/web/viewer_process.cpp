@@ -3,13 +3,13 @@
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +24,7 @@ constexpr int patience_ms = 30'000;
   ::dup2(out, STDOUT_FILENO);
   ::signal(SIGINT, SIG_DFL);
   std::vector<char*> texts;
+  texts.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) texts.push_back(argument.data());
   texts.push_back(nullptr);
   ::execv(texts.front(), texts.data());
