@@ -84,6 +84,20 @@ struct Spacing {
   }
 }
 
+/// The grid that states lie on: the greatest length that all steps from one to the next are
+/// multiples of; 0 where they do not move. Of poses that turn far from their axis longer distances
+/// are no multiples of a tick's.
+template <typename Rule, typename States>
+[[nodiscard]] double grid_of(const Rule& rule, const States& states) {
+  constexpr double error = 2.0 * same_value;  // of a step
+  Spacing grid{0.0, 0.0};
+  for (std::size_t i = states.size(); i > 1; --i) {
+    const Spacing step{rule.distance(states[i - 2].value, states[i - 1].value), error};
+    if (step.length > error) grid = grid.length > 0.0 ? common_step(grid, step) : step;
+  }
+  return grid.length;
+}
+
 /// Whether it is no chance that a source told a value from one stamp to another: the values that it
 /// told are much farther from this one than the grid is fine that they lie on. Of an encoder whose
 /// every tick is told, who goes the same way tells the same numbers, too.
@@ -91,23 +105,18 @@ template <typename Value, typename Rule>
 [[nodiscard]] bool is_telling(const Rule& rule, const StampedTrack<Value>& track, std::int64_t from,
                               std::int64_t to, const Value& value) {
   constexpr double farther = 16.0;  // one in so many values of such a grid is hit by chance
-  double nearest = std::numeric_limits<double>::infinity(), last = 0.0;
-  Spacing grid{0.0, 0.0};  // none yet
-  const auto take = [&](const Spacing& gap) {
-    if (gap.length > gap.error) grid = grid.length > 0.0 ? common_step(grid, gap) : gap;
-  };
-  // On a grid, how far the others are from the value are multiples of its step, and so are the
-  // differences from one to the next.
-  const auto told = track.up_to(to);
-  for (auto state = told.rbegin(); state != told.rend() && state->stamp >= from; ++state) {
-    const double away = rule.distance(state->value, value);
+  auto told = track.up_to(to);
+  const auto first = std::partition_point(told.begin(), told.end(),
+                                          [&](const auto& state) { return state.stamp < from; });
+  told = told.subspan(static_cast<std::size_t>(first - told.begin()));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& state : told) {
+    const double away = rule.distance(state.value, value);
     if (away > same_value) nearest = std::min(nearest, away);
-    if (state != told.rbegin()) take({std::abs(away - last), 2.0 * same_value});
-    last = away;
   }
-  if (nearest == std::numeric_limits<double>::infinity()) return false;
-  take({nearest, same_value});
-  return nearest >= farther * grid.length;
+  const double grid = grid_of(rule, told);
+  return grid > 0.0 && nearest < std::numeric_limits<double>::infinity() &&
+         nearest >= farther * grid;
 }
 
 }  // namespace penumbra
