@@ -237,6 +237,15 @@ TEST(JointCopies, NumbersOfAGridProveNothing) {
   EXPECT_GT(told, all * 9 / 10);
 }
 
+TEST(JointCopies, OneOtherValueProvesNothing) {
+  // Of what is told once or twice nobody knows the grid.
+  StampedTrack<double> track;
+  track.put({0, 1.0});
+  EXPECT_FALSE(is_telling(Turns(), track, 0, 9, 1.0));
+  track.put({1, 1.5});
+  EXPECT_FALSE(is_telling(Turns(), track, 0, 9, 1.0));
+}
+
 TEST(JointCopies, TwoThatReadOneEncoderAreKnown) {
   // Both tell the same numbers, now the one first and now the other, or the quick one always.
   for (const std::int64_t period : {2 * ms, 10 * ms, 13 * ms, 50 * ms}) {
