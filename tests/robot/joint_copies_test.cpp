@@ -246,6 +246,22 @@ TEST(JointCopies, OneOtherValueProvesNothing) {
   EXPECT_FALSE(is_telling(Turns(), track, 0, 9, 1.0));
 }
 
+/// Of where a tool is that one joint turns, as TF tells it without the links between.
+struct Chords {
+  double distance(double a, double b) const { return 1.6 * std::abs(std::sin(0.5 * (a - b))); }
+};
+
+TEST(JointCopies, TicksOfAJointFarFromTheToolProveNothing) {
+  // Chords of ticks are no multiples of one, but those of one tick are alike.
+  for (const double ticks : {4096.0, 360.0}) {
+    const double tick = 2.0 * std::numbers::pi / ticks;
+    StampedTrack<double> track;
+    for (int i = 0; i < 100; ++i) track.put({i, tick * (i < 60 ? i : 120 - i)});
+    for (int i = 0; i < 60; ++i)
+      EXPECT_FALSE(is_telling(Chords(), track, 0, 100, i * tick)) << ticks << " " << i;
+  }
+}
+
 TEST(JointCopies, TwoThatReadOneEncoderAreKnown) {
   // Both tell the same numbers, now the one first and now the other, or the quick one always.
   for (const std::int64_t period : {2 * ms, 10 * ms, 13 * ms, 50 * ms}) {
