@@ -41,12 +41,12 @@ check() {
   fi
 }
 
-# build PRESET TARGET [CMAKE OPTION...]: configures and compiles.
+# build PRESET TARGET [CMAKE OPTION...]: configures and compiles; what runs beside it goes first.
 build() {
   local preset=$1 target=$2
   shift 2
   cmake --preset "$preset" "$@" >/dev/null &&
-    cmake --build --preset "$preset" --target "$target" -j "$(nproc)"
+    nice -n 19 cmake --build --preset "$preset" --target "$target" -j "$(nproc)"
 }
 
 # count ATTRIBUTE FILE: a number of the <testsuite> of a JUnit file.
@@ -81,6 +81,13 @@ fuzz() {
   build/fuzz/tests/io/"$1_fuzzer" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 \
     -malloc_limit_mb=512 "-artifact_prefix=$folder-" "$folder" "${@:2}" >"$folder.log" 2>&1 ||
     { tail -n 30 "$folder.log"; false; }
+}
+
+page() { web/check_page.sh build/release/apps/penumbra/penumbra; }
+
+# page_ended PROCESS: waits for a page() that runs beside other work.
+page_ended() {
+  wait "$1" || { grep -A12 '^not ok' build/release/page.log || tail -n 30 build/release/page.log; false; }
 }
 
 check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror; }
@@ -151,8 +158,8 @@ if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
   "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&
   run_tests release -j "$waiting" -E "$once_more"
-check "page in a browser" web/check_page.sh build/release/apps/penumbra/penumbra
 if $full; then
+  check "page in a browser" page
   check "docs" scripts/docs.sh build/docs/html build/release
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   check "a great bag is streamed" build/release/bench/mcap_benchmark --stream 5
@@ -168,26 +175,27 @@ if $full; then
     echo "== benchmarks run: skipped: no data"
   fi
 fi
+$full || { page >build/release/page.log 2>&1 & page=$!; }
+asan_is_built=false tsan_is_built=false
+check "build (asan)" build asan all "${sanitizer_scope[@]}" "$not_in_asan" "-DPENUMBRA_SANITIZE=address,$undefined" &&
+  asan_is_built=true
+check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" "$not_in_tsan" && tsan_is_built=true
+$full || check "page in a browser, beside these builds" page_ended "$page"
+
 # A whole recording, made again: minutes without a sanitizer, and no code of its own.
 made_again='^Example[.]IsReproducible$'
-if check "build (asan)" build asan all "${sanitizer_scope[@]}" "$not_in_asan" "-DPENUMBRA_SANITIZE=address,$undefined"; then
-  # Threads are ThreadSanitizer's; more meshes of the same robots, scenes through OpenGL beside its
-  # own tests, and narrower vectors say no more.
-  scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
-  many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
-  many+='|cpu_SSE4|RenderersAreMadeAndDropped|RenderersMadeAndDropped|OffsetGrid.RealLinks'
-  if $full; then many=$made_again; fi
-  run_tests asan -E "$many"
-fi
+# Threads are ThreadSanitizer's; more meshes of the same robots, scenes through OpenGL beside its own
+# tests, and narrower vectors say no more.
+scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
+many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
+many+='|cpu_SSE4|RenderersAreMadeAndDropped|RenderersMadeAndDropped|OffsetGrid.RealLinks'
 # Where one thread of ours runs there is no race to find; one robot's threads are like another's.
-one_thread=$made_again
-if ! $full; then
-  one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest|Isas[.]'
-  one_thread+='|GlEnvironment|GlFaults.LetARendererFail|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'
-  one_thread+='|RenderersAreMadeAndDropped|RenderersMadeAndDropped|RobotThreads'
-fi
-check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" "$not_in_tsan" &&
-  run_tests tsan -L threaded -E "$one_thread"
+one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest|Isas[.]'
+one_thread+='|GlEnvironment|GlFaults.LetARendererFail|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'
+one_thread+='|RenderersAreMadeAndDropped|RenderersMadeAndDropped|RobotThreads'
+if $full; then many=$made_again one_thread=$made_again; fi
+! $asan_is_built || run_tests asan -E "$many"
+! $tsan_is_built || run_tests tsan -L threaded -E "$one_thread"
 if $full && check "build (fuzz)" build fuzz fuzzers "${everything[@]}" "$avx512"; then
   seeds=build/fuzz/seeds
   mkdir -p "$seeds"

@@ -59,7 +59,7 @@ std::vector<BadBag> bad_cameras() {
   };
 }
 
-std::vector<BadBag> bad_robots() {
+std::vector<BadBag> bad_bag_robots() {
   return {
       {"NoRobot", without("/robot_description"), {"has no robot_description", "--robot"}},
       {"RobotIsNoUrdf",
@@ -104,7 +104,7 @@ std::vector<BadBag> bad_files() {
   };
 }
 
-std::vector<BadBag> bad_options() {
+std::vector<BadBag> bad_bag_options() {
   return {
       {"TopicMissing",
        [](TinyBag&) {},
@@ -142,12 +142,10 @@ TEST_P(BadBagTest, IsOneClearLineAndStatus2) {
     EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
 }
 
-std::string name_of(const testing::TestParamInfo<BadBag>& test) { return test.param.name; }
-
 INSTANTIATE_TEST_SUITE_P(Cameras, BadBagTest, testing::ValuesIn(bad_cameras()), name_of);
-INSTANTIATE_TEST_SUITE_P(Robots, BadBagTest, testing::ValuesIn(bad_robots()), name_of);
+INSTANTIATE_TEST_SUITE_P(Robots, BadBagTest, testing::ValuesIn(bad_bag_robots()), name_of);
 INSTANTIATE_TEST_SUITE_P(Files, BadBagTest, testing::ValuesIn(bad_files()), name_of);
-INSTANTIATE_TEST_SUITE_P(Options, BadBagTest, testing::ValuesIn(bad_options()), name_of);
+INSTANTIATE_TEST_SUITE_P(Options, BadBagTest, testing::ValuesIn(bad_bag_options()), name_of);
 
 TEST(BadBagFile, IsOneClearLineAndStatus2) {
   const TemporaryFolder folder;

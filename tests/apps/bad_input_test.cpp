@@ -260,7 +260,6 @@ TEST_P(BadInputTest, IsOneClearLineAndStatus2) {
     EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
 }
 
-const auto name_of = [](const auto& test) { return test.param.name; };
 INSTANTIATE_TEST_SUITE_P(Robot, BadInputTest, testing::ValuesIn(bad_robots()), name_of);
 INSTANTIATE_TEST_SUITE_P(Recording, BadInputTest, testing::ValuesIn(bad_recordings()), name_of);
 INSTANTIATE_TEST_SUITE_P(Option, BadInputTest, testing::ValuesIn(bad_options()), name_of);

@@ -184,7 +184,6 @@ void expect_fault(const Outcome& outcome, const std::vector<std::string>& words)
 }
 
 class BadTargetsTest : public TargetFaultsTest, public testing::WithParamInterface<BadTargets> {};
-const auto name_of = [](const auto& test) { return test.param.name; };
 INSTANTIATE_TEST_SUITE_P(Regions, BadTargetsTest, testing::ValuesIn(bad_regions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Objects, BadTargetsTest, testing::ValuesIn(bad_objects()), name_of);
 INSTANTIATE_TEST_SUITE_P(Settings, BadTargetsTest, testing::ValuesIn(bad_settings()), name_of);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_bag.hpp"
 #include "tiny_recording.hpp"
@@ -10,12 +11,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// The tiny recording as a bag, and `penumbra run` of it.
 class BagTest : public testing::Test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What penumbra doctor says of this machine, with OpenGL and without.
+#include "json.hpp"
 #include "program.hpp"
 
 #include <fstream>
@@ -8,22 +9,12 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/base/simd_target.hpp>
 #include <penumbra/base/version.hpp>
 
 namespace penumbra::test {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using Keys = std::vector<std::string>;
-
-Keys keys(const Json& json) {
-  Keys names;
-  for (const auto& [name, value] : json.items()) names.push_back(name);
-  return names;
-}
 
 Json doctor_json(const std::vector<std::string>& environment = {}) {
   const Outcome outcome = penumbra({"doctor", "--json"}, environment);

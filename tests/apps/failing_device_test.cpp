@@ -2,6 +2,7 @@
 // A graphics device that fails under the command line: a plain line, and what was done is kept.
 #include "../support/opengl.hpp"
 #include "../support/run_length.hpp"
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -12,12 +13,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr int most_questions = 100;  // that OpenGL may be asked while three frames are drawn
 

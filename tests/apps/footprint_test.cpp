@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/data.hpp"
 #include "../support/run_length.hpp"
+#include "json.hpp"
 #include "program.hpp"
 
 #include <cstdint>
@@ -12,15 +13,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 namespace penumbra::test {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Runs the program by itself, with nothing between: the peak of its resident memory, MB.
 double peak_memory_mb(std::vector<std::string> arguments) {

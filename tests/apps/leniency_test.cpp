@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -7,12 +8,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The tiny recording with one more link on its base.
 class LeniencyTest : public testing::Test {

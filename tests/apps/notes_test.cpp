@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What run and render say of input that is understood, but looks wrong.
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -8,13 +9,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 class NotesTest : public testing::Test {
  protected:

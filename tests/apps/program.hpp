@@ -32,6 +32,9 @@ void write_file(const std::filesystem::path& file, const std::string& content);
 /// Replaces the first `from` in a file; fails the test if there is none.
 void edit_file(const std::filesystem::path& file, const std::string& from, const std::string& to);
 
+/// Names the cases of a test by themselves.
+inline constexpr auto name_of = [](const auto& test) { return test.param.name; };
+
 [[nodiscard]] std::size_t count_lines(const std::string& text);
 
 }  // namespace penumbra::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 #include <io/npy.hpp>
@@ -18,7 +18,6 @@ namespace penumbra::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr double depth_tolerance = 1e-5;  // metres at 1 m: float32
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --renderer and --gl-device: what is taken, what the report says of it, what is refused.
 #include "../support/opengl.hpp"
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -9,7 +10,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/render/gl/gl_devices.hpp>
 
@@ -17,7 +17,6 @@ namespace penumbra::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 class RendererTest : public testing::Test {
  protected:

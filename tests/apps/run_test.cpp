@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "json.hpp"
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/base/version.hpp>
 #include <penumbra/occlusion/labels.hpp>
@@ -20,14 +20,6 @@ namespace penumbra::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using Keys = std::vector<std::string>;
-
-Keys keys(const Json& json) {
-  Keys names;
-  for (const auto& [name, value] : json.items()) names.push_back(name);
-  return names;
-}
 
 /// The contract of DESIGN section 4: keys and types that do not depend on the recording.
 void expect_report(const Json& report) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `run` with targets, on the shipped recording against its truth (an independent ray caster's).
 #include "../support/opengl.hpp"
+#include "json.hpp"
 #include "program.hpp"
 
 #include <cmath>
@@ -9,7 +10,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/base/image.hpp>
 
@@ -19,8 +19,6 @@ namespace penumbra::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using Keys = std::vector<std::string>;
 
 const fs::path example = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
 
@@ -33,12 +31,6 @@ constexpr double silhouettes = 0.01;
 /// Metres that the median of noisy depths (4 mm at 1 m, three times that at 1.8 m), and the wrist
 /// as a network finds it, may lie off.
 constexpr double depth_noise = 0.05;
-
-Keys keys(const Json& json) {
-  Keys names;
-  for (const auto& [name, value] : json.items()) names.push_back(name);
-  return names;
-}
 
 const Json& target(const Json& report, int frame, const std::string& name) {
   for (const Json& one : report["frames"].at(static_cast<std::size_t>(frame))["targets"])

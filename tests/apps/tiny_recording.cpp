@@ -14,7 +14,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr const char* urdf = R"(<robot name="tiny">
+constexpr const char* tiny_urdf = R"(<robot name="tiny">
   <link name="base"/>
   <link name="board">
     <collision><geometry><mesh filename="board.stl"/></geometry></collision>
@@ -84,7 +84,7 @@ std::string board_stl() {
 }
 
 void write_tiny_recording(const std::filesystem::path& folder) {
-  write_file(folder / "tiny.urdf", urdf);
+  write_file(folder / "tiny.urdf", tiny_urdf);
   write_file(folder / "board.stl", board_stl());
   write_file(folder / "recording.yaml", yaml);
   write_file(folder / "camera_info.yaml", camera_info);

@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int patience = 20'000;  // ms
+constexpr int patience_ms = 20'000;
 
 }  // namespace
 
@@ -51,7 +51,7 @@ bool PeerProcess::read_exactly(void* to, std::size_t size) {
   auto* at = static_cast<char*>(to);
   while (size > 0) {
     pollfd ready{out_, POLLIN, 0};
-    if (poll(&ready, 1, patience) <= 0) return false;
+    if (poll(&ready, 1, patience_ms) <= 0) return false;
     const ssize_t got = read(out_, at, size);
     if (got <= 0) return false;
     at += got;

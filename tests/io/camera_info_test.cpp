@@ -18,7 +18,7 @@ namespace penumbra::io {
 namespace {
 
 // As `ros2 topic echo --once` prints it.
-const std::string message = R"(header:
+const std::string info_text = R"(header:
   stamp:
     sec: 12
     nanosec: 500
@@ -91,7 +91,7 @@ void expect_same_lens(const Distortion& a, const Distortion& b) {
 const Distortion lens("plumb_bob", std::vector<double>{-0.3, 0.1, 0.001, -0.002, 0.0});
 
 TEST(CameraInfo, ReadsBothForms) {
-  for (const std::string& text : {message, calibration}) {
+  for (const std::string& text : {info_text, calibration}) {
     const Camera camera = parse(text);
     EXPECT_EQ(camera.intrinsics, raw);
     expect_same_lens(camera.distortion, lens);
@@ -99,12 +99,12 @@ TEST(CameraInfo, ReadsBothForms) {
     EXPECT_EQ(free.intrinsics, rectified);
     EXPECT_TRUE(free.distortion.is_none());
   }
-  EXPECT_EQ(parse(message).frame_id, "camera_depth_optical_frame");
+  EXPECT_EQ(parse(info_text).frame_id, "camera_depth_optical_frame");
   EXPECT_EQ(parse(calibration).frame_id, "");
 }
 
 TEST(CameraInfo, ReadsUpperCaseKeysOfRos1) {
-  std::string text = with(with(message, "\nd:", "\nD:"), "\nk:", "\nK:");
+  std::string text = with(with(info_text, "\nd:", "\nD:"), "\nk:", "\nK:");
   text = with(with(text, "\nr:", "\nR:"), "\np:", "\nP:");
   text = with(with(text, "sec:", "secs:"), "do_rectify: false", "do_rectify: False");
   EXPECT_EQ(parse(text).intrinsics, raw);
@@ -112,17 +112,17 @@ TEST(CameraInfo, ReadsUpperCaseKeysOfRos1) {
 }
 
 TEST(CameraInfo, FrameIdMayStandOnTopOrBeEmpty) {
-  const std::string no_header = message.substr(message.find("height"));
+  const std::string no_header = info_text.substr(info_text.find("height"));
   EXPECT_EQ(parse(no_header).frame_id, "");
   EXPECT_EQ(parse("frame_id: cam\n" + no_header).frame_id, "cam");
   EXPECT_EQ(parse("frame_id: ''\n" + no_header).frame_id, "");
 }
 
 TEST(CameraInfo, OtherLenses) {
-  std::string text = with(message, "plumb_bob", "equidistant");
+  std::string text = with(info_text, "plumb_bob", "equidistant");
   text = with(text, "- 0.0\n", "");
   EXPECT_EQ(parse(text).distortion.model(), DistortionModel::equidistant);
-  text = with(message, "- 0.0\n", "- 0.0\n- 0.1\n- 0.1\n- 0.1\n");
+  text = with(info_text, "- 0.0\n", "- 0.0\n- 0.1\n- 0.1\n- 0.1\n");
   EXPECT_EQ(parse(with(text, "plumb_bob", "rational_polynomial")).distortion.model(),
             DistortionModel::rational_polynomial);
 }
@@ -132,7 +132,7 @@ TEST(CameraInfo, OtherLenses) {
 TEST(CameraInfo, AppliesWindowThenBinning) {
   constexpr double rounding = 1e-12;
   std::string text =
-      with(with(message, "binning_x: 0", "binning_x: 2"), "binning_y: 0", "binning_y: 4");
+      with(with(info_text, "binning_x: 0", "binning_x: 2"), "binning_y: 0", "binning_y: 4");
   text = with(with(text, "x_offset: 0", "x_offset: 100"), "y_offset: 0", "y_offset: 50");
   text = with(with(text, "  height: 0", "  height: 200"), "  width: 0", "  width: 401");
   for (const bool is_rectified : {false, true}) {
@@ -147,7 +147,7 @@ TEST(CameraInfo, AppliesWindowThenBinning) {
         EXPECT_LT((camera.intrinsics.ray(u, v) - 0.5 * (first + last)).norm(), rounding);
       }
   }
-  EXPECT_EQ(parse(with(message, "binning_x: 0", "binning_x: 1")).intrinsics, raw);
+  EXPECT_EQ(parse(with(info_text, "binning_x: 0", "binning_x: 1")).intrinsics, raw);
 }
 
 std::string error_of(const std::string& text, bool is_rectified = false) {
@@ -168,39 +168,40 @@ testing::AssertionResult has(const std::string& text, const std::string& part) {
 }
 
 TEST(CameraInfo, SeveralDocumentsMustBeOfTheSameCamera) {
-  EXPECT_EQ(parse("%YAML 1.2\n---\n" + message).intrinsics, raw);
-  const std::string later = with(message, "sec: 12", "sec: 13");
-  EXPECT_EQ(parse("---\n" + message + later + message).intrinsics, raw);
-  EXPECT_EQ(parse("# a comment\n---\n" + message + "---\n").intrinsics, raw);
+  EXPECT_EQ(parse("%YAML 1.2\n---\n" + info_text).intrinsics, raw);
+  const std::string later = with(info_text, "sec: 12", "sec: 13");
+  EXPECT_EQ(parse("---\n" + info_text + later + info_text).intrinsics, raw);
+  EXPECT_EQ(parse("# a comment\n---\n" + info_text + "---\n").intrinsics, raw);
   const std::size_t lines =
-      static_cast<std::size_t>(std::count(message.begin(), message.end(), '\n'));
+      static_cast<std::size_t>(std::count(info_text.begin(), info_text.end(), '\n'));
   for (const auto& [from, to] : {std::pair("width: 640", "width: 320"),
                                  {"- -0.3", "- -0.2"},
                                  {"k: [500.5", "k: [500.6"},
                                  {"binning_y: 0", "binning_y: 2"},
                                  {"frame_id: camera", "frame_id: other"}}) {
-    const std::string error = error_of(message + later + with(message, from, to));
+    const std::string error = error_of(info_text + later + with(info_text, from, to));
     EXPECT_TRUE(has(error, "cam.yaml:" + std::to_string(2 * lines + 1) + ": document 3 of 3"));
   }
-  EXPECT_TRUE(has(error_of(message + "- not : [ yaml"), "is not YAML"));
-  EXPECT_TRUE(has(error_of(message + "width: 640\n"), "cam.yaml:27: key 'k' is missing"));
-  EXPECT_TRUE(has(error_of(message + "---\n" + message), "keys with values"))
+  EXPECT_TRUE(has(error_of(info_text + "- not : [ yaml"), "is not YAML"));
+  EXPECT_TRUE(has(error_of(info_text + "width: 640\n"), "cam.yaml:27: key 'k' is missing"));
+  EXPECT_TRUE(has(error_of(info_text + "---\n" + info_text), "keys with values"))
       << "an empty document among others";
 }
 
 TEST(CameraInfo, MissingKeysAreNamed) {
   const std::string k = "k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n";
-  EXPECT_TRUE(has(error_of(with(message, k, "")), "key 'k' is missing"));
+  EXPECT_TRUE(has(error_of(with(info_text, k, "")), "key 'k' is missing"));
   const std::string d = "d:\n- -0.3\n- 0.1\n- 0.001\n- -0.002\n- 0.0\n";
-  EXPECT_TRUE(has(error_of(with(message, d, "")), "key 'd' is missing"));
-  EXPECT_TRUE(has(error_of(with(message, "height: 480\n", "")), "key 'height' is missing"));
-  EXPECT_TRUE(has(error_of(with(message, "width: 640\n", "")), "key 'width' is missing"));
-  EXPECT_TRUE(has(error_of(with(message, "distortion_model: plumb_bob\n", "")),
+  EXPECT_TRUE(has(error_of(with(info_text, d, "")), "key 'd' is missing"));
+  EXPECT_TRUE(has(error_of(with(info_text, "height: 480\n", "")), "key 'height' is missing"));
+  EXPECT_TRUE(has(error_of(with(info_text, "width: 640\n", "")), "key 'width' is missing"));
+  EXPECT_TRUE(has(error_of(with(info_text, "distortion_model: plumb_bob\n", "")),
                   "key 'distortion_model' is missing"));
   EXPECT_TRUE(has(error_of(with(calibration, "image_width: 640\n", "")), "'image_width'"));
   EXPECT_TRUE(has(error_of(with(calibration, "  rows: 3\n", "")), "camera_matrix: key 'rows'"));
   EXPECT_TRUE(has(error_of("width: 640\nheight: 480\n"), "key 'k' is missing"));
-  EXPECT_TRUE(has(error_of(message.substr(0, message.find("p: [")), true), "key 'p' is missing"));
+  EXPECT_TRUE(
+      has(error_of(info_text.substr(0, info_text.find("p: [")), true), "key 'p' is missing"));
 }
 
 TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
@@ -234,7 +235,7 @@ TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
       {"do_rectify: false", "do_rectify: false\n  angle: 3", "roi.angle: unknown key"},
       {"height: 480", "height: 480\nframe_id: other", "header.frame_id is there too"},
   };
-  for (const auto& c : cases) EXPECT_TRUE(has(error_of(with(message, c.piece, c.by)), c.says));
+  for (const auto& c : cases) EXPECT_TRUE(has(error_of(with(info_text, c.piece, c.by)), c.says));
 }
 
 TEST(CameraInfo, CalibrationMatricesMustHaveTheirSize) {
@@ -246,7 +247,7 @@ TEST(CameraInfo, CalibrationMatricesMustHaveTheirSize) {
 
 TEST(CameraInfo, RectifiedNeedsAPlainProjection) {
   const auto error = [](const char* piece, const char* by) {
-    return error_of(with(message, piece, by), true);
+    return error_of(with(info_text, piece, by), true);
   };
   EXPECT_TRUE(has(error("318.0, 0.0,", "318.0, -24.0,"), "stereo pair"));
   EXPECT_TRUE(has(error("p: [480.0, 0.0", "p: [480.0, 3.0"), "skew"));
@@ -254,7 +255,7 @@ TEST(CameraInfo, RectifiedNeedsAPlainProjection) {
   EXPECT_TRUE(has(error("p: [480.0", "p: [1.0, 480.0"), "13 values"));
   EXPECT_TRUE(has(error("r: [1.0", "r: [0.9999"), "turns the rectified image"));
   // The raw image is not touched by either.
-  EXPECT_NO_THROW(static_cast<void>(parse(with(message, "r: [1.0", "r: [0.9999"))));
+  EXPECT_NO_THROW(static_cast<void>(parse(with(info_text, "r: [1.0", "r: [0.9999"))));
 }
 
 TEST(CameraInfo, FilesThatAreNone) {
@@ -278,7 +279,7 @@ void expect_camera_or_error(const std::string& text) {
 }
 
 TEST(CameraInfo, CutAnywhereIsCameraOrError) {
-  for (const std::string& text : {message, calibration})
+  for (const std::string& text : {info_text, calibration})
     for (std::size_t i = 0; i < text.size(); ++i) expect_camera_or_error(text.substr(0, i));
 }
 
@@ -286,7 +287,7 @@ TEST(CameraInfo, EditedAnywhereIsCameraOrError) {
   auto random = test::seeded_random(31);
   const std::string letters = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\t ~?adkprx\\\xff\x01";
   for (int i = 0; i < 2000; ++i) {
-    std::string text = i % 2 == 0 ? message : calibration;
+    std::string text = i % 2 == 0 ? info_text : calibration;
     const std::size_t edits = 1 + random() % 4;
     for (std::size_t j = 0; j < edits; ++j) {
       const std::size_t at = random() % text.size();

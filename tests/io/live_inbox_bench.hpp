@@ -8,8 +8,6 @@
 
 namespace penumbra::test {
 
-inline constexpr std::int64_t start = 1000 * seconds;
-
 class LiveInboxTest : public testing::Test {
  protected:
   /// Joint states around a stamp, which lies between two of them.

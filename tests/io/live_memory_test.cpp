@@ -13,7 +13,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t start = 1000 * seconds;
 constexpr std::int64_t period = 33 * milliseconds;
 /// Of the allocator's caches, which a larger robot's or image's buffers leave behind, MiB. A leak
 /// of 100 bytes for each image would be 9 MiB in the long run.

@@ -26,6 +26,7 @@ namespace penumbra::test {
 
 inline constexpr std::int64_t milliseconds = 1'000'000;
 inline constexpr std::int64_t seconds = 1000 * milliseconds;
+inline constexpr std::int64_t start = 1000 * seconds;  // the board lies level then
 
 /// A camera of the scene.
 struct LiveLens {

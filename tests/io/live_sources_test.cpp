@@ -8,8 +8,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t start = 1000 * seconds;  // the board lies level then
-
 const LiveLens small_lens;
 
 io::LiveOptions options_with(const std::string& depth_topic, PoseSource poses) {

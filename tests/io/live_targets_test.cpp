@@ -7,8 +7,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t start = 1000 * seconds;
-
 /// A board before the camera, and a turntable of which nothing is drawn.
 constexpr const char* turntable_urdf = R"(<robot name="cell">
   <link name="base"/><link name="turntable"/>

@@ -16,7 +16,7 @@ using test::encoded;
 using test::input_error;
 using test::sample;
 
-constexpr double rounding = 1e-15;  // a rotation to a quaternion and back
+constexpr double turn_rounding = 1e-15;  // a rotation to a quaternion and back
 
 template <typename M>
 M decoded(std::span<const std::byte> payload) {
@@ -56,7 +56,7 @@ TEST(RosMessages, EveryFieldArrives) {
   ASSERT_EQ(tf.transforms.size(), 2U);
   EXPECT_EQ(tf.transforms[1].header.stamp, -1);
   EXPECT_EQ(tf.transforms[0].child_frame_id, "tool");
-  EXPECT_TRUE(tf.transforms[0].T_parent_child.isApprox(test::sample_pose(), rounding));
+  EXPECT_TRUE(tf.transforms[0].T_parent_child.isApprox(test::sample_pose(), turn_rounding));
 
   const auto info = decoded<CameraInfoMessage>(encoded(sample<CameraInfoMessage>()));
   EXPECT_EQ(info.p, sample<CameraInfoMessage>().p);
@@ -83,7 +83,7 @@ TEST(RosMessages, Detections) {
   ASSERT_EQ(solid.detections.size(), 1U);
   const Eigen::Matrix3d turned =
       Eigen::AngleAxisd(2 * std::atan2(0.6, 0.8), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  EXPECT_TRUE(solid.detections[0].bbox.centre.linear().isApprox(turned, rounding));
+  EXPECT_TRUE(solid.detections[0].bbox.centre.linear().isApprox(turned, turn_rounding));
   EXPECT_EQ(solid.detections[0].bbox.size, Eigen::Vector3d(0.1, 0.2, 0.3));
 }
 

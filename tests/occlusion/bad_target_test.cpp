@@ -14,9 +14,8 @@ namespace penumbra {
 namespace {
 
 using test::box_target;
+using test::middle_box;
 using test::TargetFrame;
-
-const PixelBox box{40, 40, 20, 20};
 
 std::string fault_of(const TargetView& target) {
   TargetFrame frame;
@@ -35,12 +34,12 @@ const double nan = std::numeric_limits<double>::quiet_NaN();
 TEST(BadTargets, AreRefusedByName) {
   EXPECT_EQ(fault_of(box_target("cup", {1, 2, 0, 3})),
             "box 1, 2, 0 x 3: has no area: width and height must be above 0");
-  EXPECT_EQ(fault_of(box_target("", box)), "needs a name");
+  EXPECT_EQ(fault_of(box_target("", middle_box)), "needs a name");
 }
 
 TEST(BadTargets, NumbersOutOfBounds) {
   const auto fault = [](const auto& change) {
-    TargetView target = box_target("cup", box);
+    TargetView target = box_target("cup", middle_box);
     change(target);
     return fault_of(target);
   };
@@ -67,7 +66,7 @@ TEST(BadTargets, NumbersOutOfBounds) {
 
 TEST(BadTargets, RenderedOnesHaveTheirOwnDepthAndExtent) {
   const Image<float> depth(TargetFrame::width, TargetFrame::height, 1.0f);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.region = RenderedRegion{depth.view(), nullptr};
   target.expected_depth = 1.0;
   EXPECT_NE(fault_of(target), "no fault");
@@ -80,12 +79,12 @@ TEST(BadTargets, RenderedOnesHaveTheirOwnDepthAndExtent) {
 TEST(BadTargets, ANameTwiceInAFrame) {
   TargetFrame frame;
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  EXPECT_THROW((void)judge.judge(box_target("cup", box)), std::logic_error);
+  EXPECT_THROW((void)judge.judge(box_target("cup", middle_box)), std::logic_error);
   judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::visible);
-  EXPECT_THROW((void)judge.judge(box_target("cup", box)), InputError);
+  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::visible);
+  EXPECT_THROW((void)judge.judge(box_target("cup", middle_box)), InputError);
   judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::visible);
+  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::visible);
 }
 
 TEST(BadTargets, ImagesOfAnotherSize) {

@@ -5,10 +5,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <penumbra/occlusion/target_judge.hpp>
 
 namespace penumbra::test {
+
+inline constexpr double share_rounding = 1e-12;
+inline constexpr float hole = 0.0f;
 
 /// A frame put together by hand: blocks of robot before a wall, labelled by the classifier.
 struct TargetFrame {
@@ -62,6 +66,9 @@ struct TargetFrame {
   Classifier classifier;
 };
 
+/// On the wall, where blocks of robot are put before it.
+inline const PixelBox middle_box{40, 40, 20, 20};
+
 inline TargetView box_target(std::string_view name, const PixelBox& box,
                              Extent extent = Extent::amodal) {
   TargetView target;
@@ -69,6 +76,17 @@ inline TargetView box_target(std::string_view name, const PixelBox& box,
   target.region = box;
   target.extent = extent;
   return target;
+}
+
+/// By a judge of its own; the blame is overwritten by the next one.
+inline Judgement judge_once(TargetFrame& frame, const TargetView& target) {
+  static std::vector<Blame> blame;
+  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
+  judge.begin(frame.images());
+  Judgement judgement = judge.judge(target);
+  blame.assign(judgement.blame.begin(), judgement.blame.end());
+  judgement.blame = blame;
+  return judgement;
 }
 
 }  // namespace penumbra::test

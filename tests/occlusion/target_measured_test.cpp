@@ -10,25 +10,17 @@ namespace penumbra {
 namespace {
 
 using test::box_target;
+using test::hole;
+using test::judge_once;
+using test::middle_box;
+using test::share_rounding;
 using test::TargetFrame;
-
-constexpr double share_rounding = 1e-12;
-constexpr float hole = 0.0f;
-const PixelBox box{40, 40, 20, 20};
-
-Judgement judge_once(TargetFrame& frame, const TargetView& target) {
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  Judgement judgement = judge.judge(target);
-  judgement.blame = {};  // the judge's
-  return judgement;
-}
 
 /// Of what is measured, all is past: holes do not speak for the target.
 TEST(Measured, WhatIsNotMeasuredDoesNotMakeUpForWhatIsPast) {
   TargetFrame frame;  // the wall is at 2 m
   frame.see(40, 40, 60, 52, hole);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = 1.5;
   const Judgement judgement = judge_once(frame, target);
   EXPECT_NEAR(*judgement.seen_past, 0.4, share_rounding);
@@ -42,7 +34,7 @@ Judgement measured_rows(int rows, std::optional<double> expected, double min_mea
   TargetFrame frame;
   frame.see(40, 40, 60, 60, hole);
   frame.see(40, 40, 60, 40 + rows, 1.5f);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = expected;
   target.thresholds.min_measured = min_measured;
   return judge_once(frame, target);
@@ -75,7 +67,7 @@ TEST(Measured, HolesLeftOfWhatTheRobotHidesAreNotPartial) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 50, 1.0f, 1);
   frame.see(40, 50, 60, 60, hole);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = 1.5;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
   frame.add_robot(40, 50, 60, 59, 1.0f, 1);
@@ -87,7 +79,7 @@ TEST(Measured, WhatIsOutOfTheSensorsRangeIsNotMeasured) {
   LabelRule rule = TargetFrame::without_cleanup();
   rule.range = {0.3, 1.6};
   TargetFrame frame(rule);
-  TargetView target = box_target("air", box);
+  TargetView target = box_target("air", middle_box);
   target.expected_depth = 1.5;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
   frame.see(40, 40, 60, 60, 1.5f);

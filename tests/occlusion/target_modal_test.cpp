@@ -9,9 +9,8 @@ namespace penumbra {
 namespace {
 
 using test::box_target;
+using test::share_rounding;
 using test::TargetFrame;
-
-constexpr double share_rounding = 1e-12;
 
 class ModalTargets : public testing::Test {
  protected:

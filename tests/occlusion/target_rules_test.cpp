@@ -13,20 +13,11 @@ namespace penumbra {
 namespace {
 
 using test::box_target;
+using test::hole;
+using test::judge_once;
+using test::middle_box;
+using test::share_rounding;
 using test::TargetFrame;
-
-constexpr double share_rounding = 1e-12;
-const PixelBox box{40, 40, 20, 20};
-
-Judgement judge_once(TargetFrame& frame, const TargetView& target) {
-  static std::vector<Blame> blame;
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  Judgement judgement = judge.judge(target);
-  blame.assign(judgement.blame.begin(), judgement.blame.end());
-  judgement.blame = blame;
-  return judgement;
-}
 
 enum class Count { clear, front, occluded, unknown, other };
 
@@ -45,13 +36,12 @@ Count count(bool with_robot, float measured, std::optional<double> expected, boo
   TargetFrame frame;
   if (with_robot) frame.add_robot(40, 40, 60, 60, 1.0f, 1);
   frame.see(40, 40, 60, 60, measured);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = expected;
   target.thresholds.beyond_hides = beyond;
   return count_of(judge_once(frame, target));
 }
 
-constexpr float hole = 0.0f;
 constexpr double behind_robot = 1.3, at_robot = 1.01, before_robot = 0.8;
 
 TEST(TargetPixels, WithoutExpectedDepthGoByTheirLabels) {
@@ -102,7 +92,7 @@ TEST(TargetPixels, BesideTheRobotOthersMayHide) {
 TEST(TargetPixels, AMarginWidensWhereTheTargetMayLie) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 60, 1.0f, 1);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = behind_robot;
   target.depth_margin = 0.3;
   EXPECT_EQ(count_of(judge_once(frame, target)), Count::unknown);
@@ -120,7 +110,7 @@ TEST(TargetPixels, UnreachedByTheLensAreUnknown) {
   images.labels = {labels.view()};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = before_robot;
   EXPECT_EQ(count_of(judge.judge(target)), Count::unknown);
 }
@@ -131,7 +121,7 @@ TEST(Judging, AddsUpPixelsAndBlamesLinks) {
   frame.add_robot(50, 0, 160, 50, 1.2f, 0);  // 10 x 10
   frame.add_robot(40, 58, 60, 60, 1.1f, 1, false);
   frame.see(40, 58, 60, 60, hole);  // 40
-  const Judgement judgement = judge_once(frame, box_target("cup", box));
+  const Judgement judgement = judge_once(frame, box_target("cup", middle_box));
   EXPECT_EQ(judgement.covered, 400u);
   EXPECT_EQ(judgement.inside, 400u);
   EXPECT_NEAR(judgement.occluded, 0.375, share_rounding);
@@ -150,7 +140,7 @@ TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 42, 1.0f, 1);
   frame.see(40, 42, 60, 52, 0.5f);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = 1.5;
   Judgement judgement = judge_once(frame, target);
   EXPECT_NEAR(*judgement.hidden_by_other, 0.5, share_rounding);
@@ -169,7 +159,7 @@ TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
 TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
   TargetFrame frame;  // the wall is at 2 m
   frame.add_robot(40, 40, 60, 45, 1.8f, 1);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = 1.5;
   Judgement judgement = judge_once(frame, target);
   EXPECT_EQ(judgement.verdict, Verdict::unknown);
@@ -208,7 +198,7 @@ TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
 TEST(Judging, WhatTheSensorLooksPastIsNotPartialButMayBeHidden) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 50, 1.0f, 1);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.expected_depth = 1.5;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
   frame.add_robot(40, 50, 60, 59, 1.0f, 1);
@@ -219,7 +209,7 @@ TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
   frame.see(40, 40, 60, 60, hole);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.thresholds.unknown_limit = 1;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
   frame.see(40, 40, 60, 50, 0.8f);
@@ -237,7 +227,7 @@ TEST(Judging, WithoutTheRobotsPoseAllIsUnknown) {
   images.virtual_depth = {};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);
-  TargetView target = box_target("cup", box);
+  TargetView target = box_target("cup", middle_box);
   target.thresholds.unknown_limit = 1;
   target.expected_depth = 1.0;
   const Judgement judgement = judge.judge(target);
@@ -257,11 +247,11 @@ TEST(Judging, WithoutDepthOnlyWhatIsRobotIsUnknown) {
   images.measured = {};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);
-  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::unknown);
+  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::unknown);
   const Judgement beside = judge.judge(box_target("plate", {80, 80, 9, 9}));
   EXPECT_EQ(beside.verdict, Verdict::visible);
   EXPECT_FALSE(beside.point);
-  TargetView behind = box_target("pan", box);
+  TargetView behind = box_target("pan", middle_box);
   behind.expected_depth = behind_robot;
   TargetView known = box_target("lid", {80, 80, 9, 9});
   known.expected_depth = behind_robot;
@@ -277,7 +267,7 @@ TEST(Verdicts, TooMuchUnknownIsUnknownUnlessTheRestDecides) {
     frame.add_robot(40, 40, 40 + hidden_columns, 60, 1.0f, 1);
     frame.add_robot(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, 1.0f, 1);
     frame.see(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, hole);
-    return judge_once(frame, box_target("cup", box)).verdict;
+    return judge_once(frame, box_target("cup", middle_box)).verdict;
   };
   EXPECT_EQ(verdict(0, 1), Verdict::visible);  // 5 %, the limit
   EXPECT_EQ(verdict(0, 2), Verdict::unknown);
@@ -316,7 +306,7 @@ TEST(Verdicts, RememberPastUnknownAndPerName) {
   EXPECT_EQ(verdict_of(judge, 95), Verdict::hidden);
   TargetFrame frame;
   judge.begin({frame.images().labels, {}, {}});
-  EXPECT_EQ(judge.judge(box_target("cup", box)).verdict, Verdict::unknown);
+  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::unknown);
   EXPECT_EQ(verdict_of(judge, 85), Verdict::hidden);
   TargetFrame half;
   half.add_robot(20, 0, 105, TargetFrame::height, 1.0f, 1);
@@ -340,7 +330,7 @@ TEST(Verdicts, OutOfView) {
   edge.name = "edge again";
   EXPECT_EQ(judge.judge(edge).verdict, Verdict::visible);
   const Image<float> nothing(TargetFrame::width, TargetFrame::height);
-  TargetView rendered = box_target("rendered", box);
+  TargetView rendered = box_target("rendered", middle_box);
   rendered.region = RenderedRegion{nothing.view(), nullptr};
   EXPECT_EQ(judge.judge(rendered).verdict, Verdict::out_of_view);
 }

@@ -18,7 +18,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t jump = 1000 * ms;
 constexpr std::int64_t max_gap = 25 * ms;
 constexpr double slide_tolerance = 1e-9;  // metres; positions are up to 100

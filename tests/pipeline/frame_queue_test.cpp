@@ -12,8 +12,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
-
 /// Joint states and images are told by the milliseconds of their stamps.
 class QueueTest : public testing::Test {
  protected:

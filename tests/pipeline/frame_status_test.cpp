@@ -15,8 +15,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr auto unknown = static_cast<std::uint8_t>(Label::unknown);
-
 /// A pipeline that has just judged a good frame, whose images must not show again.
 class FrameStatusTest : public testing::Test {
  protected:
@@ -43,7 +41,7 @@ class FrameStatusTest : public testing::Test {
     EXPECT_TRUE(report.virtual_depth.depth.empty());
     EXPECT_TRUE(report.virtual_depth.links.empty());
     EXPECT_EQ(report.virtual_depth.touched, nullptr);
-    EXPECT_EQ(pixels_of(report.labels), std::vector<std::uint8_t>(depth_.size(), unknown));
+    EXPECT_EQ(pixels_of(report.labels), std::vector<std::uint8_t>(depth_.size(), unknown_label));
     EXPECT_FALSE(report.pixels.robot.has_value());
     EXPECT_EQ(report.pixels.unknown, depth_.size());
     EXPECT_EQ(report.pixels.front + report.pixels.occluded + report.pixels.beyond, 0U);
@@ -61,7 +59,7 @@ class FrameStatusTest : public testing::Test {
     EXPECT_EQ(report.pixels.unknown, report.pixels.robot);
     for (int v = 0; v < report.labels.height; ++v)
       for (int u = 0; u < report.labels.width; ++u)
-        ASSERT_EQ(report.labels(u, v), report.virtual_depth.depth(u, v) > 0.0F ? unknown : 0);
+        ASSERT_EQ(report.labels(u, v), report.virtual_depth.depth(u, v) > 0.0F ? unknown_label : 0);
   }
 
   Camera camera_ = slab_camera();

@@ -15,8 +15,6 @@
 namespace penumbra::test {
 namespace {
 
-const Intrinsics camera(97, 71, 90.0, 90.0, 48.0, 35.0);
-
 class GlLabelFaults : public testing::Test {
  protected:
   using Poses = std::vector<Eigen::Isometry3d>;
@@ -25,7 +23,7 @@ class GlLabelFaults : public testing::Test {
   void SetUp() override {
     if (!has_opengl()) GTEST_SKIP() << no_opengl;
     std::mt19937_64 random = seeded_random(507);
-    GlLabeller labeller(camera, bodies_, {});
+    GlLabeller labeller(odd_camera, bodies_, {});
     for (int i = 0; i < GlLabeller::max_pending; ++i) {
       poses_.push_back({random_pose(random, {-0.2, -0.2, 0.6}, {0.2, 0.2, 1.2})});
       labeller.submit(poses_.back(), wall_.view());
@@ -35,7 +33,7 @@ class GlLabelFaults : public testing::Test {
 
   /// Labels all frames ahead with a device that fails; whether it came to that.
   [[nodiscard]] bool fails_once(GlFault fault, int spared) const {
-    GlLabeller labeller(camera, bodies_, {});
+    GlLabeller labeller(odd_camera, bodies_, {});
     const InjectedFault injected(fault, spared);
     Attempts attempt;
     std::size_t pending = 0;
@@ -54,7 +52,7 @@ class GlLabelFaults : public testing::Test {
 
   std::vector<TriangleMesh> meshes_{sphere(0.2F, 12)};
   std::vector<Body> bodies_{{"ball", meshes_}};
-  Image<float> wall_{camera.width(), camera.height(), 0.9F};
+  Image<float> wall_{odd_camera.width(), odd_camera.height(), 0.9F};
   std::vector<Poses> poses_;
   std::vector<Counts> counts_;
 };

@@ -26,7 +26,7 @@ const Intrinsics camera(203, 157, 180.0, 185.0, 99.7, 81.2);  // of no round siz
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// Two links that overlap in the image.
-struct Robot {
+struct TwoLinks {
   std::vector<TriangleMesh> upper{sphere(0.15F, 16)};
   std::vector<TriangleMesh> lower{box({0.08F, 0.3F, 0.06F})};
   std::vector<Body> bodies{{"upper", upper}, {"lower", lower}};
@@ -119,7 +119,7 @@ class GlLabels : public testing::Test {
 
 TEST_F(GlLabels, AreTheClassifiers) {
   std::mt19937_64 random = seeded_random(501);
-  const Robot robot;
+  const TwoLinks robot;
   const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
   const std::vector<PixelRectangle> boxes{{0, 0, 203, 157},
                                           {40, 30, 140, 120},
@@ -131,7 +131,7 @@ TEST_F(GlLabels, AreTheClassifiers) {
     GlLabeller labeller(camera, robot.bodies, rule);
     Classifier classifier(camera.width(), camera.height(), rule, "scalar");
     for (int frame = 0; frame < 6; ++frame) {
-      const auto poses = Robot::poses(random);
+      const auto poses = TwoLinks::poses(random);
       const VirtualDepthView drawn = renderer->render(poses);
       const Image<float> metres = sensor_image(drawn, random);
       const Image<std::uint16_t> millimetres = in_millimetres(metres);
@@ -148,7 +148,7 @@ TEST_F(GlLabels, AreTheClassifiers) {
 
 TEST_F(GlLabels, ComeInTheOrderOfTheFrames) {
   std::mt19937_64 random = seeded_random(503);
-  const Robot robot;
+  const TwoLinks robot;
   const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
   GlLabeller labeller(camera, robot.bodies, {});
   Classifier classifier(camera.width(), camera.height(), {});
@@ -156,7 +156,7 @@ TEST_F(GlLabels, ComeInTheOrderOfTheFrames) {
     std::vector<std::vector<Isometry3d>> poses;
     std::vector<Image<float>> images;
     for (int i = 0; i < GlLabeller::max_pending; ++i) {
-      poses.push_back(Robot::poses(random));
+      poses.push_back(TwoLinks::poses(random));
       // Out of view now and then: nothing of an earlier frame may stay.
       if ((round + i) % 4 == 3) poses.back() = {at(0, 0, -2), at(9, 0, 1)};
       images.push_back(sensor_image(renderer->render(poses.back()), random));
@@ -173,8 +173,8 @@ TEST_F(GlLabels, ComeInTheOrderOfTheFrames) {
 
 TEST_F(GlLabels, TakeImagesOfAnyStride) {
   std::mt19937_64 random = seeded_random(505);
-  const Robot robot;
-  const auto poses = Robot::poses(random);
+  const TwoLinks robot;
+  const auto poses = TwoLinks::poses(random);
   const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
   const Image<float> image = sensor_image(renderer->render(poses), random);
   GlLabeller labeller(camera, robot.bodies, {});
@@ -237,7 +237,7 @@ TEST_F(GlLabels, ServeThePipeline) {
 }
 
 TEST_F(GlLabels, RefusesWhatItCannotDo) {
-  const Robot robot;
+  const TwoLinks robot;
   LabelRule bad;
   bad.front_min_width = -1;
   EXPECT_THROW(GlLabeller(camera, robot.bodies, bad), InputError);
@@ -260,7 +260,7 @@ TEST_F(GlLabels, RefusesWhatItCannotDo) {
 }
 
 TEST_F(GlLabels, OfMoreLinksThanTheRendererTakesAreRefused) {
-  const Robot robot;
+  const TwoLinks robot;
   const std::vector<Body> drawn(DepthRenderer::max_drawn_bodies + 1, robot.bodies[0]);
   EXPECT_THROW(GlLabeller(camera, drawn, {}), InputError);
   const std::vector<Body> empty(DepthRenderer::max_bodies + 1, Body{"link", {}});

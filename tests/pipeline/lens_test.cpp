@@ -15,9 +15,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr auto unknown = static_cast<std::uint8_t>(Label::unknown);
-constexpr double depth_tolerance = 1e-5;  // metres at 1 m: float32 and the renderer's own formula
-
 /// The slab scene through a lens whose monotone radius leaves the image's corners out.
 Camera lens_camera() {
   const double coefficients[] = {-0.3, 0.0, 0.001, -0.002, 0.0};
@@ -82,11 +79,11 @@ TEST(Lens, RawImagesShowWhatRaysThroughTheLensMeet) {
         const int link = report.virtual_depth.links(u, v);
         if (seen(u, v).link < 0) {
           ++uncovered;
-          ASSERT_EQ(report.labels(u, v), unknown) << u << ',' << v;
+          ASSERT_EQ(report.labels(u, v), unknown_label) << u << ',' << v;
           ASSERT_EQ(depth, 0.0F);
           continue;
         }
-        ASSERT_EQ(report.labels(u, v), depth > 0.0F ? unknown : 0) << u << ',' << v;
+        ASSERT_EQ(report.labels(u, v), depth > 0.0F ? unknown_label : 0) << u << ',' << v;
         const Nearby near = nearby(seen, u, v);
         ASSERT_NE(std::count(near.links.begin(), near.links.end(), link), 0) << u << ',' << v;
         if (near.is_silhouette()) continue;
@@ -113,7 +110,7 @@ TEST(Lens, CountsOfAFrameAddUp) {
       const PixelCounts& p = report.pixels;
       EXPECT_EQ(p.robot, p.front + p.occluded + p.unknown + p.beyond);
       const auto labels = pixels_of(report.labels);
-      EXPECT_EQ(std::count(labels.begin(), labels.end(), unknown),
+      EXPECT_EQ(std::count(labels.begin(), labels.end(), unknown_label),
                 static_cast<std::ptrdiff_t>(p.unknown + p.uncovered));
     }
     const PixelCounts lost = pipeline.process({.depth = depth.view()}).pixels;
@@ -218,7 +215,7 @@ TEST(Lens, RectifiedLabelsAreThoseOfTheWholeRectifiedDepthImage) {
     front += report.pixels.front;
     auto labels = pixels_of(expected.labels);
     for (std::size_t i = 0; i < labels.size(); ++i)
-      if (to_raw.data[i] == Rectification::no_pixel) labels[i] = unknown;
+      if (to_raw.data[i] == Rectification::no_pixel) labels[i] = unknown_label;
     ASSERT_EQ(pixels_of(report.labels), labels) << "frame " << frame;
   }
   EXPECT_GT(front, 1000U);

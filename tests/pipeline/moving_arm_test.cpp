@@ -14,7 +14,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t start = 1'700'000'000'000 * ms;
 constexpr int frames = 40;
 

@@ -13,8 +13,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr double depth_tolerance = 1e-5;  // metres at 1 m: float32 and the renderer's own formula
-
 /// The scene with something of each kind done to it, and the labels that must come of it.
 struct EditedScene {
   Image<float> depth;

@@ -11,7 +11,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
 constexpr double rounding = 1e-12;  // metres
 
 Eigen::Isometry3d shift(double x, double y, double z) {

@@ -148,8 +148,6 @@ TEST(SequenceNotes, RawPixelsThatTheLensModelDoesNotReachAreTold) {
       << "every rectified image has a rim that the camera did not see";
 }
 
-constexpr std::int64_t ms = 1'000'000;
-
 TEST(SequenceNotes, LinksBeforeTheNearPlaneAreTold) {
   const Robot any = robot();
   SequenceNotes notes(any);

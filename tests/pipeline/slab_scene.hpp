@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../support/nanoseconds.hpp"
+
 #include <string>
 #include <vector>
 
@@ -17,6 +19,11 @@ namespace penumbra::test {
 /// root; "slab" moves along the optical axis with joint "slide", "plate" stands still beside it.
 inline constexpr double slab_depth = 0.95;  // of its near face at slide = 0, metres
 inline constexpr double wall_depth = 3.0;   // of what stands behind everything, metres
+
+/// Metres at 1 m: float32 and the renderer's own formula.
+inline constexpr double depth_tolerance = 1e-5;
+
+inline constexpr auto unknown_label = static_cast<std::uint8_t>(Label::unknown);
 
 [[nodiscard]] std::string slab_urdf(const std::string& more = {});
 [[nodiscard]] Robot slab_robot();

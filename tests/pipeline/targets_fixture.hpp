@@ -12,8 +12,6 @@
 
 namespace penumbra::test {
 
-inline constexpr std::int64_t ms = 1'000'000;
-
 /// The slab's near face spans u 48..98, v 45..69 at slide 0, u 37..110 at slide -0.3; the wall
 /// stands at 3 m.
 inline const PixelBox behind_slab{60, 50, 20, 12};

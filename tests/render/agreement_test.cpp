@@ -15,16 +15,14 @@
 namespace penumbra::test {
 namespace {
 
-const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
-
 class AgreementTest : public ::testing::Test {
  protected:
   AgreementTest() {
     scene_.add(sphere(0.3F, 12), at(0.1, 0.05, 1.5));
     scene_.add(box({0.4F, 0.1F, 0.1F}),
                at(-0.1, 0.1, 2.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
-    image_ = cast_image(oracle(), camera);
-    depth_ = Image<float>(camera.width(), camera.height());
+    image_ = cast_image(oracle(), small_camera);
+    depth_ = Image<float>(small_camera.width(), small_camera.height());
     for (std::size_t i = 0; i < depth_.size(); ++i) {
       depth_.data()[i] = static_cast<float>(image_.depth.data()[i]);
     }
@@ -33,7 +31,7 @@ class AgreementTest : public ::testing::Test {
 
   [[nodiscard]] BruteForceOracle oracle() const { return {scene_.bodies(), scene_.poses}; }
   [[nodiscard]] Agreement judge() const {
-    return compare({depth_.view(), links_.view(), nullptr}, oracle(), image_, camera);
+    return compare({depth_.view(), links_.view(), nullptr}, oracle(), image_, small_camera);
   }
 
   Scene scene_;
@@ -124,13 +122,13 @@ TEST_F(AgreementTest, EmbreeAgreesWithBruteForce) {
     scene.add(triangle_soup(random, 20, 1.5F), at(0, 0, 0.8));
     scene.add(box({0.1F, 0.1F, 0.4F}), random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}));
     const BruteForceOracle brute(scene.bodies(), scene.poses);
-    const OracleImage traced = cast_image(EmbreeOracle(scene.bodies(), scene.poses), camera);
-    Image<float> depth(camera.width(), camera.height());
+    const OracleImage traced = cast_image(EmbreeOracle(scene.bodies(), scene.poses), small_camera);
+    Image<float> depth(small_camera.width(), small_camera.height());
     for (std::size_t i = 0; i < depth.size(); ++i) {
       depth.data()[i] = static_cast<float>(traced.depth.data()[i]);
     }
-    total += compare({depth.view(), traced.links.view(), nullptr}, brute, cast_image(brute, camera),
-                     camera);
+    total += compare({depth.view(), traced.links.view(), nullptr}, brute,
+                     cast_image(brute, small_camera), small_camera);
   }
   EXPECT_EQ(total.errors, 0U) << total;
   EXPECT_LE(total.worst_shift, edge_shift) << total;

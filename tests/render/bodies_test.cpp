@@ -18,23 +18,21 @@ using Eigen::Vector3f;
 class Bodies : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(Bodies, 2);
 
-const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
-
 TEST_P(Bodies, OpenMeshIsSeenFromItsBackToo) {
   Scene front;
-  front.add(image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, 1.0));
+  front.add(image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, 1.0));
   Scene back;
-  back.add(image_rectangle(camera, 90.5, 20.5, 20.5, 90.5, 1.0));
-  const Frame seen_from_front = render(camera, front);
+  back.add(image_rectangle(small_camera, 90.5, 20.5, 20.5, 90.5, 1.0));
+  const Frame seen_from_front = render(small_camera, front);
   EXPECT_EQ(seen_from_front.covered(), 4900U);
-  EXPECT_EQ(render(camera, back).covered(), 4900U);
+  EXPECT_EQ(render(small_camera, back).covered(), 4900U);
 }
 
 TEST_P(Bodies, MirroredMeshShowsItsNearSide) {
   Scene scene;
   scene.add(mirrored(sphere(0.4F, 12)), at(0.1, 0.0, 1.5));
   const Agreement agreement =
-      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+      expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
   EXPECT_GT(agreement.robot_pixels, 3000U);
 }
 
@@ -44,7 +42,7 @@ TEST_P(Bodies, OneBodyOfOpenClosedAndMirroredMeshes) {
       {sphere(0.2F, 8), mirrored(box({0.1F, 0.3F, 0.1F})),
        quad({-0.3F, -0.3F, 0.1F}, {0.3F, -0.3F, 0.1F}, {0.3F, 0.3F, 0.1F}, {-0.3F, 0.3F, 0.F})},
       at(0.0, 0.0, 1.0) * Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()));
-  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
 }
 
 TEST_P(Bodies, InwardWoundMeshOfTwoPieces) {
@@ -60,7 +58,7 @@ TEST_P(Bodies, InwardWoundMeshOfTwoPieces) {
   }
   Scene scene;
   scene.add(pieces, at(-0.15, 0.0, 0.8) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()));
-  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
 }
 
 TEST_P(Bodies, PiercedBodiesShowTheirInsidesThroughTheirHoles) {
@@ -79,18 +77,19 @@ TEST_P(Bodies, PiercedBodiesShowTheirInsidesThroughTheirHoles) {
              Eigen::Vector3d(0.1 * round, 0.2, -1.0));
     Scene scene;
     scene.add(pierced, at(0.02, -0.03, round % 2 == 0 ? 0.9 : 0.35) * to_camera);
-    const Frame frame = render(camera, scene);
-    expect_agrees_with_brute_force(frame.view(), scene, camera);
+    const Frame frame = render(small_camera, scene);
+    expect_agrees_with_brute_force(frame.view(), scene, small_camera);
     const double far_side = scene.poses[0].translation().z();
-    for (int v = 0; v < camera.height(); ++v) {
-      for (int u = 0; u < camera.width(); ++u) seen_inside += frame.depth(u, v) > far_side ? 1 : 0;
+    for (int v = 0; v < small_camera.height(); ++v) {
+      for (int u = 0; u < small_camera.width(); ++u)
+        seen_inside += frame.depth(u, v) > far_side ? 1 : 0;
     }
   }
   EXPECT_GT(seen_inside, sanitized ? 0U : 100U);
 }
 
 TEST_P(Bodies, DegenerateTrianglesDrawNothing) {
-  TriangleMesh mesh = image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, 1.0);
+  TriangleMesh mesh = image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, 1.0);
   mesh.vertices.emplace_back(0.0F, 0.0F, 0.5F);
   mesh.vertices.emplace_back(0.1F, 0.1F, 0.5F);
   mesh.vertices.emplace_back(0.2F, 0.2F, 0.5F);
@@ -100,7 +99,7 @@ TEST_P(Bodies, DegenerateTrianglesDrawNothing) {
   mesh.triangles.push_back({4, 6, 4});
   Scene scene;
   scene.add(mesh);
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(small_camera, scene);
   EXPECT_EQ(frame.covered(), 4900U);
   EXPECT_NEAR(frame.depth(81, 58), 1.0, interior_tolerance);
 }
@@ -123,7 +122,7 @@ TEST_P(Bodies, SliversAndEdgeOnFaces) {
   scene.add(slivers, at(0, 0, 1));
   // A thin plate whose broad faces pass close to the camera's centre.
   scene.add(box({0.3F, 0.0005F, 0.3F}), at(0, 0.0007, 1.4));
-  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
 }
 
 TEST_P(Bodies, TwoHundredBodies) {
@@ -133,11 +132,11 @@ TEST_P(Bodies, TwoHundredBodies) {
     const int row = i / 20;
     const double v = 5.0 + 11.0 * row;
     scene.add(box({0.02F, 0.01F, 0.015F}),
-              Eigen::Translation3d(camera.ray(u, v)) *
+              Eigen::Translation3d(small_camera.ray(u, v)) *
                   Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d(1, 2, 3).normalized()));
   }
   const Agreement agreement =
-      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+      expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
   EXPECT_GT(agreement.robot_pixels, 1000U);
 }
 
@@ -147,29 +146,29 @@ TEST_P(Bodies, MostBodiesThatThereMayBe) {
     const double u = static_cast<double>(i % 40) * 4.0;
     const std::size_t row = i / 40;
     const double v = static_cast<double>(row) * 4.0;
-    scene.add(image_rectangle(camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
+    scene.add(image_rectangle(small_camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
   }
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(small_camera, scene);
   for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
     EXPECT_EQ(frame.links(4 * static_cast<int>(i % 40), 4 * static_cast<int>(i / 40)), i + 1);
   }
   scene.add(box({0.1F, 0.1F, 0.1F}));
-  EXPECT_THROW(static_cast<void>(make(GetParam(), camera, scene.bodies())), InputError);
+  EXPECT_THROW(static_cast<void>(make(GetParam(), small_camera, scene.bodies())), InputError);
 }
 
 TEST_P(Bodies, BodiesOfNothingTakeNoNumbersFromOthers) {
   Scene scene;
   for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
     scene.add(std::vector<TriangleMesh>{});
-    scene.add(image_rectangle(camera, 20.5, 20.5, 22.5, 22.5, 2.0));
+    scene.add(image_rectangle(small_camera, 20.5, 20.5, 22.5, 22.5, 2.0));
     scene.add(TriangleMesh{});
   }
-  const auto renderer = make(GetParam(), camera, scene.bodies());
+  const auto renderer = make(GetParam(), small_camera, scene.bodies());
   for (const std::size_t seen : {std::size_t{1}, std::size_t{1534}, scene.poses.size() - 2}) {
     scene.poses.assign(scene.poses.size(), at(0, 0, -3));
     scene.poses[seen].setIdentity();
     const VirtualDepthView view = renderer->render(scene.poses);
-    expect_consistent(view, camera, scene.poses.size());
+    expect_consistent(view, small_camera, scene.poses.size());
     const Frame frame(view);
     EXPECT_EQ(frame.covered(), 4U);
     EXPECT_EQ(frame.links(21, 22), seen + 1);
@@ -180,12 +179,12 @@ TEST_P(Bodies, BodiesOfNothingTakeNoNumbersFromOthers) {
 
 TEST_P(Bodies, NoBodyAndBodiesOfNothing) {
   Scene scene;
-  EXPECT_EQ(render(camera, scene).covered(), 0U);
+  EXPECT_EQ(render(small_camera, scene).covered(), 0U);
   scene.add(std::vector<TriangleMesh>{});
   scene.add(TriangleMesh{});
-  EXPECT_EQ(render(camera, scene).covered(), 0U);
+  EXPECT_EQ(render(small_camera, scene).covered(), 0U);
   scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(small_camera, scene);
   EXPECT_GT(frame.covered(), 0U);
   EXPECT_EQ(frame.links(81, 58), 3);
 }
@@ -194,7 +193,7 @@ TEST_P(Bodies, CoincidingBodiesNameOneOfThem) {
   Scene scene;
   scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
   scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
 }
 
 TEST_P(Bodies, NothingOfThePreviousFrameSurvives) {
@@ -203,15 +202,15 @@ TEST_P(Bodies, NothingOfThePreviousFrameSurvives) {
   scene.add(box({0.2F, 0.1F, 0.3F}));
   scene.add(sphere(0.15F, 12));
   scene.add(triangle_soup(random, 6, 0.4F));
-  const auto reused = make(GetParam(), camera, scene.bodies());
+  const auto reused = make(GetParam(), small_camera, scene.bodies());
   for (int round = 0; round < 12; ++round) {
     for (auto& pose : scene.poses) {
       pose = round % 4 == 3 ? at(0, 0, -3)  // an empty frame
                             : random_pose(random, {-0.7, -0.5, 0.6}, {0.7, 0.5, 2.0});
     }
     const VirtualDepthView again = reused->render(scene.poses);
-    expect_consistent(again, camera, scene.poses.size());
-    expect_same_bits(again, render(camera, scene).view());
+    expect_consistent(again, small_camera, scene.poses.size());
+    expect_same_bits(again, render(small_camera, scene).view());
   }
 }
 
@@ -219,10 +218,10 @@ TEST_P(Bodies, TriangleAndBodyCountsAreTold) {
   Scene scene;
   scene.add(box({0.1F, 0.1F, 0.1F}));
   scene.add({box({0.1F, 0.1F, 0.1F}), sphere(0.1F, 4)});
-  const auto renderer = make(GetParam(), camera, scene.bodies());
+  const auto renderer = make(GetParam(), small_camera, scene.bodies());
   EXPECT_EQ(renderer->body_count(), 2U);
   EXPECT_EQ(renderer->triangle_count(), 12U + 12U + 48U);
-  EXPECT_EQ(renderer->intrinsics(), camera);
+  EXPECT_EQ(renderer->intrinsics(), small_camera);
   EXPECT_EQ(renderer->info().backend, GetParam().backend);
   if (GetParam().backend == Backend::cpu) {
     EXPECT_EQ(renderer->info().isa, GetParam().isa);

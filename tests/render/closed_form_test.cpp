@@ -14,8 +14,6 @@ using Eigen::Vector3f;
 class ClosedForm : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(ClosedForm, 2);
 
-const Intrinsics camera(160, 120, 150.0, 155.0, 81.3, 57.9);
-
 /// Expects every pixel's depth to be expected(ray), which is 0 where nothing is.
 template <typename Depth>
 void expect_depth(const Frame& frame, const Intrinsics& intrinsics, Depth&& expected) {
@@ -32,20 +30,20 @@ void expect_depth(const Frame& frame, const Intrinsics& intrinsics, Depth&& expe
 
 TEST_P(ClosedForm, FacingPlaneFillsTheImage) {
   Scene scene;
-  scene.add(image_rectangle(camera, -50, -50, 250, 250, 1.5));
-  const Frame frame = render(camera, scene);
+  scene.add(image_rectangle(small_camera, -50, -50, 250, 250, 1.5));
+  const Frame frame = render(small_camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
-  expect_depth(frame, camera, [](const Vector3d&) { return 1.5; });
+  expect_depth(frame, small_camera, [](const Vector3d&) { return 1.5; });
 }
 
 TEST_P(ClosedForm, TriangleCoversWhatItsEdgesEnclose) {
   Scene scene;
   const auto corner = [](double u, double v, double z) -> Vector3f {
-    return (camera.ray(u, v) * z).cast<float>();
+    return (small_camera.ray(u, v) * z).cast<float>();
   };
   scene.add(triangle(corner(20.3, 10.1, 1.0), corner(140.2, 33.3, 2.0), corner(61.7, 110.9, 1.4)));
   const Agreement agreement =
-      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+      expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
   // Half of the cross product of two edges in the image.
   const double area = 0.5 * (119.9 * 100.8 - 41.4 * 23.2);
   EXPECT_NEAR(static_cast<double>(agreement.robot_pixels), area, 0.01 * area);
@@ -59,8 +57,8 @@ TEST_P(ClosedForm, TiltedPlanes) {
       scene.add(quad({-40, -40, 0}, {-40, 40, 0}, {40, 40, 0}, {40, -40, 0}),
                 Eigen::Translation3d(0, 0, 2) * tilt);
       const Vector3d normal = tilt * Vector3d::UnitZ();
-      const Frame frame = render(camera, scene);
-      expect_depth(frame, camera, [&](const Vector3d& ray) {
+      const Frame frame = render(small_camera, scene);
+      expect_depth(frame, small_camera, [&](const Vector3d& ray) {
         const double z = normal.z() * 2.0 / normal.dot(ray);
         const Vector3d on_plane = tilt.inverse() * (ray * z - Vector3d(0, 0, 2));
         return z > 0 && on_plane.cwiseAbs().maxCoeff() <= 40 ? z : 0.0;
@@ -79,10 +77,10 @@ TEST_P(ClosedForm, SphereFollowsItsFormula) {
   Scene scene;
   scene.add(sphere(radius, rings),
             Eigen::Translation3d(centre) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
-  const Frame frame = render(camera, scene);
-  for (int v = 0; v < camera.height(); ++v) {
-    for (int u = 0; u < camera.width(); ++u) {
-      const Vector3d ray = camera.ray(u, v);
+  const Frame frame = render(small_camera, scene);
+  for (int v = 0; v < small_camera.height(); ++v) {
+    for (int u = 0; u < small_camera.width(); ++u) {
+      const Vector3d ray = small_camera.ray(u, v);
       const double a = ray.squaredNorm();
       const double b = ray.dot(centre);
       const double root = b * b - a * (centre.squaredNorm() - radius * radius);
@@ -102,9 +100,9 @@ TEST_P(ClosedForm, SphereFollowsItsFormula) {
 TEST_P(ClosedForm, BoxShowsItsFrontFace) {
   Scene scene;
   scene.add(box({0.2F, 0.1F, 0.3F}), at(0.0, 0.0, 1.3));
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(small_camera, scene);
   // The camera sees the front face at 1.0 m only: its image encloses those of the others.
-  expect_depth(frame, camera, [](const Vector3d& ray) {
+  expect_depth(frame, small_camera, [](const Vector3d& ray) {
     return std::abs(ray.x()) <= 0.2 && std::abs(ray.y()) <= 0.1 ? 1.0 : 0.0;
   });
 }
@@ -128,9 +126,9 @@ TEST_P(ClosedForm, NearestSurfaceWinsInAnyOrder) {
   for (const bool near_first : {true, false}) {
     Scene scene;
     const double first = near_first ? 1.0 : 2.0;
-    scene.add(image_rectangle(camera, 20.5, 20.5, 90.5, 90.5, first));
-    scene.add(image_rectangle(camera, 60.5, 60.5, 140.5, 110.5, 3.0 - first));
-    const Frame frame = render(camera, scene);
+    scene.add(image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, first));
+    scene.add(image_rectangle(small_camera, 60.5, 60.5, 140.5, 110.5, 3.0 - first));
+    const Frame frame = render(small_camera, scene);
     EXPECT_NEAR(frame.depth(70, 70), 1.0, interior_tolerance);
     EXPECT_EQ(frame.links(70, 70), near_first ? 1 : 2);
     EXPECT_EQ(frame.links(30, 30), 1);

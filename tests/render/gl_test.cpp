@@ -23,7 +23,6 @@ namespace penumbra::test {
 namespace {
 
 const Intrinsics camera(320, 240, 300.0, 300.0, 160.0, 120.0);
-const BackendChoice opengl{Backend::gl, "", 1};
 
 class Gl : public ::testing::Test {
  protected:

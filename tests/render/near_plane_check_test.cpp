@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "random.hpp"
-#include "scene.hpp"
+#include "render_test.hpp"
 #include "shapes.hpp"
 
 #include <algorithm>
@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Found = std::vector<std::size_t>;
-
-const Intrinsics camera(96, 72, 80.0, 82.0, 47.0, 36.25);
 
 /// `side` metres wide and high.
 TriangleMesh plate(float side) {
@@ -39,7 +37,7 @@ TEST(NearPlaneCheck, FindsWhatLiesBetweenTheCameraAndTheNearPlane) {
   scene.add(plate(0.001F), at(0.02, 0.0, 0.005));  // beside the image
   scene.add(TriangleMesh{});
   const auto bodies = scene.bodies();
-  NearPlaneCheck check(camera, bodies);
+  NearPlaneCheck check(near_camera, bodies);
   EXPECT_EQ(found(check, scene), (Found{0, 3}));
   scene.poses[0] = at(0, 0, 0.01);  // drawn
   scene.poses[1] = at(0, 0, 0.0099);
@@ -58,16 +56,18 @@ TEST(NearPlaneCheck, ACameraInsideOfABracketsBoundsIsNone) {
   bracket.triangles.push_back({4, 6, 7});
   scene.add(bracket, at(0.1, 0, -0.5));
   const auto bodies = scene.bodies();
-  NearPlaneCheck check(camera, bodies);
+  NearPlaneCheck check(near_camera, bodies);
   EXPECT_EQ(found(check, scene), Found{});
 }
 
 /// How far a point is inside of the pyramid between camera and near plane; negative: outside.
 double depth_in_pyramid(const Vector3d& p) {
-  const double u_low = p.x() * camera.fx() + (camera.cx() + 0.5) * p.z();
-  const double u_high = (camera.width() - 0.5 - camera.cx()) * p.z() - p.x() * camera.fx();
-  const double v_low = p.y() * camera.fy() + (camera.cy() + 0.5) * p.z();
-  const double v_high = (camera.height() - 0.5 - camera.cy()) * p.z() - p.y() * camera.fy();
+  const double u_low = p.x() * near_camera.fx() + (near_camera.cx() + 0.5) * p.z();
+  const double u_high =
+      (near_camera.width() - 0.5 - near_camera.cx()) * p.z() - p.x() * near_camera.fx();
+  const double v_low = p.y() * near_camera.fy() + (near_camera.cy() + 0.5) * p.z();
+  const double v_high =
+      (near_camera.height() - 0.5 - near_camera.cy()) * p.z() - p.y() * near_camera.fy();
   // Distances to the sides: each is a length times about this number of pixels.
   const double pixels = 100.0;
   return std::min({u_low / pixels, u_high / pixels, v_low / pixels, v_high / pixels,
@@ -94,7 +94,7 @@ TEST(NearPlaneCheck, AgreesWithPointsOfRandomTriangles) {
         deepest = std::max(deepest, depth_in_pyramid(scene.poses[0] * p));
       }
     const auto bodies = scene.bodies();
-    NearPlaneCheck check(camera, bodies);
+    NearPlaneCheck check(near_camera, bodies);
     const bool answer = !check.find(scene.poses).empty();
     if (deepest > 1e-7) {
       EXPECT_TRUE(answer) << round << ' ' << deepest;
@@ -111,7 +111,7 @@ TEST(NearPlaneCheck, ARobotThatMovesIsAskedAnew) {
   Scene scene;
   scene.add(plate(0.004F), at(0, 0, 0.005));
   const auto bodies = scene.bodies();
-  NearPlaneCheck check(camera, bodies);
+  NearPlaneCheck check(near_camera, bodies);
   for (int i = 0; i < 20; ++i) {
     scene.poses[0] = at(0.0015 * i, 0, 0.005);
     // The image's right edge is (95.5 - 47) / 80 of the depth beside its centre.

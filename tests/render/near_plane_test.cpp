@@ -17,15 +17,13 @@ using Eigen::Vector3f;
 class NearPlane : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(NearPlane, 2);
 
-const Intrinsics camera(96, 72, 80.0, 82.0, 47.0, 36.25);
-
 TEST_P(NearPlane, FloorThatPassesUnderTheCamera) {
   Scene scene;
   scene.add(quad({-200, 1, -100}, {-200, 1, 100}, {200, 1, 100}, {200, 1, -100}));
-  const Frame frame = render(camera, scene);
-  for (int v = 0; v < camera.height(); ++v) {
-    const double z = camera.fy() / (v - camera.cy());
-    for (int u = 0; u < camera.width(); ++u) {
+  const Frame frame = render(near_camera, scene);
+  for (int v = 0; v < near_camera.height(); ++v) {
+    const double z = near_camera.fy() / (v - near_camera.cy());
+    for (int u = 0; u < near_camera.width(); ++u) {
       if (z > 0 && z < 99.0) {
         EXPECT_NEAR(frame.depth(u, v), z, interior_tolerance * z) << u << ' ' << v;
       } else if (z < 0 || z > 101.0) {
@@ -39,11 +37,11 @@ TEST_P(NearPlane, NothingNearerThanTheNearPlane) {
   for (const double z : {-1.0, 0.0, 0.005, 0.00999}) {
     Scene scene;
     scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, z));
-    EXPECT_EQ(render(camera, scene).covered(), 0U) << z;
+    EXPECT_EQ(render(near_camera, scene).covered(), 0U) << z;
   }
   Scene scene;
   scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, 0.0101));
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(near_camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
 }
 
@@ -52,7 +50,7 @@ TEST_P(NearPlane, TriangleThroughTheCameraPlane) {
   for (int round = 0; round < samples(40); ++round) {
     Scene scene;
     scene.add(triangle_soup(random, 1, 1.0F), at(0, 0, 0.2));
-    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+    expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
 }
 
@@ -60,10 +58,10 @@ TEST_P(NearPlane, MeshCutOpenShowsItsInside) {
   // The front face is 5 mm before the camera: nearer than the near plane. Its back is 0.4 m off.
   Scene scene;
   scene.add(box({0.5F, 0.5F, 0.2F}), at(0, 0, 0.205));
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(near_camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
   EXPECT_NEAR(frame.depth(47, 36), 0.405, 0.405 * interior_tolerance);
-  expect_agrees_with_brute_force(frame.view(), scene, camera);
+  expect_agrees_with_brute_force(frame.view(), scene, near_camera);
 }
 
 TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
@@ -78,7 +76,7 @@ TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
     const Vector3d side = Vector3d(x, y, std::abs(normal(random)) + 0.3).normalized();
     const Vector3d centre = side * (radius + gap(random));
     scene.add(sphere(static_cast<float>(radius), 10), random_pose(random, centre, centre));
-    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+    expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
 }
 
@@ -89,7 +87,7 @@ TEST_P(NearPlane, OpenTubeAroundTheCamera) {
   tube.triangles.erase(tube.triangles.begin(), tube.triangles.begin() + 4);
   scene.add(tube, Eigen::Isometry3d(Eigen::AngleAxisd(0.2, Vector3d(1, 1, 0).normalized())));
   const Agreement agreement =
-      expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+      expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   EXPECT_GT(agreement.robot_pixels, 3000U);
 }
 
@@ -97,7 +95,7 @@ TEST_P(NearPlane, BodyWhollyBehindIsNotDrawn) {
   Scene scene;
   scene.add(box({0.5F, 0.5F, 0.2F}), at(0, 0, -0.3));
   scene.add(sphere(1.0F, 20), at(0.3, 0.2, -1.1));
-  EXPECT_EQ(render(camera, scene).covered(), 0U);
+  EXPECT_EQ(render(near_camera, scene).covered(), 0U);
 }
 
 TEST_P(NearPlane, HugeTriangles) {
@@ -113,11 +111,11 @@ TEST_P(NearPlane, HugeTriangles) {
     const Vector3f a = corner();
     const Vector3f b = corner();
     scene.add(triangle(a, b, corner()));
-    expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+    expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
   Scene scene;
   scene.add(triangle({-1e4F, -1e4F, 1}, {1e4F, -1e4F, 1}, {0, 1e4F, 1}));
-  const Frame frame = render(camera, scene);
+  const Frame frame = render(near_camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
   EXPECT_NEAR(frame.depth(50, 30), 1.0, interior_tolerance);
 }
@@ -132,7 +130,7 @@ TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
     scene.add(sphere(0.2F, 9), random_pose(random, {0.3, -0.4, -0.3}, {0.6, 0.4, 1.5}));
     scene.add(mirrored(sphere(0.15F, 9)), random_pose(random, {-0.6, -0.4, 0}, {-0.2, 0.4, 1.5}));
     scene.add(box({0.1F, 0.1F, 0.4F}), random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}));
-    total += expect_agrees_with_brute_force(render(camera, scene).view(), scene, camera);
+    total += expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
   std::cout << total << '\n';
 }

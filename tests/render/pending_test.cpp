@@ -35,25 +35,25 @@ class Pending : public RenderTest {
 };
 PENUMBRA_FOR_EACH_BACKEND(Pending, 2);
 
-const Intrinsics camera(233, 157, 200.0, 205.0, 120.3, 70.9);
+const Intrinsics pending_camera(233, 157, 200.0, 205.0, 120.3, 70.9);
 
 TEST_P(Pending, AsManyAsTheBackendTakes) {
-  const auto renderer = make(GetParam(), camera, scene_.bodies());
+  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
   EXPECT_EQ(renderer->max_pending(), GetParam().backend == Backend::gl ? 3 : 1);
 }
 
 TEST_P(Pending, FramesComeInOrderAndAsFromRender) {
   const auto frames = random_frames(20);
-  const auto plain = make(GetParam(), camera, scene_.bodies());
+  const auto plain = make(GetParam(), pending_camera, scene_.bodies());
   std::vector<Frame> expected;
   expected.reserve(frames.size());
   for (const auto& poses : frames) expected.emplace_back(plain->render(poses));
-  const auto ahead = make(GetParam(), camera, scene_.bodies());
+  const auto ahead = make(GetParam(), pending_camera, scene_.bodies());
   for (int depth = 1; depth <= ahead->max_pending(); ++depth) {
     std::size_t collected = 0;
     const auto collect = [&] {
       const VirtualDepthView view = ahead->collect();
-      expect_consistent(view, camera, scene_.poses.size());
+      expect_consistent(view, pending_camera, scene_.poses.size());
       expect_same_bits(view, expected[collected++].view());
     };
     for (const auto& poses : frames) {
@@ -67,7 +67,7 @@ TEST_P(Pending, FramesComeInOrderAndAsFromRender) {
 
 TEST_P(Pending, ViewsStayValidForMaxPendingFrames) {
   const auto frames = random_frames(10);
-  const auto renderer = make(GetParam(), camera, scene_.bodies());
+  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
   std::deque<std::pair<VirtualDepthView, Frame>> valid;
   for (const auto& poses : frames) {
     if (static_cast<int>(valid.size()) == renderer->max_pending()) valid.pop_front();
@@ -78,7 +78,7 @@ TEST_P(Pending, ViewsStayValidForMaxPendingFrames) {
 }
 
 TEST_P(Pending, MisuseIsALogicError) {
-  const auto renderer = make(GetParam(), camera, scene_.bodies());
+  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
   const auto poses = random_frames(1).front();
   EXPECT_THROW(static_cast<void>(renderer->collect()), std::logic_error);
   for (int i = 0; i < renderer->max_pending(); ++i) renderer->submit(poses);
@@ -91,7 +91,7 @@ TEST_P(Pending, MisuseIsALogicError) {
 }
 
 TEST_P(Pending, FramesThatNobodyCollectsAreDropped) {
-  const auto renderer = make(GetParam(), camera, scene_.bodies());
+  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
   renderer->submit(random_frames(1).front());
 }
 

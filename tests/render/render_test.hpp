@@ -17,11 +17,19 @@
 
 namespace penumbra::test {
 
+/// Small, with a principal point off the centre and other focal lengths along u and v.
+inline const Intrinsics small_camera(160, 120, 150.0, 155.0, 81.3, 57.9);
+
+/// Smaller still, of scenes that pass through it.
+inline const Intrinsics near_camera(96, 72, 80.0, 82.0, 47.0, 36.25);
+
 struct BackendChoice {
   Backend backend = Backend::reference;
   std::string isa;
   int threads = 1;
 };
+
+inline const BackendChoice opengl{Backend::gl, "", 1};
 
 std::ostream& operator<<(std::ostream& out, const BackendChoice& choice);
 

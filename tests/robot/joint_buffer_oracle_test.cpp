@@ -19,7 +19,7 @@ namespace penumbra::test {
 namespace {
 
 // Positions of size 10, a handful of operations.
-constexpr double kTolerance = 1e-12;
+constexpr double kOracleTolerance = 1e-12;
 constexpr std::int64_t kMaxGap = 50;
 
 struct Oracle {
@@ -128,7 +128,7 @@ class Fuzz {
       if (found.ok) {
         age = std::max(age, found.age);
         if (answer.status == JointStatus::ok) {
-          EXPECT_NEAR(answer.positions[i], expected(i, found), kTolerance) << name;
+          EXPECT_NEAR(answer.positions[i], expected(i, found), kOracleTolerance) << name;
         }
         continue;
       }

@@ -18,7 +18,7 @@ namespace penumbra::test {
 namespace {
 
 // Of a driver's own track beside the swing between two of its states.
-constexpr double of_driver = 1e-3;
+constexpr double of_copied_driver = 1e-3;
 
 // Two new values of a copy that tells each 100 ms, and the way to the first one.
 constexpr std::int64_t recognised = 500 * ms;
@@ -77,7 +77,7 @@ TEST(JointCopies, TheDriverIsKnownOnceWhoRanAheadIsForgotten) {
   OneJoint joint;
   const auto out = joint.live(
       {driver, {.source = "commands", .way = commanded, .first = 5 * ms, .end = 9000 * ms}});
-  const Frames frames = check(out, swing, 10500 * ms, 24800 * ms, of_driver);
+  const Frames frames = check(out, swing, 10500 * ms, 24800 * ms, of_copied_driver);
   EXPECT_EQ(frames.known, frames.all) << "as it moved on its own beside it, and since";
 }
 
@@ -87,7 +87,8 @@ TEST(JointCopies, NoneIsTooLateToBeSeen) {
       const Program driver = driver_of(20 * ms);
       const auto out = OneJoint().live({driver, copier(driver, late, period)});
       // A contradiction that was seen before holds for 0.8 s.
-      const Frames frames = check(out, swing, recognised + late + 800 * ms, 8800 * ms, of_driver);
+      const Frames frames =
+          check(out, swing, recognised + late + 800 * ms, 8800 * ms, of_copied_driver);
       EXPECT_EQ(frames.known, frames.all) << late / ms << " ms, each " << period / ms;
     }
 }
@@ -97,8 +98,8 @@ TEST(JointCopies, OfACopyToo) {
   Program first = copier(driver, 4 * ms, 20 * ms);
   Program second = copier(first, 4 * ms, 50 * ms);
   second.source = "copy's copy", second.first = 45 * ms;
-  const Frames frames =
-      check(OneJoint().live({driver, first, second}), swing, recognised, 8800 * ms, of_driver);
+  const Frames frames = check(OneJoint().live({driver, first, second}), swing, recognised,
+                              8800 * ms, of_copied_driver);
   EXPECT_EQ(frames.known, frames.all);
 }
 
@@ -132,7 +133,7 @@ TEST(JointCopies, DoNotAnswerWhileTheyAloneHearTheDriver) {
         const auto told =
             without(all_of({driver, copier(driver, late)}), "driver", 3000 * ms, 3000 * ms + lost);
         const auto out = OneJoint().live(told);
-        check(out, driver.way, recognised, 9000 * ms, start == 0 ? of_driver : tolerance);
+        check(out, driver.way, recognised, 9000 * ms, start == 0 ? of_copied_driver : tolerance);
         const Frames since = check(out, driver.way, 3900 * ms + lost, 8800 * ms);
         EXPECT_EQ(since.known, since.all) << "it is back";
       }

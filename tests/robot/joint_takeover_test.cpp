@@ -10,9 +10,6 @@
 namespace penumbra::test {
 namespace {
 
-// A driver's own track, interpolated along a straight way.
-constexpr double exact = 1e-9;
-
 TEST(JointTakeover, TheOtherOneDoesNotTakeOverWhereTheDriverEnds) {
   // Sliders that contradicted it, and a copy that sends on its last value. What is known until it
   // ends is the driver's; then nothing, until the driver is forgotten.
@@ -40,7 +37,7 @@ TEST(JointTakeover, WhoMovesOnItsOwnTakesOver) {
   for (const auto& [stamp, status, value] : out) {
     if (stamp > 1000 * ms && back == 0 && status == JointStatus::ok) back = stamp;
     if (status == JointStatus::ok) {
-      ASSERT_NEAR(value, moving(1.0)(stamp), exact);
+      ASSERT_NEAR(value, moving(1.0)(stamp), of_straight_way);
     }
   }
   EXPECT_GT(back, 0);
@@ -89,7 +86,7 @@ TEST(JointTakeover, WhoTellsSeldomIsWaitedFor) {
   for (const auto& [stamp, status, value] : out) {
     if (status != JointStatus::ok) continue;
     ++known;
-    ASSERT_NEAR(value, moving(0.5)(stamp), exact);
+    ASSERT_NEAR(value, moving(0.5)(stamp), of_straight_way);
   }
   EXPECT_GE(known, 10U) << "on its own states";
   EXPECT_LT(known, out.size() / 3);
@@ -103,7 +100,7 @@ TEST(JointTakeover, WithoutComparingTheFirstOneIsWaitedFor) {
   for (const auto& [stamp, status, value] : out) {
     if (status != JointStatus::ok) continue;
     ++known;
-    ASSERT_NEAR(value, moving(1.0)(stamp), exact);
+    ASSERT_NEAR(value, moving(1.0)(stamp), of_straight_way);
   }
   EXPECT_GT(known, 300U);
 }
@@ -119,7 +116,7 @@ TEST(JointTakeover, WithoutComparingADriverThatReturnsIsTheFirstAgain) {
   for (const auto& [stamp, status, value] : out) {
     if (status != JointStatus::ok) continue;
     ++known;
-    ASSERT_NEAR(value, moving(1.0)(stamp), exact) << stamp;
+    ASSERT_NEAR(value, moving(1.0)(stamp), of_straight_way) << stamp;
   }
   EXPECT_GT(known, (590U + 1490U + 1900U) / 5U) << "all that a driver tells";
 }

@@ -22,8 +22,8 @@ namespace penumbra {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double rounding = 1e-6;  // metres, of float corners
+using test::corner_rounding;
+using test::refusal;
 
 /// How often a mesh surrounds p: fronts left minus fronts entered, along a ray that meets no edge.
 int windings(const TriangleMesh& mesh, const Vector3d& p) {
@@ -52,8 +52,8 @@ struct Samples {
 void expect_eroded(const TriangleMesh& mesh, const TriangleMesh& eroded, double depth,
                    const Samples& samples) {
   ASSERT_TRUE(is_watertight(weld(eroded)));
-  const double least = depth * (1.0 - shrink_error_outwards) - rounding;
-  const double most = depth * (1.0 + shrink_error_inwards) + rounding;
+  const double least = depth * (1.0 - shrink_error_outwards) - corner_rounding;
+  const double most = depth * (1.0 + shrink_error_inwards) + corner_rounding;
   auto random = test::seeded_random(51);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   double nearest = 2.0 * depth;
@@ -123,10 +123,6 @@ TEST(OffsetGrid, SurfacesInsideOtherPiecesAreWalls) {
   const TriangleMesh eroded = offset_surface(two, -depth);
   EXPECT_GT(windings(eroded, {-0.03, 0, 0}), 0);
   EXPECT_EQ(windings(eroded, {-0.045, 0, 0}), 0);
-}
-
-std::string refusal(const TriangleMesh& mesh, double margin) {
-  return test::message_of([&] { (void)offset_surface(mesh, margin); });
 }
 
 TEST(OffsetGrid, RefusalsSayWhatToDo) {

@@ -21,17 +21,10 @@ namespace {
 
 using Eigen::Vector3d;
 using test::append;
+using test::corner_rounding;
 using test::crumpled;
 using test::extrude;
-
-constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-6;  // metres, of float corners of models below 2 m
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const MeshComponent& piece : connected_components(weld(mesh))) sum += piece.signed_volume;
-  return sum;
-}
+using test::volume;
 
 TriangleMesh l_shape() {
   return extrude({{0, 0}, {0.2, 0}, {0.2, 0.05}, {0.05, 0.05}, {0.05, 0.2}, {0, 0.2}}, 0.1);
@@ -41,8 +34,8 @@ TriangleMesh torus(double ring, double tube, std::uint32_t n) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = 0; j < n; ++j) {
-      const double a = 2 * pi * i / n;
-      const double b = 2 * pi * j / n;
+      const double a = 2 * std::numbers::pi * i / n;
+      const double b = 2 * std::numbers::pi * j / n;
       const double r = ring + tube * std::cos(b);
       mesh.vertices.push_back(
           Vector3d(r * std::cos(a), r * std::sin(a), tube * std::sin(b)).cast<float>());
@@ -78,15 +71,15 @@ void expect_offset(const TriangleMesh& mesh, const TriangleMesh& grown, double m
     for (const bool cull_backs : {false, true}) {
       const auto hit = test::cast(grown, eye, ray, cull_backs);
       if (!hit) {
-        ASSERT_FALSE(
-            test::comes_within(mesh, eye, ray, margin * (1 - offset_error) - rounding, 2 * far))
+        ASSERT_FALSE(test::comes_within(mesh, eye, ray,
+                                        margin * (1 - offset_error) - corner_rounding, 2 * far))
             << "a hole: ray " << i << ", culled " << cull_backs;
         continue;
       }
       ++hits;
       const double d = test::distance(mesh, *hit);
-      ASSERT_LE(d, margin + rounding) << "ray " << i << ", culled " << cull_backs;
-      ASSERT_GE(d, margin * (1 - offset_error) - rounding)
+      ASSERT_LE(d, margin + corner_rounding) << "ray " << i << ", culled " << cull_backs;
+      ASSERT_GE(d, margin * (1 - offset_error) - corner_rounding)
           << "ray " << i << ", culled " << cull_backs;
       deepest = std::max(deepest, margin - d);
     }
@@ -116,13 +109,14 @@ TEST(OffsetGrow, VolumesAreTheClosedForms) {
   for (const double m : {0.001, 0.01, 0.1}) {
     const Vector3d s(0.3, 0.2, 0.1);
     const double area = 2 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
-    const double round = pi * m * m * s.sum() + 4.0 / 3.0 * pi * m * m * m;
+    const double round =
+        std::numbers::pi * m * m * s.sum() + 4.0 / 3.0 * std::numbers::pi * m * m * m;
     const TriangleMesh box = offset_surface(make_box(s), m);
     expect_closed(box);
     const double exact = s.prod() + area * m + round;
-    EXPECT_LE(volume(box), exact * (1 + rounding));
+    EXPECT_LE(volume(box), exact * (1 + corner_rounding));
     // Faces are exact; what is round is at most offset_error of the margin short.
-    EXPECT_GE(volume(box), exact - 3 * offset_error * round - exact * rounding);
+    EXPECT_GE(volume(box), exact - 3 * offset_error * round - exact * corner_rounding);
 
     const double r = 0.05;
     const TriangleMesh ball = make_sphere(r);
@@ -130,16 +124,17 @@ TEST(OffsetGrow, VolumesAreTheClosedForms) {
     expect_closed(grown);
     const double inner = r + m * (1 - offset_error) - primitive_error;
     const double outer = r + m + primitive_error;
-    EXPECT_GE(volume(grown), 4.0 / 3.0 * pi * inner * inner * inner);
-    EXPECT_LE(volume(grown), 4.0 / 3.0 * pi * outer * outer * outer);
+    EXPECT_GE(volume(grown), 4.0 / 3.0 * std::numbers::pi * inner * inner * inner);
+    EXPECT_LE(volume(grown), 4.0 / 3.0 * std::numbers::pi * outer * outer * outer);
 
     const double l = 0.2;
     const TriangleMesh rod = offset_surface(make_cylinder(r, l), m);
     expect_closed(rod);
     const double whole =
-        pi * (r + m) * (r + m) * l +
-        2 * (pi * r * r * m + pi * pi * r * m * m / 2 + 2.0 / 3.0 * pi * m * m * m);
-    const double skin = 2 * pi * (r + m) * (l + 2 * (r + m));
+        std::numbers::pi * (r + m) * (r + m) * l +
+        2 * (std::numbers::pi * r * r * m + std::numbers::pi * std::numbers::pi * r * m * m / 2 +
+             2.0 / 3.0 * std::numbers::pi * m * m * m);
+    const double skin = 2 * std::numbers::pi * (r + m) * (l + 2 * (r + m));
     EXPECT_NEAR(volume(rod), whole, skin * (offset_error * m + 2 * primitive_error));
   }
 }

@@ -3,12 +3,32 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
+#include <tests/robot/urdf_text.hpp>
+
+#include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/base/triangle_mesh.hpp>
 #include <penumbra/robot/primitives.hpp>
+#include <penumbra/robot/surface_offset.hpp>
 
 namespace penumbra::test {
+
+/// Metres: float corners of models below 2 m.
+inline constexpr double corner_rounding = 1e-6;
+
+/// Of all pieces, m^3.
+inline double volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const MeshComponent& piece : connected_components(weld(mesh))) sum += piece.signed_volume;
+  return sum;
+}
+
+/// What offset_surface() says where it refuses a mesh.
+inline std::string refusal(const TriangleMesh& mesh, double margin) {
+  return message_of([&] { (void)offset_surface(mesh, margin); });
+}
 
 inline void append(TriangleMesh& mesh, const TriangleMesh& other, const Eigen::Vector3d& shift) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/robot/offset_oracle.hpp>
+#include <tests/robot/offset_shapes.hpp>
 #include <tests/robot/urdf_text.hpp>
 #include <tests/support/random.hpp>
 #include <tests/support/run_length.hpp>
@@ -18,19 +19,9 @@ namespace penumbra {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-6;
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const MeshComponent& piece : connected_components(weld(mesh))) sum += piece.signed_volume;
-  return sum;
-}
-
-std::string refusal(const TriangleMesh& mesh, double margin) {
-  return test::message_of([&] { (void)offset_surface(mesh, margin); });
-}
+using test::corner_rounding;
+using test::refusal;
+using test::volume;
 
 /// Random points of the shrunk surface lie at the depth from the old one.
 void expect_depth(const TriangleMesh& mesh, const TriangleMesh& shrunk, double depth) {
@@ -46,7 +37,7 @@ void expect_depth(const TriangleMesh& mesh, const TriangleMesh& shrunk, double d
     worst = std::max(worst, std::abs(test::distance(mesh, p) - depth));
   }
   std::cout << "off by at most " << 100 * worst / depth << " % of the depth\n";
-  EXPECT_LE(worst, offset::plane_error * depth + rounding);
+  EXPECT_LE(worst, offset::plane_error * depth + corner_rounding);
 }
 
 TEST(OffsetShrink, VolumesAreTheClosedForms) {
@@ -55,15 +46,16 @@ TEST(OffsetShrink, VolumesAreTheClosedForms) {
   const double l = 0.2;
   for (const double m : {0.0005, 0.002, 0.01, 0.03}) {
     const TriangleMesh box = offset_surface(make_box(size), -m);
-    EXPECT_NEAR(volume(box), (size - Vector3d::Constant(2 * m)).prod(), rounding);
+    EXPECT_NEAR(volume(box), (size - Vector3d::Constant(2 * m)).prod(), corner_rounding);
     expect_depth(make_box(size), box, m);
     const TriangleMesh ball = offset_surface(make_sphere(r), -m);
-    const double slack = 4 * pi * r * r * (primitive_error + 0.005 * m);  // flat faces, not a ball
-    EXPECT_NEAR(volume(ball), 4.0 / 3.0 * pi * std::pow(r - m, 3), slack);
+    const double slack =
+        4 * std::numbers::pi * r * r * (primitive_error + 0.005 * m);  // flat faces, not a ball
+    EXPECT_NEAR(volume(ball), 4.0 / 3.0 * std::numbers::pi * std::pow(r - m, 3), slack);
     expect_depth(make_sphere(r), ball, m);
     const TriangleMesh rod = offset_surface(make_cylinder(r, l), -m);
-    EXPECT_NEAR(volume(rod), pi * (r - m) * (r - m) * (l - 2 * m),
-                2 * pi * r * l * primitive_error);
+    EXPECT_NEAR(volume(rod), std::numbers::pi * (r - m) * (r - m) * (l - 2 * m),
+                2 * std::numbers::pi * r * l * primitive_error);
     expect_depth(make_cylinder(r, l), rod, m);
   }
 }
@@ -71,7 +63,7 @@ TEST(OffsetShrink, VolumesAreTheClosedForms) {
 TEST(OffsetShrink, InsideOutSolidsShrinkInwards) {
   TriangleMesh box = make_box({0.3, 0.2, 0.1});
   for (auto& t : box.triangles) std::swap(t[0], t[1]);
-  EXPECT_NEAR(volume(offset_surface(box, -0.01)), 0.28 * 0.18 * 0.08, rounding);
+  EXPECT_NEAR(volume(offset_surface(box, -0.01)), 0.28 * 0.18 * 0.08, corner_rounding);
 }
 
 TEST(OffsetShrink, OpenMeshesAndVanishingBodiesAreRefused) {

@@ -2,6 +2,7 @@
 // Programs that tell one joint, and what a buffer makes of it.
 #pragma once
 
+#include "../support/nanoseconds.hpp"
 #include "urdf_text.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@
 
 namespace penumbra::test {
 
-inline constexpr std::int64_t ms = 1'000'000;  // nanoseconds
+/// Of a driver's own track, interpolated along a straight way.
+inline constexpr double of_straight_way = 1e-9;
 
 /// rad or m at a time in nanoseconds.
 using Way = std::function<double(std::int64_t)>;

@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // lengths up to 20, chains of up to 12
+constexpr double kOracleTolerance = 1e-10;  // lengths up to 20, chains of up to 12
 constexpr std::int64_t kMaxGap = 40;
 constexpr std::size_t kFrames = 12;
 
@@ -126,7 +126,7 @@ class Fuzz {
     ASSERT_EQ(answer.status, expected) << answer.message;
     ++seen[static_cast<std::size_t>(expected)];
     if (expected == TransformStatus::ok) {
-      EXPECT_LT((answer.T_target_source.matrix() - T).cwiseAbs().maxCoeff(), kTolerance);
+      EXPECT_LT((answer.T_target_source.matrix() - T).cwiseAbs().maxCoeff(), kOracleTolerance);
     }
   }
 

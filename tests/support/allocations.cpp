@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// A source of its own: where the compiler sees both the replacement and its callers it takes free
-// for a mismatch.
 #include "allocations.hpp"
 
 #include <atomic>

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <penumbra/camera/intrinsics.hpp>
+
 namespace penumbra::test {
 
 /// What may go wrong on a graphics device.
@@ -19,6 +21,9 @@ enum class GlFault {
   error,         ///< OpenGL tells of an error
   reset,         ///< the device was reset, and the context with it
 };
+
+/// No side is a multiple of what devices like.
+inline const Intrinsics odd_camera(97, 71, 90.0, 90.0, 48.0, 35.0);
 
 inline constexpr std::array all_gl_faults{GlFault::make_current, GlFault::fetch,    GlFault::fence,
                                           GlFault::wait,         GlFault::patience, GlFault::error,

@@ -11,7 +11,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr double frame = 0.1;
+constexpr double period = 0.1;
 constexpr int seen_frames = 20, hidden_frames = 15;
 
 struct Hidden {
@@ -25,11 +25,11 @@ void hide(const PoseTrackerConfig& config, std::mt19937_64& random, Hidden& hidd
   RandomMotion target(config, random);
   PoseTracker tracker(config);
   for (int i = 0; i < seen_frames; ++i) {
-    tracker.update(target.estimate(i * frame), Verdict::visible);
-    target.advance(frame);
+    tracker.update(target.estimate(i * period), Verdict::visible);
+    target.advance(period);
   }
   for (int i = seen_frames; i < seen_frames + hidden_frames; ++i) {
-    auto invented = target.estimate(i * frame);
+    auto invented = target.estimate(i * period);
     invented.pose.translation() += 0.1 * normal<3>(random);
     const Verdict verdict = i % 2 == 0 ? Verdict::hidden : Verdict::unknown;
     ASSERT_EQ(tracker.update(invented, verdict), Outcome::refused_verdict);
@@ -40,12 +40,12 @@ void hide(const PoseTrackerConfig& config, std::mt19937_64& random, Hidden& hidd
     hidden.axes += 6;
     hidden.outside += static_cast<int>((scaled.cwiseAbs().array() > 3).count());
     hidden.squares += scaled.squaredNorm();
-    target.advance(frame);
+    target.advance(period);
   }
-  const double back = (seen_frames + hidden_frames) * frame;
+  const double back = (seen_frames + hidden_frames) * period;
   bool accepted = tracker.update(target.estimate(back), Verdict::visible) == Outcome::accepted;
-  target.advance(frame);
-  accepted |= tracker.update(target.estimate(back + frame), Verdict::visible) == Outcome::accepted;
+  target.advance(period);
+  accepted |= tracker.update(target.estimate(back + period), Verdict::visible) == Outcome::accepted;
   hidden.found += accepted ? 1 : 0;
   ++hidden.runs;
 }

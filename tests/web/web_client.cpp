@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int patience = 10;  // seconds
+constexpr int patience_s = 10;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -27,7 +27,7 @@ std::string lower(std::string text) {
 
 WebClient::WebClient(std::uint16_t port, int receive_buffer)
     : port_(port), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-  const timeval limit{patience, 0};
+  const timeval limit{patience_s, 0};
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   if (receive_buffer > 0)
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);

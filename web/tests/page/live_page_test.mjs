@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the live page says of frames that are old, late, damaged or do not come; frames are made up.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { desktop, drawn, example, launch, phone, serve } from './browser.mjs';
+import { test } from 'node:test';
+import { desktop, drawn, phone } from './browser.mjs';
 import { playLive } from './live_server.mjs';
+import { served } from './served.mjs';
 
-let browser, server;
-
-before(async () => {
-  [browser, server] = await Promise.all([launch(), serve(example)]);
-});
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+const shared = served();
 
 /** A live page, whose every state is noted: text and whether it is stale. */
 async function live(options, use) {
-  const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
+  const context = await shared.browser.newContext({ deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
   const faults = [];
   page.on('pageerror', (error) => faults.push(error.message));
-  const camera = await playLive(page, server.url);
+  const camera = await playLive(page, shared.server.url);
   await page.addInitScript(() => {
     window.states = [];
     const note = () => {
@@ -35,7 +28,7 @@ async function live(options, use) {
     };
     new MutationObserver(note).observe(document, { subtree: true, childList: true });
   });
-  await page.goto(server.url);
+  await page.goto(shared.server.url);
   try {
     await use(page, camera);
     assert.deepEqual(faults, []);
@@ -86,6 +79,24 @@ test('an old frame after a new connection is none of now either', () =>
     await camera.send({ age: 32_000 });
     await says(page, /no new frame for 3[2-9] s/);
     assert.ok(!(await statesOf(page)).some(({ text }) => text.startsWith('live')));
+  }));
+
+test('a network that is back after a silence gets a new connection: the old one may be half open', () =>
+  live(desktop, async (page, camera) => {
+    await camera.send();
+    await says(page, /^live/);
+    camera.answers = false; // no word on the old connection, either, which nobody closed
+    await says(page, /^no new frame/);
+    await page.waitForFunction(() => document.getElementById('missing').textContent !== '');
+    assert.equal(camera.connections, 1);
+    const old = camera.socket;
+    camera.answers = true;
+    for (let tries = 0; camera.socket === old && tries < 100; ++tries)
+      await page.waitForTimeout(50);
+    assert.equal(camera.connections, 2);
+    await showsNumber(page, await camera.send({ rate: slow }));
+    await says(page, /^live/);
+    assert.equal(camera.connections, 2);
   }));
 
 test('stamps of another clock are no reason to call frames old that keep coming', () =>

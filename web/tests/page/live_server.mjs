@@ -24,9 +24,10 @@ export async function playLive(page, url) {
   const stored = Buffer.from(await (await fetch(new URL(query, url))).arrayBuffer());
   const { head, parts } = headOf(stored);
   const session = await (await fetch(new URL('/api/session', url))).json();
-  const state = { sent: 0, asked: 0, connections: 0, socket: null, missing: [] };
-  await page.route('**/api/session', (route) =>
-    route.fulfill({
+  const state = { sent: 0, asked: 0, connections: 0, socket: null, missing: [], answers: true };
+  await page.route('**/api/session', (route) => {
+    if (!state.answers) return route.abort('timedout');
+    return route.fulfill({
       json: {
         ...session,
         mode: 'live',
@@ -35,8 +36,8 @@ export async function playLive(page, url) {
         missing: state.missing,
         diagnostics: [],
       },
-    }),
-  );
+    });
+  });
   await page.routeWebSocket('**/api/live', (socket) => {
     state.socket = socket;
     ++state.connections;

@@ -5,21 +5,20 @@ import { execFileSync } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import {
   desktop,
   drawn,
   example,
-  launch,
   open,
   openFile,
   phone,
   program,
-  serve,
   showsFrame,
   showsLayer,
 } from './browser.mjs';
 import { againstBaseline } from './pictures.mjs';
+import { served } from './served.mjs';
 
 // Where the panels are, and the share of a panel's blocks that may differ: other fonts and versions of
 // Chromium move texts by a pixel, which changes up to half as many. The faults at the end change more.
@@ -36,15 +35,7 @@ const reportPanels = {
   timeline: ['#timeline', 0.065],
   details: ['.report-details', 0.07],
 };
-let browser, server;
-
-before(async () => {
-  [browser, server] = await Promise.all([launch(), serve(example)]);
-});
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+const shared = served();
 
 /** Times, and where the example lies, differ from run to run: they are not in the pictures. */
 const hideTimes = (page) =>
@@ -90,7 +81,7 @@ const views = [
 ];
 
 async function openView([, options, hash, layer, prepare]) {
-  const opened = await open(browser, server.url + hash, options);
+  const opened = await open(shared.browser, shared.server.url + hash, options);
   await showsFrame(opened.page, Number(hash.match(/\d+/)[0]));
   await prepare(opened.page);
   await showsLayer(opened.page, layer);
@@ -118,8 +109,9 @@ const mutations = [
   ['timeline', 'all verdicts green', '.strip { fill: var(--v-visible) !important; }'],
   ['timeline', 'no shares', hides('.area')],
 ];
-const writes = process.env.PENUMBRA_BASELINES === 'write'; // no fault may be kept
-test('each panel’s picture fails for what is gone from it', { skip: writes }, async () => {
+const writes = process.env.PENUMBRA_BASELINES === 'write';
+const skip = writes ? 'no fault may be kept' : !process.env.PENUMBRA_FULL && 'set PENUMBRA_FULL';
+test('each panel’s picture fails for what is gone from it', { skip }, async () => {
   for (const [panel, what, mutate] of mutations) {
     const { page, close } = await openView(views[0]);
     if (typeof mutate === 'string')
@@ -142,7 +134,7 @@ test('the report: one file that asks for nothing', async () => {
   execFileSync(program, ['run', example, '-o', folder, '--report'], { stdio: 'ignore' });
   const file = path.join(folder, 'report.html');
   const options = { viewport: { width: 1280, height: 900 }, colorScheme: 'light' };
-  const { page, faults, close } = await openFile(browser, file, options);
+  const { page, faults, close } = await openFile(shared.browser, file, options);
   assert.equal(await page.locator('.row-body.target-row svg').count(), 4);
   const loaded = await page
     .locator('figure img')
@@ -168,7 +160,7 @@ async function asksForMore(file) {
   const image = '<img src="http://127.0.0.1:9/picture.png" alt="" />';
   const open = html.replace(/<meta\s+http-equiv[^>]*>/, '').replace('<body>', `<body>${image}`);
   await writeFile(asking, open);
-  const { faults, close } = await openFile(browser, asking);
+  const { faults, close } = await openFile(shared.browser, asking);
   assert.ok(faults.includes('asks for http://127.0.0.1:9/picture.png'), `${faults}`);
   await close();
 }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A browser and a server of the shipped example for all tests of a file.
+import assert from 'node:assert/strict';
+import { after, before } from 'node:test';
+import { example, launch, open, serve } from './browser.mjs';
+
+/** What is there once the tests run: `browser`, `server`, and `report` as the server tells it. */
+export function served() {
+  const shared = { browser: null, server: null, report: null };
+  before(async () => {
+    [shared.browser, shared.server] = await Promise.all([launch(), serve(example)]);
+    shared.report = await (await fetch(new URL('/api/report', shared.server.url))).json();
+  });
+  after(async () => {
+    await shared.browser?.close();
+    await shared.server?.stop();
+  });
+
+  /** @param address what follows the host */
+  shared.withPage = async (address, options, use) => {
+    const url = new URL(address, shared.server.url).href;
+    const shown = await open(shared.browser, url, options);
+    try {
+      await use(shown.page, shown);
+      assert.deepEqual(shown.faults, []);
+    } finally {
+      await shown.close();
+    }
+  };
+  return shared;
+}
+
+export const frameShown = async (page) => Number(await page.locator('#frame-number').textContent());

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a stored recording: light and dark, by keys, by touch, read aloud.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { desktop, drawn, phone, showsFrame } from './browser.mjs';
+import { changedShare } from './pictures.mjs';
+import { frameShown, served } from './served.mjs';
+
+const shared = served();
+const { withPage } = shared;
+
+test('light and dark: the system’s, until one is chosen', async () => {
+  const theme = (page) => page.locator('html').getAttribute('data-theme');
+  await withPage('/', { ...desktop, colorScheme: 'dark' }, async (page) => {
+    assert.equal(await theme(page), 'dark');
+    await page.emulateMedia({ colorScheme: 'light' });
+    await page.locator('html[data-theme=light]').waitFor();
+    const light = await page.screenshot();
+    await page.keyboard.press('t');
+    assert.equal(await theme(page), 'dark');
+    await drawn(page);
+    assert.ok((await changedShare(page, light, await page.screenshot())) > 0.5);
+    await page.reload();
+    assert.equal(await theme(page), 'dark');
+  });
+});
+
+test('light and dark can be chosen where nothing may be stored', async () => {
+  const context = await shared.browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  await page.addInitScript(() =>
+    Object.defineProperty(window, 'localStorage', {
+      get() {
+        throw new DOMException('off', 'SecurityError');
+      },
+    }),
+  );
+  await page.goto(shared.server.url);
+  await showsFrame(page, 0);
+  for (const theme of ['dark', 'light']) {
+    await page.click('#theme');
+    assert.equal(await page.locator('html').getAttribute('data-theme'), theme);
+  }
+  await context.close();
+});
+
+test('layers are radio buttons to the keyboard, and arrows step elsewhere', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    await showsFrame(page, 3);
+    const focused = () => page.evaluate(() => document.activeElement.dataset.layer);
+    const checked = () => page.locator('#layers [aria-checked=true]').getAttribute('data-layer');
+    assert.equal(await page.locator('#layers [tabindex="0"]').count(), 1, 'one stop for tab');
+    await page.focus('#layers [aria-checked=true]');
+    for (const [key, layer] of [
+      ['ArrowRight', 'labels'],
+      ['ArrowDown', 'links'],
+      ['ArrowLeft', 'labels'],
+      ['End', 'depth'],
+      ['ArrowRight', 'overlay'],
+      ['ArrowUp', 'depth'],
+      ['Home', 'overlay'],
+    ]) {
+      await page.keyboard.press(key);
+      assert.deepEqual([await focused(), await checked()], [layer, layer], key);
+    }
+    assert.equal(await frameShown(page), 3, 'no frame was stepped');
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press('ArrowRight');
+    await showsFrame(page, 4);
+  }));
+
+test('the button says what it does', () =>
+  withPage('/', desktop, async (page) => {
+    const name = () => page.locator('#play').getAttribute('aria-label');
+    assert.equal(await name(), 'Play');
+    await page.selectOption('#speed', '0.25');
+    await page.click('#play');
+    assert.equal(await name(), 'Pause');
+    await page.click('#play');
+    assert.equal(await name(), 'Play');
+  }));
+
+test('keys are told, and the page can be used by keys alone', () =>
+  withPage('/', desktop, async (page) => {
+    await page.keyboard.press('?');
+    assert.ok(await page.locator('#help').isVisible());
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.locator('#help').isVisible()));
+    await page.keyboard.press('ArrowDown');
+    const chosen = page.locator('#target-list [aria-pressed=true]');
+    const name = await chosen.getAttribute('data-target');
+    await page.keyboard.press('ArrowUp');
+    assert.notEqual(await chosen.getAttribute('data-target'), name);
+    const reached = new Set();
+    for (let tabs = 0; tabs < 60; ++tabs) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => document.activeElement?.id ?? ''));
+    }
+    for (const id of ['theme', 'help-button', 'scene-canvas', 'picture-handle', 'play', 'speed'])
+      assert.ok(reached.has(id), `${id} is reached by tab`);
+  }));
+
+test('what can be pressed has a name', () =>
+  withPage('/', desktop, async (page) => {
+    const nameless = await page
+      .locator('button:visible, select:visible, [role]:visible, canvas:visible')
+      .evaluateAll((nodes) =>
+        nodes
+          .filter((node) => {
+            const label = node.getAttribute('aria-label') ?? node.textContent ?? '';
+            const labelled =
+              node.closest('label') !== null || node.getAttribute('role') === 'status';
+            return !label.trim() && !labelled;
+          })
+          .map((node) => node.outerHTML.slice(0, 80)),
+      );
+    assert.deepEqual(nameless, []);
+  }));
+
+for (const width of [360, 390])
+  test(`a phone of ${width} pixels shows all, by touch`, () =>
+    withPage('/', { ...phone, viewport: { width, height: 780 } }, async (page) => {
+      const overflow = await page.evaluate(
+        () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+      );
+      assert.equal(overflow, 0, 'nothing sticks out at the side');
+      const mode = await page.locator('#mode').evaluate((node) => ({
+        whole: node.scrollWidth <= node.clientWidth,
+        text: node.textContent,
+      }));
+      assert.deepEqual(mode, { whole: true, text: '12 frames' });
+      assert.ok(await page.locator('#scene').isVisible());
+      await page.tap('[data-view=picture]');
+      assert.ok(!(await page.locator('#scene').isVisible()));
+      await page.tap('#picture-frame', { position: { x: 200, y: 100 } });
+      await page.waitForFunction(() => document.getElementById('read-label').textContent !== '–');
+      await page.tap('#step-forward');
+      await showsFrame(page, 1);
+      const small = await page
+        .locator('#transport button:visible')
+        .evaluateAll(
+          (nodes) => nodes.filter((node) => node.clientHeight < 40 || node.clientWidth < 40).length,
+        );
+      assert.equal(small, 0, 'large enough for a finger');
+    }));
