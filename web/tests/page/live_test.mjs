@@ -76,8 +76,11 @@ const frameOf = async (page) => Number(await page.locator('#frame-number').textC
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
 
-/** Looks for the test's time: what the page says of itself each second, and the frames it drew. */
-async function watched(page) {
+/**
+ * Looks for the test's time: what the page says of itself each second, the frames it drew, and what
+ * the server has resident after each minute, bytes.
+ */
+async function watched(page, server) {
   const start = await page.evaluate(() => {
     const main = document.getElementById('main');
     window.framesDrawn = 0;
@@ -86,9 +89,11 @@ async function watched(page) {
     return performance.now();
   });
   const samples = [];
+  const minutes = [];
   for (let second = 0; second < seconds; ++second) {
     await page.waitForTimeout(1000);
     samples.push(await page.locator('#mode').evaluate((mode) => ({ ...mode.dataset })));
+    if (second % 60 === 59) minutes.push(await residentOf(server));
   }
   const drawn = await page.evaluate((since) => {
     return (1000 * window.framesDrawn) / (performance.now() - since);
@@ -100,6 +105,7 @@ async function watched(page) {
     published: median(of('rate')),
     said: median(of('shown')),
     shown: drawn,
+    minutes,
   };
 }
 
@@ -147,14 +153,16 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
   await showsLive(page);
   await page.waitForTimeout(3000); // buffers grow to what a frame needs
   const [heap, resident] = [await heapOf(page), await residentOf(view.child)];
-  const told = await watched(page);
+  const told = await watched(page, view.child);
   const shown = await page.locator('#mode').textContent();
   const growth = (await heapOf(page)) - heap;
   const served = (await residentOf(view.child)) - resident;
+  const mebibytes = (bytes) => (bytes / 2 ** 20).toFixed(1);
   console.log(
     `${seconds} s: ${shown}; lag median ${told.lag} ms, most ${told.mostLag} ms; ` +
       `published ${told.published.toFixed(1)} Hz, shown ${told.shown.toFixed(1)} Hz; ` +
-      `page's heap ${(growth / 2 ** 20).toFixed(1)} MiB more, server ${(served / 2 ** 20).toFixed(1)} MiB more`,
+      `page's heap ${mebibytes(growth)} MiB more, server ${mebibytes(served)} MiB more: ` +
+      `${[resident, ...told.minutes].map(mebibytes).join(', ')} by the minute`,
   );
   assert.ok(told.lag < mostLag, `lag of ${told.lag} ms`);
   assert.ok(told.shown > leastShown, `${told.shown} frames shown in a second`);
