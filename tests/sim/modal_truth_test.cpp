@@ -90,8 +90,8 @@ class ModalBench {
  public:
   ModalBench(std::uint64_t seed, bool noisy)
       : random_(seeded_random(seed)),
-        simulation_("random", options(seed, noisy)),
-        pipeline_(robot(), simulation_.camera(), config()),
+        simulation_("random", without_color(seed, noisy)),
+        pipeline_(visual_robot(simulation_), simulation_.camera(), config_of(simulation_)),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
   void run(int frames, Tallies& tallies) {
@@ -109,22 +109,6 @@ class ModalBench {
   }
 
  private:
-  static sim::SimulationOptions options(std::uint64_t seed, bool noisy) {
-    sim::SimulationOptions all = without_noise(seed);
-    if (noisy) all.depth = sim::DepthNoise::d415();
-    all.color = false;
-    return all;
-  }
-  [[nodiscard]] Robot robot() const {
-    RobotOptions all;
-    all.geometry = Geometry::visual;
-    return Robot::load(simulation_.urdf(), all);
-  }
-  [[nodiscard]] PipelineConfig config() const {
-    PipelineConfig all;
-    all.T_parent_camera = simulation_.T_base_camera();
-    return all;
-  }
   int number(int low, int high) {
     return low + static_cast<int>(random_() % static_cast<std::uint64_t>(high - low + 1));
   }

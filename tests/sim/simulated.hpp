@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
 #include <sim/simulation.hpp>
 
 /// Skips the running test where the build has no simulation.
@@ -21,6 +24,26 @@ inline bool has_simulation() { return is_there(!sim::Simulation::scenes().empty(
   options.seed = seed;
   options.depth = {};
   return options;
+}
+
+/// Depths with a depth camera's noise, or true ones; no colours.
+[[nodiscard]] inline sim::SimulationOptions without_color(std::uint64_t seed, bool noisy) {
+  sim::SimulationOptions options = without_noise(seed);
+  if (noisy) options.depth = sim::DepthNoise::d415();
+  options.color = false;
+  return options;
+}
+
+[[nodiscard]] inline Robot visual_robot(const sim::Simulation& simulation) {
+  RobotOptions options;
+  options.geometry = Geometry::visual;
+  return Robot::load(simulation.urdf(), options);
+}
+
+[[nodiscard]] inline PipelineConfig config_of(const sim::Simulation& simulation) {
+  PipelineConfig config;
+  config.T_parent_camera = simulation.T_base_camera();
+  return config;
 }
 
 }  // namespace penumbra::test

@@ -197,8 +197,8 @@ struct Solids {
 class Bench {
  public:
   Bench(std::uint64_t seed, bool noisy)
-      : simulation_("random", options(seed, noisy)),
-        pipeline_(robot(), simulation_.camera(), config()),
+      : simulation_("random", without_color(seed, noisy)),
+        pipeline_(visual_robot(simulation_), simulation_.camera(), config_of(simulation_)),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
   void run(int frames, Tallies& tallies) {
@@ -227,22 +227,6 @@ class Bench {
   }
 
  private:
-  static sim::SimulationOptions options(std::uint64_t seed, bool noisy) {
-    sim::SimulationOptions all = without_noise(seed);
-    if (noisy) all.depth = sim::DepthNoise::d415();
-    all.color = false;
-    return all;
-  }
-  [[nodiscard]] Robot robot() const {
-    RobotOptions all;
-    all.geometry = Geometry::visual;
-    return Robot::load(simulation_.urdf(), all);
-  }
-  [[nodiscard]] PipelineConfig config() const {
-    PipelineConfig all;
-    all.T_parent_camera = simulation_.T_base_camera();
-    return all;
-  }
   void judge(const SimFrame& frame, const ObjectTruth& target, Tallies& tallies) {
     const std::size_t links = pipeline_.robot().links().size();
     TargetView seen;
