@@ -333,7 +333,7 @@ class LiveManyImagesFull : public LiveSoak {
 
 TEST_F(LiveManyImagesFull, TakeNoMemory) {
   if (!measures_in_full()) GTEST_SKIP() << "set PENUMBRA_FULL";
-  constexpr std::size_t images = 100'000;
+  constexpr std::size_t warm_up = 50'000, images = 100'000;
   constexpr double slack = 4.0;  // MiB: of the allocator's caches; 100 bytes an image would be 9
   SoakScene scene{.lens = {}, .hertz = 1000, .joint_hertz = 1000};
   publishers_ = std::make_unique<SoakPublishers>(domain_.id(), scene);
@@ -350,9 +350,10 @@ TEST_F(LiveManyImagesFull, TakeNoMemory) {
   publishers_->start(Part::depth);
   publishers_->start(Part::joints);
   int round = 0;
-  ASSERT_NO_FATAL_FAILURE(tell_until(images / 10, round));
+  // Histories of 10 s fill first, and keep up to twice as much until they are pruned.
+  ASSERT_NO_FATAL_FAILURE(tell_until(warm_up, round));
   before_ = live_->usage();
-  ASSERT_NO_FATAL_FAILURE(tell_until(images, round));
+  ASSERT_NO_FATAL_FAILURE(tell_until(warm_up + images, round));
   after_ = live_->usage();
   EXPECT_EQ(live_->end(), 0) << read_bytes(folder_.path() / "live.log");
   labels_->end();

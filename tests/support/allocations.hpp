@@ -5,7 +5,7 @@
 
 namespace penumbra::test {
 
-/// How often the program has called operator new. Link allocations.cpp into the test.
+/// How often the program has called operator new. Link penumbra_counted_allocations into the test.
 [[nodiscard]] std::size_t allocations();
 
 /// While one lives, memory of `large` bytes or more is given `spared` times and then refused with
