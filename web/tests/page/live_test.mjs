@@ -22,7 +22,7 @@ const rate = process.env.PENUMBRA_LIVE_RATE ?? (full ? '30' : '10'); // times on
 // other tests: there it only finds a page that falls behind further and further, or hardly draws.
 const mostLag = full ? 300 : 15_000; // milliseconds, median
 // Of the frames that are published, those that are shown: here two cores draw, publish and judge, and
-// show 3.8 of 26.7 in a second.
+// show three or four of 26 in a second.
 const leastShare = full ? 0.1 : 0.02;
 const leastShown = full ? 2.5 : 0.1; // frames in a second
 // The page's own count of two seconds against ours of all: they end at other frames.
