@@ -22,7 +22,7 @@ namespace {
 using Eigen::Isometry3d;
 using gl::PixelRectangle;
 
-const Intrinsics camera(203, 157, 180.0, 185.0, 99.7, 81.2);  // of no round size
+const Intrinsics uneven_camera(203, 157, 180.0, 185.0, 99.7, 81.2);  // of no round size
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// Two links that overlap in the image.
@@ -92,8 +92,8 @@ std::vector<LabelRule> rules() {
 
 void expect_equal(const DeviceLabels& actual, const LabelView& expected,
                   std::span<const PixelRectangle> boxes) {
-  for (int v = 0; v < camera.height(); ++v) {
-    for (int u = 0; u < camera.width(); ++u) {
+  for (int v = 0; v < uneven_camera.height(); ++v) {
+    for (int u = 0; u < uneven_camera.width(); ++u) {
       ASSERT_EQ(actual.image.labels(u, v), expected.labels(u, v)) << u << ", " << v;
     }
   }
@@ -101,8 +101,9 @@ void expect_equal(const DeviceLabels& actual, const LabelView& expected,
   ASSERT_EQ(actual.boxes.size(), boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     std::array<std::size_t, label_count> counts{};
-    for (int v = std::max(boxes[i].v0, 0); v < std::min(boxes[i].v1, camera.height()); ++v) {
-      for (int u = std::max(boxes[i].u0, 0); u < std::min(boxes[i].u1, camera.width()); ++u) {
+    for (int v = std::max(boxes[i].v0, 0); v < std::min(boxes[i].v1, uneven_camera.height()); ++v) {
+      for (int u = std::max(boxes[i].u0, 0); u < std::min(boxes[i].u1, uneven_camera.width());
+           ++u) {
         ++counts[expected.labels(u, v)];
       }
     }
@@ -120,7 +121,7 @@ class GlLabels : public testing::Test {
 TEST_F(GlLabels, AreTheClassifiers) {
   std::mt19937_64 random = seeded_random(501);
   const TwoLinks robot;
-  const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
+  const auto renderer = make_depth_renderer(Backend::gl, uneven_camera, robot.bodies);
   const std::vector<PixelRectangle> boxes{{0, 0, 203, 157},
                                           {40, 30, 140, 120},
                                           {-50, -50, 20, 500},
@@ -128,8 +129,8 @@ TEST_F(GlLabels, AreTheClassifiers) {
                                           {300, 0, 310, 9}};
   std::array<std::size_t, label_count> seen{};
   for (const LabelRule& rule : rules()) {
-    GlLabeller labeller(camera, robot.bodies, rule);
-    Classifier classifier(camera.width(), camera.height(), rule, "scalar");
+    GlLabeller labeller(uneven_camera, robot.bodies, rule);
+    Classifier classifier(uneven_camera.width(), uneven_camera.height(), rule, "scalar");
     for (int frame = 0; frame < 6; ++frame) {
       const auto poses = TwoLinks::poses(random);
       const VirtualDepthView drawn = renderer->render(poses);
@@ -149,9 +150,9 @@ TEST_F(GlLabels, AreTheClassifiers) {
 TEST_F(GlLabels, ComeInTheOrderOfTheFrames) {
   std::mt19937_64 random = seeded_random(503);
   const TwoLinks robot;
-  const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
-  GlLabeller labeller(camera, robot.bodies, {});
-  Classifier classifier(camera.width(), camera.height(), {});
+  const auto renderer = make_depth_renderer(Backend::gl, uneven_camera, robot.bodies);
+  GlLabeller labeller(uneven_camera, robot.bodies, {});
+  Classifier classifier(uneven_camera.width(), uneven_camera.height(), {});
   for (int round = 0; round < 4; ++round) {
     std::vector<std::vector<Isometry3d>> poses;
     std::vector<Image<float>> images;
@@ -175,20 +176,22 @@ TEST_F(GlLabels, TakeImagesOfAnyStride) {
   std::mt19937_64 random = seeded_random(505);
   const TwoLinks robot;
   const auto poses = TwoLinks::poses(random);
-  const auto renderer = make_depth_renderer(Backend::gl, camera, robot.bodies);
+  const auto renderer = make_depth_renderer(Backend::gl, uneven_camera, robot.bodies);
   const Image<float> image = sensor_image(renderer->render(poses), random);
-  GlLabeller labeller(camera, robot.bodies, {});
-  Classifier classifier(camera.width(), camera.height(), {});
-  Image<float> wide(camera.width() + 13, camera.height());
-  Image<float> flipped(camera.width(), camera.height());
-  for (int v = 0; v < camera.height(); ++v) {
-    for (int u = 0; u < camera.width(); ++u) {
-      wide(u, v) = flipped(u, camera.height() - 1 - v) = image(u, v);
+  GlLabeller labeller(uneven_camera, robot.bodies, {});
+  Classifier classifier(uneven_camera.width(), uneven_camera.height(), {});
+  Image<float> wide(uneven_camera.width() + 13, uneven_camera.height());
+  Image<float> flipped(uneven_camera.width(), uneven_camera.height());
+  for (int v = 0; v < uneven_camera.height(); ++v) {
+    for (int u = 0; u < uneven_camera.width(); ++u) {
+      wide(u, v) = flipped(u, uneven_camera.height() - 1 - v) = image(u, v);
     }
   }
-  const ImageView<const float> padded{wide.data(), camera.width(), camera.height(), wide.width()};
-  const ImageView<const float> upwards{flipped.view().row(camera.height() - 1), camera.width(),
-                                       camera.height(), -camera.width()};
+  const ImageView<const float> padded{wide.data(), uneven_camera.width(), uneven_camera.height(),
+                                      wide.width()};
+  const ImageView<const float> upwards{flipped.view().row(uneven_camera.height() - 1),
+                                       uneven_camera.width(), uneven_camera.height(),
+                                       -uneven_camera.width()};
   for (const ImageView<const float>& view : {padded, upwards}) {
     labeller.submit(poses, view);
     expect_equal(labeller.collect(), classifier.classify(renderer->render(poses), image.view()),
@@ -240,17 +243,17 @@ TEST_F(GlLabels, RefusesWhatItCannotDo) {
   const TwoLinks robot;
   LabelRule bad;
   bad.front_min_width = -1;
-  EXPECT_THROW(GlLabeller(camera, robot.bodies, bad), InputError);
-  EXPECT_THROW(GlLabeller(camera, robot.bodies, {}, {.gl_device = 4711}), InputError);
-  GlLabeller labeller(camera, robot.bodies, {});
+  EXPECT_THROW(GlLabeller(uneven_camera, robot.bodies, bad), InputError);
+  EXPECT_THROW(GlLabeller(uneven_camera, robot.bodies, {}, {.gl_device = 4711}), InputError);
+  GlLabeller labeller(uneven_camera, robot.bodies, {});
   EXPECT_FALSE(labeller.info().device.empty());
-  const Image<float> image(camera.width(), camera.height(), 1.0F);
+  const Image<float> image(uneven_camera.width(), uneven_camera.height(), 1.0F);
   const std::vector<PixelRectangle> boxes(GlLabeller::max_boxes + 1);
   const std::vector<Isometry3d> poses(2, at(0, 0, 1));
   EXPECT_THROW(labeller.submit(poses, image.view(), boxes), std::logic_error);
   EXPECT_THROW(labeller.submit({poses.data(), 1}, image.view()), std::logic_error);
   EXPECT_THROW(labeller.submit(poses, DepthView{}), std::logic_error);
-  const Image<std::uint16_t> small(camera.width(), camera.height() - 1);
+  const Image<std::uint16_t> small(uneven_camera.width(), uneven_camera.height() - 1);
   EXPECT_THROW(labeller.submit(poses, small.view()), std::logic_error);
   ImageView<const float> nowhere = image.view();
   nowhere.data = nullptr;
@@ -262,9 +265,9 @@ TEST_F(GlLabels, RefusesWhatItCannotDo) {
 TEST_F(GlLabels, OfMoreLinksThanTheRendererTakesAreRefused) {
   const TwoLinks robot;
   const std::vector<Body> drawn(DepthRenderer::max_drawn_bodies + 1, robot.bodies[0]);
-  EXPECT_THROW(GlLabeller(camera, drawn, {}), InputError);
+  EXPECT_THROW(GlLabeller(uneven_camera, drawn, {}), InputError);
   const std::vector<Body> empty(DepthRenderer::max_bodies + 1, Body{"link", {}});
-  EXPECT_THROW(GlLabeller(camera, empty, {}), InputError);
+  EXPECT_THROW(GlLabeller(uneven_camera, empty, {}), InputError);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ constexpr std::int64_t all_stamps = 1900;  // stamps from 50 ms to 1950 ms, wher
 TEST(JointSources, OneAloneIsNotCompared) {
   // An encoder that is read at half the rate, a wheel of 30 rad/s, a gripper that snaps.
   const Way held = [](std::int64_t t) {
-    return 10e-9 * static_cast<double>(t / (20 * ms) * 20 * ms);
+    const std::int64_t read = t / (20 * ms) * 20 * ms;
+    return 10e-9 * static_cast<double>(read);
   };
   const Way snapping = [](std::int64_t t) { return t / (100 * ms) % 2 == 0 ? 0.0 : 0.8; };
   for (const Way& way : {held, moving(30.0), snapping}) {
