@@ -87,7 +87,8 @@ page() { web/check_page.sh build/release/apps/penumbra/penumbra; }
 
 # page_ended PROCESS: waits for a page() that runs beside other work.
 page_ended() {
-  wait "$1" || { grep -A12 '^not ok' build/release/page.log || tail -n 30 build/release/page.log; false; }
+  local log=build/release/page.log
+  wait "$1" || { grep -A12 '^not ok' "$log" || tail -n 30 "$log"; echo "all of it: $log"; false; }
 }
 
 check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror; }

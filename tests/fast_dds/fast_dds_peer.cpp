@@ -204,8 +204,9 @@ std::int64_t now() {
       .count();
 }
 
-/// Writes, and says when somebody heard it for the first time: was known before it was written, and
-/// has acknowledged it. What was written before is acknowledged by nobody, and waits for none.
+/// Writes, and says when a message was heard for the first time: by a reader that was known before
+/// it was written, and has acknowledged it. While no reader is known nothing waits to be
+/// acknowledged.
 class HeardWriter {
  public:
   explicit HeardWriter(dds::DataWriter& writer) : writer_(writer) {}

@@ -3,7 +3,6 @@
 #include "target_frame.hpp"
 
 #include <array>
-#include <vector>
 
 #include <gtest/gtest.h>
 

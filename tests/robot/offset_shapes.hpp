@@ -15,7 +15,7 @@
 
 namespace penumbra::test {
 
-/// Metres: float corners of models below 2 m.
+/// Of float corners of models below 2 m: metres, m^3 of volumes, and shares of margins.
 inline constexpr double corner_rounding = 1e-6;
 
 /// Of all pieces, m^3.

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <tests/robot/offset_oracle.hpp>
 #include <tests/robot/offset_shapes.hpp>
-#include <tests/robot/urdf_text.hpp>
 #include <tests/support/random.hpp>
 #include <tests/support/run_length.hpp>
 

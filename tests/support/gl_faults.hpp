@@ -22,14 +22,14 @@ enum class GlFault {
   reset,         ///< the device was reset, and the context with it
 };
 
-/// No side is a multiple of what devices like.
-inline const Intrinsics odd_camera(97, 71, 90.0, 90.0, 48.0, 35.0);
-
 inline constexpr std::array all_gl_faults{GlFault::make_current, GlFault::fetch,    GlFault::fence,
                                           GlFault::wait,         GlFault::patience, GlFault::error,
                                           GlFault::reset};
 
 [[nodiscard]] std::string to_string(GlFault fault);
+
+/// What fails is drawn with it: rows of odd lengths, which devices pad.
+inline const Intrinsics odd_camera(97, 71, 90.0, 90.0, 48.0, 35.0);
 
 /// Lets the device fail once while it lives, at the first use of what fails after `spared` others.
 /// One at a time; what is drawn with must have drawn before.

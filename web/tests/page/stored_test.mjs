@@ -7,12 +7,14 @@ import { changedShare } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
 const step = process.env.PENUMBRA_FULL ? 1 : 4; // of the frames whose numbers are compared
-const mostSeconds = 2; // until the first frame is shown
+// Until the first frame is shown. Two are promised where nothing else runs; the short run shares two
+// cores with compilers.
+const mostSeconds = process.env.PENUMBRA_FULL ? 2 : 10;
 
 const shared = served();
 const { withPage } = shared;
 
-test('loads in less than two seconds', async () => {
+test(`loads in less than ${mostSeconds} seconds`, async () => {
   // The first is the browser's own start; of the others the best one, as other programs run, too.
   const loads = [];
   for (let i = 0; i < 4; ++i)
