@@ -13,7 +13,8 @@
 //   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS
 //     messages to stdout, likewise
 //   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
-//     "STAMP ARRIVAL DIGEST" for each message with a header, nanoseconds since 1970
+//     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: the how manieth of its writer's
+//     it is, from 1 on, and nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
 //     "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
@@ -270,7 +271,7 @@ void read_until_stdin_ends(dds::DataReader& reader, Take take) {
   while (!stdin_ended()) {
     reader.wait_for_unread_message({0, 20'000'000});
     while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
-      if (info.valid_data) take(message);
+      if (info.valid_data) take(message, info);
   }
 }
 
@@ -291,18 +292,19 @@ void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
 void subscribe(dds::DataReader& reader, const std::string& mode) {
   if (mode == "count") {
     say("ready");
-    read_until_stdin_ends(reader, [](const Bytes& message) {
+    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo&) {
       say(std::to_string(penumbra::test::pattern_number(message)) + " " +
           std::to_string(message.size()));
     });
   } else if (mode == "watch") {
-    read_until_stdin_ends(reader, [](const Bytes& message) {
+    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo& info) {
       const std::int64_t arrival = now();
-      say(std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
+      say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
+          std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
           std::to_string(penumbra::test::digest_of(message)));
     });
   } else {
-    read_until_stdin_ends(reader, [](const Bytes& message) {
+    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo&) {
       const auto size = static_cast<std::uint32_t>(message.size());
       std::fwrite(&size, sizeof(size), 1, stdout);
       std::fwrite(message.data(), 1, size, stdout);

@@ -36,7 +36,7 @@ void LabelWatch::read() {
       continue;
     }
     HeardLabels heard;
-    std::istringstream(*line) >> heard.stamp >> heard.arrival >> heard.digest;
+    std::istringstream(*line) >> heard.number >> heard.stamp >> heard.arrival >> heard.digest;
     set_stamp(unknown, heard.stamp);
     heard.is_known = heard.digest != digest_of(unknown);
     const std::lock_guard lock(mutex_);
@@ -65,6 +65,11 @@ std::optional<std::int64_t> LabelWatch::known_after(std::int64_t arrival, std::i
 std::size_t LabelWatch::count() {
   const std::lock_guard lock(mutex_);
   return heard_.size();
+}
+
+std::uint64_t LabelWatch::newest_number() {
+  const std::lock_guard lock(mutex_);
+  return heard_.empty() ? 0 : heard_.back().number;
 }
 
 void LabelWatch::end() {
@@ -110,6 +115,14 @@ LabelVerdict LabelWatch::judge() const {
   const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
   all.lost_again =
       static_cast<std::size_t>(heard_.end() - first - std::count_if(first, heard_.end(), is_known));
+  all.too_early = heard_.empty() ? 0 : heard_.front().number - 1;
+  for (std::size_t i = 1; i < heard_.size(); ++i) {
+    const std::uint64_t before = heard_[i - 1].number, number = heard_[i].number;
+    if (number > before)
+      all.skipped += number - before - 1;
+    else
+      all.in_order = false;
+  }
   return all;
 }
 

@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
 constexpr auto patience = 20s;
-constexpr double most_recovery = 1.0;  // s
+constexpr double most_recovery = 1.0;  // s, where nothing else runs
 /// What live may take more at the end than after its warm-up, MiB: all the images that may wait on
 /// a busy machine, eight of depth (1.8 MiB) and of color (2.6 MiB) in DDS and as many in live.
 constexpr double memory_slack = 72.0;
@@ -110,14 +110,18 @@ class LiveSoak : public testing::Test {
     std::this_thread::sleep_for(500ms);
     EXPECT_EQ(live_->end(), 0) << read_bytes(folder_.path() / "live.log");
     summary_ = Json::parse(read_bytes(folder_.path() / "live.json"));
-    const auto judged = camera()["judged"].get<std::size_t>();
+    const auto judged = camera()["judged"].get<std::uint64_t>();
     const auto end = std::chrono::steady_clock::now() + patience;
-    while (labels_->count() < judged && std::chrono::steady_clock::now() < end)
+    while (labels_->newest_number() < judged && std::chrono::steady_clock::now() < end)
       std::this_thread::sleep_for(10ms);
+    EXPECT_EQ(labels_->newest_number(), judged) << "published, the last of them heard";
     labels_->end();
     verdict_ = labels_->judge();
-    // The subscriber is there before the robot is known, and asks for reliable.
-    EXPECT_EQ(verdict_.known + verdict_.unknown, judged) << "of all labels that were published";
+    EXPECT_TRUE(verdict_.in_order);
+    // A writer keeps a few labels for a subscriber that has not acknowledged them.
+    if (measures_in_full()) {
+      EXPECT_EQ(verdict_.skipped, 0U);
+    }
     EXPECT_EQ(verdict_.wrong, 0U) << "the first at " << verdict_.first_wrong;
     EXPECT_GT(verdict_.known, 0U);
     EXPECT_LT(after_.memory.resident - before_.memory.resident, memory_slack);
@@ -173,6 +177,8 @@ class LiveSoak : public testing::Test {
       table.add("labels at the subscriber: true, unknown, of these after the first true, wrong",
                 std::to_string(verdict_.known) + ", " + std::to_string(verdict_.unknown) + ", " +
                     std::to_string(verdict_.lost_again) + ", " + std::to_string(verdict_.wrong));
+    table.add("published before the subscriber was found, skipped",
+              std::to_string(verdict_.too_early) + ", " + std::to_string(verdict_.skipped));
     add_latencies(table);
     table.add("CPU of live, of one core",
               fixed(100 * (after_.cpu_seconds - before_.cpu_seconds) / length) + " %");
@@ -295,6 +301,7 @@ void LiveSoak::soak_in_chaos(std::chrono::seconds length) {
   rows.add("start of the process to its first sample, likewise", quantiles(discoveries_));
   std::cout << rows.text();
   EXPECT_FALSE(recoveries_.empty());
+  if (!measures_in_full()) return;
   for (const double recovery : recoveries_) EXPECT_LT(recovery, most_recovery);
 }
 
