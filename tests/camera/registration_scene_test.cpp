@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth images of closed-form scenes, brought from one camera to another, against the same scene
+// cast from the other.
+#include "../support/run_length.hpp"
+#include "closed_form_scene.hpp"
+#include "lens_samples.hpp"
+#include "posed_cameras.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/camera/registration.hpp>
+
+namespace penumbra {
+namespace {
+
+using test::Hit;
+using test::plain_camera;
+using test::pose;
+using test::Solid;
+
+constexpr double float_rounding = 2e-5;       // metres: of points of a few metres in float32
+constexpr double millimetre_rounding = 1e-3;  // of the source and of the result
+
+/// A wall, tilted, behind everything, and solids before it.
+struct Scene {
+  std::vector<Solid> solids;
+
+  [[nodiscard]] Scene seen_from(const Eigen::Isometry3d& T_other_this) const {
+    Scene other = *this;
+    for (Solid& solid : other.solids) solid.T_camera_solid = T_other_this * solid.T_camera_solid;
+    return other;
+  }
+
+  [[nodiscard]] Hit hit(const Camera& camera, double u, double v) const {
+    const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>());
+    return ray ? test::nearest_hit(solids, *ray) : Hit{};
+  }
+
+  [[nodiscard]] Image<float> depth(const Camera& camera) const {
+    Image<float> image(camera.intrinsics.width(), camera.intrinsics.height());
+    for (int v = 0; v < image.height(); ++v)
+      for (int u = 0; u < image.width(); ++u)
+        image(u, v) = static_cast<float>(hit(camera, u, v).depth);
+    return image;
+  }
+};
+
+Solid box(const Eigen::Isometry3d& at, double x, double y, double z) {
+  Solid solid;
+  solid.T_camera_solid = at;
+  solid.half_extents = Eigen::Vector3d(x, y, z);
+  return solid;
+}
+
+Solid ball(double x, double y, double z, double radius) {
+  Solid solid;
+  solid.T_camera_solid = pose(x, y, z);
+  solid.radius = radius;
+  return solid;
+}
+
+Scene wall_and_solids() {
+  Scene scene;
+  scene.solids = {box(pose(0, 0, 2.5, 0.3), 30, 30, 0.1), ball(0.1, 0.05, 0.9, 0.15),
+                  ball(-0.35, -0.1, 1.4, 0.2), box(pose(0.3, -0.2, 1.2, 0.7), 0.1, 0.12, 0.05),
+                  box(pose(-0.1, 0.25, 0.7, -0.5, {1, 1, 0}), 0.06, 0.03, 0.04)};
+  return scene;
+}
+
+/// What rays half a pixel apart meet, out to a margin around the image.
+class CastImage {
+ public:
+  CastImage(const Scene& scene, const Camera& camera)
+      : hits_(2 * (camera.intrinsics.width() + 2 * margin),
+              2 * (camera.intrinsics.height() + 2 * margin)) {
+    for (int j = 0; j < hits_.height(); ++j)
+      for (int i = 0; i < hits_.width(); ++i)
+        hits_(i, j) = scene.hit(camera, 0.5 * i - margin, 0.5 * j - margin);
+  }
+
+  /// Depths of the one surface that all rays within `reach` pixels meet; nothing if it is not one.
+  [[nodiscard]] std::optional<std::pair<double, double>> surface(const Eigen::Vector2d& pixel,
+                                                                 double reach,
+                                                                 std::size_t index) const {
+    const int i = static_cast<int>(std::lround(2 * (pixel.x() + margin)));
+    const int j = static_cast<int>(std::lround(2 * (pixel.y() + margin)));
+    const int r = static_cast<int>(std::ceil(2 * reach));
+    if (i < r || j < r || i + r >= hits_.width() || j + r >= hits_.height()) return std::nullopt;
+    std::pair<double, double> span{1e9, 0};
+    for (int y = j - r; y <= j + r; ++y) {
+      for (int x = i - r; x <= i + r; ++x) {
+        if (hits_(x, y).index != index) return std::nullopt;
+        span = {std::min(span.first, hits_(x, y).depth), std::max(span.second, hits_(x, y).depth)};
+      }
+    }
+    return span;
+  }
+
+ private:
+  static constexpr int margin = 4;
+  Image<Hit> hits_;
+};
+
+struct Pair {
+  std::string name;
+  Camera from, to;
+  Eigen::Isometry3d T_to_from;
+};
+
+/// The pixel where a camera sees a point of its frame; nothing where the lens does not reach.
+std::optional<Eigen::Vector2d> pixel_of(const Camera& camera, const Eigen::Vector3d& point) {
+  if (point.z() <= 0.05) return std::nullopt;
+  const Eigen::Vector2d ray = point.head<2>() / point.z();
+  if (ray.norm() >= camera.distortion.max_radius()) return std::nullopt;
+  const Eigen::Vector2d seen = camera.distortion.distort(ray);
+  return camera.intrinsics.project({seen.x(), seen.y(), 1});
+}
+
+struct Score {
+  std::size_t measured = 0;
+  std::size_t made_up = 0;  ///< of those: no depth that the source has near where it would see it
+  std::size_t checked = 0;  ///< pixels that must be measured
+  std::size_t holes = 0;    ///< of those
+  std::size_t off = 0;      ///< of those: not a depth of the surface near that pixel
+};
+
+class Judge {
+ public:
+  /// `source`: what the first camera measured, metres.
+  Judge(const Pair& pair, const Scene& scene, const Image<float>& source, double tolerance)
+      : pair_(pair),
+        scene_(scene),
+        scene_to_(scene.seen_from(pair.T_to_from)),
+        from_(scene, pair.from),
+        to_(scene_to_, pair.to),
+        depths_to_(source.width(), source.height()),
+        tolerance_(tolerance) {
+    for (int v = 0; v < source.height(); ++v)
+      for (int u = 0; u < source.width(); ++u)
+        if (const auto point = point_of(pair.from, Eigen::Vector2d(u, v), source(u, v)))
+          depths_to_(u, v) = source(u, v) > 0 ? (pair.T_to_from * *point).z() : 0.0;
+  }
+
+  template <typename Value>
+  [[nodiscard]] Score operator()(ImageView<const Value> warped, double unit) const {
+    Score score;
+    for (int v = 0; v < warped.height; v += test::sample_stride)
+      for (int u = 0; u < warped.width; ++u)
+        add(Eigen::Vector2d(u, v), unit * static_cast<double>(warped(u, v)), score);
+    return score;
+  }
+
+ private:
+  static std::optional<Eigen::Vector3d> point_of(const Camera& camera, const Eigen::Vector2d& pixel,
+                                                 double depth) {
+    const auto ray =
+        camera.distortion.undistort(camera.intrinsics.ray(pixel.x(), pixel.y()).head<2>());
+    if (!ray) return std::nullopt;
+    return Eigen::Vector3d(ray->x() * depth, ray->y() * depth, depth);
+  }
+
+  void add(const Eigen::Vector2d& pixel, double measured, Score& score) const {
+    if (measured > 0) {
+      ++score.measured;
+      if (!source_has(pixel, measured)) ++score.made_up;
+    }
+    const Hit hit = scene_to_.hit(pair_.to, pixel.x(), pixel.y());
+    if (hit.index == 0) return;
+    // Two pixels of the source, as wide as they are here.
+    const double wide = std::max(1.0, pair_.to.intrinsics.fx() / pair_.from.intrinsics.fx());
+    const auto here = to_.surface(pixel, 2 * wide, hit.index);
+    if (!here || !source_sees(pixel, hit)) return;
+    ++score.checked;
+    // Rays half a pixel apart miss the very edge between two faces of a box.
+    const double margin = tolerance_ + 0.1 * (here->second - here->first);
+    if (measured == 0)
+      ++score.holes;
+    else if (measured < here->first - margin || measured > here->second + margin)
+      ++score.off;
+  }
+
+  /// Whether a source pixel has this very depth, near where the first camera would see the point.
+  [[nodiscard]] bool source_has(const Eigen::Vector2d& pixel, double depth) const {
+    constexpr int reach = 4;  // a steep surface moves by some pixels between two of its pixels
+    const auto point = point_of(pair_.to, pixel, depth);
+    const auto seen = pixel_of(pair_.from, pair_.T_to_from.inverse() * *point);
+    if (!seen) return false;
+    const auto u0 = static_cast<int>(std::lround(seen->x()));
+    const auto v0 = static_cast<int>(std::lround(seen->y()));
+    for (int v = std::max(v0 - reach, 0); v <= std::min(v0 + reach, depths_to_.height() - 1); ++v)
+      for (int u = std::max(u0 - reach, 0); u <= std::min(u0 + reach, depths_to_.width() - 1); ++u)
+        if (std::abs(depths_to_(u, v) - depth) <= tolerance_) return true;
+    return false;
+  }
+
+  /// Whether the first camera sees the very point that the second one does, amid its surface.
+  [[nodiscard]] bool source_sees(const Eigen::Vector2d& pixel, const Hit& hit) const {
+    const Eigen::Vector3d point = pair_.T_to_from.inverse() * *point_of(pair_.to, pixel, hit.depth);
+    const auto seen = pixel_of(pair_.from, point);
+    const Intrinsics& k = pair_.from.intrinsics;
+    if (!seen || seen->minCoeff() < 1 || seen->x() > k.width() - 2 || seen->y() > k.height() - 2)
+      return false;
+    const double nearest = scene_.hit(pair_.from, seen->x(), seen->y()).depth;
+    return from_.surface(*seen, 2, hit.index) && std::abs(nearest - point.z()) < 1e-6;
+  }
+
+  const Pair& pair_;
+  const Scene& scene_;
+  Scene scene_to_;
+  CastImage from_, to_;
+  Image<double> depths_to_;  // of the source's pixels, in the second camera
+  double tolerance_;
+};
+
+void expect_right(const Score& score) {
+  EXPECT_EQ(score.made_up, 0U) << "of " << score.measured;
+  EXPECT_EQ(score.holes, 0U) << "of " << score.checked;
+  EXPECT_EQ(score.off, 0U) << "of " << score.checked;
+  EXPECT_GT(score.checked, static_cast<std::size_t>(test::samples(4000)));
+}
+
+Camera with_lens(Camera camera, const test::Lens& lens) {
+  camera.distortion = lens.distortion();
+  return camera;
+}
+
+std::vector<Pair> pairs() {
+  const Camera small = plain_camera(160, 120, 130);
+  const Camera large = plain_camera(240, 180, 200);
+  const auto lenses = test::typical_lenses();
+  return {{"beside each other", small, small, pose(-0.05, 0.01, 0.0, 0.02)},
+          {"apart and turned", small, small, pose(-0.5, 0.05, 0.2, 0.3)},
+          {"to more pixels", small, large, pose(0.06, 0.0, 0.01)},
+          {"to fewer pixels", large, small, pose(0.06, 0.0, 0.01)},
+          {"rolled", small, large, pose(0.03, -0.02, 0.0, 0.8, {0.1, 0, 1})},
+          {"upside down", small, small, pose(0.03, -0.02, 0.0, 3.1, {0, 0, 1})},
+          {"from a distorting lens", with_lens(small, lenses[0]), small, pose(0.05, 0, 0, 0.02)},
+          {"to a distorting lens", small, with_lens(small, lenses[7]), pose(0.05, 0, 0, 0.02)},
+          {"between two", with_lens(small, lenses[6]), with_lens(large, lenses[2]),
+           pose(0.03, 0.004, 0.002, 0.1, {1, 0, 0})}};
+}
+
+TEST(Registration, SeesTheSceneAsTheOtherCameraDoes) {
+  const Scene scene = wall_and_solids();
+  for (const Pair& pair : pairs()) {
+    SCOPED_TRACE(pair.name);
+    DepthRegistration registration(pair.from, pair.to);
+    const Image<float> metres = scene.depth(pair.from);
+    const Judge judge(pair, scene, metres, float_rounding);
+    expect_right(judge(
+        std::get<ImageView<const float>>(registration.warp(metres.view(), pair.T_to_from)), 1.0));
+
+    Image<std::uint16_t> millimetres(metres.width(), metres.height());
+    std::transform(metres.data(), metres.data() + metres.size(), millimetres.data(),
+                   [](float z) { return static_cast<std::uint16_t>(std::lround(1e3F * z)); });
+    const Judge coarse(pair, scene, metres, millimetre_rounding);
+    expect_right(coarse(std::get<ImageView<const std::uint16_t>>(
+                            registration.warp(std::as_const(millimetres).view(), pair.T_to_from)),
+                        1e-3));
+  }
+}
+
+TEST(Registration, IsTheSameImageInTheSameCamera) {
+  const Camera camera = plain_camera(160, 120, 130);
+  const Image<float> depth = wall_and_solids().depth(camera);
+  DepthRegistration registration(camera, camera);
+  const auto warped = std::get<ImageView<const float>>(
+      registration.warp(depth.view(), Eigen::Isometry3d::Identity()));
+  std::size_t changed = 0;
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u) changed += warped(u, v) != depth(u, v) ? 1 : 0;
+  EXPECT_EQ(changed, 0U);
+}
+
+}  // namespace
+}  // namespace penumbra
