@@ -70,6 +70,13 @@ std::string binary_stl(std::uint32_t triangles, std::size_t bytes) {
   return stl.substr(0, bytes);
 }
 
+/// ASCII as a Windows editor saves it, with a byte order mark or without.
+std::string utf16(const std::string& text, bool with_mark) {
+  std::string bytes = with_mark ? "\xFF\xFE" : "";
+  for (const char c : text) bytes.append({c, '\0'});
+  return bytes;
+}
+
 std::vector<BadInput> bad_robots() {
   return {
       {"UrdfMissing", take_away("tiny.urdf"), {"tiny.urdf"}},
@@ -78,6 +85,9 @@ std::vector<BadInput> bad_robots() {
       {"UrdfCutOff",
        replace("tiny.urdf", "<robot name=\"tiny\"><link name=\"base\">"),
        {"tiny.urdf"}},
+      {"UrdfInUtf16",
+       replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)),
+       {"tiny.urdf", "UTF-16"}},
       {"UrdfXacro",
        replace("tiny.urdf",
                "<robot name=\"tiny\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"
@@ -108,13 +118,6 @@ std::vector<BadInput> bad_robots() {
   };
 }
 
-/// ASCII as a Windows editor saves it, with a byte order mark or without.
-std::string utf16(const std::string& text, bool with_mark) {
-  std::string bytes = with_mark ? "\xFF\xFE" : "";
-  for (const char c : text) bytes.append({c, '\0'});
-  return bytes;
-}
-
 std::vector<BadInput> bad_recordings() {
   return {
       {"NoFolder", [](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
@@ -140,6 +143,9 @@ std::vector<BadInput> bad_recordings() {
        edit("camera_pose.csv", "1,0,0,0", "1,0,0,1e300"),
        {"camera_pose.csv", "1000 km"}},
       {"PoseNoNumber", edit("camera_pose.csv", "1,0,0,0", "one,0,0,0"), {"camera_pose.csv"}},
+      {"PoseInUtf16",
+       replace("camera_pose.csv", utf16("1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n", false)),
+       {"camera_pose.csv: is UTF-16", "UTF-8"}},
       {"ParentUnknown",
        edit("recording.yaml", "parent: base", "parent: bass"),
        {"recording.yaml", "bass"}},
@@ -153,6 +159,12 @@ std::vector<BadInput> bad_recordings() {
       {"CameraInsideOfALink",
        edit("camera_pose.csv", "0,0,1,0", "0,0,1,1"),
        {"'board'", "ignore_links"}},
+  };
+}
+
+/// Joint states and depth images.
+std::vector<BadInput> bad_frames() {
+  return {
       {"JointsMissing", take_away("joint_states.csv"), {"joint_states.csv"}},
       {"JointsEmpty", replace("joint_states.csv", ""), {"joint_states.csv"}},
       {"JointsNoRows", replace("joint_states.csv", "frame,slide\n"), {"joint_states.csv"}},
@@ -172,12 +184,6 @@ std::vector<BadInput> bad_recordings() {
       {"JointsInUtf16",
        replace("joint_states.csv", utf16("frame,slide\n0,0.1\n", true)),
        {"joint_states.csv: is UTF-16", "UTF-8"}},
-      {"PoseInUtf16",
-       replace("camera_pose.csv", utf16("1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n", false)),
-       {"camera_pose.csv: is UTF-16", "UTF-8"}},
-      {"UrdfInUtf16",
-       replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)),
-       {"tiny.urdf", "UTF-16"}},
       {"JointNan", replace("joint_states.csv", "frame,slide\n0,nan\n"), {"joint_states.csv"}},
       {"DepthMissing",
        [](const fs::path& folder) {
@@ -262,6 +268,7 @@ TEST_P(BadInputTest, IsOneClearLineAndStatus2) {
 
 INSTANTIATE_TEST_SUITE_P(Robot, BadInputTest, testing::ValuesIn(bad_robots()), name_of);
 INSTANTIATE_TEST_SUITE_P(Recording, BadInputTest, testing::ValuesIn(bad_recordings()), name_of);
+INSTANTIATE_TEST_SUITE_P(Frame, BadInputTest, testing::ValuesIn(bad_frames()), name_of);
 INSTANTIATE_TEST_SUITE_P(Option, BadInputTest, testing::ValuesIn(bad_options()), name_of);
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {

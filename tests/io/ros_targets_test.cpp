@@ -6,9 +6,7 @@
 namespace penumbra::io {
 namespace {
 
-TEST(RosTargets, AReportsTargetsArrive) {
-  const std::vector<std::string> links = {"base", "arm", "tool"};
-  const std::vector<Blame> blame = {{2, 0.25}, {1, 0.125}};
+Judgement judged_partial(std::span<const Blame> blame) {
   Judgement judged;
   judged.covered = 200;
   judged.inside = 100;
@@ -21,19 +19,52 @@ TEST(RosTargets, AReportsTargetsArrive) {
   judged.blame = blame;
   judged.point_pixels = 9;
   judged.point_spread = 0.002;
-  TargetReport part{};
-  part.name = "part";
-  part.stamp = 77;
-  part.verdict = Verdict::partial;
-  part.judgement = judged;
-  part.point = Eigen::Vector3d(1, 2, 3);
-  part.handled = HandledTarget{Source::held, 0.5, Eigen::Vector3d(4, 5, 6),
-                               Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.01};
-  part.estimate = Outcome::refused_late;
+  return judged;
+}
+
+/// A target with all that a report may tell of it.
+TargetReport told_in_full(std::span<const Blame> blame) {
+  TargetReport target{};
+  target.name = "part";
+  target.stamp = 77;
+  target.verdict = Verdict::partial;
+  target.judgement = judged_partial(blame);
+  target.point = Eigen::Vector3d(1, 2, 3);
+  target.handled = HandledTarget{Source::held, 0.5, Eigen::Vector3d(4, 5, 6),
+                                 Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.01};
+  target.estimate = Outcome::refused_late;
+  return target;
+}
+
+void expect_told_in_full(const TargetMessage& target) {
+  EXPECT_EQ(target.name, "part");
+  EXPECT_TRUE(target.has_stamp);
+  EXPECT_EQ(target.stamp, 77);
+  EXPECT_EQ(target.verdict, TargetMessage::partial);
+  EXPECT_TRUE(target.judged);
+  EXPECT_EQ(target.covered, 200U);
+  EXPECT_EQ(target.inside, 100U);
+  EXPECT_EQ(target.occluded_fraction, 0.375);
+  EXPECT_TRUE(std::isnan(target.hidden_by_other_fraction));
+  EXPECT_EQ(target.measured_fraction, 0.75);
+  EXPECT_EQ(target.seen_past_fraction, 0.0625);
+  ASSERT_EQ(target.blame.size(), 2U);
+  EXPECT_EQ(target.blame[0].link, "tool");
+  EXPECT_EQ(target.blame[1].fraction, 0.125);
+  EXPECT_EQ(target.point, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(target.point_pixels, 9U);
+  EXPECT_EQ(target.source, TargetMessage::held);
+  EXPECT_EQ(target.pose.orientation, Eigen::Vector4d(0.5, -0.5, 0.5, 0.5));  // x, y, z, w
+  EXPECT_EQ(target.estimate, TargetMessage::refused_late);
+}
+
+TEST(RosTargets, AReportsTargetsArrive) {
+  const std::vector<std::string> links = {"base", "arm", "tool"};
+  const std::vector<Blame> blame = {{2, 0.25}, {1, 0.125}};
   TargetReport lost{};
   lost.name = "wrist";
   lost.reason = "not found";
-  const std::vector<TargetReport> targets = {part, lost};
+  const std::vector<TargetReport> targets = {told_in_full(blame), lost};
   FrameReport report;
   report.stamp = 123;
   report.status = FrameStatus::missing_depth;
@@ -48,26 +79,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   EXPECT_EQ(message.status, "missing_depth");
   EXPECT_EQ(message.message, "no depth image");
   ASSERT_EQ(message.targets.size(), 2U);
-  const TargetMessage& first = message.targets[0];
-  EXPECT_EQ(first.name, "part");
-  EXPECT_TRUE(first.has_stamp);
-  EXPECT_EQ(first.stamp, 77);
-  EXPECT_EQ(first.verdict, TargetMessage::partial);
-  EXPECT_TRUE(first.judged);
-  EXPECT_EQ(first.covered, 200U);
-  EXPECT_EQ(first.inside, 100U);
-  EXPECT_EQ(first.occluded_fraction, 0.375);
-  EXPECT_TRUE(std::isnan(first.hidden_by_other_fraction));
-  EXPECT_EQ(first.measured_fraction, 0.75);
-  EXPECT_EQ(first.seen_past_fraction, 0.0625);
-  ASSERT_EQ(first.blame.size(), 2U);
-  EXPECT_EQ(first.blame[0].link, "tool");
-  EXPECT_EQ(first.blame[1].fraction, 0.125);
-  EXPECT_EQ(first.point, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(first.point_pixels, 9U);
-  EXPECT_EQ(first.source, TargetMessage::held);
-  EXPECT_EQ(first.pose.orientation, Eigen::Vector4d(0.5, -0.5, 0.5, 0.5));  // x, y, z, w
-  EXPECT_EQ(first.estimate, TargetMessage::refused_late);
+  expect_told_in_full(message.targets[0]);
   const TargetMessage& second = message.targets[1];
   EXPECT_EQ(second.verdict, TargetMessage::unknown);
   EXPECT_EQ(second.reason, "not found");
