@@ -171,7 +171,7 @@ class Live {
   /// After run(), as what follows: what ended it before its time; null: nothing did.
   [[nodiscard]] const std::exception_ptr& fault() const { return fault_; }
 
-  /// Images whose labels were published.
+  /// Images of which there are results.
   [[nodiscard]] std::size_t judged() {
     return runner_->with_inbox([&](const io::LiveInbox& inbox) {
       std::size_t images = 0;
@@ -183,7 +183,7 @@ class Live {
   [[nodiscard]] std::string summary() {
     io::LiveRun run{.seconds = seconds(), .cpu_seconds = cpu_seconds() - cpu_at_start_};
     if (fault_) run.fault = words_of(fault_);
-    for (const auto& results : results_) run.not_written += results->not_written();
+    for (const auto& results : results_) run.results.push_back(results->counts());
     const auto links = subscriptions_->links();
     return runner_->with_inbox(
         [&](const io::LiveInbox& inbox) { return io::live_summary_json(inbox, links, run); });

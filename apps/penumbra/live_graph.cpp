@@ -37,7 +37,15 @@ bool GraphResults::wants(io::Result result) const {
 
 void GraphResults::write(io::Result result, std::int64_t /*stamp*/,
                          std::span<const std::byte> payload) {
-  if (!publications_[static_cast<std::size_t>(result)]->write(payload)) ++not_written_;
+  const auto topic = static_cast<std::size_t>(result);
+  ++(publications_[topic]->write(payload) ? written_[topic] : not_written_);
+}
+
+io::WrittenResults GraphResults::counts() const {
+  io::WrittenResults counts;
+  std::copy(written_.begin(), written_.end(), counts.written.begin());
+  counts.not_written = not_written_;
+  return counts;
 }
 
 LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)

@@ -13,6 +13,7 @@
 #include <io/dds/participant.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_runner.hpp>
+#include <io/live/live_summary.hpp>
 #include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
@@ -30,11 +31,12 @@ class GraphResults final : public io::ResultSink {
   [[nodiscard]] bool wants(io::Result result) const override;
   void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
 
-  /// Results that slow subscribers kept from being published.
-  [[nodiscard]] std::size_t not_written() const { return not_written_; }
+  /// What was published so far; of any thread.
+  [[nodiscard]] io::WrittenResults counts() const;
 
  private:
   std::array<std::unique_ptr<io::Publication>, io::result_topics.size()> publications_;
+  std::array<std::atomic<std::size_t>, io::result_topics.size()> written_ = {};
   std::atomic<std::size_t> not_written_ = 0;
 };
 

@@ -11,7 +11,7 @@ Json quantiles_json(const LatencyHistogram& times) {
           {"p99", or_null(times.quantile(0.99))}};
 }
 
-Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
+Json camera_json(const LiveCamera& camera, const LiveTally& tally, const WrittenResults& results) {
   const LiveCounts counts = camera.counts();
   const LiveTargets targets = camera.targets();
   Json dropped = Json::object();
@@ -19,6 +19,9 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
     dropped[std::string(to_string(static_cast<LiveDrop>(i)))] = counts.dropped[i];
   Json frames = Json::object();
   for (const auto& [status, number] : tally.statuses) frames[status] = number;
+  Json written = Json::object();
+  for (const ResultTopic& topic : result_topics)
+    written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
   return {{"name", camera.options().name},
           {"depth_topic", camera.options().depth_topic},
           {"renderer", tally.renderer ? renderer_json(tally.renderer->used) : Json(nullptr)},
@@ -29,6 +32,7 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally) {
           {"in_work", counts.in_work},
           {"dropped", dropped},
           {"frames", frames},
+          {"results_written", written},
           {"stamp_to_published_ms", quantiles_json(tally.latency)},
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
           {"stamps_of_another_clock", tally.beyond_clock},
@@ -53,12 +57,16 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
                       {"lost", links[i].lost},
                       {"overwritten", links[i].overwritten}});
   Json cameras = Json::array();
-  for (std::size_t i = 0; i < inbox.camera_count(); ++i)
-    cameras.push_back(camera_json(inbox.camera(i), inbox.tally(i)));
+  std::size_t not_written = 0;
+  for (std::size_t i = 0; i < inbox.camera_count(); ++i) {
+    const WrittenResults& results = run.results.at(i);
+    cameras.push_back(camera_json(inbox.camera(i), inbox.tally(i), results));
+    not_written += results.not_written;
+  }
   const double share = run.seconds > 0.0 ? run.cpu_seconds / run.seconds : 0.0;
   return Json{{"seconds", run.seconds},
               {"cpu_share", share},
-              {"results_not_written", run.not_written},
+              {"results_not_written", not_written},
               {"robots", inbox.robot().robots()},
               {"cameras", cameras},
               {"topics", topics},

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_inbox.hpp>
+#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::io {
+
+/// What of a camera's results was published: what nobody subscribes to is not.
+struct WrittenResults {
+  std::array<std::size_t, result_topics.size()> written = {};  ///< by Result
+  std::size_t not_written = 0;  ///< that slow subscribers kept from being published
+};
 
 /// How long live went on.
 struct LiveRun {
   double seconds = 0.0;
-  double cpu_seconds = 0.0;     ///< of all threads
-  std::size_t not_written = 0;  ///< results that slow subscribers kept from being published
-  std::string fault = {};       ///< what ended it before its time; empty: nothing did
+  double cpu_seconds = 0.0;                  ///< of all threads
+  std::vector<WrittenResults> results = {};  ///< of each of the inbox's cameras
+  std::string fault = {};                    ///< what ended it before its time; empty: nothing did
 };
 
 /// What came of all messages, as JSON. `links`: one for each of inbox.topics().

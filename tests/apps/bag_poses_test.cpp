@@ -2,11 +2,11 @@
 // `penumbra run` of bags whose joints are told by transforms, or by several programs.
 #include "bag_fixture.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace penumbra::test {

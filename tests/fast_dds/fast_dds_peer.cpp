@@ -13,8 +13,8 @@
 //   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS
 //     messages to stdout, likewise
 //   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
-//     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: the how manieth of its writer's
-//     it is, from 1 on, and nanoseconds since 1970
+//     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: its writer's sequence number,
+//     from 1 on, and stamp and arrival in nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
 //     "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,

@@ -115,14 +115,11 @@ LabelVerdict LabelWatch::judge() const {
   const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
   all.lost_again =
       static_cast<std::size_t>(heard_.end() - first - std::count_if(first, heard_.end(), is_known));
-  all.too_early = heard_.empty() ? 0 : heard_.front().number - 1;
-  for (std::size_t i = 1; i < heard_.size(); ++i) {
-    const std::uint64_t before = heard_[i - 1].number, number = heard_[i].number;
-    if (number > before)
-      all.skipped += number - before - 1;
-    else
-      all.in_order = false;
-  }
+  all.newest_number = heard_.empty() ? 0 : heard_.back().number;
+  const auto is_behind = [](const HeardLabels& before, const HeardLabels& one) {
+    return one.number <= before.number;
+  };
+  all.in_order = std::adjacent_find(heard_.begin(), heard_.end(), is_behind) == heard_.end();
   return all;
 }
 

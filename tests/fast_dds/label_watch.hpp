@@ -7,6 +7,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,7 +20,7 @@
 namespace penumbra::test {
 
 struct HeardLabels {
-  std::uint64_t number = 0;             ///< of its writer's, from 1 on
+  std::uint64_t number = 0;             ///< its writer's sequence number, from 1 on
   std::int64_t stamp = 0, arrival = 0;  ///< nanoseconds since 1970
   std::uint64_t digest = 0;
   bool is_known = false;  ///< not all of it is unknown
@@ -27,11 +29,10 @@ struct HeardLabels {
 /// What label images have come to.
 struct LabelVerdict {
   std::size_t known = 0, unknown = 0, wrong = 0;
-  std::size_t lost_again = 0;    ///< of the unknown, those after the first known
-  std::uint64_t too_early = 0;   ///< published before the subscriber was found
-  std::uint64_t skipped = 0;     ///< between others, and never heard
-  bool in_order = true;          ///< each behind the one before it
-  std::int64_t first_wrong = 0;  ///< stamp
+  std::size_t lost_again = 0;       ///< of the unknown, those after the first known
+  std::uint64_t newest_number = 0;  ///< the last one's sequence number; 0: none was heard
+  bool in_order = true;             ///< each behind the one before it
+  std::int64_t first_wrong = 0;     ///< stamp
 };
 
 class LabelWatch {
@@ -46,7 +47,7 @@ class LabelWatch {
   [[nodiscard]] std::optional<std::int64_t> known_after(std::int64_t arrival, std::int64_t stamp,
                                                         std::chrono::seconds at_most);
   [[nodiscard]] std::size_t count();
-  /// How many had been published when the newest was; 0: none was heard.
+  /// The sequence number of the last one; 0: none was heard.
   [[nodiscard]] std::uint64_t newest_number();
   void end();
 

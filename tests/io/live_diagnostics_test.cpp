@@ -3,6 +3,7 @@
 #include "live_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
@@ -16,6 +17,7 @@ namespace penumbra::test {
 namespace {
 
 using Status = io::DiagnosticStatusMessage;
+using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 class LiveDiagnosticsTest : public testing::Test {
@@ -152,9 +154,20 @@ TEST_F(LiveDiagnosticsTest, TellsWhatDraws) {
   EXPECT_EQ(values_of(by_auto, "renderer reason"), Words{renderer->used.reason});
   EXPECT_NE(renderer->used.reason, "");
   EXPECT_EQ(values_of(by_auto, "note"), renderer->warnings);
-  const std::string summary = io::live_summary_json(bench_.inbox, links_, {});
+  const std::string summary = io::live_summary_json(bench_.inbox, links_, {.results = {{}}});
   EXPECT_NE(summary.find("\"requested\": \"auto\""), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"fault\": null"), std::string::npos) << summary;
+}
+
+TEST_F(LiveDiagnosticsTest, TheSummaryCountsWhatWasPublished) {
+  io::WrittenResults results{.not_written = 4};
+  results.written[static_cast<std::size_t>(io::Result::labels)] = 17;
+  const Json summary =
+      Json::parse(io::live_summary_json(bench_.inbox, links_, {.results = {results}}));
+  EXPECT_EQ(summary["results_not_written"], 4);
+  const Json& written = summary["cameras"][0]["results_written"];
+  EXPECT_EQ(written["labels"], 17);
+  EXPECT_EQ(written["overlay/compressed"], 0);
 }
 
 TEST_F(LiveDiagnosticsTest, KeepsWhatWasWrongWithRenderersOfBefore) {
@@ -177,7 +190,8 @@ TEST_F(LiveDiagnosticsTest, KeepsWhatWasWrongWithRenderersOfBefore) {
   judge_with({});
   EXPECT_EQ(values_of(camera(), "note"), Words{});
   EXPECT_EQ(bench_.inbox.tally(0).renderer_warnings, (Words{"the device was reset", "and again"}));
-  const std::string summary = io::live_summary_json(bench_.inbox, links_, {.fault = "unplugged"});
+  const std::string summary =
+      io::live_summary_json(bench_.inbox, links_, {.results = {{}}, .fault = "unplugged"});
   for (const char* words : {"the device was reset", "and again", "\"fault\": \"unplugged\""})
     EXPECT_NE(summary.find(words), std::string::npos) << summary;
 }

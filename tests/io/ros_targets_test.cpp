@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <io/ros/target_messages.hpp>

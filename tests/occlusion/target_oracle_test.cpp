@@ -117,19 +117,19 @@ class TargetOracle : public testing::Test {
   }
 
   /// A random target, by both judges.
-  void compare(TargetJudge& judge, test::NaiveTarget frame, int i) {
+  void compare(TargetJudge& judge, test::NaiveTarget naive, int i) {
     Shape shape;
-    choose_shape(shape, frame.labels.width, frame.labels.height);
+    choose_shape(shape, naive.labels.width, naive.labels.height);
     const std::string name = "target " + std::to_string(i);
     SCOPED_TRACE(name);
     TargetView target = asked(shape, i);
     target.name = name;
     const Image<float> expected = choose_depth(shape, target);
-    frame.mask = shape.mask.view();
-    frame.expected = expected.view();
-    frame.depth_margin = static_cast<float>(target.depth_margin);
-    frame.beyond_hides = target.thresholds.beyond_hides;
-    const test::NaiveJudgement truth = frame.judge();
+    naive.mask = shape.mask.view();
+    naive.expected = expected.view();
+    naive.depth_margin = static_cast<float>(target.depth_margin);
+    naive.beyond_hides = target.thresholds.beyond_hides;
+    const test::NaiveJudgement truth = naive.judge();
     const Judgement judged = judge.judge(target);
     expect_same(judged, truth);
     expect_same_point(judged, truth);
@@ -190,14 +190,14 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
     judge.begin(images);
 
     SCOPED_TRACE("frame " + std::to_string(frame));
-    const test::NaiveTarget truth{.rule = rule,
+    const test::NaiveTarget naive{.rule = rule,
                                   .labels = images.labels.labels,
                                   .robot = scene.robot.view(),
                                   .links = links.view(),
                                   .measured = measured.view(),
                                   .mask = {},
                                   .expected = {}};
-    for (int i = 0; i < 8 && !HasFatalFailure(); ++i) compare(judge, truth, i);
+    for (int i = 0; i < 8; ++i) ASSERT_NO_FATAL_FAILURE(compare(judge, naive, i));
   }
   EXPECT_GT(points, 100u);
   EXPECT_GT(others, 50u);
