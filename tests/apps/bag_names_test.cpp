@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags whose frames have other names than the robot's links: with a slash, with a prefix.
 #include "bag_fixture.hpp"
+#include "detections.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
-
-#include <io/ros/cdr_writer.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -72,27 +71,9 @@ TEST_F(BagNamesTest, FramesOfARobotMayHaveAPrefix) {
   EXPECT_EQ(other.status, 2);
 }
 
-/// vision_msgs/Detection3DArray, put together by the fields of its definition: a box of 8 cm.
-std::vector<std::byte> boxes_payload(const io::MessageHeader& header,
-                                     const std::vector<Eigen::Vector3d>& centres) {
-  std::vector<std::byte> payload;
-  io::CdrWriter writer(payload);
-  const auto write_header = [&] {
-    writer.write(static_cast<std::int32_t>(header.stamp / 1'000'000'000));
-    writer.write(static_cast<std::uint32_t>(header.stamp % 1'000'000'000));
-    writer.write_string(header.frame_id);
-  };
-  write_header();
-  writer.write_count(centres.size());
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    write_header();
-    writer.write_count(0);  // hypotheses
-    for (const double value :
-         {centres[i].x(), centres[i].y(), centres[i].z(), 0.0, 0.0, 0.0, 1.0, 0.08, 0.08, 0.08})
-      writer.write(value);
-    writer.write_string("box " + std::to_string(i));
-  }
-  return payload;
+/// Of a Detection3DArray: 8 cm wide.
+Detection cube(const std::string& id, double x, double y, double z) {
+  return {id, {x, y, z, 0.0, 0.0, 0.0, 1.0, 0.08, 0.08, 0.08}};
 }
 
 TEST_F(BagNamesTest, BoxesOfADetectorAreJudgedInFramesOfLinksAndTheCamera) {
@@ -100,8 +81,8 @@ TEST_F(BagNamesTest, BoxesOfADetectorAreJudgedInFramesOfLinksAndTheCamera) {
   const auto add = [&](const std::string& frame, const std::string& topic) {
     bag_.messages.push_back(
         {topic, "vision_msgs/msg/Detection3DArray", arrival,
-         boxes_payload({stamp, frame}, {{0.15, 0.05, 2.0},     // behind the board
-                                        {0.6, 0.4, 3.03}})});  // before the wall
+         detections_payload({stamp, frame}, {cube("box 0", 0.15, 0.05, 2.0),     // behind the board
+                                             cube("box 1", 0.6, 0.4, 3.03)})});  // before the wall
   };
   add("optical", "/of_camera");
   add("left/base", "/of_link");

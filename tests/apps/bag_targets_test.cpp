@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags with targets.
 #include "bag_fixture.hpp"
+#include "detections.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -12,36 +12,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <io/ros/cdr_writer.hpp>
-
 namespace penumbra::test {
 namespace {
 
-struct Square {
-  std::string id;
-  double u, v, size;  // pixels
-};
-
-/// vision_msgs/Detection2DArray, put together by the fields of its definition.
-std::vector<std::byte> detections_payload(const io::MessageHeader& header,
-                                          const std::vector<Square>& squares) {
-  std::vector<std::byte> payload;
-  io::CdrWriter writer(payload);
-  const auto write_header = [&] {
-    writer.write(static_cast<std::int32_t>(header.stamp / 1'000'000'000));
-    writer.write(static_cast<std::uint32_t>(header.stamp % 1'000'000'000));
-    writer.write_string(header.frame_id);
-  };
-  write_header();
-  writer.write_count(squares.size());
-  for (const Square& square : squares) {
-    write_header();
-    writer.write_count(0);  // hypotheses
-    for (const double value : {square.u, square.v, 0.0, square.size, square.size})
-      writer.write(value);
-    writer.write_string(square.id);
-  }
-  return payload;
+/// Of a Detection2DArray, pixels.
+Detection square(const std::string& id, double u, double v, double size) {
+  return {id, {u, v, 0.0, size, size}};
 }
 
 /// A detector that answers after 0.3 s, when the next frame is there.
@@ -51,8 +27,8 @@ TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
   // On the object before the board, on the board, on the wall.
   bag_.messages.push_back(
       {"/detections", "vision_msgs/msg/Detection2DArray", arrival,
-       detections_payload(header,
-                          {{"object", 28, 24, 6}, {"board", 22, 26, 3}, {"wall", 5, 5, 4}})});
+       detections_payload(header, {square("object", 28, 24, 6), square("board", 22, 26, 3),
+                                   square("wall", 5, 5, 4)})});
   bag_.add("/wrist", arrival, io::KeypointsMessage{header, {{"left", 28, 24, 0.9, 0.5}}});
   bag_.add("/far", arrival, io::PoseStampedMessage{.header = {stamp, "map"}});
   bag_.add(
