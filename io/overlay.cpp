@@ -24,7 +24,7 @@ constexpr Rgb8 white{255, 255, 255};
 constexpr Rgb8 black{0, 0, 0};
 
 constexpr std::array<const char*, label_count> label_names = {"clear", "front", "occluded",
-                                                              "unknown", "beyond"};
+                                                              "unknown", "beyond", "fringe"};
 
 Rgb8 blend(Rgb8 below, Rgb8 above, int weight) {
   const auto mix = [weight](int a, int b) {
@@ -58,21 +58,25 @@ void draw_scene(const OverlayInput& input, Image<Rgb8>& out) {
   }
 }
 
+bool is_robot(std::uint8_t label) {
+  return label != static_cast<std::uint8_t>(Label::clear) &&
+         label != static_cast<std::uint8_t>(Label::fringe);
+}
+
 // Labels, and a double line along the robot's outline: white within, black without, so that one of
 // them stands out on any ground.
 void draw_labels(ImageView<const std::uint8_t> labels, Image<Rgb8>& out) {
-  constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
   for (int v = 0; v < out.height(); ++v) {
     for (int u = 0; u < out.width(); ++u) {
       const std::uint8_t label = labels(u, v);
       const auto differs = [&](int du, int dv) {
         const int x = u + du, y = v + dv;
         return x >= 0 && y >= 0 && x < labels.width && y < labels.height &&
-               (labels(x, y) == clear) != (label == clear);
+               is_robot(labels(x, y)) != is_robot(label);
       };
       if (differs(-1, 0) || differs(1, 0) || differs(0, -1) || differs(0, 1)) {
-        out(u, v) = label == clear ? black : white;
-      } else if (label != clear) {
+        out(u, v) = is_robot(label) ? white : black;
+      } else if (label != static_cast<std::uint8_t>(Label::clear)) {
         out(u, v) = blend(out(u, v), label_color(static_cast<Label>(label)), label_weight);
       }
     }
@@ -84,11 +88,12 @@ struct Line {
   std::optional<Rgb8> swatch;
 };
 
-/// How many pixels the robot has, and how many of each label.
+/// How many pixels the robot has, and how many of each label; those of the fringe are not of it.
 void add_counts(const LabelView& labels, std::vector<Line>& lines) {
   std::array<char, 64> text{};
   std::size_t robot = 0;
-  for (std::size_t i = 1; i < label_count; ++i) robot += labels.pixels[i];
+  for (std::size_t i = 1; i < label_count; ++i)
+    if (is_robot(static_cast<std::uint8_t>(i))) robot += labels.pixels[i];
   lines.push_back({"robot " + std::to_string(robot) + " px", {}});
   for (std::size_t i = 1; i < label_count; ++i) {
     const double share =
@@ -136,7 +141,7 @@ std::size_t robot_pixels(const Box& box, ImageView<const std::uint8_t> labels) {
   std::size_t count = 0;
   for (int v = std::max(box.v, 0); v < std::min(box.v + box.height, labels.height); ++v)
     for (int u = std::max(box.u, 0); u < std::min(box.u + box.width, labels.width); ++u)
-      count += labels(u, v) != static_cast<std::uint8_t>(Label::clear) ? 1 : 0;
+      count += is_robot(labels(u, v)) ? 1 : 0;
   return count;
 }
 
@@ -204,9 +209,9 @@ ImageSize size_of(const OverlayInput& input) {
 }  // namespace
 
 Rgb8 label_color(Label label) {
-  // Okabe and Ito's palette (2008): blue, vermilion, yellow, reddish purple.
+  // Okabe and Ito's palette (2008): blue, vermilion, yellow, reddish purple, bluish green.
   constexpr std::array<Rgb8, label_count> colors = {
-      {{0, 0, 0}, {0, 114, 178}, {213, 94, 0}, {240, 228, 66}, {204, 121, 167}}};
+      {{0, 0, 0}, {0, 114, 178}, {213, 94, 0}, {240, 228, 66}, {204, 121, 167}, {0, 158, 115}}};
   return colors[static_cast<std::size_t>(label)];
 }
 

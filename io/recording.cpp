@@ -68,20 +68,29 @@ void refuse_depth_camera(const YamlNode& camera, const std::filesystem::path& fo
       "colour image, and remove depth_info and depth_pose");
 }
 
+int pixels_of(const YamlNode& node, int most) {
+  const std::int64_t pixels = node.integer();
+  if (pixels < 0 || pixels > most)
+    node.fail("is " + std::to_string(pixels) + "; 0 to " + std::to_string(most) +
+              " pixels are possible");
+  return static_cast<int>(pixels);
+}
+
 void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
   LabelRule rule;
+  if (const YamlNode* sensor = node.find("sensor")) {
+    camera.sensor = sensor->text();
+    sensor->blamed_for([&] { rule = LabelRule::for_sensor(sensor->text()); });
+  }
   if (const YamlNode* tolerance = node.find("tolerance")) {
     const std::vector<double> abc = tolerance->numbers(3);
     camera.tolerance = rule.tolerance = {abc[0], abc[1], abc[2]};
     tolerance->blamed_for([&] { rule.check(); });
   }
-  if (const YamlNode* width = node.find("front_min_width")) {
-    const std::int64_t pixels = width->integer();
-    if (pixels < 0 || pixels > LabelRule::max_width)
-      width->fail("is " + std::to_string(pixels) + "; 0 to " +
-                  std::to_string(LabelRule::max_width) + " pixels are possible");
-    camera.front_min_width = static_cast<int>(pixels);
-  }
+  if (const YamlNode* width = node.find("front_min_width"))
+    camera.front_min_width = pixels_of(*width, LabelRule::max_width);
+  if (const YamlNode* reach = node.find("fringe_reach"))
+    camera.fringe_reach = pixels_of(*reach, LabelRule::max_fringe_reach);
   if (const YamlNode* range = node.find("range")) {
     const std::vector<double> ends = range->numbers(2);
     camera.range = camera.camera.range = {ends[0], ends[1]};
@@ -98,8 +107,8 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
 }
 
 RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
-  node.allow_only({"info", "parent", "pose", "tolerance", "front_min_width", "range", "rectified",
-                   "beyond", "depth_info", "depth_pose"});
+  node.allow_only({"info", "parent", "pose", "sensor", "tolerance", "front_min_width",
+                   "fringe_reach", "range", "rectified", "beyond", "depth_info", "depth_pose"});
   refuse_depth_camera(node, folder);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
@@ -149,8 +158,10 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
 
 PipelineConfig Recording::pipeline_config() const {
   PipelineConfig config;
+  if (camera.sensor) config.rule = LabelRule::for_sensor(*camera.sensor);
   if (camera.tolerance) config.rule.tolerance = *camera.tolerance;
   if (camera.front_min_width) config.rule.front_min_width = *camera.front_min_width;
+  if (camera.fringe_reach) config.rule.fringe_reach = *camera.fringe_reach;
   config.camera_parent = camera.parent;
   config.T_parent_camera = camera.T_parent_camera;
   return config;

@@ -30,6 +30,8 @@ struct RecordingCamera {
   std::optional<DepthRange> range = {};     ///< metres
   std::optional<Tolerance> tolerance = {};  ///< of LabelRule
   std::optional<int> front_min_width = {};  ///< of LabelRule, pixels
+  std::optional<int> fringe_reach = {};     ///< of LabelRule, pixels
+  std::optional<std::string> sensor = {};   ///< of LabelRule::for_sensor
   std::optional<BeyondMeans> beyond = {};
 };
 
@@ -55,7 +57,7 @@ struct Recording {
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
 
   /// The defaults of a pipeline with what the recording says: where the camera sits, and its
-  /// tolerance and front_min_width.
+  /// label rule.
   [[nodiscard]] PipelineConfig pipeline_config() const;
 };
 

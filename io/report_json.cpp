@@ -61,6 +61,7 @@ Json settings_json(const UsedSettings& used) {
   return {{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
           {"front_min_width", rule.front_min_width},
           {"edge_margin", rule.edge_margin},
+          {"fringe_reach", rule.fringe_reach},
           {"beyond_factor", rule.beyond_factor},
           {"labels", used.paper_labels ? "paper" : "full"},
           {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
@@ -79,7 +80,8 @@ Json settings_json(const UsedSettings& used) {
 Json pixels_json(const PixelCounts& pixels) {
   return {{"robot", or_null(pixels.robot)}, {"front", pixels.front},
           {"occluded", pixels.occluded},    {"unknown", pixels.unknown},
-          {"beyond", pixels.beyond},        {"uncovered", pixels.uncovered}};
+          {"beyond", pixels.beyond},        {"fringe", pixels.fringe},
+          {"uncovered", pixels.uncovered}};
 }
 
 Json frame_json(const FrameReport& report) {

@@ -36,12 +36,14 @@ void bind_image_enums(py::module_& m) {
   make_enum<Label>(m, "IntEnum", "Label",
                    "What a pixel of a label image says. clear: no robot on this ray; front: "
                    "something real before the robot; occluded: the sensor sees the robot; unknown: "
-                   "robot on the ray, no measurement; beyond: the sensor sees past the model.",
+                   "robot on the ray, no measurement; beyond: the sensor sees past the model; "
+                   "fringe: beside the robot, where the sensor carried its depth.",
                    {{"clear", Label::clear},
                     {"front", Label::front},
                     {"occluded", Label::occluded},
                     {"unknown", Label::unknown},
-                    {"beyond", Label::beyond}},
+                    {"beyond", Label::beyond},
+                    {"fringe", Label::fringe}},
                    [](const char* /*member*/, Label of) { return static_cast<int>(of); });
   bind_enum<ImageSpace>(m, "ImageSpace",
                         "Which image results are given in: raw, the camera's as it comes, or "

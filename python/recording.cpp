@@ -81,6 +81,8 @@ void bind_description(py::module_& m) {
               Field{"range", &C::range, "None: not written there."},
               Field{"tolerance", &C::tolerance, "None: not written there."},
               Field{"front_min_width", &C::front_min_width, "Pixels; None: not written there."},
+              Field{"fringe_reach", &C::fringe_reach, "Pixels; None: not written there."},
+              Field{"sensor", &C::sensor, "Name of a kind of sensor; None: not written there."},
               Field{"beyond", &C::beyond, "None: not written there."});
   py::class_<io::Recording> recording(m, "Recording",
                                       "A recording folder's description, read and checked.");

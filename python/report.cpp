@@ -45,6 +45,7 @@ void bind_report_parts(py::module_& m) {
               Field{"occluded", &P::occluded, "The sensor sees the robot."},
               Field{"unknown", &P::unknown, "Not measured."},
               Field{"beyond", &P::beyond, "The sensor sees past the model."},
+              Field{"fringe", &P::fringe, "Beside the robot: depth not to be trusted."},
               Field{"uncovered", &P::uncovered, "That the lens model does not reach."});
   py::class_<StageTimes> times(m, "StageTimes",
                                "Wall time of the stages, milliseconds; None: not run.");

@@ -69,6 +69,8 @@ struct RunArguments {
   bool allow_missing_meshes = false;  ///< likewise
   std::optional<Tolerance> tolerance;
   std::optional<int> front_min_width;  ///< pixels
+  std::optional<int> fringe_reach;     ///< pixels
+  std::optional<std::string> sensor;   ///< of LabelRule::for_sensor
   bool paper_labels = false;
   ImageSpace image = ImageSpace::raw;
   FrameRange frames;

@@ -168,8 +168,14 @@ int Judging::status() const {
 
 LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded) {
   LabelRule rule = arguments.paper_labels ? LabelRule::paper() : recorded;
+  if (arguments.sensor) {
+    const LabelRule sensor = LabelRule::for_sensor(*arguments.sensor);
+    rule.tolerance = sensor.tolerance;
+    rule.fringe_reach = sensor.fringe_reach;
+  }
   if (arguments.tolerance) rule.tolerance = *arguments.tolerance;
   if (arguments.front_min_width) rule.front_min_width = *arguments.front_min_width;
+  if (arguments.fringe_reach) rule.fringe_reach = *arguments.fringe_reach;
   return rule;
 }
 

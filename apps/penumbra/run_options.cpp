@@ -129,9 +129,22 @@ void add_judging(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) {
                run.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
              });
+  add_option(app, "--fringe-reach",
+             "pixels past the robot's outline that the sensor carries its depth; 0: off", "PX",
+             [&](const std::string& text) {
+               run.fringe_reach =
+                   to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
+             });
+  add_option(app, "--sensor",
+             "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "
+             "fringe reach; the two options override",
+             "NAME", [&](const std::string& text) {
+               static_cast<void>(LabelRule::for_sensor(text));
+               run.sensor = text;
+             });
   add_option(app, "--labels",
-             "full (default), or paper: constant 0.01 m, no clean-up, no beyond; --tolerance and "
-             "--front-min-width override",
+             "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
+             "--tolerance, --front-min-width and --fringe-reach override",
              "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
 }
 

@@ -71,7 +71,8 @@ void tell_summary(const Statistics& statistics, const std::string& where) {
   std::cout << statistics.frames() << " frames, " << statistics.bad_frames() << " bad; of " << robot
             << " robot pixels " << percent(pixels.front, robot) << " front, "
             << percent(pixels.occluded, robot) << " occluded, " << percent(unknown, robot)
-            << " unknown, " << percent(pixels.beyond, robot) << " beyond";
+            << " unknown, " << percent(pixels.beyond, robot) << " beyond; " << pixels.fringe
+            << " fringe pixels around it";
   if (pixels.uncovered > 0) std::cout << "; besides " << pixels.uncovered << " uncovered pixels";
   std::cout << '\n';
   tell_targets(statistics);

@@ -42,6 +42,8 @@ void check_view_live(ViewArguments& view) {
   };
   if (run.tolerance) refuse("--tolerance");
   if (run.front_min_width) refuse("--front-min-width");
+  if (run.fringe_reach) refuse("--fringe-reach");
+  if (run.sensor) refuse("--sensor");
   if (run.paper_labels) refuse("--labels");
   if (run.image == ImageSpace::rectified) refuse("--image");
   if (run.frames.first || run.frames.end) refuse("--frames");

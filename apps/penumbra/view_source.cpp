@@ -27,6 +27,8 @@ void refuse_choices(const RunArguments& run, const fs::path& folder) {
   if (run.geometry) refuse("--geometry");
   if (run.tolerance) refuse("--tolerance");
   if (run.front_min_width) refuse("--front-min-width");
+  if (run.fringe_reach) refuse("--fringe-reach");
+  if (run.sensor) refuse("--sensor");
   if (run.paper_labels) refuse("--labels");
   if (run.image == ImageSpace::rectified) refuse("--image");
   if (run.frames.first || run.frames.end) refuse("--frames");
@@ -68,6 +70,7 @@ RunArguments asked_of(const io::RunReport& report, RunArguments run, const fs::p
   run.renderer.backend = report.backend;
   run.tolerance = report.tolerance;
   run.front_min_width = report.front_min_width;
+  run.fringe_reach = report.fringe_reach;
   run.paper_labels = report.paper_labels;
   run.image = report.image;
   run.geometry = report.geometry;

@@ -88,8 +88,9 @@ Json target_json(const TargetMessage& target) {
 Json pixels_json(const std::string& labels, bool has_pose) {
   if (labels.empty())
     return {{"robot", nullptr},   {"front", nullptr},  {"occluded", nullptr},
-            {"unknown", nullptr}, {"beyond", nullptr}, {"uncovered", nullptr}};
-  std::array<std::size_t, 5> counts{};
+            {"unknown", nullptr}, {"beyond", nullptr}, {"fringe", nullptr},
+            {"uncovered", nullptr}};
+  std::array<std::size_t, label_count> counts{};
   for (const char label : labels) {
     const auto value = static_cast<unsigned char>(label);
     ++counts[value < counts.size() ? value : 3U];
@@ -100,6 +101,7 @@ Json pixels_json(const std::string& labels, bool has_pose) {
           {"occluded", counts[2]},
           {"unknown", counts[3]},
           {"beyond", counts[4]},
+          {"fringe", counts[5]},
           {"uncovered", nullptr}};
 }
 

@@ -26,6 +26,7 @@ struct RunReport {
   Backend backend = Backend::cpu;
   Tolerance tolerance;
   int front_min_width = 0;
+  int fringe_reach = 0;
   bool paper_labels = false;
   ImageSpace image = ImageSpace::raw;
   std::optional<Geometry> geometry;  ///< nothing: links have different ones

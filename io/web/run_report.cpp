@@ -22,6 +22,7 @@ void read_settings(const Json& settings, RunReport& report) {
   const Json& tolerance = settings.at("tolerance");
   report.tolerance = {tolerance.at(0), tolerance.at(1), tolerance.at(2)};
   report.front_min_width = settings.at("front_min_width");
+  report.fringe_reach = settings.value("fringe_reach", 0);
   report.paper_labels = settings.at("labels") == "paper";
   if (settings.at("image") == "rectified") report.image = ImageSpace::rectified;
   if (const Json& geometry = settings.at("geometry"); geometry.is_string())

@@ -7,11 +7,15 @@
 namespace penumbra {
 namespace {
 
+/// Fringe hides nothing, and its depth measures nothing.
+bool is_fringe(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::fringe); }
+
 bool is_seen(Seen seen) { return seen == Seen::clear || seen == Seen::front; }
 
 Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
   switch (static_cast<Label>(label)) {
     case Label::clear:
+    case Label::fringe:
       return Seen::clear;
     case Label::front:
       return Seen::front;
@@ -30,6 +34,7 @@ Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
 Seen seen_at_depth(std::uint8_t value, float z, float d, DepthLimits target, bool beyond_hides) {
   const auto label = static_cast<Label>(value);
   const bool before = d > 0.0f && d < target.near;
+  if (is_fringe(value)) return Seen::clear;
   if (label == Label::clear || (label == Label::beyond && !beyond_hides))
     return before ? Seen::other : Seen::clear;
   if (!(z > 0.0f)) return Seen::unknown;  // where the lens model does not reach
@@ -88,7 +93,7 @@ class LabelTally {
       const std::uint8_t* const next = end_of_run(p, end);
       const Seen seen = seen_without_depth(*p, beyond_hides_);
       const int u0_run = static_cast<int>(p - row), u1_run = static_cast<int>(next - row);
-      if (is_seen(seen))
+      if (is_seen(seen) && !is_fringe(*p))
         add_seen(seen, v, u0_run, u1_run);
       else
         tally_.pixels[seen] += static_cast<std::size_t>(next - p);
@@ -164,8 +169,9 @@ class DepthTally {
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
       const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], target, beyond_hides_);
-      measured_count += measured.is_measured(u) && is_seen(seen);
-      past += measured.is_past(u, target.far) && is_seen(seen);
+      const bool is_measured = is_seen(seen) && !is_fringe(labels[u]);
+      measured_count += is_measured && measured.is_measured(u);
+      past += is_measured && measured.is_past(u, target.far);
       const std::uint16_t link = seen == Seen::occluded && has_links ? links[u] : 0;
       if (seen != run.seen || link != run.link) {
         add(run);
@@ -243,7 +249,7 @@ bool LabelledFrame::robot_lies_in(int u0, int u1, int v) const {
   const float* const z = is_outside_undrawn ? images.virtual_depth.depth.row(v) : nullptr;
   for (int u = u0; u <= u1; ++u) {
     u += first_set(labels + u, u1 + 1 - u);
-    if (u <= u1 && (z == nullptr || z[u] > 0.0f)) return true;
+    if (u <= u1 && !is_fringe(labels[u]) && (z == nullptr || z[u] > 0.0f)) return true;
   }
   return false;
 }

@@ -13,9 +13,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 float tolerance(const Rule& rule, float z) { return rule.a + (rule.b + rule.c * z) * z; }
 
-float metres(float depth) { return depth; }
-float metres(std::uint16_t depth) { return static_cast<float>(depth) * metres_per_millimetre; }
-
 bool is_measurement(const Rule& rule, float d) {
   return rule.metres.near <= d && d <= rule.metres.far;
 }

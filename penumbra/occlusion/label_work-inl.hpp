@@ -16,6 +16,11 @@ namespace penumbra::labelling {
 
 inline constexpr float metres_per_millimetre = 0.001f;
 
+[[nodiscard]] inline float metres(float depth) { return depth; }
+[[nodiscard]] inline float metres(std::uint16_t depth) {
+  return static_cast<float>(depth) * metres_per_millimetre;
+}
+
 /// Measurements lie in [near, far], metres; near is not 0 and far is finite.
 struct MeasuredRange {
   float near, far;

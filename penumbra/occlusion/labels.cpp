@@ -7,6 +7,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
 #include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/occlusion/fringe-inl.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/occlusion/labels.hpp>
 
@@ -36,8 +37,30 @@ LabelRule LabelRule::paper() {
   rule.tolerance = {0.01, 0.0, 0.0};
   rule.front_min_width = 0;
   rule.edge_margin = 0;
+  rule.fringe_reach = 0;
   rule.fold_beyond = true;
   return rule;
+}
+
+LabelRule LabelRule::for_sensor(std::string_view name) {
+  struct Sensor {
+    std::string_view name;
+    Tolerance tolerance;
+    int fringe_reach;
+  };
+  static constexpr Sensor sensors[] = {{"realsense_d4xx", {}, 40},
+                                       {"zed", {0.015, 0.0, 0.009}, 40},
+                                       {"tof", {0.015, 0.004, 0.0}, 6},
+                                       {"structured_light", {0.01, 0.0, 0.004}, 12},
+                                       {"none", {}, 0}};
+  for (const Sensor& sensor : sensors) {
+    if (sensor.name != name) continue;
+    LabelRule rule;
+    rule.tolerance = sensor.tolerance;
+    rule.fringe_reach = sensor.fringe_reach;
+    return rule;
+  }
+  fail("sensor '", name, "': realsense_d4xx, zed, tof, structured_light or none is wanted");
 }
 
 void LabelRule::check() const {
@@ -51,6 +74,8 @@ void LabelRule::check() const {
     fail("front_min_width ", front_min_width, ": must be 0 to ", max_width, " pixels");
   if (edge_margin < 0 || edge_margin > max_edge_margin)
     fail("edge_margin ", edge_margin, ": must be 0 to ", max_edge_margin, " pixels");
+  if (fringe_reach < 0 || fringe_reach > max_fringe_reach)
+    fail("fringe_reach ", fringe_reach, ": must be 0 to ", max_fringe_reach, " pixels");
   if (!(range.near >= 0.0 && range.near < range.far))
     fail("sensor range ", range.near, "..", range.far, " m: near must be 0 or more and below far");
 }
@@ -62,6 +87,7 @@ struct Classifier::State {
         kernels(isa_name == "scalar" ? labelling::scalar_kernels()
                                      : labelling::simd_kernels(simd_target(isa_name))),
         work(width, height, labelling::Rule(rule)),
+        fringe(width, height, rule.fringe_reach),
         everything(width, height) {
     everything.mark(0, 0, width - 1, height - 1);
     if (isa == "scalar") work.marks = Image<std::uint8_t>(width, height);
@@ -71,6 +97,7 @@ struct Classifier::State {
   std::string isa;
   labelling::Kernels kernels;
   labelling::Work work;
+  labelling::FringeFill fringe;
   TileMask everything;
 };
 
@@ -103,6 +130,7 @@ LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const Dept
         return state_->kernels.label(work, virtual_depth.depth, depth);
       },
       measured);
+  view.pixels[static_cast<std::size_t>(Label::fringe)] = state_->fringe.label(work, measured);
   std::size_t labelled = 0;
   for (const std::size_t pixels : view.pixels) labelled += pixels;
   view.pixels[static_cast<std::size_t>(Label::clear)] = work.labels.size() - labelled;

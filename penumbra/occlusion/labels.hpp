@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/tile_mask.hpp>
@@ -21,8 +22,10 @@ enum class Label : std::uint8_t {
   occluded = 2,  ///< the sensor sees the robot: what was wanted there is hidden
   unknown = 3,   ///< robot on the ray, no measurement; never counted as visible
   beyond = 4,    ///< the sensor sees past the model: model too large or out of place there
+  fringe = 5,    ///< no robot on this ray, but the sensor carried the robot's depth here: the depth
+                 ///< is not to be trusted, and nothing is hidden
 };
-inline constexpr std::size_t label_count = 5;
+inline constexpr std::size_t label_count = 6;
 
 /// e(z) = a + b z + c z^2, metres: how far a measured depth may lie before the model and still be
 /// the robot.
@@ -55,25 +58,44 @@ struct Tolerance {
 ///
 /// So an object that reaches past the robot's silhouette is not worn away at it, a hole in an
 /// object does not break it up, and a seam along an edge of the robot is no object.
+///
+/// Fringe: real sensors carry the robot's depth past its outline. Stereo matching fattens it, gaps
+/// between links are filled, and mixed pixels lie between the robot's depth and the background's.
+/// A flood finds such pixels. It starts from the occluded and beyond pixels that touch a clear one
+/// and goes on, breadth first, from pixel p to a clear, measured neighbour q (of eight) if
+///   |d(q) - d(p)| <= fringe_step e(d(s)), |d(q) - d(s)| <= fringe_drift e(d(s))
+/// and q lies within fringe_reach of s, where s is the outline pixel that the flood reached p from.
+/// q becomes fringe when a second neighbour reaches it, so that single mixed pixels do not lead the
+/// flood into an object that stands next to the robot. A real object at the robot's own depth that
+/// touches its outline is fringe up to fringe_reach; no rule on one image can tell.
 struct LabelRule {
   static constexpr int cell = 4;              ///< pixels
   static constexpr int max_width = 63;        ///< pixels, of front_min_width
   static constexpr int max_edge_margin = 64;  ///< pixels
+  static constexpr int max_fringe_reach = 255;  ///< pixels
+  static constexpr double fringe_step = 0.5;    ///< of e(z), from one pixel to the next
+  static constexpr double fringe_drift = 3.0;   ///< of e(z), from the outline's depth
 
   Tolerance tolerance;
   double beyond_factor = 2.0;  ///< k: beyond is past dV + k e(dV)
   int front_min_width = 7;     ///< pixels; 0: no clean-up
   int edge_margin = 8;         ///< pixels by which an edge of the robot may look out of place;
                                ///< 0: front pixels are certain, those beside the robot are not
+  int fringe_reach = 40;       ///< pixels past the outline that the sensor carries depth; 0: no
+                               ///< fringe
   bool fold_beyond = false;    ///< call beyond occluded
   DepthRange range;            ///< measured depths outside of it are no measurements
 
-  /// The paper as written: 0.01 m everywhere, no clean-up, beyond folded; no measurement stays
-  /// unknown.
+  /// The paper as written: 0.01 m everywhere, no clean-up, no fringe, beyond folded; no
+  /// measurement stays unknown.
   [[nodiscard]] static LabelRule paper();
 
+  /// The rule of a kind of sensor. realsense_d4xx (the default) is measured, the others are
+  /// guesses to start `penumbra tune` from; none: no fringe. Throws InputError for another name.
+  [[nodiscard]] static LabelRule for_sensor(std::string_view name);
+
   /// Throws InputError, with the values it got: a tolerance that is not finite or negative
-  /// somewhere in 0..20 m, factor < 1, width or margin out of bounds, near >= far.
+  /// somewhere in 0..20 m, factor < 1, width, margin or reach out of bounds, near >= far.
   void check() const;
 };
 

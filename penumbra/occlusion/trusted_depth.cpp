@@ -101,7 +101,9 @@ const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
     const std::uint8_t* const labels = frame_->images.labels.labels.row(v);
     const float* const z = has_depth ? frame_->images.virtual_depth.depth.row(v) : nullptr;
     for (int u = u0; u < u1; ++u) {
-      if (labels[u] == static_cast<std::uint8_t>(Label::clear)) continue;
+      if (labels[u] == static_cast<std::uint8_t>(Label::clear) ||
+          labels[u] == static_cast<std::uint8_t>(Label::fringe))
+        continue;
       const bool is_drawn = has_depth && z[u] > 0.0f;
       if (!is_drawn && frame_->is_outside_undrawn) continue;
       cell.nearest = std::min(cell.nearest, is_drawn ? z[u] : 0.0f);

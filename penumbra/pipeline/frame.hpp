@@ -100,6 +100,7 @@ struct PixelCounts {
   std::size_t occluded = 0;
   std::size_t unknown = 0;  ///< robot without measurement; every covered pixel without a pose
   std::size_t beyond = 0;
+  std::size_t fringe = 0;  ///< beside the robot: depth not to be trusted
 
   /// Pixels of the raw image that the lens model does not reach, or of the rectified one that the
   /// camera did not see and that show no robot: labelled unknown, counted here alone.
@@ -136,6 +137,10 @@ struct FrameReport {
   /// Of this frame; all views empty where the robot's pose is unknown or labels are made on the
   /// device (PipelineConfig::labels_on_device).
   VirtualDepthView virtual_depth;
+
+  /// The frame's depth as it was compared: in the image of the labels; empty where there is none.
+  /// Refers to the frame's own image where that is the same, and is valid as long.
+  DepthView depth;
 
   /// Label values; all `unknown` where the robot's pose is unknown.
   ImageView<const std::uint8_t> labels;

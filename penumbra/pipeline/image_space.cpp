@@ -71,26 +71,29 @@ LabelView UncoveredPixels::mark(const LabelView& labels) {
       std::copy(&mask_(u0, v), &mask_(u0, v) + (u1 - u0), &labels_(u0, v));
   });
   marked_ = count_;
+  std::size_t of_fringe = 0;
   labels.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    // An uncovered pixel has no measurement, so that its label is clear or unknown: "or" makes it
-    // unknown, "and" tells where it was.
+    // No robot is drawn in an uncovered pixel: its label is clear, fringe, or unknown.
     for (int v = v0; v < v1; ++v) {
       const std::uint8_t* const from = labels.labels.row(v);
       const std::uint8_t* const mask = &mask_(0, v);
       std::uint8_t* const to = &labels_(0, v);
-      std::uint32_t robot = 0;
+      std::uint32_t robot = 0, fringe = 0;
       for (int u = u0; u < u1; ++u) {
-        to[u] = static_cast<std::uint8_t>(from[u] | mask[u]);
-        robot += (from[u] & mask[u]) != 0 ? 1U : 0U;
+        to[u] = mask[u] != 0 ? mask[u] : from[u];
+        robot += (mask[u] != 0) & (from[u] == static_cast<std::uint8_t>(Label::unknown));
+        fringe += (mask[u] != 0) & (from[u] == static_cast<std::uint8_t>(Label::fringe));
       }
       marked_ -= robot;
+      of_fringe += fringe;
     }
   });
   touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
   for (std::size_t j = 0; j < shown_.rows.size(); ++j)
     shown_.rows[j] = touched_.rows[j] | uncovered_.rows[j];
   LabelView covered{labels_.view(), labels.pixels, &shown_};
-  covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_;
+  covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_ - of_fringe;
+  covered.pixels[static_cast<std::size_t>(Label::fringe)] -= of_fringe;
   return covered;
 }
 

@@ -253,6 +253,7 @@ void Pipeline::State::begin(const Frame& frame) {
   report.pixels = {};
   report.timing = {};
   report.virtual_depth = {};
+  report.depth = {};
   report.labels = {};
   report.targets = {};
   report.T_root_camera.reset();
@@ -329,10 +330,12 @@ void Pipeline::State::finish(FrameStatus status, const VirtualDepthView& virtual
   pixels.occluded = count(Label::occluded);
   pixels.unknown = count(Label::unknown);
   pixels.beyond = count(Label::beyond);
+  pixels.fringe = count(Label::fringe);
   pixels.uncovered = uncovered ? uncovered->marked() : 0;
   pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   report.status = status;
   report.virtual_depth = virtual_depth;
+  if (has_depth(status)) report.depth = seen;
   report.labels = made.labels;
   report.T_root_camera = poses.T_root_camera();
   report.T_root_link = poses.T_root_link();
@@ -367,7 +370,7 @@ JudgedFrame Pipeline::State::judged_frame(const LinkDoubts& doubts) const {
   if (has_pose(report.status))
     frame.images = {.labels = labels,
                     .virtual_depth = report.virtual_depth,
-                    .measured = has_depth(report.status) ? seen : DepthView{},
+                    .measured = report.depth,
                     .is_blind = !has_depth(report.status),
                     .are_labels_alone = labeller != nullptr};
   return frame;

@@ -66,6 +66,7 @@ void Statistics::add(const FrameReport& report) {
   pixels_.occluded += p.occluded;
   pixels_.unknown += p.unknown;
   pixels_.beyond += p.beyond;
+  pixels_.fringe += p.fringe;
   pixels_.uncovered += p.uncovered;
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (const auto time = report.timing.*stages[i].time) times_[i].push_back(*time);

@@ -33,6 +33,7 @@ class Label(enum.IntEnum):
     occluded = 2
     unknown = 3
     beyond = 4
+    fringe = 5
 
 class ImageSpace(enum.Enum):
     raw = "raw"
@@ -544,6 +545,7 @@ class LabelRule:
         beyond_factor: float = ...,
         front_min_width: int = ...,
         edge_margin: int = ...,
+        fringe_reach: int = ...,
         fold_beyond: bool = ...,
         range: DepthRange = ...,
     ) -> None: ...
@@ -556,6 +558,8 @@ class LabelRule:
     @property
     def edge_margin(self) -> int: ...
     @property
+    def fringe_reach(self) -> int: ...
+    @property
     def fold_beyond(self) -> bool: ...
     @property
     def range(self) -> DepthRange: ...
@@ -566,11 +570,14 @@ class LabelRule:
         beyond_factor: float = ...,
         front_min_width: int = ...,
         edge_margin: int = ...,
+        fringe_reach: int = ...,
         fold_beyond: bool = ...,
         range: DepthRange = ...,
     ) -> LabelRule: ...
     @staticmethod
     def paper() -> LabelRule: ...
+    @staticmethod
+    def for_sensor(name: str) -> LabelRule: ...
     def check(self) -> None: ...
 
 @final
@@ -1196,6 +1203,8 @@ class PixelCounts:
     @property
     def beyond(self) -> int: ...
     @property
+    def fringe(self) -> int: ...
+    @property
     def uncovered(self) -> int: ...
 
 @final
@@ -1337,6 +1346,10 @@ class RecordingCamera:
     def tolerance(self) -> Optional[Tolerance]: ...
     @property
     def front_min_width(self) -> Optional[int]: ...
+    @property
+    def fringe_reach(self) -> Optional[int]: ...
+    @property
+    def sensor(self) -> Optional[str]: ...
     @property
     def beyond(self) -> Optional[BeyondMeans]: ...
 
