@@ -1262,7 +1262,6 @@ class PipelineConfig:
         *,
         backend: Optional[Backend] = ...,
         renderer: RendererOptions = ...,
-        labels_on_device: bool = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
         camera_parent: str = ...,
@@ -1273,8 +1272,6 @@ class PipelineConfig:
     def backend(self) -> Optional[Backend]: ...
     @property
     def renderer(self) -> RendererOptions: ...
-    @property
-    def labels_on_device(self) -> bool: ...
     @property
     def rule(self) -> LabelRule: ...
     @property
@@ -1290,7 +1287,6 @@ class PipelineConfig:
         *,
         backend: Optional[Backend] = ...,
         renderer: RendererOptions = ...,
-        labels_on_device: bool = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
         camera_parent: str = ...,
