@@ -137,7 +137,6 @@ void run(const Arguments& a) {
   if (a.soak) report["soak"] = soak(s);  // first: memory freed before would hide what is lost
   report["frame_costs"] = compare_frames(s);
   report["cameras"] = compare_cameras(s);
-  report["labels"] = compare_labels(s);
   report["load_average"]["end"] = load_average();
   std::cout << "load average at the end: " << load_average() << '\n';
   if (!a.json_file.empty()) std::ofstream(a.json_file) << report.dump(1) << '\n';

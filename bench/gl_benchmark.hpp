@@ -22,9 +22,6 @@ struct GlSettings {
 /// Several cameras before one robot, each with its renderer.
 [[nodiscard]] nlohmann::json compare_cameras(const GlSettings& settings);
 
-/// Virtual depth and labels, made on the device and on the CPU.
-[[nodiscard]] nlohmann::json compare_labels(const GlSettings& settings);
-
 /// Memory and files that many frames, and many renderers made and dropped, leave behind.
 [[nodiscard]] nlohmann::json soak(const GlSettings& settings);
 

@@ -10,9 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/pipeline/gl/gl_labeller.hpp>
-
 namespace penumbra::bench {
 namespace {
 
@@ -54,19 +51,13 @@ json repeat(const char* what, std::size_t warm_up, std::size_t times,
 
 json soak(const GlSettings& s) {
   constexpr std::size_t frames = 10'000, cycles = 1'000;
-  constexpr std::size_t labelled = 1'000, labellers = 200;  // slow where the CPU draws
   const BenchScene scene = ur5e_scene(Geometry::collision, 640, 480, 615.0, s.frames, s.seed);
   const std::vector<Body> bodies = scene.bodies();
-  const Image<std::uint16_t> sensor(640, 480);
   const auto poses = [&](std::size_t i) -> const LinkPoses& {
     return scene.path[i % scene.path.size()];
   };
   const auto make = [&] {
     return make_depth_renderer(Backend::gl, scene.intrinsics, bodies, s.gl);
-  };
-  const auto label = [&](GlLabeller& labeller, std::size_t i) {
-    labeller.submit(poses(i), sensor.view());
-    static_cast<void>(labeller.collect());
   };
   std::printf("\nsoak, %s\n", scene.name.c_str());
   json rows;
@@ -75,13 +66,6 @@ json soak(const GlSettings& s) {
                         [&](std::size_t i) { static_cast<void>(renderer->render(poses(i))); }));
   rows.push_back(repeat("renderers made, used and dropped", 20, cycles,
                         [&](std::size_t i) { static_cast<void>(make()->render(poses(i))); }));
-  GlLabeller labeller(scene.intrinsics, bodies, LabelRule{}, s.gl);
-  rows.push_back(
-      repeat("labelled frames", 100, labelled, [&](std::size_t i) { label(labeller, i); }));
-  rows.push_back(repeat("labellers made, used and dropped", 20, labellers, [&](std::size_t i) {
-    GlLabeller made(scene.intrinsics, bodies, LabelRule{}, s.gl);
-    label(made, i);
-  }));
   return rows;
 }
 

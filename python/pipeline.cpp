@@ -22,8 +22,6 @@ void bind_pipeline_settings(py::module_& m) {
   bind_fields(
       config, Field{"backend", &C::backend, "None: the faster one of cpu and gl, measured."},
       Field{"renderer", &C::renderer, "How the backend draws."},
-      Field{"labels_on_device", &C::labels_on_device,
-            "With gl: label there too; reports then have no virtual depth."},
       Field{"rule", &C::rule, "Its range and the camera's both apply."},
       Field{"image", &C::image, "Which image results are given in."},
       Field{"camera_parent", &C::camera_parent, "Link that the camera sits on; empty: the root."},

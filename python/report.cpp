@@ -61,9 +61,8 @@ void bind_report_images(py::class_<Report>& report) {
       .def_property_readonly(
           "virtual_depth", [](const Report& r) { return r.image(r.numbers().virtual_depth.depth); },
           "Metres along the optical axis, 0 where no robot is; None where the robot's pose is not "
-          "known or labels are made on the device. A read-only view: while it is in use the "
-          "pipeline's next call raises ValueError, and after that call it is not to be had any "
-          "more.")
+          "known. A read-only view: while it is in use the pipeline's next call raises "
+          "ValueError, and after that call it is not to be had any more.")
       .def_property_readonly(
           "link_image", [](const Report& r) { return r.image(r.numbers().virtual_depth.links); },
           "Index into links + 1 of the nearest surface, 0: none. As virtual_depth.")

@@ -90,19 +90,6 @@ def cameras_table(report):
                   for r in report["cameras"]])
 
 
-def labels_words(report):
-    contenders = named(report["labels"]["contenders"])
-    gl, cpu = contenders["gl"], contenders[best_cpu(report)]
-    return (f'gl takes {factor(gl["typical_ms"], cpu["typical_ms"])} times the frame time and '
-            f'{factor(gl["cpu_ms"], cpu["cpu_ms"])} times the CPU time of {best_cpu(report)}. '
-            f'Labels that differ in one frame: {report["labels"]["labels_differ"]}.')
-
-
-def labels_table(report):
-    return table(("labels by", *COST_HEADER),
-                 [(c["name"], *cost_cells(c)) for c in report["labels"]["contenders"]])
-
-
 def soak_table(report):
     return table(("how often", "what", "resident kB, before / after", "open files, before / after"),
                  [(r["times"], r["what"], " / ".join(map(str, r["resident_kb"])),
@@ -128,10 +115,7 @@ def settings(report):
 def section(report):
     parts = [f"## {short(report)}", settings(report), verdict(report), ratio_table(report),
              "### All figures", frames_table(report),
-             "### Several cameras, xArm 7, 1280x720", cameras_table(report),
-             f'### Virtual depth and labels, {report["labels"]["scene"]}',
-             labels_words(report),
-             labels_table(report)]
+             "### Several cameras, xArm 7, 1280x720", cameras_table(report)]
     if "soak" in report:
         parts += ["### What is left behind, UR5e collision, 640x480", soak_table(report)]
     return "\n\n".join(parts)

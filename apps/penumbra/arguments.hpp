@@ -79,7 +79,6 @@ struct RunArguments {
   bool no_targets = false;                       ///< not the recording's either
   bool report_page = false;                      ///< report.html, too
   bool is_shown = false;                         ///< in the viewer
-  bool gl_labels = false;                        ///< PipelineConfig::labels_on_device
   BagArguments bag;
 
   /// Whether pictures are made, which want the recorded colour.

@@ -41,7 +41,6 @@ Pipeline make_pipeline(const RunArguments& arguments, RunInput& input, double ta
   PipelineConfig config = input.config;
   config.backend = arguments.renderer.backend;
   config.renderer = arguments.renderer.options;
-  config.labels_on_device = arguments.gl_labels;
   config.rule = rule_of(arguments, config.rule);
   config.image = arguments.image;
   config.target_history = target_history;

@@ -7,17 +7,6 @@
 namespace penumbra::app {
 namespace {
 
-/// Virtual depth and links stay on the device that labels.
-void check_gl_labels(const RunArguments& run) {
-  if (!run.gl_labels) return;
-  if (run.renderer.backend != Backend::gl)
-    throw InputError("--gl-labels: labels are made by OpenGL only with --renderer gl");
-  if (run.saves.vdi || run.saves.links)
-    throw InputError(
-        "--gl-labels: vdi and links stay on the OpenGL device; --save labels and "
-        "overlay, or leave --gl-labels out");
-}
-
 /// Adds an option for bags whose text `take` reads.
 template <typename Take>
 void add_bag_option(CLI::App& app, BagArguments& bag, const std::string& name,
@@ -64,7 +53,6 @@ void check_output_bag(RunArguments& run) {
   };
   if (run.saves.vdi || run.saves.labels || run.saves.links || run.saves.overlay) refuse("--save");
   if (run.report_page) refuse("--report");
-  if (run.gl_labels) refuse("--gl-labels");
   if (run.image == ImageSpace::rectified) refuse("--image rectified");
   run.saves.overlay = true;
 }
@@ -178,10 +166,6 @@ void add_run(CLI::App& app, RunArguments& run) {
              [&](const std::string& text) { run.saves = to_saves(text); });
   app.add_flag("--report", run.report_page,
                "write report.html, too: one file with the targets' timeline and key frames");
-  app.add_flag(
-      "--gl-labels", run.gl_labels,
-      "with --renderer gl: label on the OpenGL device, too; saves only labels and overlay, names "
-      "no link that hides a target, and targets with expected depths are unknown");
   add_bag(app, run.bag);
 }
 
@@ -196,7 +180,6 @@ void check_targets(const RunArguments& run) {
 
 void check_run(RunArguments& run) {
   check_renderer(run.renderer);
-  check_gl_labels(run);
   check_targets(run);
   check_output_bag(run);
 }

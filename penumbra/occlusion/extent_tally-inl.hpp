@@ -96,9 +96,7 @@ struct LabelledFrame {
   /// the robot may lie there.
   LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule, bool has_outside);
 
-  [[nodiscard]] bool has_pose() const {
-    return images.are_labels_alone || !images.virtual_depth.depth.empty();
-  }
+  [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const {
     return std::visit([](const auto& depth) { return !depth.empty(); }, images.measured);
   }

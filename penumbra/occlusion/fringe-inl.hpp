@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/tile_mask.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 
 namespace penumbra::labelling {
@@ -19,21 +20,38 @@ class FringeFill {
   std::size_t label(Work& work, const DepthView& measured);
 
  private:
-  /// A pixel whose depth, metres, is the robot's, and the pixel of the outline that it comes from.
+  /// An occluded pixel that touches a clear one, and what the flood from it may take: depths in
+  /// [nearest, farthest] that differ from their neighbour's by at most `step`, millimetres.
+  struct Source {
+    std::uint16_t nearest, farthest, step;
+    std::int16_t u, v;
+  };
   struct Pixel {
-    std::int16_t u, v, from_u, from_v;
-    float depth, from_depth;
+    std::uint32_t at;      ///< index in open_
+    std::uint32_t source;  ///< index in sources_
+    std::uint16_t depth;   ///< millimetres
   };
 
   template <typename T>
-  void find_outline(const Work& work, ImageView<const T> measured);
+  void open_clear_pixels(const Work& work, ImageView<const T> measured);
   template <typename T>
-  void flood(Work& work, ImageView<const T> measured);
+  void find_sources(const Work& work, ImageView<const T> measured);
+  void add_source(const Rule& rule, int u, int v, float z);
+  void flood(Work& work);
+
+  [[nodiscard]] std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v + 1) * pitch_ + static_cast<std::size_t>(u + 1);
+  }
 
   int reach_;
+  std::size_t pitch_;
+  /// Millimetres where a pixel near the robot is clear and measured, else 0; with a rim of zeros.
+  std::vector<std::uint16_t> open_;
+  std::vector<Source> sources_;
   std::vector<Pixel> queue_;
-  std::vector<std::uint8_t*> once_;        // pixels that one neighbour has reached
-  std::vector<std::uint8_t> column_, square_;  // least label of 3 x 1 and 3 x 3 pixels of a row
+  TileMask reachable_;
+  std::vector<std::uint8_t> column_;   // least label of 3 x 1 pixels of a row
+  std::vector<std::uint8_t> outline_;  // of a row: not 0 for sources
 };
 
 }  // namespace penumbra::labelling

@@ -127,6 +127,9 @@ struct Work {
   TileMask scratch_tiles_;
 };
 
+/// The tiles of tile row j that hold pixels at most `pixels` from a marked tile in u and v.
+[[nodiscard]] std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels);
+
 [[nodiscard]] inline bool any(const TileMask& tiles) {
   std::uint64_t bits = 0;
   for (const std::uint64_t row : tiles.rows) bits |= row;

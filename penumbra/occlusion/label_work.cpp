@@ -12,7 +12,8 @@ constexpr int vector_room = 128;  // pixels that whole vectors may run over a ro
 
 int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
 
-/// The tiles of tile row j that hold pixels at most `pixels` from a marked tile in u and v.
+}  // namespace
+
 std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
   const auto rows = static_cast<std::size_t>(tiles_across(pixels, TileMask::tile_height));
   std::uint64_t bits = 0;
@@ -23,6 +24,8 @@ std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
   const int in_image = tiles_across(tiles.width, tiles.tile_width);
   return bits & (~std::uint64_t{0} >> (64 - in_image));
 }
+
+namespace {
 
 /// The range of millimetres whose depths, as floats nearest to them, lie in a range; saturated ones
 /// do not.

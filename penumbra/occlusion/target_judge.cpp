@@ -72,9 +72,6 @@ bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
 
 std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds,
                                     bool is_uncovered) {
-  if (sight.lacks_robot_depth)
-    return "its expected depth is compared with the robot's, which stays on the device that makes "
-           "the labels";
   if (!sight.has_pose) return "the robot's pose is not known in this frame";
   if (sight.is_cut)
     return "seen at the image's border alone: how much of it the robot beside it hides is not "
@@ -143,8 +140,6 @@ void TargetJudge::begin(const JudgedImages& images) {
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
-  if (images.are_labels_alone && state_->frame.is_outside_undrawn)
-    region_fault("labels alone do not tell what the camera did not see from robot");
   state_->frame = LabelledFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
   ++state_->number;

@@ -25,10 +25,6 @@ struct JudgedImages {
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by others
   bool is_blind = false;  ///< the sensor saw nothing: what the robot does not hide is unknown
-  /// The pose is known, but virtual depth stayed where the labels were made. Then targets with an
-  /// expected depth are unknown, no link is blamed, and points are of depths far enough from all
-  /// robot.
-  bool are_labels_alone = false;
 };
 
 /// A target as it is judged in one frame.
@@ -71,7 +67,7 @@ struct Judgement {
   /// By something that is not the robot; nothing where no expected depth or no image is there.
   std::optional<double> hidden_by_other;
   /// Share of pixels, clear or front ones, where the sensor measures anything; nothing where no
-  /// image is there, or no pose, or no robot's depth to compare an expected one with.
+  /// image is there, or no pose.
   std::optional<double> measured;
   /// Share of pixels, clear or front ones, where the sensor measures past the expected depth: the
   /// target is not seen there. Nothing as hidden_by_other.
@@ -127,8 +123,7 @@ struct Judgement {
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
 /// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f);
-/// near robot whose virtual depths are not at hand, and near pixels that the lens model does not
-/// reach, none at all.
+/// near pixels that the lens model does not reach, none at all.
 /// Verdicts other than visible and partial have none.
 class TargetJudge {
  public:
@@ -145,8 +140,7 @@ class TargetJudge {
   TargetJudge(TargetJudge&&) noexcept;
   TargetJudge& operator=(TargetJudge&&) noexcept;
 
-  /// Names the frame that is judged next. Throws InputError for images not of the camera's size,
-  /// and for labels alone where pixels are `unseen`.
+  /// Names the frame that is judged next. Throws InputError for images not of the camera's size.
   void begin(const JudgedImages& images);
 
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws

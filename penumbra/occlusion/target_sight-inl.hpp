@@ -71,10 +71,9 @@ struct Sight {
   bool is_expected = false;            ///< its depth is
   const LinkCounts* links = nullptr;
   bool has_pose = true;
-  bool lacks_robot_depth = false;  ///< which its expected depth is compared with
-  bool first_near_robot = false;   ///< how much more of it there is is not known
-  bool is_cut = false;             ///< likewise: it was never seen clear of the image's border
-  bool is_missing = false;         ///< some of it is not in its mask, and near the robot
+  bool first_near_robot = false;  ///< how much more of it there is is not known
+  bool is_cut = false;            ///< likewise: it was never seen clear of the image's border
+  bool is_missing = false;        ///< some of it is not in its mask, and near the robot
 };
 
 /// A target and the frame it is looked at on.

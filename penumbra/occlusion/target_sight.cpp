@@ -96,14 +96,12 @@ Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& ta
 }
 
 Sight Sights::look(const Look& at, const TargetMemory& memory) {
-  const bool lacks_depth = at.frame.images.are_labels_alone && at.expected.known();
-  if (!at.frame.has_pose() || lacks_depth) {
+  if (!at.frame.has_pose()) {
     seen_tally_.clear();
     Sight none{.covered = seen_.covered(),
                .inside = seen_.inside(),
                .links = &seen_tally_.links,
-               .has_pose = false,
-               .lacks_robot_depth = lacks_depth};
+               .has_pose = false};
     none.pixels[Seen::unknown] = seen_.inside();
     return none;
   }

@@ -10,8 +10,7 @@ namespace {
 
 constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 
-/// Of robot whose virtual depth is not at hand, or that cannot be drawn, as the lens model does not
-/// reach there.
+/// Of robot that cannot be drawn, as the lens model does not reach there.
 constexpr float any_depth = std::numeric_limits<float>::infinity();
 
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
@@ -96,15 +95,14 @@ const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
   const int u1 = std::min(u0 + LabelRule::cell, frame_->width);
   const int v1 = std::min(v0 + LabelRule::cell, frame_->height);
   if (!frame_->robot_may_lie_in(u0, u0, v0, v0)) return cell;  // tiles are of whole cells
-  const bool has_depth = !frame_->images.are_labels_alone;
   for (int v = v0; v < v1; ++v) {
     const std::uint8_t* const labels = frame_->images.labels.labels.row(v);
-    const float* const z = has_depth ? frame_->images.virtual_depth.depth.row(v) : nullptr;
+    const float* const z = frame_->images.virtual_depth.depth.row(v);
     for (int u = u0; u < u1; ++u) {
       if (labels[u] == static_cast<std::uint8_t>(Label::clear) ||
           labels[u] == static_cast<std::uint8_t>(Label::fringe))
         continue;
-      const bool is_drawn = has_depth && z[u] > 0.0f;
+      const bool is_drawn = z[u] > 0.0f;
       if (!is_drawn && frame_->is_outside_undrawn) continue;
       cell.nearest = std::min(cell.nearest, is_drawn ? z[u] : 0.0f);
       cell.farthest = std::max(cell.farthest, is_drawn ? z[u] : any_depth);

@@ -134,8 +134,7 @@ struct FrameReport {
   /// rays: it is not drawn, and what it hides is labelled as if it were not there.
   std::span<const std::size_t> near_links;
 
-  /// Of this frame; all views empty where the robot's pose is unknown or labels are made on the
-  /// device (PipelineConfig::labels_on_device).
+  /// Of this frame; all views empty where the robot's pose is unknown.
   VirtualDepthView virtual_depth;
 
   /// The frame's depth as it was compared: in the image of the labels; empty where there is none.

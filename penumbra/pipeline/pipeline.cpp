@@ -9,7 +9,6 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
-#include <penumbra/pipeline/gl/gl_labeller.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/link_poses-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -83,22 +82,9 @@ LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
 
 ChosenRenderer renderer_of(const PipelineConfig& config, const Intrinsics& intrinsics,
                            std::span<const Body> bodies) {
-  if (config.labels_on_device) return {};
   if (!config.backend) return make_fastest_renderer(intrinsics, bodies, config.renderer);
   return {{*config.backend, {}, {}},
           make_depth_renderer(*config.backend, intrinsics, bodies, config.renderer)};
-}
-
-std::unique_ptr<GlLabeller> labeller_of(const Camera& camera, const PipelineConfig& config,
-                                        std::span<const Body> bodies) {
-  if (!config.labels_on_device) return nullptr;
-  if (config.backend != Backend::gl) throw InputError("labels on the device need the renderer gl");
-  if (!camera.distortion.is_none())
-    throw InputError(
-        "labels on the device are of images without lens distortion: take recordings that were "
-        "rectified beforehand (camera.rectified: true), or label with the CPU");
-  return std::make_unique<GlLabeller>(camera.intrinsics, bodies, rule_of(camera, config),
-                                      config.renderer);
 }
 
 bool by_joints_alone(const Frame& frame) {
@@ -122,8 +108,6 @@ struct Pipeline::State {
   std::optional<std::span<const Eigen::Isometry3d>> pose_links(const Frame& frame);
   void look_around_camera(std::span<const Eigen::Isometry3d> T_camera_link);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
-  LabelView label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
-                            const DepthView& measured);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
   void label(const Frame& frame);
@@ -143,8 +127,7 @@ struct Pipeline::State {
   LinkPoses poses;
   CameraInsideCheck camera_inside;
   NearPlaneCheck near_plane;
-  ChosenRenderer chosen;                          // no renderer with
-  std::unique_ptr<GlLabeller> labeller;           // labels_on_device
+  ChosenRenderer chosen;
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered;       // with distortion
@@ -173,7 +156,6 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       camera_inside(bodies_of(robot)),
       near_plane(render_intrinsics, bodies_of(robot)),
       chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
-      labeller(labeller_of(camera, config, bodies_of(robot))),
       uncovered(uncovered_of(rectification, config.image)),
       classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
@@ -196,14 +178,9 @@ Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Robot& Pipeline::robot() const { return state_->robot; }
-const RendererInfo& Pipeline::renderer() const {
-  return state_->labeller ? state_->labeller->info() : state_->chosen.renderer->info();
-}
+const RendererInfo& Pipeline::renderer() const { return state_->chosen.renderer->info(); }
 const RendererChoice& Pipeline::renderer_choice() const { return state_->chosen.choice; }
-std::size_t Pipeline::triangle_count() const {
-  return state_->labeller ? state_->labeller->triangle_count()
-                          : state_->chosen.renderer->triangle_count();
-}
+std::size_t Pipeline::triangle_count() const { return state_->chosen.renderer->triangle_count(); }
 const LabelRule& Pipeline::rule() const { return state_->classifier.rule(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
 const Rectification* Pipeline::rectification() const {
@@ -240,7 +217,6 @@ void Pipeline::State::label(const Frame& frame) {
                                                : FrameStatus::missing_transform);
 
   const DepthView measured = has_depth(status) ? frame.depth : DepthView{};
-  if (labeller) return finish(status, {}, label_on_device(*T_camera_link, measured));
   const VirtualDepthView virtual_depth = render(*T_camera_link);
   finish(status, virtual_depth, classify(virtual_depth, measured));
 }
@@ -283,18 +259,6 @@ VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_ca
   look_around_camera(T_camera_link);
   const VirtualDepthView rendered = chosen.render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
-}
-
-LabelView Pipeline::State::label_on_device(std::span<const Eigen::Isometry3d> T_camera_link,
-                                           const DepthView& measured) {
-  {
-    const StageTimer timer(report.timing.render);
-    look_around_camera(T_camera_link);
-    seen = seen_depth(measured);
-    labeller->submit(T_camera_link, seen);
-  }
-  const StageTimer timer(report.timing.classify);
-  return labeller->collect().image;
 }
 
 LabelView Pipeline::State::classify(const VirtualDepthView& virtual_depth,
@@ -371,8 +335,7 @@ JudgedFrame Pipeline::State::judged_frame(const LinkDoubts& doubts) const {
     frame.images = {.labels = labels,
                     .virtual_depth = report.virtual_depth,
                     .measured = report.depth,
-                    .is_blind = !has_depth(report.status),
-                    .are_labels_alone = labeller != nullptr};
+                    .is_blind = !has_depth(report.status)};
   return frame;
 }
 

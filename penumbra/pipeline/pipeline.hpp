@@ -29,12 +29,7 @@ struct PipelineConfig {
   /// of the two are not the same to the last bit.
   std::optional<Backend> backend = Backend::cpu;
   RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
-  /// With backend gl: label there too (GlLabeller). Reports then hold labels and counts, but no
-  /// virtual depth: no link is blamed for what it hides, targets with an expected depth and 3-D
-  /// ones are unknown, or out of view (JudgedImages::are_labels_alone). Images with lens distortion
-  /// are refused.
-  bool labels_on_device = false;
-  LabelRule rule;  ///< its range and the camera's both apply
+  LabelRule rule;            ///< its range and the camera's both apply
   ImageSpace image = ImageSpace::raw;
   std::string camera_parent;  ///< link that the camera sits on; empty: the root
   /// Pose of the optical frame in that link's frame, metres.

@@ -133,8 +133,7 @@ void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
   images = {};
   images.labels = {std::as_const(to.labels).view(), from.labels.pixels,
                    from.labels.touched ? &to.labels_touched : nullptr};
-  images.are_labels_alone = from.are_labels_alone;
-  if (!from.are_labels_alone) copy_virtual_depth(from.virtual_depth, to);
+  copy_virtual_depth(from.virtual_depth, to);
   images.is_blind = from.is_blind;
   if (from.is_blind) return;
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&from.measured))

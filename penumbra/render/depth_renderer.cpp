@@ -17,6 +17,16 @@ std::string too_many(std::size_t given, std::string_view what, std::size_t most)
          "; the renderer takes " + std::to_string(most) + " at the most";
 }
 
+/// Throws InputError for more than DepthRenderer::max_bodies or max_drawn_bodies.
+void check_count_of(std::span<const Body> bodies) {
+  constexpr std::size_t max_drawn = DepthRenderer::max_drawn_bodies;
+  constexpr std::size_t max = DepthRenderer::max_bodies;
+  const auto drawn = static_cast<std::size_t>(std::count_if(
+      bodies.begin(), bodies.end(), [](const Body& body) { return body.triangle_count() > 0; }));
+  if (drawn > max_drawn) throw InputError(too_many(drawn, "links to draw", max_drawn));
+  if (bodies.size() > max) throw InputError(too_many(bodies.size(), "links", max));
+}
+
 }  // namespace
 
 std::string_view to_string(Backend backend) {
@@ -35,15 +45,6 @@ std::size_t Body::triangle_count() const {
   std::size_t count = 0;
   for (const TriangleMesh& mesh : meshes) count += mesh.triangles.size();
   return count;
-}
-
-void check_count_of(std::span<const Body> bodies) {
-  constexpr std::size_t max_drawn = DepthRenderer::max_drawn_bodies;
-  constexpr std::size_t max = DepthRenderer::max_bodies;
-  const auto drawn = static_cast<std::size_t>(std::count_if(
-      bodies.begin(), bodies.end(), [](const Body& body) { return body.triangle_count() > 0; }));
-  if (drawn > max_drawn) throw InputError(too_many(drawn, "links to draw", max_drawn));
-  if (bodies.size() > max) throw InputError(too_many(bodies.size(), "links", max));
 }
 
 DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,

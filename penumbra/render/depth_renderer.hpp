@@ -33,9 +33,6 @@ enum class Backend {
 
 [[nodiscard]] std::string_view to_string(Backend backend);
 
-/// Throws InputError for more than DepthRenderer::max_bodies or max_drawn_bodies.
-void check_count_of(std::span<const Body> bodies);
-
 struct RendererOptions {
   static constexpr int max_threads = 512;
 

@@ -1271,7 +1271,6 @@ class PipelineConfig:
         *,
         backend: Optional[Backend] = ...,
         renderer: RendererOptions = ...,
-        labels_on_device: bool = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
         camera_parent: str = ...,
@@ -1282,8 +1281,6 @@ class PipelineConfig:
     def backend(self) -> Optional[Backend]: ...
     @property
     def renderer(self) -> RendererOptions: ...
-    @property
-    def labels_on_device(self) -> bool: ...
     @property
     def rule(self) -> LabelRule: ...
     @property
@@ -1299,7 +1296,6 @@ class PipelineConfig:
         *,
         backend: Optional[Backend] = ...,
         renderer: RendererOptions = ...,
-        labels_on_device: bool = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
         camera_parent: str = ...,

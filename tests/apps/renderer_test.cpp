@@ -99,22 +99,6 @@ TEST_F(RendererTest, OpenGlIsNamedInTheReport) {
   EXPECT_EQ(json["frames"][0]["pixels"]["front"], 64) << "the object of 8 x 8 pixels";
 }
 
-TEST_F(RendererTest, LabelsOfTheDeviceAreThoseOfTheCpu) {
-  if (!working_device()) GTEST_SKIP() << "no OpenGL device works here";
-  const auto labels = folder_.path() / "out" / "labels" / "000001.png";
-  ASSERT_EQ(run({"--renderer", "gl", "--save", "labels"}).status, 0);
-  const Json expected = report();
-  const std::string expected_labels = read_file(labels);
-  const Outcome outcome = run({"--renderer", "gl", "--gl-labels", "--save", "labels,overlay"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(read_file(labels), expected_labels);
-  EXPECT_EQ(report()["renderer"], expected["renderer"]);
-  for (std::size_t i = 0; i < expected["frames"].size(); ++i) {
-    EXPECT_EQ(report()["frames"][i]["pixels"], expected["frames"][i]["pixels"]) << i;
-  }
-  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "overlay" / "000001.png"));
-}
-
 TEST_F(RendererTest, ADeviceByNumberIsMeasured) {
   const auto device = working_device();
   if (!device) GTEST_SKIP() << "no OpenGL device works here";

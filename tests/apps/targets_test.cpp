@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `run` with targets, on the shipped recording against its truth (an independent ray caster's).
-#include "../support/opengl.hpp"
 #include "json.hpp"
 #include "program.hpp"
 
@@ -199,27 +198,6 @@ TEST_F(RunTargetsTest, NoneLeavesTheRecordingsOut) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(report()["frames"][0]["targets"].empty());
   EXPECT_EQ(outcome.out.find("target "), std::string::npos) << outcome.out;
-}
-
-/// What needs the robot's own depth is unknown and says so; the key point is judged and held.
-TEST_F(RunTargetsTest, AreJudgedOnLabelsOfADevice) {
-  if (!has_opengl()) GTEST_SKIP() << no_opengl;
-  ASSERT_EQ(run({"--renderer", "gl"}).status, 0);
-  const Json expected = report();
-  const Outcome outcome = run({"--renderer", "gl", "--gl-labels", "--save", "overlay"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("stays on the device"), std::string::npos) << outcome.err;
-  const Json json = report();
-  for (int frame = 0; frame < static_cast<int>(expected["frames"].size()); ++frame) {
-    for (const char* name : {"cube", "cylinder", "lid"})
-      EXPECT_EQ(target(json, frame, name)["verdict"], "unknown") << name;
-    const Json& wrist = target(json, frame, "wrist");
-    const Json& other = target(expected, frame, "wrist");
-    for (const char* key : {"verdict", "occluded_fraction", "clear_fraction", "reason"})
-      EXPECT_EQ(wrist[key], other[key]) << key << " in frame " << frame;
-    EXPECT_TRUE(wrist["blame"].empty());
-    EXPECT_EQ(wrist["handled"].is_null(), other["handled"].is_null());
-  }
 }
 
 TEST_F(RunTargetsTest, TheOverlayShowsThem) {

@@ -47,7 +47,6 @@ const std::vector<Library>& libraries() {
                                         {"epoxy/egl.h", "penumbra/render/gl", 1},
                                         {"dlfcn.h", "penumbra/render/gl", 1},
                                         {"epoxy/gl.h", "penumbra/render/gl", 7},
-                                        {"epoxy/gl.h", "penumbra/pipeline/gl", 1},
                                         {"yaml-cpp/", "io", 2},
                                         {"png.h", "io", 1},
                                         {"jpeglib.h", "io", 1},

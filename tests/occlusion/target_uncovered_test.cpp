@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets where robot cannot be drawn, as a lens model does not reach there, and where it was drawn
-// but its depth is not at hand.
+// Targets where robot cannot be drawn, as a lens model does not reach there.
 #include "target_frame.hpp"
 
 #include <array>
@@ -74,48 +73,6 @@ TEST_F(UncoveredTargets, SayWhyTheyAreUnknown) {
   target.expected_depth = 0.5;
   target.thresholds.past_limit = 1;
   expect_reason(judge(target), "lens model");
-}
-
-class LabelsAlone : public UncoveredTargets {
- protected:
-  JudgedImages alone() {
-    JudgedImages images = frame_.images();
-    images.virtual_depth = {};
-    images.are_labels_alone = true;
-    return images;
-  }
-};
-
-TEST_F(LabelsAlone, TellWhatIsHiddenButNotByWhich) {
-  frame_.add_robot(40, 40, 60, 60, 1.0f, 1);
-  judge_.begin(alone());
-  const Judgement hidden = judge_.judge(box_target("cup", {40, 40, 20, 20}));
-  EXPECT_EQ(hidden.verdict, Verdict::hidden);
-  EXPECT_TRUE(hidden.blame.empty());
-  EXPECT_TRUE(judge_.judge(box_target("away", {100, 40, 15, 20})).point);
-  EXPECT_FALSE(judge_.judge(box_target("beside", {61, 40, 6, 20})).point)
-      << "the robot's depth is not known";
-}
-
-TEST_F(LabelsAlone, SayNothingOfTargetsOfKnownDepth) {
-  judge_.begin(alone());
-  TargetView target = box_target("cup", {40, 40, 20, 20});
-  target.expected_depth = 2.0;
-  const Judgement judgement = judge_.judge(target);
-  expect_reason(judgement, "stays on the device");
-  EXPECT_EQ(judgement.unknown, 1.0);
-  EXPECT_FALSE(judgement.measured || judgement.seen_past || judgement.hidden_by_other);
-  target = box_target("out of view", {-90, 40, 20, 20});
-  target.expected_depth = 2.0;
-  EXPECT_EQ(judge_.judge(target).verdict, Verdict::out_of_view);
-}
-
-TEST_F(LabelsAlone, AreRefusedWhereTheCameraDidNotSeeAll) {
-  Image<std::uint8_t> unseen(TargetFrame::width, TargetFrame::height);
-  unseen(0, 0) = 1;
-  TargetJudge rectified(TargetFrame::camera(), frame_.rule, 3, unseen.view());
-  EXPECT_THROW(rectified.begin(alone()), InputError);
-  EXPECT_NO_THROW(rectified.begin(frame_.images()));
 }
 
 }  // namespace

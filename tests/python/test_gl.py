@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What OpenGL draws and labels for Python, beside the CPU and the command line."""
+"""What OpenGL draws for Python, beside the CPU and the command line."""
 
 import os
 import re
@@ -62,21 +62,6 @@ def test_labels_are_the_cpus(folder, opengl):
     assert robot > 100_000
     assert other_surface <= 2 * DIFFERING * robot
     assert other_label <= 2 * DIFFERING * robot
-
-
-def test_labels_made_on_the_device_are_those_of_its_depth():
-    """Bit for bit; the virtual depth stays there, and the report says so."""
-    host = Opened(SHIPPED, backend=Backend.gl)
-    device = Opened(SHIPPED, backend=Backend.gl, labels_on_device=True)
-    for frame in host.frames:
-        expected = host.pipeline.process(frame.frame)
-        report = device.pipeline.process(frame.frame)
-        assert np.array_equal(report.labels, expected.labels)
-        assert report.pixels.robot == expected.pixels.robot > 1000
-        assert report.virtual_depth is None and report.link_image is None
-        del expected, report
-    with pytest.raises(penumbra.InputError):
-        Opened(SHIPPED, backend=Backend.cpu, labels_on_device=True)
 
 
 def test_the_command_line_draws_the_same(tmp_path):

@@ -13,7 +13,6 @@ namespace {
 struct Functions {
   decltype(epoxy_eglMakeCurrent) make_current = epoxy_eglMakeCurrent;
   decltype(epoxy_glReadPixels) read_pixels = epoxy_glReadPixels;
-  decltype(epoxy_glGetTextureSubImage) get_texture = epoxy_glGetTextureSubImage;
   decltype(epoxy_glFenceSync) fence_sync = epoxy_glFenceSync;
   decltype(epoxy_glClientWaitSync) client_wait = epoxy_glClientWaitSync;
   decltype(epoxy_glGetError) get_error = epoxy_glGetError;
@@ -22,7 +21,6 @@ struct Functions {
   void use() const {
     epoxy_eglMakeCurrent = make_current;
     epoxy_glReadPixels = read_pixels;
-    epoxy_glGetTextureSubImage = get_texture;
     epoxy_glFenceSync = fence_sync;
     epoxy_glClientWaitSync = client_wait;
     epoxy_glGetError = get_error;
@@ -51,13 +49,6 @@ EGLBoolean never_current(EGLDisplay display, EGLSurface draw, EGLSurface read, E
 void read_pixels(GLint u, GLint v, GLsizei width, GLsizei height, GLenum format, GLenum type,
                  void* at) {
   real.read_pixels(u, v, width, height, fails(GlFault::fetch) ? nonsense : format, type, at);
-}
-
-void get_texture(GLuint texture, GLint level, GLint u, GLint v, GLint z, GLsizei width,
-                 GLsizei height, GLsizei depth, GLenum format, GLenum type, GLsizei bytes,
-                 void* at) {
-  real.get_texture(texture, level, u, v, z, width, height, depth,
-                   fails(GlFault::fetch) ? nonsense : format, type, bytes, at);
 }
 
 GLsync fence_sync(GLenum condition, GLbitfield flags) {
@@ -94,9 +85,7 @@ InjectedFault::InjectedFault(GlFault fault, int spared) {
   real = Functions();
   wanted = fault;
   left = spared;
-  Functions{make_current, read_pixels, get_texture, fence_sync,
-            client_wait,  get_error,   reset_status}
-      .use();
+  Functions{make_current, read_pixels, fence_sync, client_wait, get_error, reset_status}.use();
 }
 
 InjectedFault::~InjectedFault() { real.use(); }

@@ -46,7 +46,7 @@ class InjectedFault {
 /// Expects the one line of a renderer that failed for good.
 void expect_final(const std::runtime_error& error);
 
-/// Steps of a renderer or labeller, none of which may succeed after one that failed.
+/// Steps of a renderer, none of which may succeed after one that failed.
 class Attempts {
  public:
   template <typename Step>

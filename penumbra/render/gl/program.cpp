@@ -12,7 +12,7 @@ namespace {
 
 GLuint compiled(const ShaderSource& source) {
   const GLuint shader = glCreateShader(source.kind);
-  glShaderSource(shader, static_cast<GLsizei>(source.pieces.size()), source.pieces.data(), nullptr);
+  glShaderSource(shader, 1, &source.text, nullptr);
   glCompileShader(shader);
   GLint status = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &status);

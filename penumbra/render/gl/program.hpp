@@ -2,14 +2,13 @@
 #pragma once
 
 #include <initializer_list>
-#include <vector>
 
 namespace penumbra::gl {
 
-/// A shader of OpenGL's kind `kind`, in pieces.
+/// A shader of OpenGL's kind `kind`.
 struct ShaderSource {
   unsigned kind;
-  std::vector<const char*> pieces;
+  const char* text;
 };
 
 /// Makes a program of the current context and returns its name. Throws std::runtime_error, with the

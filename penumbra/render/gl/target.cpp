@@ -38,7 +38,7 @@ Target::Target(const Intrinsics& intrinsics) {
   check_size(intrinsics.width(), intrinsics.height());
   make_images(intrinsics.width(), intrinsics.height());
   program_ =
-      make_program({{GL_VERTEX_SHADER, {vertex_shader}}, {GL_FRAGMENT_SHADER, {fragment_shader}}});
+      make_program({{GL_VERTEX_SHADER, vertex_shader}, {GL_FRAGMENT_SHADER, fragment_shader}});
   constexpr GLint near_location = 0;
   glProgramUniform1f(program_, near_location, static_cast<float>(DepthRenderer::near_plane));
   glViewport(0, 0, intrinsics.width(), intrinsics.height());
@@ -50,15 +50,16 @@ Target::Target(const Intrinsics& intrinsics) {
 }
 
 void Target::make_images(int width, int height) {
+  std::array<GLuint, 2> images{};  // textures: metres, links
   GLuint depth = 0;
-  glCreateTextures(GL_TEXTURE_2D, 2, images_.data());
-  glTextureStorage2D(images_[0], 1, GL_R32F, width, height);
-  glTextureStorage2D(images_[1], 1, GL_R16UI, width, height);
+  glCreateTextures(GL_TEXTURE_2D, 2, images.data());
+  glTextureStorage2D(images[0], 1, GL_R32F, width, height);
+  glTextureStorage2D(images[1], 1, GL_R16UI, width, height);
   glCreateRenderbuffers(1, &depth);
   glNamedRenderbufferStorage(depth, GL_DEPTH_COMPONENT32F, width, height);
   glCreateFramebuffers(1, &framebuffer_);
-  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, images_[0], 0);
-  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT1, images_[1], 0);
+  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, images[0], 0);
+  glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT1, images[1], 0);
   glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
   constexpr std::array<GLenum, 2> drawn{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glNamedFramebufferDrawBuffers(framebuffer_, 2, drawn.data());

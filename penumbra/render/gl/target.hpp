@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/gl/pixel_rectangle.hpp>
 
@@ -18,14 +16,10 @@ class Target {
   /// Confines drawing to a rectangle and clears it.
   void begin(const PixelRectangle& rectangle) const;
 
-  /// The texture of metres; beside the last rectangle it is old.
-  [[nodiscard]] unsigned depth_image() const { return images_[0]; }
-
  private:
   void make_images(int width, int height);
 
   unsigned framebuffer_ = 0;
-  std::array<unsigned, 2> images_{};  // textures: metres, links
   unsigned program_ = 0;
 };
 
