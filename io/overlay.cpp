@@ -23,7 +23,7 @@ constexpr std::size_t max_message_lines = 3;
 constexpr Rgb8 white{255, 255, 255};
 constexpr Rgb8 black{0, 0, 0};
 
-constexpr std::array<const char*, label_count> label_names = {"clear", "front", "occluded",
+constexpr std::array<const char*, label_count> label_names = {"clear",   "front",  "occluded",
                                                               "unknown", "beyond", "fringe"};
 
 Rgb8 blend(Rgb8 below, Rgb8 above, int weight) {

@@ -12,8 +12,8 @@ LabelView labels_of(const FrameReport& report) {
   const PixelCounts& pixels = report.pixels;
   const std::size_t all = static_cast<std::size_t>(report.labels.width) *
                           static_cast<std::size_t>(report.labels.height);
-  const std::size_t labelled = pixels.front + pixels.occluded + pixels.unknown +
-                               pixels.beyond + pixels.fringe;
+  const std::size_t labelled =
+      pixels.front + pixels.occluded + pixels.unknown + pixels.beyond + pixels.fringe;
   return {report.labels,
           {all - labelled - pixels.uncovered, pixels.front, pixels.occluded, pixels.unknown,
            pixels.beyond, pixels.fringe},

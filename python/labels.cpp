@@ -32,10 +32,12 @@ void bind_rule(py::module_& m) {
                     "Pixels past the outline that the sensor carries depth; 0: no fringe."},
               Field{"fold_beyond", &R::fold_beyond, "Call beyond occluded."},
               Field{"range", &R::range, "Measured depths outside of it are no measurements."});
-  rule.def_static("paper", &R::paper,
-                  "The paper as written: 0.01 m everywhere, no clean-up, no fringe, beyond folded.");
-  rule.def_static("for_sensor", &R::for_sensor, py::arg("name"),
-                  "The rule of a kind of sensor: realsense_d4xx, zed, tof, structured_light, none.");
+  rule.def_static(
+      "paper", &R::paper,
+      "The paper as written: 0.01 m everywhere, no clean-up, no fringe, beyond folded.");
+  rule.def_static(
+      "for_sensor", &R::for_sensor, py::arg("name"),
+      "The rule of a kind of sensor: realsense_d4xx, zed, tof, structured_light, none.");
   rule.def("check", method(&R::check),
            "Raises InputError, with the values, for a rule that is none.");
 }

@@ -120,8 +120,7 @@ void add_judging(CLI::App& app, RunArguments& run) {
   add_option(app, "--fringe-reach",
              "pixels past the robot's outline that the sensor carries its depth; 0: off", "PX",
              [&](const std::string& text) {
-               run.fringe_reach =
-                   to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
+               run.fringe_reach = to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
              });
   add_option(app, "--sensor",
              "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "

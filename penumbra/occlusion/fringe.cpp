@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <penumbra/occlusion/fringe-inl.hpp>
+#include <penumbra/occlusion/region_spans-inl.hpp>
 
 namespace penumbra::labelling {
 namespace {
@@ -22,9 +23,9 @@ constexpr float millimetres_per_metre = 1000.0f;
 constexpr std::uint16_t reached_once = 0x8000;  // a flag beside an open pixel's depth
 constexpr float farthest = 32.767f;             // metres; pixels past it are not open
 
-std::uint16_t rounded(float millimetres) {
-  return static_cast<std::uint16_t>(millimetres + 0.5f);
-}
+std::uint16_t rounded(float millimetres) { return static_cast<std::uint16_t>(millimetres + 0.5f); }
+
+}  // namespace
 
 /// From a depth image's values to millimetres; 0: no measurement, or one past `farthest`.
 template <typename T>
@@ -57,8 +58,6 @@ class Millimetres<std::uint16_t> {
  private:
   std::uint16_t near_, far_;
 };
-
-}  // namespace
 
 FringeFill::FringeFill(int width, int height, int reach)
     : reach_(reach), pitch_(static_cast<std::size_t>(width) + 4), reachable_(width, height) {
@@ -142,20 +141,26 @@ void FringeFill::add_source(const Rule& rule, int u, int v, float z) {
                       static_cast<std::int16_t>(v)});
 }
 
+}  // namespace penumbra::labelling
+
+HWY_BEFORE_NAMESPACE();
+namespace penumbra::labelling {
+
 /// Breadth first, so that each pixel comes from a near part of the outline.
 void FringeFill::flood(Work& work) {
   const int tile_shift = std::countr_zero(static_cast<unsigned>(work.touched.tile_width));
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
-  const std::array<std::ptrdiff_t, 12> neighbours = {-pitch - 1, -pitch,    -pitch + 1, 0,
-                                                     pitch - 1,  pitch,     pitch + 1,  0,
-                                                     -1,         0 /*self*/, 1,         0};
+  const std::array<std::ptrdiff_t, 12> neighbours = {
+      -pitch - 1, -pitch, -pitch + 1, 0, pitch - 1, pitch, pitch + 1, 0, -1, 0 /*self*/, 1, 0};
   constexpr unsigned all = 0x577;  // the bits of eight of them
-  const auto depths = [](const std::uint16_t* open) {
+  const auto depths = [](const std::uint16_t* open) HWY_ATTR {
     return hn::And(hn::LoadU(Four(), open), hn::Set(Four(), reached_once - 1));
   };
-  const auto among = [](auto tag, auto depth, std::uint16_t from, std::uint16_t to) {
+  const auto among = [](auto tag, auto depth, std::uint16_t from, std::uint16_t to) HWY_ATTR {
     const auto inside = hn::Min(hn::Max(depth, hn::Set(tag, from)), hn::Set(tag, to));
-    return static_cast<unsigned>(hn::BitsFromMask(tag, hn::Eq(inside, depth)));
+    std::array<std::uint8_t, 8> bits;  // of which Highway may write all
+    hn::StoreMaskBits(tag, hn::Eq(inside, depth), bits.data());
+    return static_cast<unsigned>(bits[0]);
   };
   std::uint16_t* const open = open_.data();
   std::uint8_t* const labels = work.labels.data();
@@ -167,13 +172,14 @@ void FringeFill::flood(Work& work) {
     const int u = static_cast<int>(pixel.at % pitch_) - 1;
     const int du = u - source.u, dv = v - source.v;
     if (du * du + dv * dv > reach_squared) continue;
-    const auto from = static_cast<std::uint16_t>(
-        std::max<int>(pixel.depth - source.step, source.nearest));
-    const auto to = static_cast<std::uint16_t>(
-        std::min<int>(pixel.depth + source.step, source.farthest));
+    const auto from =
+        static_cast<std::uint16_t>(std::max<int>(pixel.depth - source.step, source.nearest));
+    const auto to =
+        static_cast<std::uint16_t>(std::min<int>(pixel.depth + source.step, source.farthest));
     std::uint16_t* const here = open + pixel.at;
     const auto rows = hn::Combine(Eight(), depths(here + pitch - 1), depths(here - pitch - 1));
-    unsigned taken = among(Eight(), rows, from, to) | among(Four(), depths(here - 1), from, to) << 8;
+    unsigned taken = among(Eight(), rows, from, to) | among(Four(), depths(here - 1), from, to)
+                                                          << 8;
     for (taken &= all; taken != 0; taken &= taken - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(taken));
       std::uint16_t* const next = here + neighbours[bit];
@@ -194,3 +200,4 @@ void FringeFill::flood(Work& work) {
 }
 
 }  // namespace penumbra::labelling
+HWY_AFTER_NAMESPACE();

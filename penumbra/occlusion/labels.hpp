@@ -69,9 +69,9 @@ struct Tolerance {
 /// flood into an object that stands next to the robot. A real object at the robot's own depth that
 /// touches its outline is fringe up to fringe_reach; no rule on one image can tell.
 struct LabelRule {
-  static constexpr int cell = 4;              ///< pixels
-  static constexpr int max_width = 63;        ///< pixels, of front_min_width
-  static constexpr int max_edge_margin = 64;  ///< pixels
+  static constexpr int cell = 4;                ///< pixels
+  static constexpr int max_width = 63;          ///< pixels, of front_min_width
+  static constexpr int max_edge_margin = 64;    ///< pixels
   static constexpr int max_fringe_reach = 255;  ///< pixels
   static constexpr double fringe_step = 0.5;    ///< of e(z), from one pixel to the next
   static constexpr double fringe_drift = 3.0;   ///< of e(z), from the outline's depth
