@@ -208,11 +208,14 @@ ImageSize size_of(const OverlayInput& input) {
 
 }  // namespace
 
-Rgb8 label_color(Label label) {
+std::span<const Rgb8> label_palette() {
   // Okabe and Ito's palette (2008): blue, vermilion, yellow, reddish purple, bluish green.
-  constexpr std::array<Rgb8, label_count> colors = {
+  static constexpr std::array<Rgb8, label_count> colors = {
       {{0, 0, 0}, {0, 114, 178}, {213, 94, 0}, {240, 228, 66}, {204, 121, 167}, {0, 158, 115}}};
-  return colors[static_cast<std::size_t>(label)];
+  return colors;
+}
+
+Rgb8 label_color(Label label) { return label_palette()[static_cast<std::size_t>(label)];
 }
 
 void draw_overlay(const OverlayInput& input, Image<Rgb8>& out) {

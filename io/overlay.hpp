@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <penumbra/base/image.hpp>
@@ -27,6 +28,9 @@ struct OverlayInput {
 
 /// The colour that stands for a label; told apart by people with any common colour blindness.
 [[nodiscard]] Rgb8 label_color(Label label);
+
+/// Of label images: the same colours, by label; clear is black.
+[[nodiscard]] std::span<const Rgb8> label_palette();
 
 /// Draws the scene with labels over it, the robot's outline and a legend with each label's pixels.
 /// One of them must not be empty. A message is cut after three lines. `out` gets their size; its

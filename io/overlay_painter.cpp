@@ -32,7 +32,7 @@ ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const Show
   input.message = report.message;
   input.pose_known = has_pose(report.status);
   if (!images.color.empty()) {
-    input.color = seen(images.color, color_);
+    input.color = seen_color(images.color);
   } else {
     std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); },
                images.depth);
@@ -40,6 +40,10 @@ ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const Show
   draw_overlay(input, overlay_);
   target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
   return std::as_const(overlay_).view();
+}
+
+ImageView<const Rgb8> OverlayPainter::seen_color(ImageView<const Rgb8> raw) {
+  return seen(raw, color_);
 }
 
 template <typename T>

@@ -41,6 +41,9 @@ class OverlayPainter {
   ImageView<const Rgb8> draw(const FrameReport& report, const ShownImages& images,
                              const ShownTargets& targets);
 
+  /// The camera's colour image as the report's images are; valid until the next call.
+  ImageView<const Rgb8> seen_color(ImageView<const Rgb8> raw);
+
  private:
   template <typename T>
   ImageView<const T> seen(ImageView<const T> raw, Image<T>& rectified);

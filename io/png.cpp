@@ -110,7 +110,9 @@ class PngDecoder {
   std::string check_grey(int bits) const {
     const int color_type = png_get_color_type(png_, info_);
     const bool transparent = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
-    if (color_type == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png_, info_) == bits && !transparent)
+    const bool is_grey = color_type == PNG_COLOR_TYPE_GRAY;
+    const bool is_palette = color_type == PNG_COLOR_TYPE_PALETTE && bits == 8;  // of labels
+    if ((is_grey || is_palette) && png_get_bit_depth(png_, info_) == bits && !transparent)
       return {};
     return "is " + std::to_string(png_get_bit_depth(png_, info_)) + "-bit " +
            color_name(color_type) + (transparent ? " with transparency" : "") + "; " +
@@ -221,6 +223,7 @@ struct Encoding {
   int color_type;
   int bits;
   int filter;
+  std::span<const Rgb8> palette = {};
 };
 
 // Puts the file into `bytes`, in place of what is there. Answers what is wrong, or nothing.
@@ -240,6 +243,9 @@ std::string encode_image(ImageView<const T> image, const Encoding& encoding,
     png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                  static_cast<png_uint_32>(image.height), encoding.bits, encoding.color_type,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (!encoding.palette.empty())
+      png_set_PLTE(png, info, reinterpret_cast<png_const_colorp>(encoding.palette.data()),
+                   static_cast<int>(encoding.palette.size()));
     png_set_compression_level(png, 1);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, encoding.filter);
     png_write_info(png, info);
@@ -284,6 +290,11 @@ FileResult read_png(const std::filesystem::path& file, Image<Rgb8>& image,
 
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image) {
   write_image(file, image, {PNG_COLOR_TYPE_GRAY, 8, PNG_FILTER_NONE});
+}
+
+void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image,
+               std::span<const Rgb8> palette) {
+  write_image(file, image, {PNG_COLOR_TYPE_PALETTE, 8, PNG_FILTER_NONE, palette});
 }
 
 void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t> image) {

@@ -25,7 +25,7 @@ struct Rgb8 {
 /// (missing, truncated at any byte, damaged, another pixel format or, where given, another size) is
 /// answered, never thrown; `image` is then unspecified. Allocates no more than the file can hold.
 ///
-/// uint16: 16-bit grey only, uint8: 8-bit grey only. Depths and labels must not be converted, so
+/// uint16: 16-bit grey only, uint8: 8-bit grey, or the values of an 8-bit palette, only. Depths and labels must not be converted, so
 /// other depths, colour, palette, alpha and transparency are faults.
 [[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<std::uint16_t>& image,
                                   std::optional<ImageSize> wanted = {});
@@ -40,6 +40,9 @@ struct Rgb8 {
 /// empty. Throws InputError that names a file that cannot be written.
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image);
 void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t> image);
+/// The same with colours for the values, each of which is an index into `palette`.
+void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image,
+               std::span<const Rgb8> palette);
 void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image);
 
 /// The same of files in memory. Answers what is wrong, or nothing.

@@ -50,7 +50,7 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
     const py::gil_scoped_release others;
     report = &self->pipeline.process(view);
   }
-  return {self, *report};
+  return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
 
 void forget(State& self, const std::string& name) {

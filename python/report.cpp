@@ -2,13 +2,15 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/report.hpp>
+#include <python/robot.hpp>
 
 namespace penumbra::python {
 
-Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report)
+Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth)
     : state_(std::move(state)),
       call_(state_->calls),
       report_(report),
+      depth_(std::move(depth)),
       T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {
   targets_.reserve(report.targets.size());
   for (const TargetReport& target : report.targets) targets_.emplace_back(target, report.links);
@@ -18,13 +20,34 @@ Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report)
   report_.targets = {};
 }
 
-py::object Report::base() const {
+void Report::check_is_last() const {
   if (state_->calls != call_)
     throw py::value_error(
         "FrameReport: the pipeline has judged another frame since, in whose images "
         "those of frame " +
         std::to_string(report_.index) + " are gone; take a copy of what is needed longer");
+}
+
+py::object Report::base() const {
+  check_is_last();
   return state_->lease.base(state_);
+}
+
+DepthImage Report::filtered_depth() const {
+  check_is_last();
+  DepthImage image;
+  without_robot(report_, image);
+  return image;
+}
+
+PointCloud Report::points(const std::optional<std::string>& frame) const {
+  FrameReport report = report_;
+  report.T_root_link = T_root_link_;
+  const auto T = frame ? camera_in_link(report, *frame) : Eigen::Isometry3d::Identity();
+  PointCloud cloud;
+  const DepthImage depth = filtered_depth();
+  if (T) state_->cloud_maker.make(depth, cloud, *T);
+  return cloud;
 }
 
 namespace {
@@ -69,6 +92,73 @@ void bind_report_images(py::class_<Report>& report) {
       .def_property_readonly(
           "labels", [](const Report& r) { return r.image(r.numbers().labels).value(); },
           "Label values; all unknown where the robot's pose is not known. As virtual_depth.");
+}
+
+/// A cloud as arrays.
+struct CloudArrays {
+  VertexArray points;
+  py::array pixels, colors;  // colors: empty without a colour image
+};
+
+/// Of each point's pixel in a colour image of the labels' size.
+py::array colors_of(const py::object& color, const py::array& pixels, const FrameReport& report) {
+  const auto image = py::reinterpret_borrow<py::array>(color);
+  const bool fits = py::isinstance<py::array>(color) && image.ndim() == 3 &&
+                    is_native(image.dtype(), py::detail::npy_api::NPY_UBYTE_) &&
+                    image.shape(0) == report.labels.height &&
+                    image.shape(1) == report.labels.width && image.shape(2) == 3;
+  if (!fits)
+    throw py::value_error("color: expected numpy.ndarray of uint8 with shape (" +
+                          std::to_string(report.labels.height) + ", " +
+                          std::to_string(report.labels.width) + ", 3); got " +
+                          description_of(color));
+  return color.attr("reshape")(-1, 3).attr("__getitem__")(pixels);
+}
+
+CloudArrays points_of(const Report& report, const std::optional<std::string>& frame,
+                      const py::object& color) {
+  auto cloud = std::make_shared<PointCloud>(report.points(frame));
+  const auto count = static_cast<py::ssize_t>(cloud->points.size());
+  CloudArrays arrays;
+  arrays.points = py::array(py::dtype::of<float>(), {count, py::ssize_t{3}}, {},
+                            cloud->points.empty() ? nullptr : cloud->points[0].data(),
+                            keeper_of(cloud));
+  arrays.pixels = py::array(py::dtype::of<std::uint32_t>(), {count}, {}, cloud->pixels.data(),
+                            keeper_of(cloud));
+  arrays.colors = color.is_none() ? py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0, 3})
+                                  : colors_of(color, arrays.pixels, report.numbers());
+  return arrays;
+}
+
+void bind_without_robot(py::module_& m, py::class_<Report>& report) {
+  py::class_<CloudArrays>(m, "PointCloud", "Points without the robot, in the order of their pixels.")
+      .def_property_readonly(
+          "points", [](const CloudArrays& c) { return c.points; }, "float32 (N, 3), metres.")
+      .def_property_readonly(
+          "pixels", [](const CloudArrays& c) { return c.pixels; },
+          "uint32 (N,): v * width + u of each point.")
+      .def_property_readonly(
+          "colors", [](const CloudArrays& c) { return c.colors; },
+          "uint8 (N, 3) of the colour image; (0, 3) without one.")
+      .def("__len__", [](const CloudArrays& c) { return c.pixels.size(); });
+  report
+      .def(
+          "filtered_depth",
+          [](const Report& r) -> ImageResult<std::uint16_t, float> {
+            const auto image = std::make_shared<DepthImage>(r.filtered_depth());
+            return std::visit(
+                [&](auto& depth) -> ImageResult<std::uint16_t, float> {
+                  return {array_of(depth.view(), keeper_of(image)).array};
+                },
+                *image);
+          },
+          "A copy of the frame's depth without the robot: 0 (uint16) or NaN (float32) where depth "
+          "is not to be trusted, that is, where the label is neither clear nor front.")
+      .def("points", &points_of, py::arg("frame") = std::optional<std::string>(),
+           py::arg("color") = py::none(),
+           "The points of filtered_depth(). frame: link whose frame they are given in; None: the "
+           "camera's optical frame. color: uint8 (H, W, 3), an image of the labels' size. Raises "
+           "InputError for a name that is no link.");
 }
 
 void bind_report_numbers(py::class_<Report>& report) {
@@ -123,6 +213,7 @@ void bind_report(py::module_& m) {
       "images lie in the pipeline until its next call.");
   bind_report_numbers(report);
   bind_report_images(report);
+  bind_without_robot(m, report);
 }
 
 }  // namespace penumbra::python

@@ -94,8 +94,12 @@ Saves to_saves(const std::string& text) {
       saves.links = true;
     } else if (part == "overlay") {
       saves.overlay = true;
+    } else if (part == "filtered") {
+      saves.filtered = true;
+    } else if (part == "points") {
+      saves.points = true;
     } else {
-      refuse_option("--save", part, "one of vdi, labels, links, overlay");
+      refuse_option("--save", part, "one of vdi, labels, links, overlay, filtered, points");
     }
   }
   return saves;

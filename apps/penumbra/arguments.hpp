@@ -24,7 +24,9 @@ namespace penumbra::app {
 
 /// Which images `run` writes beside the report.
 struct Saves {
-  bool vdi = false, labels = false, links = false, overlay = false;
+  bool vdi = false, labels = false, links = false, overlay = false, filtered = false,
+       points = false;
+  bool operator==(const Saves&) const = default;
 };
 
 /// Frames first <= index < end; what is not set is the recording's own end.
@@ -75,6 +77,7 @@ struct RunArguments {
   ImageSpace image = ImageSpace::raw;
   FrameRange frames;
   Saves saves;
+  std::string points_frame;  ///< link that points are given in; empty: the optical frame
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
   bool no_targets = false;                       ///< not the recording's either
   bool report_page = false;                      ///< report.html, too
@@ -82,7 +85,9 @@ struct RunArguments {
   BagArguments bag;
 
   /// Whether pictures are made, which want the recorded colour.
-  [[nodiscard]] bool needs_color() const { return saves.overlay || report_page || is_shown; }
+  [[nodiscard]] bool needs_color() const {
+    return saves.overlay || saves.points || report_page || is_shown;
+  }
 };
 
 struct RenderArguments {

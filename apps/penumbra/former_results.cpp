@@ -27,7 +27,8 @@ bool is_frame_file(const fs::path& file) {
   const bool digits =
       stem.size() >= frame_digits &&
       std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return digits && (file.extension() == ".png" || file.extension() == ".npy");
+  return digits && (file.extension() == ".png" || file.extension() == ".npy" ||
+                    file.extension() == ".pcd" || file.extension() == ".ply");
 }
 
 /// The link where `file` is one: what it leads to is not of a run.
@@ -56,7 +57,7 @@ std::vector<fs::path> frame_files(const fs::path& folder) {
 /// The images that stand where a run writes its own.
 std::vector<fs::path> images_in(const fs::path& output) {
   std::vector<fs::path> images;
-  for (const char* const kind : {"vdi", "labels", "links", "overlay"}) {
+  for (const char* const kind : {"vdi", "labels", "links", "overlay", "filtered", "points"}) {
     const fs::path folder = output / kind;
     const std::vector<fs::path> found = frame_files(folder);
     std::error_code ignored;

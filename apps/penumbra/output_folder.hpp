@@ -7,6 +7,7 @@
 #include <string>
 
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 
 #include <apps/penumbra/arguments.hpp>
 #include <apps/penumbra/former_results.hpp>
@@ -39,6 +40,8 @@ class OutputFolder final : public RunOutput {
 
  private:
   void write_page() const;
+  void save_without_robot(const FrameReport& report, const io::FrameData& frame,
+                          const Camera& camera);
   [[nodiscard]] std::filesystem::path report_file() const { return folder_ / "report.json"; }
   [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
                                            const char* ending) const;
@@ -46,6 +49,11 @@ class OutputFolder final : public RunOutput {
   std::filesystem::path folder_;
   Saves saves_;
   bool has_page_;
+  std::string points_frame_;
+  DepthImage filtered_;
+  Image<std::uint16_t> millimetres_;
+  std::optional<CloudMaker> cloud_maker_;  // made with the first points
+  PointCloud cloud_;
   io::OverlayPainter painter_;
   io::KeyFrames key_frames_;
   UnfinishedRun unfinished_;

@@ -52,6 +52,10 @@ std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunI
   if (is_output_bag(arguments.output))
     return std::make_unique<OutputBag>(arguments.output, input.camera,
                                        pipeline.robot().links().front());
+  if (!arguments.points_frame.empty() && !pipeline.robot().find_link(arguments.points_frame))
+    throw InputError("--points-frame: no link '" + arguments.points_frame + "'; the root is '" +
+                     pipeline.robot().links().front() +
+                     "', and `penumbra inspect URDF` lists the others");
   remove_former_run(arguments.output);
   return std::make_unique<OutputFolder>(arguments.output, arguments, pipeline.rectification());
 }

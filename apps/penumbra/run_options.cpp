@@ -51,7 +51,8 @@ void check_output_bag(RunArguments& run) {
                      ": a bag of results (-o *.mcap) always holds the same topics, of the " +
                      "camera's images; leave it out, or give a folder with -o");
   };
-  if (run.saves.vdi || run.saves.labels || run.saves.links || run.saves.overlay) refuse("--save");
+  if (run.saves != Saves{}) refuse("--save");
+  if (!run.points_frame.empty()) refuse("--points-frame");
   if (run.report_page) refuse("--report");
   if (run.image == ImageSpace::rectified) refuse("--image rectified");
   run.saves.overlay = true;
@@ -161,8 +162,12 @@ void add_run(CLI::App& app, RunArguments& run) {
       ->required();
   add_judging(app, run);
   add_sequence(app, run);
-  add_option(app, "--save", "images to write: of vdi,labels,links,overlay", "LIST",
-             [&](const std::string& text) { run.saves = to_saves(text); });
+  add_option(app, "--save",
+             "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
+             "filtered (depth) and points (PCD and PLY)",
+             "LIST", [&](const std::string& text) { run.saves = to_saves(text); });
+  add_option(app, "--points-frame", "link that points are given in; default: the camera's frame",
+             "LINK", [&](const std::string& text) { run.points_frame = text; });
   app.add_flag("--report", run.report_page,
                "write report.html, too: one file with the targets' timeline and key frames");
   add_bag(app, run.bag);
@@ -181,6 +186,8 @@ void check_run(RunArguments& run) {
   check_renderer(run.renderer);
   check_targets(run);
   check_output_bag(run);
+  if (!run.points_frame.empty() && !run.saves.points)
+    throw InputError("--points-frame: no points are saved; add --save points, or leave it out");
 }
 
 }  // namespace penumbra::app

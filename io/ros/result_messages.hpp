@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 
 #include <io/ros/messages.hpp>
 
@@ -21,9 +21,8 @@ class ResultMessages {
   /// `camera`: of the judged images as they come.
   explicit ResultMessages(const Camera& camera);
 
-  /// Takes a frame; the messages refer to this until the next call. `depth`: what was judged, of
-  /// the camera's size, or empty: nothing is measured then.
-  void set(const FrameReport& report, const DepthView& depth);
+  /// Takes a frame; the messages refer to this until the next call.
+  void set(const FrameReport& report);
 
   /// 32FC1, metres, 0: no robot; nothing where the robot's pose is unknown, or there is no virtual
   /// depth.
@@ -40,21 +39,13 @@ class ResultMessages {
   [[nodiscard]] const MessageHeader& header() const { return header_; }
 
  private:
-  template <typename T>
-  void filter(ImageView<const T> depth, Image<T>& filtered, T none);
-  template <typename T>
-  void add_points(const Image<T>& filtered);
-  void add_point(int u, int v, float z);
-
-  Image<float> rays_x_, rays_y_;
+  CloudMaker cloud_maker_;
   MessageHeader header_;
   Image<float> virtual_depth_;
   bool has_virtual_depth_ = false;
   Image<std::uint8_t> labels_, mask_;
-  Image<std::uint16_t> millimetres_;
-  Image<float> metres_;
-  bool in_metres_ = false;
-  std::vector<float> points_;  // x y z
+  DepthImage filtered_;
+  PointCloud points_;
 };
 
 }  // namespace penumbra::io

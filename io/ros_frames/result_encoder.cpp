@@ -14,7 +14,7 @@ void ResultEncoder::write(Result result, const M& message, ResultSink& sink) {
 
 void ResultEncoder::encode(const FrameReport& report, const ShownImages& images,
                            const ShownTargets& targets, ResultSink& sink) {
-  results_.set(report, images.depth);
+  results_.set(report);
   if (sink.wants(Result::virtual_depth))
     if (const auto virtual_depth = results_.virtual_depth())
       write(Result::virtual_depth, *virtual_depth, sink);

@@ -27,6 +27,11 @@ enum class Label : std::uint8_t {
 };
 inline constexpr std::size_t label_count = 6;
 
+/// Whether what the sensor measured at a pixel of this label is real and no robot.
+[[nodiscard]] constexpr bool is_trusted(Label label) {
+  return label == Label::clear || label == Label::front;
+}
+
 /// e(z) = a + b z + c z^2, metres: how far a measured depth may lie before the model and still be
 /// the robot.
 struct Tolerance {

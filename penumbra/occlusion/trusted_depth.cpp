@@ -69,11 +69,6 @@ float median_of(FloatBits values, std::span<std::int32_t> scratch) {
   return 0.5f * (std::bit_cast<float>(lower) + std::bit_cast<float>(upper));
 }
 
-bool trusted_label(std::uint8_t label) {
-  return label == static_cast<std::uint8_t>(Label::clear) ||
-         label == static_cast<std::uint8_t>(Label::front);
-}
-
 }  // namespace
 
 RobotSurroundings::RobotSurroundings(int width, int height, const LabelRule& rule)
@@ -151,7 +146,7 @@ class Gatherer {
     for (int u = span.u0; u < span.u1;) {
       const std::uint8_t label = labels[u];
       const int end = static_cast<int>(end_of_run(labels + u, labels + span.u1) - labels);
-      if (!trusted_label(label))
+      if (!is_trusted(static_cast<Label>(label)))
         u = end;
       else if (robot_ == nullptr)
         u = take_run(u, end, row, limits, {});

@@ -36,8 +36,7 @@ double metres_at(const DepthView& depth, const labelling::Rule& rule,
 bool shows_target(const ImageView<const std::uint8_t>& labels, const Eigen::Vector2d& pixel) {
   const double u = std::round(pixel.x()), v = std::round(pixel.y());
   if (!(u >= 0.0 && v >= 0.0 && u < labels.width && v < labels.height)) return true;
-  const auto label = static_cast<Label>(labels(static_cast<int>(u), static_cast<int>(v)));
-  return label == Label::clear || label == Label::front;
+  return is_trusted(static_cast<Label>(labels(static_cast<int>(u), static_cast<int>(v))));
 }
 
 constexpr const char* uncovered =
