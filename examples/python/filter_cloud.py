@@ -3,6 +3,7 @@
 
 Each frame becomes a PLY file of the points that are not the robot's, in the robot's root link, with
 their colours. Where the robot's pose is not known there are no points: they might be the robot's.
+`penumbra run RECORDING_OR_BAG -o OUT --save points --points-frame LINK` does the same.
 """
 
 import pathlib
@@ -15,16 +16,7 @@ from numpy.typing import NDArray
 import penumbra
 
 
-def points_of(depth: NDArray[Any], camera: penumbra.Intrinsics) -> NDArray[np.float32]:
-    """(H, W, 3), metres, in the optical frame: pixel (u, v) has its centre at integers."""
-    z = depth * np.float32(0.001) if depth.dtype == np.uint16 else depth
-    u = ((np.arange(camera.width) - camera.cx) / camera.fx).astype(np.float32)
-    v = ((np.arange(camera.height) - camera.cy) / camera.fy).astype(np.float32)
-    points: NDArray[np.float32] = np.stack([u[None, :] * z, v[:, None] * z, z], axis=-1)
-    return points
-
-
-def write_ply(path: pathlib.Path, points: NDArray[np.float32], colors: NDArray[np.uint8]) -> None:
+def write_ply(path: pathlib.Path, points: NDArray[Any], colors: NDArray[Any]) -> None:
     vertices = np.empty(len(points), [("p", "<f4", 3), ("c", "u1", 3)])
     vertices["p"], vertices["c"] = points, colors
     names = [f"property float {c}" for c in "xyz"]
@@ -41,23 +33,17 @@ def measured(depth: NDArray[Any]) -> NDArray[np.bool_]:
 
 def main(source: str, out: pathlib.Path) -> None:
     given = penumbra.open_input(source, color=True)
-    if given.camera.distortion.model is not penumbra.DistortionModel.none:
-        sys.exit(f"{source}: points of an image with lens distortion: rectify it first")
     pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
     for frame in given:
         report = pipeline.process(frame.frame)
         if frame.depth is None or report.T_root_camera is None:
             print(f"frame {report.index}: no points: {report.message}")
             continue
-        kept = (report.labels == penumbra.Label.clear) | (report.labels == penumbra.Label.front)
-        kept &= measured(frame.depth)
-        points = points_of(frame.depth, pipeline.intrinsics)[kept]
-        points = points @ report.T_root_camera[:3, :3].T + report.T_root_camera[:3, 3]
-        white = np.full((*kept.shape, 3), 255, np.uint8)
-        colors = white if frame.color is None else frame.color
-        write_ply(out / f"{report.index:06d}.ply", points.astype(np.float32), colors[kept])
-        robot = np.count_nonzero(measured(frame.depth)) - len(points)
-        print(f"frame {report.index}: {len(points)} points, {robot} of the robot left out")
+        color = np.full((*frame.depth.shape, 3), 255, np.uint8) if frame.color is None else frame.color
+        cloud = report.points(frame=given.robot.links[0], color=color)
+        write_ply(out / f"{report.index:06d}.ply", cloud.points, cloud.colors)
+        robot = np.count_nonzero(measured(frame.depth)) - len(cloud)
+        print(f"frame {report.index}: {len(cloud)} points, {robot} of the robot left out")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Depth images without the robot: python3 mask_depth.py RECORDING_OR_BAG OUT"""
+"""Depth images and points without the robot: python3 mask_depth.py RECORDING_OR_BAG OUT"""
 import pathlib
 import sys
 
@@ -11,7 +11,6 @@ source = penumbra.open_input(sys.argv[1])
 pipeline = penumbra.Pipeline(source.robot, source.camera, source.config)
 for frame in source:
     report = pipeline.process(frame.frame)
-    is_robot = (report.labels != penumbra.Label.clear) & (report.labels != penumbra.Label.front)
-    if frame.depth is not None:
-        masked = np.where(is_robot, 0, frame.depth)
-        np.save(pathlib.Path(sys.argv[2]) / f"{frame.index:06d}.npy", masked)
+    out = pathlib.Path(sys.argv[2]) / f"{frame.index:06d}"
+    np.save(f"{out}.npy", report.filtered_depth())
+    np.save(f"{out}_points.npy", report.points(frame=source.robot.links[0]).points)

@@ -132,6 +132,7 @@ class Surroundings {
       case Label::unknown:
         return 9;
       case Label::clear:
+      case Label::fringe:
         break;
     }
     return 0;

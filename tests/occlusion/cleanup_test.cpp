@@ -87,6 +87,7 @@ TEST(Definition, HoldsForEveryTarget) {
   std::size_t kept = 0, dropped = 0;
   for (int i = 0; i < 24; ++i) {
     LabelRule rule;
+    rule.fringe_reach = 0;  // fringe_test.cpp
     rule.front_min_width = 1 + static_cast<int>(random() % 4);
     rule.edge_margin = static_cast<int>(random() % 7);
     const int width = 20 + static_cast<int>(random() % 60),

@@ -21,6 +21,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 LabelRule without_cleanup() {
   LabelRule rule;
   rule.front_min_width = 0;
+  rule.fringe_reach = 0;
   return rule;
 }
 

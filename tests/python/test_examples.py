@@ -34,6 +34,8 @@ def test_mask_depth_takes_ten_lines_and_masks_the_robot(tmp_path):
     for frame in opened.frames:
         is_robot = robot_of(opened.pipeline.process(frame.frame))
         masked = np.load(tmp_path / f"{frame.index:06d}.npy")
+        points = np.load(tmp_path / f"{frame.index:06d}_points.npy")
+        assert points.dtype == np.float32 and points.shape == (np.count_nonzero(masked), 3)
         assert masked.dtype == np.uint16 and is_robot.any()
         assert np.array_equal(masked, np.where(is_robot, 0, frame.depth))
 

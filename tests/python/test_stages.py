@@ -167,3 +167,47 @@ def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
         assert report.status == penumbra.FrameStatus.ok
         assert report.targets[0].verdict == penumbra.Verdict.unknown
         assert link in report.targets[0].reason and "two tell it" in report.targets[0].reason
+
+
+def test_fringe_is_the_depth_that_the_sensor_carried_past_the_outline():
+    virtual = np.zeros((48, 96), np.float32)
+    virtual[10:40, 10:30] = 1
+    measured = np.full((48, 96), 3, np.float32)
+    measured[10:40, 10:50] = 1
+    for reach, expected in ((40, 20), (12, 12), (0, 0)):
+        rule = penumbra.LabelRule(fringe_reach=reach)
+        labels = penumbra.Classifier(96, 48, rule).classify(virtual, measured).labels
+        assert np.count_nonzero(labels[25] == penumbra.Label.fringe) == expected
+    with pytest.raises(penumbra.InputError, match="fringe_reach -1"):
+        penumbra.LabelRule(fringe_reach=-1).check()
+    with pytest.raises(penumbra.InputError, match="sensor 'kinect'"):
+        penumbra.LabelRule.for_sensor("kinect")
+    assert penumbra.LabelRule.for_sensor("none").fringe_reach == 0
+
+
+def test_points_without_the_robot(shipped):
+    frame = shipped.frames[4]
+    report = shipped.pipeline.process(frame.frame)
+    trusted = np.isin(report.labels, [penumbra.Label.clear, penumbra.Label.front])
+    filtered = report.filtered_depth()
+    assert np.array_equal(filtered, np.where(trusted, frame.depth, 0))
+    color = np.arange(filtered.size * 3, dtype=np.uint32).astype(np.uint8).reshape(*filtered.shape, 3)
+    cloud = report.points(color=color)
+    v, u = np.nonzero(filtered)
+    assert np.array_equal(cloud.pixels, v * filtered.shape[1] + u)
+    assert np.array_equal(cloud.colors, color[v, u])
+    k = shipped.pipeline.intrinsics
+    z = filtered[v, u] * 0.001
+    expected = np.stack([(u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z], axis=1)
+    assert np.allclose(cloud.points, expected, atol=1e-5)
+    root = report.points(frame=report.links[0])
+    T = report.T_root_camera
+    assert np.allclose(root.points, expected @ T[:3, :3].T + T[:3, 3], atol=1e-5)
+    assert len(root) == len(cloud) and root.colors.shape == (0, 3)
+    with pytest.raises(penumbra.InputError, match="no link 'hand'"):
+        report.points(frame="hand")
+    with pytest.raises(ValueError, match="color"):
+        report.points(color=color[:-1])
+    shipped.pipeline.process(frame.frame)
+    with pytest.raises(ValueError, match="another frame"):
+        report.filtered_depth()
