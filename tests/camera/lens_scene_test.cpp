@@ -228,6 +228,7 @@ Image<float> measure(const Camera& camera, const std::vector<Solid>& scene,
 void check_labels(const CastScene& robot, const RawRender& raw, const Image<float>& measured,
                   Tally& tally) {
   LabelRule rule;
+  rule.fringe_reach = 0;
   rule.front_min_width = 0;  // the clean-up is no matter of single rays
   Classifier classifier(raw.depth.width(), raw.depth.height(), rule);
   const LabelView view =

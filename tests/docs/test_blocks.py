@@ -38,8 +38,16 @@ def check_sweep(out):
     assert len(fronts) == 3 and min(fronts) > 0
 
 
+def check_cloud(out):
+    assert len(re.findall(r"^\d+ \d{5,} points$", out, re.MULTILINE)) == 12
+
+
+def check_detector(out):
+    assert len(re.findall(r"^bottle_7 (?:visible|partial|hidden|unknown)", out, re.MULTILINE)) == 12
+
+
 # What the programs of a document print, read once more.
-SAID = {"python.md": check_manual, "tuning.md": check_sweep}
+SAID = {"cloud.md": check_cloud, "targets.md": check_detector, "python.md": check_manual, "tuning.md": check_sweep}
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS

@@ -13,13 +13,19 @@ namespace {
 
 using test::Scene;
 
-constexpr int width = 320, height = 96;
+constexpr int image_width = 320, image_height = 96;
 constexpr int robot_end = 100;  // the robot covers columns [40, 100)
 constexpr float robot_z = 1.0f, wall_z = 2.5f;
 
+LabelRule with_reach(int pixels) {
+  LabelRule rule;
+  rule.fringe_reach = pixels;
+  return rule;
+}
+
 /// The robot in rows [20, 76), seen where it is, and the wall.
 Scene robot_before_wall() {
-  Scene scene(width, height);
+  Scene scene(image_width, image_height);
   std::fill_n(scene.metres.data(), scene.metres.size(), wall_z);
   for (int v = 20; v < 76; ++v)
     for (int u = 40; u < robot_end; ++u) scene.robot(u, v) = scene.metres(u, v) = robot_z;
@@ -36,7 +42,7 @@ void see(Scene& scene, int u0, int u1, float depth) {
 class Fringe : public testing::TestWithParam<std::string> {
  protected:
   LabelView classify(const Scene& scene, const LabelRule& rule = {}) {
-    classifier_.emplace(width, height, rule, GetParam());
+    classifier_.emplace(image_width, image_height, rule, GetParam());
     return classifier_->classify(scene.view(), scene.metres.view());
   }
 
@@ -46,10 +52,10 @@ class Fringe : public testing::TestWithParam<std::string> {
       return view.labels(u, v) == static_cast<std::uint8_t>(Label::fringe);
     };
     int u0 = 0;
-    while (u0 < width && !is_fringe(u0)) ++u0;
+    while (u0 < image_width && !is_fringe(u0)) ++u0;
     int u1 = u0;
-    while (u1 < width && is_fringe(u1)) ++u1;
-    return u0 == width ? std::pair(0, 0) : std::pair(u0, u1);
+    while (u1 < image_width && is_fringe(u1)) ++u1;
+    return u0 == image_width ? std::pair(0, 0) : std::pair(u0, u1);
   }
 
  private:
@@ -63,16 +69,16 @@ TEST_P(Fringe, IsTheDepthThatTheSensorCarriedPastTheOutline) {
   EXPECT_EQ(fringe_columns(view, 48), std::pair(robot_end, robot_end + 12));
   EXPECT_EQ(view.pixels[static_cast<std::size_t>(Label::fringe)], 12u * 56u);
   EXPECT_EQ(view.pixels[static_cast<std::size_t>(Label::clear)],
-            static_cast<std::size_t>(width * height - (60 + 12) * 56));
+            static_cast<std::size_t>(image_width * image_height - (60 + 12) * 56));
 }
 
 TEST_P(Fringe, EndsAtTheReach) {
   Scene scene = robot_before_wall();
   see(scene, robot_end, robot_end + 120, robot_z);
   EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end - 1 + 40));
-  EXPECT_EQ(fringe_columns(classify(scene, {.fringe_reach = 12}), 48),
+  EXPECT_EQ(fringe_columns(classify(scene, with_reach(12)), 48),
             std::pair(robot_end, robot_end - 1 + 12));
-  EXPECT_EQ(fringe_columns(classify(scene, {.fringe_reach = 0}), 48), std::pair(0, 0));
+  EXPECT_EQ(fringe_columns(classify(scene, with_reach(0)), 48), std::pair(0, 0));
   EXPECT_EQ(fringe_columns(classify(scene, LabelRule::paper()), 48), std::pair(0, 0));
 }
 
@@ -127,44 +133,42 @@ TEST_P(Fringe, DoesNotSpreadFromWhereTheSensorSeesPastTheModel) {
 
 TEST_P(Fringe, OfTheLastImageIsForgotten) {
   Scene scene = robot_before_wall();
-  Classifier classifier(width, height, {}, GetParam());
+  Classifier classifier(image_width, image_height, {}, GetParam());
   see(scene, robot_end, robot_end + 40, robot_z);
   static_cast<void>(classifier.classify(scene.view(), scene.metres.view()));
   see(scene, robot_end, robot_end + 40, wall_z);
   const LabelView view = classifier.classify(scene.view(), scene.metres.view());
-  for (int v = 0; v < height; ++v)
-    for (int u = robot_end; u < width; ++u) ASSERT_EQ(view.labels(u, v), 0) << u << ' ' << v;
+  for (int v = 0; v < image_height; ++v)
+    for (int u = robot_end; u < image_width; ++u) ASSERT_EQ(view.labels(u, v), 0) << u << ' ' << v;
 }
 
 TEST_P(Fringe, IsTheSameOfMillimetres) {
   Scene scene = robot_before_wall();
   see(scene, robot_end, robot_end + 30, robot_z + 0.004f);
   const Image<std::uint16_t> millimetres = scene.millimetres();
-  Classifier classifier(width, height, {}, GetParam());
+  Classifier classifier(image_width, image_height, {}, GetParam());
   const LabelView view =
       classifier.classify(scene.view(), ImageView<const std::uint16_t>(millimetres.view()));
   EXPECT_EQ(view.pixels[static_cast<std::size_t>(Label::fringe)], 30u * 56u);
 }
 
 TEST_P(Fringe, ReachesTheImagesBorder) {
-  Scene scene(width, height);
+  Scene scene(image_width, image_height);
   std::fill_n(scene.metres.data(), scene.metres.size(), robot_z);
   for (int v = 0; v < 4; ++v)
     for (int u = 0; u < 4; ++u) scene.robot(u, v) = robot_z;
   scene.mark_tiles();
-  const LabelView view = classify(scene, {.fringe_reach = 255});
-  EXPECT_EQ(view.labels(0, height - 1), static_cast<std::uint8_t>(Label::fringe));
-  EXPECT_EQ(view.labels(200, height - 1), static_cast<std::uint8_t>(Label::fringe));
+  const LabelView view = classify(scene, with_reach(255));
+  EXPECT_EQ(view.labels(0, image_height - 1), static_cast<std::uint8_t>(Label::fringe));
+  EXPECT_EQ(view.labels(200, image_height - 1), static_cast<std::uint8_t>(Label::fringe));
 }
 
 INSTANTIATE_TEST_SUITE_P(, Fringe, testing::ValuesIn(test::every_isa()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 TEST(FringeRule, RefusesAReachThatIsNone) {
   for (const int reach : {-1, LabelRule::max_fringe_reach + 1}) {
-    LabelRule rule;
-    rule.fringe_reach = reach;
-    EXPECT_THROW(rule.check(), InputError) << reach;
+    EXPECT_THROW(with_reach(reach).check(), InputError) << reach;
   }
 }
 
