@@ -43,7 +43,7 @@ def check_cloud(out):
 
 
 def check_detector(out):
-    assert len(re.findall(r"^bottle_7 (?:visible|partial|hidden|unknown)", out, re.MULTILINE)) == 12
+    assert len(re.findall(r"^cylinder_7 (?:visible|partial|hidden|unknown)", out, re.MULTILINE)) == 12
 
 
 # What the programs of a document print, read once more.
