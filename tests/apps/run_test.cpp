@@ -33,7 +33,7 @@ void expect_report(const Json& report) {
                                  "timing_ms", "targets"}));
     EXPECT_EQ(frame["message"].is_null(), frame["status"] == "ok");
     EXPECT_EQ(keys(frame["pixels"]),
-              (Keys{"robot", "front", "occluded", "unknown", "beyond", "uncovered"}));
+              (Keys{"robot", "front", "occluded", "unknown", "beyond", "fringe", "uncovered"}));
     EXPECT_EQ(keys(frame["timing_ms"]), stages);
     EXPECT_TRUE(frame["timing_ms"]["targets"].is_null());
     EXPECT_EQ(frame["targets"], Json::array());
@@ -63,11 +63,52 @@ class RunTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
+  const Outcome outcome =
+      run({"--save", "labels,filtered,points", "--points-frame", "base"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  Image<std::uint16_t> depth, filtered;
+  io::read_png(folder_.path() / "depth_0.png", depth).require();
+  io::read_png(out() / "filtered" / "000000.png", filtered).require();
+  const Image<std::uint8_t> label = labels("000000.png");
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const bool is_kept = is_trusted(static_cast<Label>(label.data()[i]));
+    ASSERT_EQ(filtered.data()[i], is_kept ? depth.data()[i] : 0) << i;
+    kept += filtered.data()[i] > 0 ? 1 : 0;
+  }
+  ASSERT_GT(kept, 0U);
+  const std::string pcd = read_file(out() / "points" / "000000.pcd");
+  const std::string ply = read_file(out() / "points" / "000000.ply");
+  const std::size_t point_bytes = pcd.find("rgb") == std::string::npos ? 12 : 16;
+  EXPECT_NE(pcd.find("\nPOINTS " + std::to_string(kept) + "\nDATA binary\n"), std::string::npos);
+  EXPECT_EQ(pcd.size(), pcd.find("DATA binary\n") + 12 + kept * point_bytes);
+  EXPECT_NE(ply.find("element vertex " + std::to_string(kept) + "\n"), std::string::npos);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + kept * (point_bytes == 16 ? 15 : 12));
+  EXPECT_EQ(pcd.substr(pcd.find("DATA binary\n") + 12, 12),
+            ply.substr(ply.find("end_header\n") + 11, 12));
+}
+
+TEST_F(RunTest, RefusesPointsThatItCannotGive) {
+  const Outcome unknown = run({"--save", "points", "--points-frame", "hand"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("--points-frame: no link 'hand'"), std::string::npos) << unknown.err;
+  const Outcome unsaved = run({"--points-frame", "base"});
+  EXPECT_EQ(unsaved.status, 2);
+  EXPECT_NE(unsaved.err.find("--save points"), std::string::npos) << unsaved.err;
+  for (const char* reach : {"-1", "256", "x"}) {
+    const Outcome outcome = run({"--fringe-reach", reach});
+    EXPECT_EQ(outcome.status, 2) << reach;
+    EXPECT_NE(outcome.err.find("--fringe-reach"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run({"--sensor", "kinect"}).status, 2);
+}
+
 TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "nothing is said in a pipe where nothing is wrong";
-  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond; 0 fringe pixels around it\n"), std::string::npos) << outcome.out;
   const Json json = report();
   expect_report(json);
   EXPECT_EQ(json["links"], (Json{"base", "board"}));
@@ -253,6 +294,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
   EXPECT_EQ(settings, (Json{{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
                             {"front_min_width", rule.front_min_width},
                             {"edge_margin", rule.edge_margin},
+                            {"fringe_reach", rule.fringe_reach},
                             {"beyond_factor", rule.beyond_factor},
                             {"labels", "full"},
                             {"beyond", "occluded"},

@@ -211,3 +211,16 @@ def test_points_without_the_robot(shipped):
     shipped.pipeline.process(frame.frame)
     with pytest.raises(ValueError, match="another frame"):
         report.filtered_depth()
+
+
+def test_metres_without_the_robot_are_nan(shipped):
+    frame = shipped.frames[4]
+    metres = frame.depth.astype(np.float32) * np.float32(0.001)
+    report = shipped.pipeline.process(frame.frame.replace(depth=metres))
+    filtered = report.filtered_depth()
+    trusted = np.isin(report.labels, [penumbra.Label.clear, penumbra.Label.front])
+    assert filtered.dtype == np.float32
+    assert np.array_equal(filtered, np.where(trusted, metres, np.nan), equal_nan=True)
+    assert len(report.points()) == np.count_nonzero(filtered > 0)
+    nothing = shipped.pipeline.process(frame.frame.replace(depth=None))
+    assert not nothing.filtered_depth().any() and len(nothing.points()) == 0
