@@ -48,8 +48,8 @@ void write_pcd(const std::filesystem::path& file, const PointCloud& cloud,
   std::string header = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n";
   header += line("FIELDS", " x y z", " rgb") + line("SIZE", " 4 4 4", " 4") +
             line("TYPE", " F F F", " F") + line("COUNT", " 1 1 1", " 1");
-  header += "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count +
-            "\nDATA binary\n";
+  header +=
+      "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   write(file, std::move(header), cloud, color, [](Rgb8 c, std::string& bytes) {
     append(static_cast<std::uint32_t>(c.r << 16 | c.g << 8 | c.b), bytes);  // PCL's packing
   });
@@ -60,8 +60,7 @@ void write_ply(const std::filesystem::path& file, const PointCloud& cloud,
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                        std::to_string(cloud.points.size()) +
                        "\nproperty float x\nproperty float y\nproperty float z\n";
-  if (!color.empty())
-    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!color.empty()) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   header += "end_header\n";
   write(file, std::move(header), cloud, color,
         [](Rgb8 c, std::string& bytes) { append(c, bytes); });

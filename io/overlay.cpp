@@ -215,8 +215,7 @@ std::span<const Rgb8> label_palette() {
   return colors;
 }
 
-Rgb8 label_color(Label label) { return label_palette()[static_cast<std::size_t>(label)];
-}
+Rgb8 label_color(Label label) { return label_palette()[static_cast<std::size_t>(label)]; }
 
 void draw_overlay(const OverlayInput& input, Image<Rgb8>& out) {
   const ImageSize size = size_of(input);

@@ -120,18 +120,20 @@ CloudArrays points_of(const Report& report, const std::optional<std::string>& fr
   auto cloud = std::make_shared<PointCloud>(report.points(frame));
   const auto count = static_cast<py::ssize_t>(cloud->points.size());
   CloudArrays arrays;
-  arrays.points = py::array(py::dtype::of<float>(), {count, py::ssize_t{3}}, {},
-                            cloud->points.empty() ? nullptr : cloud->points[0].data(),
-                            keeper_of(cloud));
+  arrays.points =
+      py::array(py::dtype::of<float>(), {count, py::ssize_t{3}}, {},
+                cloud->points.empty() ? nullptr : cloud->points[0].data(), keeper_of(cloud));
   arrays.pixels = py::array(py::dtype::of<std::uint32_t>(), {count}, {}, cloud->pixels.data(),
                             keeper_of(cloud));
-  arrays.colors = color.is_none() ? py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0, 3})
-                                  : colors_of(color, arrays.pixels, report.numbers());
+  arrays.colors = color.is_none()
+                      ? py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0, 3})
+                      : colors_of(color, arrays.pixels, report.numbers());
   return arrays;
 }
 
 void bind_without_robot(py::module_& m, py::class_<Report>& report) {
-  py::class_<CloudArrays>(m, "PointCloud", "Points without the robot, in the order of their pixels.")
+  py::class_<CloudArrays>(m, "PointCloud",
+                          "Points without the robot, in the order of their pixels.")
       .def_property_readonly(
           "points", [](const CloudArrays& c) { return c.points; }, "float32 (N, 3), metres.")
       .def_property_readonly(

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <penumbra/base/image.hpp>
@@ -27,7 +28,7 @@ class FringeFill {
     std::int16_t u, v;
   };
   struct Pixel {
-    std::uint32_t at;      ///< index in open_
+    std::int16_t u, v;
     std::uint32_t source;  ///< index in sources_
     std::uint16_t depth;   ///< millimetres
   };
@@ -37,7 +38,7 @@ class FringeFill {
   template <typename T>
   void find_sources(const Work& work, ImageView<const T> measured);
   void add_source(const Rule& rule, int u, int v, float z);
-  void flood(Work& work);
+  std::size_t flood(Work& work);
 
   [[nodiscard]] std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v + 1) * pitch_ + static_cast<std::size_t>(u + 1);
@@ -48,7 +49,7 @@ class FringeFill {
   /// Millimetres where a pixel near the robot is clear and measured, else 0; with a rim of zeros.
   std::vector<std::uint16_t> open_;
   std::vector<Source> sources_;
-  std::vector<Pixel> queue_;
+  std::unique_ptr<Pixel[]> queue_;  // room for all pixels; begins with one for each source
   TileMask reachable_;
   std::vector<std::uint8_t> column_;   // least label of 3 x 1 pixels of a row
   std::vector<std::uint8_t> outline_;  // of a row: not 0 for sources

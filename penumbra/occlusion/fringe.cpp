@@ -65,7 +65,7 @@ FringeFill::FringeFill(int width, int height, int reach)
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   open_.resize(pitch_ * static_cast<std::size_t>(height + 2));
   sources_.reserve(pixels);
-  queue_.reserve(pixels);
+  queue_ = std::make_unique_for_overwrite<Pixel[]>(pixels);
   column_.resize(static_cast<std::size_t>(width) + 2);
   outline_.resize(static_cast<std::size_t>(width));
 }
@@ -73,15 +73,13 @@ FringeFill::FringeFill(int width, int height, int reach)
 std::size_t FringeFill::label(Work& work, const DepthView& measured) {
   if (reach_ == 0) return 0;
   sources_.clear();
-  queue_.clear();
   std::visit(
       [&](const auto& depth) {
         open_clear_pixels(work, depth);
         find_sources(work, depth);
       },
       measured);
-  flood(work);
-  return queue_.size() - sources_.size();
+  return flood(work);
 }
 
 /// In all tiles that the flood may reach.
@@ -133,12 +131,12 @@ void FringeFill::add_source(const Rule& rule, int u, int v, float z) {
   const float e = (rule.a + (rule.b + rule.c * z) * z) * millimetres_per_metre;
   const float drift = static_cast<float>(LabelRule::fringe_drift) * e;
   const float step = static_cast<float>(LabelRule::fringe_step) * e;
-  queue_.push_back({static_cast<std::uint32_t>(index(u, v)),
-                    static_cast<std::uint32_t>(sources_.size()), rounded(millimetres)});
+  const auto at_u = static_cast<std::int16_t>(u), at_v = static_cast<std::int16_t>(v);
+  queue_[sources_.size()] = {at_u, at_v, static_cast<std::uint32_t>(sources_.size()),
+                             rounded(millimetres)};
   sources_.push_back({rounded(std::max(millimetres - drift, 1.0f)),
                       rounded(std::min(millimetres + drift, farthest * millimetres_per_metre)),
-                      rounded(std::min(step, millimetres)), static_cast<std::int16_t>(u),
-                      static_cast<std::int16_t>(v)});
+                      rounded(std::min(step, millimetres)), at_u, at_v});
 }
 
 }  // namespace penumbra::labelling
@@ -146,8 +144,9 @@ void FringeFill::add_source(const Rule& rule, int u, int v, float z) {
 HWY_BEFORE_NAMESPACE();
 namespace penumbra::labelling {
 
-/// Breadth first, so that each pixel comes from a near part of the outline.
-void FringeFill::flood(Work& work) {
+/// Breadth first, so that each pixel comes from a near part of the outline. What the loop uses is
+/// local: writes of bytes, as those to labels, may change any member for all the compiler knows.
+std::size_t FringeFill::flood(Work& work) {
   const int tile_shift = std::countr_zero(static_cast<unsigned>(work.touched.tile_width));
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   const std::array<std::ptrdiff_t, 12> neighbours = {
@@ -162,21 +161,26 @@ void FringeFill::flood(Work& work) {
     hn::StoreMaskBits(tag, hn::Eq(inside, depth), bits.data());
     return static_cast<unsigned>(bits[0]);
   };
-  std::uint16_t* const open = open_.data();
+  std::uint16_t* const open = open_.data() + index(0, 0);
   std::uint8_t* const labels = work.labels.data();
+  std::uint64_t* const touched = work.touched.rows.data();
+  Pixel* const queue = queue_.get();
+  const Source* const sources = sources_.data();
+  const std::size_t first = sources_.size();
+  const int width = work.width;
   const int reach_squared = (reach_ - 1) * (reach_ - 1);  // of pixels that the flood goes on from
-  for (std::size_t i = 0; i < queue_.size(); ++i) {
-    const Pixel pixel = queue_[i];
-    const Source& source = sources_[pixel.source];
-    const int v = static_cast<int>(pixel.at / pitch_) - 1;
-    const int u = static_cast<int>(pixel.at % pitch_) - 1;
+  std::size_t end = first;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Pixel pixel = queue[i];
+    const Source source = sources[pixel.source];
+    const int u = pixel.u, v = pixel.v;
     const int du = u - source.u, dv = v - source.v;
     if (du * du + dv * dv > reach_squared) continue;
     const auto from =
         static_cast<std::uint16_t>(std::max<int>(pixel.depth - source.step, source.nearest));
     const auto to =
         static_cast<std::uint16_t>(std::min<int>(pixel.depth + source.step, source.farthest));
-    std::uint16_t* const here = open + pixel.at;
+    std::uint16_t* const here = open + v * pitch + u;
     const auto rows = hn::Combine(Eight(), depths(here + pitch - 1), depths(here - pitch - 1));
     unsigned taken = among(Eight(), rows, from, to) | among(Four(), depths(here - 1), from, to)
                                                           << 8;
@@ -189,14 +193,14 @@ void FringeFill::flood(Work& work) {
       }
       const int next_u = u + static_cast<int>(bit % 4) - 1;
       const int next_v = v + (bit < 4 ? -1 : bit < 8 ? 1 : 0);
-      queue_.push_back({static_cast<std::uint32_t>(next - open), pixel.source,
-                        static_cast<std::uint16_t>(*next - reached_once)});
+      queue[end++] = {static_cast<std::int16_t>(next_u), static_cast<std::int16_t>(next_v),
+                      pixel.source, static_cast<std::uint16_t>(*next - reached_once)};
       *next = 0;
-      labels[next_v * work.width + next_u] = fringe;
-      work.touched.rows[static_cast<std::size_t>(next_v / TileMask::tile_height)] |=
-          std::uint64_t{1} << (next_u >> tile_shift);
+      labels[next_v * width + next_u] = fringe;
+      touched[next_v / TileMask::tile_height] |= std::uint64_t{1} << (next_u >> tile_shift);
     }
   }
+  return end - first;
 }
 
 }  // namespace penumbra::labelling

@@ -64,8 +64,7 @@ class RunTest : public testing::Test {
 };
 
 TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
-  const Outcome outcome =
-      run({"--save", "labels,filtered,points", "--points-frame", "base"});
+  const Outcome outcome = run({"--save", "labels,filtered,points", "--points-frame", "base"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   Image<std::uint16_t> depth, filtered;
   io::read_png(folder_.path() / "depth_0.png", depth).require();
@@ -108,7 +107,9 @@ TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "nothing is said in a pipe where nothing is wrong";
-  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond; 0 fringe pixels around it\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond; 0 fringe pixels around it\n"),
+            std::string::npos)
+      << outcome.out;
   const Json json = report();
   expect_report(json);
   EXPECT_EQ(json["links"], (Json{"base", "board"}));
