@@ -133,6 +133,14 @@ export class Viewer {
     if (this.packet) this.scene?.show(this.packet, this.step, this.chosen);
   }
 
+  /** Leaves the robot and its fringe out of points and images, or shows them. */
+  setWithoutRobot(on: boolean): void {
+    this.image.withoutRobot = on;
+    if (this.scene) this.scene.cloud.withoutRobot = on;
+    this.handlers.wantsChanged();
+    this.redraw();
+  }
+
   /** Numbers that wait for their time, at once. */
   flush(): void {
     this.numbers.flush();

@@ -26,6 +26,7 @@ export const labelStyles: readonly LabelStyle[] = [
   { name: 'occluded', color: okabeIto.vermillion, meaning: 'the sensor sees the robot' },
   { name: 'unknown', color: okabeIto.yellow, meaning: 'robot on the ray, no measurement' },
   { name: 'beyond', color: okabeIto.purple, meaning: 'the sensor sees past the model' },
+  { name: 'fringe', color: okabeIto.green, meaning: 'beside the robot, depth not to be trusted' },
 ];
 
 /** Of labels of a later Penumbra: like none of ours, and never like clear. */

@@ -12,12 +12,12 @@ import {
 import { pointBytes, type Cloud } from '../api/packet';
 import type { Pose } from '../api/types';
 import { labelColor, labelStyles, rgbOf } from '../model/labels';
+import { copySurroundings, labelOffset } from '../model/surroundings';
 import { place } from './pose';
 
 export type CloudColors = 'label' | 'color';
 
 const floatsOfPoint = pointBytes / 4;
-const labelBytes = 12; // of a point, before its label and colour
 
 const paletteSize = labelStyles.length + 1;
 
@@ -53,6 +53,8 @@ const fragmentShader = /* glsl */ `
 
 export class CloudModel {
   readonly points: Points<BufferGeometry, ShaderMaterial>;
+  /** Points of the robot and of its fringe are left out of what is shown next. */
+  withoutRobot = false;
   private bytes = new Uint8Array(0);
   private floats: InterleavedBuffer | null = null;
   private styles: InterleavedBuffer | null = null;
@@ -77,20 +79,24 @@ export class CloudModel {
     this.points.visible = false;
   }
 
-  /** @param metresPerDepth pixels between points over the focal length */
-  update(cloud: Cloud | undefined, cameraPose: Pose | null, metresPerDepth: number): void {
+  /**
+   * @param metresPerDepth pixels between points over the focal length
+   * @returns how many points are shown
+   */
+  update(cloud: Cloud | undefined, cameraPose: Pose | null, metresPerDepth: number): number {
     place(this.points, cloud ? cameraPose : null);
-    if (!cloud || !cameraPose) return;
+    if (!cloud || !cameraPose) return 0;
     if (cloud.bytes.length > this.bytes.length) this.grow(cloud.bytes.length);
-    this.bytes.set(cloud.bytes);
+    const count = this.copy(cloud);
     for (const buffer of [this.floats, this.styles]) {
       if (!buffer) continue;
       buffer.clearUpdateRanges();
-      buffer.addUpdateRange(0, cloud.count * buffer.stride);
+      buffer.addUpdateRange(0, count * buffer.stride);
       buffer.needsUpdate = true;
     }
-    this.points.geometry.setDrawRange(0, cloud.count);
+    this.points.geometry.setDrawRange(0, count);
     this.set('metresPerDepth', metresPerDepth);
+    return count;
   }
 
   setColors(colors: CloudColors): void {
@@ -106,6 +112,12 @@ export class CloudModel {
     if (uniform) uniform.value = value;
   }
 
+  private copy(cloud: Cloud): number {
+    if (this.withoutRobot) return copySurroundings(cloud, this.bytes);
+    this.bytes.set(cloud.bytes);
+    return cloud.count;
+  }
+
   private grow(bytes: number): void {
     const capacity = pointBytes * Math.ceil((1.25 * bytes) / pointBytes);
     this.bytes = new Uint8Array(capacity);
@@ -117,7 +129,7 @@ export class CloudModel {
     geometry.setAttribute('position', new InterleavedBufferAttribute(this.floats, 3, 0));
     geometry.setAttribute(
       'style',
-      new InterleavedBufferAttribute(this.styles, 4, labelBytes, true),
+      new InterleavedBufferAttribute(this.styles, 4, labelOffset, true),
     );
     this.points.geometry = geometry;
   }

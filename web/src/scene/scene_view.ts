@@ -105,7 +105,9 @@ export class SceneView {
     if (this.robot) this.robot.root.visible = !this.hidden.has('robot');
     place(this.frustum.lines, this.hidden.has('camera') || !this.camera ? null : packet.cameraPose);
     const cloud = this.hidden.has('cloud') ? undefined : packet.cloud;
-    this.cloud.update(cloud, packet.cameraPose, this.camera ? step / this.camera.fx : 0.005);
+    const metresPerDepth = this.camera ? step / this.camera.fx : 0.005;
+    const points = this.cloud.update(cloud, packet.cameraPose, metresPerDepth);
+    this.canvas.dataset['points'] = String(points);
     this.targets.show(this.hidden.has('targets') ? [] : packet.frame.targets, chosen);
     const target = packet.frame.targets.find((one) => one.name === chosen);
     const blame = (target?.blame ?? []).map((one) => [one.link, one.fraction] as const);

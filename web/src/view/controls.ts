@@ -127,6 +127,8 @@ function bindScene(viewer: Viewer): void {
       viewer.setShown(button.dataset['part'] as ScenePart, shown);
     });
   byId('cloud-colors').addEventListener('click', () => toggleCloudColors(viewer));
+  for (const button of withoutRobotButtons())
+    button.addEventListener('click', () => toggleWithoutRobot(viewer));
   byId('view-all').addEventListener('click', () => viewer.scene?.frameAll());
   byId('view-camera').addEventListener('click', () => viewer.scene?.frameCamera());
 }
@@ -137,6 +139,20 @@ export function toggleCloudColors(viewer: Viewer): void {
   button.setAttribute('aria-pressed', String(byLabel));
   viewer.scene?.cloud.setColors(byLabel ? 'label' : 'color');
   viewer.scene?.invalidate();
+}
+
+/** One of them is visible: on a phone the scene and the image each have one. */
+const withoutRobotButtons = (): NodeListOf<HTMLButtonElement> =>
+  document.querySelectorAll('.without-robot');
+
+/** The model of the robot goes and comes, too; its own button shows it again. */
+export function toggleWithoutRobot(viewer: Viewer): void {
+  const buttons = withoutRobotButtons();
+  const on = buttons[0]?.getAttribute('aria-pressed') !== 'true';
+  for (const button of buttons) button.setAttribute('aria-pressed', String(on));
+  const model = document.querySelector<HTMLButtonElement>('#scene-tools [data-part=robot]');
+  if (model?.getAttribute('aria-pressed') === String(on)) model.click();
+  viewer.setWithoutRobot(on);
 }
 
 /** On a phone one of scene and image is shown. */

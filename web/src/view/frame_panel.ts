@@ -5,7 +5,7 @@ import { stages } from '../timeline/timeline_view';
 import { element } from './dom';
 import { factList } from './target_panel';
 
-const shares = ['front', 'occluded', 'unknown', 'beyond'] as const;
+const shares = ['front', 'occluded', 'unknown', 'beyond'] as const; // of the robot's pixels
 
 /** The frame's status in words, its pixels, its times. */
 export function frameDetails(frame: FrameReport): HTMLElement {
@@ -21,10 +21,10 @@ export function frameDetails(frame: FrameReport): HTMLElement {
     bar.append(part);
   }
   body.append(bar);
-  const pixels = [...shares, 'uncovered'].map((name) => {
+  const pixels = [...shares, 'fringe', 'uncovered'].map((name) => {
     const value = frame.pixels[name] ?? null;
-    const share =
-      robot && value !== null && name !== 'uncovered' ? `  ${percent(value / robot)}` : '';
+    const isShare = (shares as readonly string[]).includes(name);
+    const share = robot && value !== null && isShare ? `  ${percent(value / robot)}` : '';
     const color = name === 'uncovered' ? '' : `l-${name}`;
     return { key: name, name, text: `${count(value)}${share}`, value, color };
   });

@@ -22,6 +22,8 @@ export function layersOf(parts: readonly string[]): Layer[] {
 
 export class ImageView {
   layer: Layer = 'overlay';
+  /** Pixels of the robot and of its fringe are left out of what is shown next. */
+  withoutRobot = false;
   readonly slider: CompareSlider;
   private readonly frame = byId('picture-frame');
   private readonly below = byId<HTMLCanvasElement>('picture-below');
@@ -50,7 +52,8 @@ export class ImageView {
   wanted(available: readonly string[]): PartName[] {
     const layer: PartName =
       this.layer === 'overlay' && !available.includes('overlay') ? 'labels' : this.layer;
-    return (['color', layer] as PartName[]).filter((part) => available.includes(part));
+    const wanted: PartName[] = ['color', layer, ...(this.withoutRobot ? ['labels' as const] : [])];
+    return wanted.filter((part) => available.includes(part));
   }
 
   /** Both are decoded before either is drawn: no layer is ever over another frame's picture. */
@@ -71,7 +74,8 @@ export class ImageView {
     else clear(this.below);
     if (layer) this.painter.bitmap(this.above, layer);
     else this.showLayer(packet);
-    layerLegend(this.layer, this.links, this.range);
+    if (this.withoutRobot) this.leaveOutRobot(packet);
+    layerLegend(this.layer, this.links, this.range, this.withoutRobot);
     const size = packet.labels ?? packet.vdi ?? packet.depth ?? this.above;
     if (!packet.color && size.width > 0) this.below.width = size.width;
     if (!packet.color && size.height > 0) this.below.height = size.height;
@@ -92,6 +96,14 @@ export class ImageView {
     painter.depth(above, depth, this.range, this.layer === 'vdi' ? noRobot : noMeasurement);
   }
 
+  /** Labels, links and virtual depth are not of the sensor: they show what is left out. */
+  private leaveOutRobot({ labels }: Packet): void {
+    const isMeasured = this.layer === 'overlay' || this.layer === 'depth';
+    for (const canvas of isMeasured ? [this.below, this.above] : [this.below])
+      if (labels) this.painter.withoutRobot(canvas, labels);
+      else clear(canvas);
+  }
+
   /** One scale for all frames and both depths, so that colours can be compared. */
   private widen(range: readonly [number, number] | null): void {
     if (!range) return;
@@ -100,6 +112,8 @@ export class ImageView {
   }
 
   private noteOf(packet: Packet): string {
+    if (this.withoutRobot && !packet.labels)
+      return 'this frame has no labels to leave the robot out by';
     if (!packet.color) return 'no colour image of this frame';
     const drawn = packet.has.has(this.layer) || (this.layer === 'overlay' && packet.labels);
     return drawn ? '' : 'this layer is not there for this frame';

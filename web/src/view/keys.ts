@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Viewer } from '../viewer';
-import { layerKeys, toggleCloudColors, type Actions } from './controls';
+import { layerKeys, toggleCloudColors, toggleWithoutRobot, type Actions } from './controls';
 import { byId, element } from './dom';
 import { layersOf, type Layer } from './image_view';
 
@@ -41,6 +41,7 @@ function helpOf({ session }: Viewer): Help {
     ['↑ ↓', 'previous or next target'],
     [keys.map(([key]) => key).join(' '), keys.map(([, layer]) => layerWords[layer]).join(', ')],
     ['L', 'points by label or by colour'],
+    ['W', 'points and images with or without the robot'],
     ['V C', 'overview, or the view from the camera'],
     ['T', 'light or dark'],
     ['?', 'this help'],
@@ -93,6 +94,7 @@ function actionOf(
     ArrowUp: () => chooseNext(viewer, -1),
     ArrowDown: () => chooseNext(viewer, 1),
     l: () => toggleCloudColors(viewer),
+    w: () => toggleWithoutRobot(viewer),
     v: () => viewer.scene?.frameAll(),
     c: () => viewer.scene?.frameCamera(),
     t: () => byId('theme').click(),

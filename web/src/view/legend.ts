@@ -11,8 +11,9 @@ export function layerLegend(
   layer: Layer,
   links: readonly string[],
   [near, far]: readonly [number, number],
+  withoutRobot: boolean,
 ): void {
-  const key = `${layer}|${links.join()}|${near.toFixed(3)}|${far.toFixed(3)}`;
+  const key = `${layer}|${links.join()}|${near.toFixed(3)}|${far.toFixed(3)}|${withoutRobot}`;
   if (key === shown) return;
   shown = key;
   const legend = byId('picture-legend');
@@ -30,6 +31,7 @@ export function layerLegend(
       ...styles.map((style) => swatch(style.name, style.color ?? '', style.meaning)),
     );
   }
+  if (withoutRobot) legend.append(element('span', 'hint', 'chequered: left out'));
 }
 
 const rgb = (index: number): string => `rgb(${linkColor(index).join(' ')})`;

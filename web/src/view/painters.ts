@@ -3,6 +3,8 @@
 import type { EncodedImage, Grid } from '../api/packet';
 import { depthColors } from '../model/depth_colors';
 import { labelColor, linkColor, rgbOf, type Rgb } from '../model/labels';
+import { isSurroundings } from '../model/surroundings';
+import { element } from './dom';
 
 const opaque = ([r, g, b]: Rgb, alpha = 255): number =>
   ((alpha << 24) | (b << 16) | (g << 8) | r) >>> 0;
@@ -15,6 +17,9 @@ const tableOf = (alpha: number): Uint32Array =>
   });
 export const labelTable = tableOf(255);
 export const overlayTable = tableOf(150);
+const robotTable = Uint32Array.from({ length: 256 }, (_, value) =>
+  isSurroundings(value) ? 0 : white,
+);
 export const noRobot: readonly [number, number] = [0, 0];
 export const noMeasurement: readonly [number, number] = [
   opaque([38, 38, 38]),
@@ -26,6 +31,7 @@ const depthTable = Uint32Array.from(depthColors, (color) => opaque(color));
 export class Painter {
   private image: ImageData | null = null;
   private linkTable = new Uint32Array(0);
+  private readonly mask = element('canvas', '');
 
   /** The bitmap is used up. */
   bitmap(canvas: HTMLCanvasElement, bitmap: ImageBitmap): void {
@@ -41,6 +47,18 @@ export class Painter {
   /** Half transparent: for the colour image below. */
   overlay(canvas: HTMLCanvasElement, labels: Grid<Uint8Array>): void {
     this.indexed(canvas, labels, overlayTable);
+  }
+
+  /** Makes the canvas transparent where the labels do not show the surroundings. */
+  withoutRobot(canvas: HTMLCanvasElement, labels: Grid<Uint8Array>): void {
+    this.indexed(this.mask, labels, robotTable);
+    const context = canvas.getContext('2d');
+    if (!context) return;
+    context.save();
+    context.imageSmoothingEnabled = false;
+    context.globalCompositeOperation = 'destination-out';
+    context.drawImage(this.mask, 0, 0, canvas.width, canvas.height);
+    context.restore();
   }
 
   links(canvas: HTMLCanvasElement, links: Grid<Uint16Array>, names: number): void {

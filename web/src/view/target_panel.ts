@@ -25,6 +25,7 @@ const meanings: Readonly<Record<string, string>> = {
   hidden_by_other_fraction: 'something that is not the robot stands before it',
   measured_fraction: 'pixels with a measured depth that counts',
   seen_past_fraction: 'the sensor looks past the place where it is expected',
+  fringe: 'beside the robot, depth not to be trusted',
   covered: 'that its whole extent covers, in the image or not',
   inside: 'of those, in the image: fractions are of these',
   sigma_m: 'one standard deviation of its position',

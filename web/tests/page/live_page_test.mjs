@@ -232,6 +232,24 @@ test('keys of what a live page does not have do nothing, and are not told', () =
     assert.doesNotMatch(help, /occlusion|links|slower/);
   }));
 
+test('without the robot, live too', () =>
+  live(desktop, async (page, camera) => {
+    const points = () => page.locator('#scene-canvas').getAttribute('data-points').then(Number);
+    await showsNumber(page, await camera.send({ rate: slow }));
+    const all = await points();
+    await page.keyboard.press('5'); // a layer that is drawn without labels
+    await page.keyboard.press('w');
+    await showsNumber(page, await camera.send({ rate: slow }));
+    const left = await points();
+    assert.ok(left > 0 && left < all, `${left} of ${all} points`);
+    assert.ok(camera.wanted.includes('labels'), `${camera.wanted}`);
+    assert.equal(await page.locator('#picture-note').textContent(), '');
+    await page.keyboard.press('w');
+    await showsNumber(page, await camera.send({ rate: slow }));
+    assert.equal(await points(), all);
+    assert.ok(!camera.wanted.includes('labels'), `${camera.wanted}`);
+  }));
+
 test('a phone shows the whole state', () =>
   live({ ...phone, viewport: { width: 360, height: 780 } }, async (page, camera) => {
     const mode = page.locator('#mode');

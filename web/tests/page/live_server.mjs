@@ -24,7 +24,15 @@ export async function playLive(page, url) {
   const stored = Buffer.from(await (await fetch(new URL(query, url))).arrayBuffer());
   const { head, parts } = headOf(stored);
   const session = await (await fetch(new URL('/api/session', url))).json();
-  const state = { sent: 0, asked: 0, connections: 0, socket: null, missing: [], answers: true };
+  const state = {
+    sent: 0,
+    asked: 0,
+    connections: 0,
+    socket: null,
+    missing: [],
+    answers: true,
+    wanted: [],
+  };
   await page.route('**/api/session', (route) => {
     if (!state.answers) return route.abort('timedout');
     return route.fulfill({
@@ -41,7 +49,11 @@ export async function playLive(page, url) {
   await page.routeWebSocket('**/api/live', (socket) => {
     state.socket = socket;
     ++state.connections;
-    socket.onMessage((message) => (state.asked += JSON.parse(message).type === 'ready' ? 1 : 0));
+    socket.onMessage((text) => {
+      const message = JSON.parse(text);
+      if (message.type === 'want') state.wanted = message.with;
+      else if (message.type === 'ready') ++state.asked;
+    });
   });
 
   /** Sends a frame once the page has asked for one. */

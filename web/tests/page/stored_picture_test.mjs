@@ -35,7 +35,7 @@ test('values under the pointer are the packet’s, in each layer', () =>
     await showsFrame(page, 3);
     const frame = await page.locator('#picture-frame').boundingBox();
     const layers = ['overlay', 'labels', 'links', 'vdi', 'depth'];
-    const names = ['clear', 'front', 'occluded', 'unknown', 'beyond'];
+    const names = ['clear', 'front', 'occluded', 'unknown', 'beyond', 'fringe'];
     const pixels = [
       [320, 190],
       [480, 230],
@@ -67,7 +67,8 @@ test('values under the pointer are the packet’s, in each layer', () =>
 
 /** Read from a packet here, after the contract, without the page's code. */
 async function packetParts() {
-  const address = new URL('/api/frames/3/packet?with=labels,depth&step=4', shared.server.url);
+  const query = '/api/frames/3/packet?with=labels,depth,cloud&step=2';
+  const address = new URL(query, shared.server.url);
   const bytes = Buffer.from(await (await fetch(address)).arrayBuffer());
   const length = bytes.readUInt32LE(0);
   const head = JSON.parse(bytes.subarray(4, 4 + length).toString());
@@ -87,6 +88,77 @@ async function valueAt(u, v) {
   return { label: parts.labels[at], depth: parts.depth.readFloatLE(4 * at) };
 }
 const valuesOf = (pixels) => Promise.all(pixels.map(([u, v]) => valueAt(u, v)));
+
+const isSurroundings = (label) => label === 0 || label === 1;
+
+/** Runs in the page: alpha of each pixel of a canvas, 0 or 255. */
+const alphaOf = (id) => {
+  const canvas = document.getElementById(id);
+  const context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  return Array.from({ length: data.length / 4 }, (_, at) => data[4 * at + 3]);
+};
+
+test('without the robot, points and pixels that are clear or front are left', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    await showsFrame(page, 3);
+    parts ??= await packetParts();
+    const labels = Array.from(
+      { length: parts.cloud.length / 16 },
+      (_, i) => parts.cloud[16 * i + 12],
+    );
+    const kept = labels.filter(isSurroundings).length;
+    assert.ok(kept > 0 && kept < labels.length && labels.includes(1), 'some front, some robot');
+    const shownPoints = (count) =>
+      page.locator(`#scene-canvas[data-points="${count}"]`).waitFor({ state: 'attached' });
+    const button = page.getByRole('button', { name: 'Without robot' });
+    const robot = page.locator('[data-part=robot]');
+    await shownPoints(labels.length);
+    await page.keyboard.press('w');
+    await shownPoints(kept);
+    assert.equal(await button.getAttribute('aria-pressed'), 'true');
+    assert.equal(await robot.getAttribute('aria-pressed'), 'false', 'its model is gone, too');
+    for (const [key, layer] of [
+      ['1', 'overlay'],
+      ['5', 'depth'],
+    ]) {
+      await page.keyboard.press(key);
+      await showsLayer(page, layer);
+      for (const id of ['picture-below', 'picture-above']) {
+        const alpha = await page.evaluate(alphaOf, id);
+        const wrong = alpha.filter((a, at) => a !== (isSurroundings(parts.labels[at]) ? 255 : 0));
+        assert.deepEqual([alpha.length, wrong.length], [parts.labels.length, 0], `${layer} ${id}`);
+      }
+    }
+    assert.match(await page.locator('#picture-legend').textContent(), /chequered: left out/);
+    await page.keyboard.press('ArrowRight');
+    await showsFrame(page, 4);
+    assert.equal(await button.getAttribute('aria-pressed'), 'true', 'in other frames, too');
+    await page.keyboard.press('ArrowLeft');
+    await showsFrame(page, 3);
+    await shownPoints(kept);
+    await button.click();
+    await shownPoints(labels.length);
+    assert.equal(await robot.getAttribute('aria-pressed'), 'true');
+    const alpha = await page.evaluate(alphaOf, 'picture-above');
+    assert.ok(alpha.every((a) => a === 255));
+  }));
+
+test('fringe is in the legend, and among the pixels’ numbers without a share', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    await showsFrame(page, 3);
+    const entry = page.locator('#picture-legend .legend-entry', { hasText: 'fringe' });
+    assert.match(await entry.getAttribute('title'), /beside the robot.*not to be trusted/);
+    const color = await entry
+      .locator('i')
+      .evaluate((node) => getComputedStyle(node).backgroundColor);
+    assert.equal(color, 'rgb(0, 158, 115)');
+    const number = page.locator('#frame-details [data-key=fringe]');
+    const { fringe } = shared.report.frames[3].pixels;
+    assert.equal(await number.getAttribute('data-value'), String(fringe));
+    assert.doesNotMatch(await number.textContent(), /%/);
+  }));
 
 test('the scene is drawn, and turns', () =>
   withPage('/#frame=2', desktop, async (page) => {

@@ -132,6 +132,11 @@ for (const width of [360, 390])
       assert.ok(await page.locator('#scene').isVisible());
       await page.tap('[data-view=picture]');
       assert.ok(!(await page.locator('#scene').isVisible()));
+      const without = page.getByRole('button', { name: 'Without robot' });
+      for (const pressed of ['true', 'false']) {
+        await without.tap();
+        assert.equal(await without.getAttribute('aria-pressed'), pressed);
+      }
       await page.tap('#picture-frame', { position: { x: 200, y: 100 } });
       await page.waitForFunction(() => document.getElementById('read-label').textContent !== '–');
       await page.tap('#step-forward');

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Packet } from '../../src/api/packet';
+import { pointBytes, type Packet } from '../../src/api/packet';
 import { depthColors, depthRange } from '../../src/model/depth_colors';
 import { count, metres, milliseconds, percent, stamp } from '../../src/model/format';
 import { FrameCache } from '../../src/model/frame_cache';
 import { waitOf } from '../../src/model/player';
 import { readoutAt } from '../../src/model/readout';
+import { copySurroundings } from '../../src/model/surroundings';
 import { niceStep } from '../../src/timeline/axis';
 import { labelTable, overlayTable } from '../../src/view/painters';
 import { frame } from './support';
@@ -95,11 +96,31 @@ test('the cache fetches a frame once, and forgets the longest unused', async () 
 test('labels of a later Penumbra are seen, and look like none of ours', () => {
   for (const table of [labelTable, overlayTable]) {
     assert.equal(table[0], 0, 'clear is clear');
-    const ours = new Set(table.slice(0, 5));
-    assert.equal(ours.size, 5);
-    for (const value of [5, 17, 255]) {
+    const ours = new Set(table.slice(0, 6));
+    assert.equal(ours.size, 6);
+    for (const value of [6, 17, 255]) {
       assert.ok((table[value] as number) >>> 24 > 0, `${value} is no clear`);
       assert.ok(!ours.has(table[value] as number), `${value} is none of ours`);
     }
   }
+});
+
+test('the label fringe has a name', () => {
+  const labels = { width: 1, height: 1, values: Uint8Array.of(5) };
+  const { label, labelValue } = readoutAt({ ...packet, labels }, [], 0, 0, 1);
+  assert.deepEqual([label, labelValue], ['fringe', 5]);
+});
+
+test('without the robot the points that are clear or front are left', () => {
+  const points = [0, 1, 2, 3, 4, 5, 6, 1, 0].map((label, i) => {
+    const bytes = new Uint8Array(pointBytes).fill(100 + i);
+    bytes[12] = label;
+    return bytes;
+  });
+  const bytes = Uint8Array.from(points.flatMap((point) => [...point]));
+  const to = new Uint8Array(bytes.length);
+  const count = copySurroundings({ count: points.length, bytes }, to);
+  const left = [0, 1, 7, 8].flatMap((i) => [...(points[i] as Uint8Array)]);
+  assert.equal(count, 4);
+  assert.deepEqual([...to.subarray(0, pointBytes * count)], left);
 });
