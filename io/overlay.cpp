@@ -99,8 +99,11 @@ void add_counts(const LabelView& labels, std::vector<Line>& lines) {
     const double share =
         robot == 0 ? 0.0
                    : 100.0 * static_cast<double>(labels.pixels[i]) / static_cast<double>(robot);
-    std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i], labels.pixels[i],
-                  share);
+    if (is_robot(static_cast<std::uint8_t>(i)))
+      std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i], labels.pixels[i],
+                    share);
+    else
+      std::snprintf(text.data(), text.size(), "%-8s %7zu", label_names[i], labels.pixels[i]);
     lines.push_back({text.data(), label_color(static_cast<Label>(i))});
   }
 }

@@ -27,7 +27,8 @@ or a graphics device that failed.)";
 
 inline constexpr const char* run_examples = R"(
 OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot, or where the lens
-model does not reach), labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond),
+model does not reach), labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond,
+5 fringe), filtered/000000.png (depth without the robot, millimetres), points/000000.pcd and .ply,
 links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.png; with --report
 report.html, a page for the browser in one file. What an earlier
 run left there is removed; images of such names without its report, or behind a link, are refused.
