@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -48,7 +49,7 @@ std::string percent(double share) {
 }
 
 void draw_line(const std::string& text, Rgb8 color, int line, Image<Rgb8>& image) {
-  const int scale = 1 + image.height() / rows_per_letter;
+  const int scale = std::max(1, image.height() / rows_per_letter);
   const int size = BitmapFont::height * scale, left = 2 * size;
   const int top = image.height() - (3 - line) * (size + scale) - size;
   BitmapFont::fill(size / 2, top, size - scale, color, image);
@@ -108,7 +109,7 @@ Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
                 " of the arm's points stay",
             removed_color, 0, image);
   const double left = fringe.left_over[static_cast<std::size_t>(fringe.reach / FringeFit::step)];
-  draw_line("stays: " + percent(left), left_color, 1, image);
+  draw_line("stays with it: " + percent(left), left_color, 1, image);
   draw_line("outline of the URDF", outline_color, 2, image);
   return image;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <penumbra/tuning/stages-inl.hpp>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int stride = 2;                 // of the pixels that are looked at, both ways
 constexpr double nearby = 0.25;           // metres from the robot, and from the link's own box
+constexpr double attached = 0.08;         // metres from the link's box: one voxel of a piece is
 constexpr int least_views = 3;            // frames that see a voxel occupied
 constexpr double consistent = 0.6;        // of the frames that see a voxel: it is occupied
 constexpr double doubt = 2.0;             // frames by which few sightings count less
@@ -19,15 +21,18 @@ constexpr double same_surface = 0.5;      // of e(z)
 constexpr std::size_t least_voxels = 20;  // of a piece, not counting what fringe may explain
 constexpr int grow = 3;                   // voxels around these
 
+using Groups = std::vector<std::vector<std::size_t>>;
+constexpr std::size_t scenery = 0;  // the group of the root, which does not move
+constexpr std::size_t unexplained = ~std::size_t{0};
+
 /// A measured point that neither the robot nor the background explains.
 struct Point {
   Eigen::Vector3d camera;  // metres, optical frame
   int u = 0, v = 0;
   std::size_t frame = 0;
   bool is_certain = false;  // too far from the outline for fringe, or before the robot
-  double best = 0.0;        // score of its voxel in the frame of `group`
-  std::size_t group = 0;
-  Voxel voxel = 0;
+  std::size_t group = 0;    // that it moves with
+  Voxel voxel = 0;          // in that group's frame
 };
 
 void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labels,
@@ -60,8 +65,8 @@ void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labe
 }
 
 /// Links that did not move relative to each other, the first of which gives the frame.
-std::vector<std::vector<std::size_t>> rigid_groups(const Scene& scene) {
-  std::vector<std::vector<std::size_t>> groups;
+Groups rigid_groups(const Scene& scene) {
+  Groups groups;
   const auto moves = [&](std::size_t a, std::size_t b) {
     const auto pose = [&](const TuningFrame& frame) -> Eigen::Isometry3d {
       return frame.T_camera_link[a].inverse() * frame.T_camera_link[b];
@@ -82,9 +87,23 @@ std::vector<std::vector<std::size_t>> rigid_groups(const Scene& scene) {
   return groups;
 }
 
-/// How far a point in the link's frame lies from its box, or from its origin if it has none.
-double distance_to(const LinkReport& link, const Eigen::Vector3d& point) {
-  return link.bounds.isEmpty() ? point.norm() : link.bounds.exteriorDistance(point);
+struct NearLink {
+  std::size_t link;
+  double distance;  // metres from the link's box, or from its origin if it has none
+};
+
+/// The link of the group that is nearest to a voxel of the group's frame.
+NearLink nearest_link(const Scene& scene, const std::vector<std::size_t>& group, Voxel voxel) {
+  const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_camera_link;
+  const Eigen::Vector3d camera = links[group.front()] * centre_of(voxel);
+  NearLink nearest{group.front(), std::numeric_limits<double>::infinity()};
+  for (const std::size_t link : group) {
+    const Eigen::Vector3d point = links[link].inverse() * camera;
+    const Eigen::AlignedBox3d& box = scene.robot.report()[link].bounds;
+    const double distance = box.isEmpty() ? point.norm() : box.exteriorDistance(point);
+    if (distance < nearest.distance) nearest = {link, distance};
+  }
+  return nearest;
 }
 
 /// Scores voxels in the frame of one group: occupied in how many of the frames that see them.
@@ -101,21 +120,15 @@ class Grid {
   [[nodiscard]] std::unordered_map<Voxel, double> scores(bool is_scenery) const {
     std::unordered_map<Voxel, double> scores;
     for (const auto& [voxel, hits] : hits_)
-      scores[voxel] = is_scenery || is_near(voxel) ? score(centre_of(voxel), hits) : 0.0;
+      scores[voxel] = is_scenery || nearest_link(scene_, group_, voxel).distance <= nearby
+                          ? score(centre_of(voxel), hits)
+                          : 0.0;
     return scores;
   }
 
  private:
   [[nodiscard]] const Eigen::Isometry3d& frame(std::size_t i) const {
     return scene_.frames[i].T_camera_link[group_.front()];
-  }
-
-  [[nodiscard]] bool is_near(Voxel voxel) const {
-    const std::vector<Eigen::Isometry3d>& links = scene_.frames.front().T_camera_link;
-    const Eigen::Vector3d point = links[group_.front()] * centre_of(voxel);
-    return std::any_of(group_.begin(), group_.end(), [&](std::size_t link) {
-      return distance_to(scene_.robot.report()[link], links[link].inverse() * point) <= nearby;
-    });
   }
 
   [[nodiscard]] double score(const Eigen::Vector3d& centre, std::uint32_t hits) const {
@@ -149,21 +162,44 @@ class Grid {
 };
 static_assert(TuningFrames::most <= 32);
 
-/// Gives each point to the group in whose frame its voxel scores best. Of equals the scenery (group
-/// 0, last) goes before links, and a link before its parents.
-void assign(const Scene& scene, const std::vector<std::vector<std::size_t>>& groups,
-            std::vector<Point>& points) {
-  for (std::size_t i = 1; i <= groups.size(); ++i) {
-    const std::size_t group = i % groups.size();
+/// Each point's score in the frame of each group.
+std::vector<std::vector<double>> scores_of(const Scene& scene, const Groups& groups,
+                                           const std::vector<Point>& points) {
+  std::vector<std::vector<double>> scores;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
     Grid grid(scene, groups[group]);
     for (const Point& point : points) grid.add(point);
-    const auto scores = grid.scores(group == 0);
-    for (Point& point : points) {
-      const Voxel voxel = grid.voxel_of(point);
-      const double score = scores.at(voxel);
-      if (score > 0.0 && score >= point.best)
-        point.best = score, point.group = group, point.voxel = voxel;
+    const auto of_voxels = grid.scores(group == scenery);
+    std::vector<double>& of_points = scores.emplace_back();
+    for (const Point& point : points) of_points.push_back(of_voxels.at(grid.voxel_of(point)));
+  }
+  return scores;
+}
+
+/// Gives each point to a group: to the scenery if no link explains it better, else to the link that
+/// explains most of the points that are left; of equal ones to the last, as tools are at the end.
+void assign(const Scene& scene, const Groups& groups, std::vector<Point>& points) {
+  const auto scores = scores_of(scene, groups, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double best = 0.0;
+    for (std::size_t group = 1; group < groups.size(); ++group)
+      best = std::max(best, scores[group][i]);
+    points[i].group = best > scores[scenery][i] ? unexplained : scenery;
+  }
+  while (true) {
+    std::size_t best = scenery;
+    double most = 0.0;
+    for (std::size_t group = 1; group < groups.size(); ++group) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (points[i].group == unexplained) sum += scores[group][i];
+      if (sum > 0.0 && sum >= most) most = sum, best = group;
     }
+    if (best == scenery) return;
+    const Grid grid(scene, groups[best]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].group == unexplained && scores[best][i] > 0.0)
+        points[i].group = best, points[i].voxel = grid.voxel_of(points[i]);
   }
 }
 
@@ -174,12 +210,8 @@ ExtraPart make_part(const Scene& scene, const std::vector<std::size_t>& group,
   const auto in_frame = [&](std::size_t link, const Eigen::Vector3d& point) -> Eigen::Vector3d {
     return links[link].inverse() * links[group.front()] * point;
   };
-  const Eigen::Vector3d some = centre_of(pieces.front().begin()->first);
   ExtraPart part;
-  part.link = *std::min_element(group.begin(), group.end(), [&](std::size_t a, std::size_t b) {
-    const auto report = scene.robot.report();
-    return distance_to(report[a], in_frame(a, some)) < distance_to(report[b], in_frame(b, some));
-  });
+  part.link = nearest_link(scene, group, pieces.front().begin()->first).link;
   for (const VoxelSet& piece : pieces) {
     const std::size_t first = part.mesh.vertices.size();
     TriangleMesh mesh;
@@ -216,7 +248,12 @@ ExtraSearch find_extras(const Scene& scene, const LabelRule& rule) {
     VoxelSet voxels;
     for (const Point& point : points)
       if (point.group == group) voxels[point.voxel] |= point.is_certain;
-    const std::vector<VoxelSet> pieces = pieces_of(voxels, least_voxels, grow);
+    std::vector<VoxelSet> pieces = pieces_of(voxels, least_voxels, grow);
+    std::erase_if(pieces, [&](const VoxelSet& piece) {
+      return std::none_of(piece.begin(), piece.end(), [&](const auto& voxel) {
+        return nearest_link(scene, groups[group], voxel.first).distance <= attached;
+      });
+    });
     if (pieces.empty()) continue;
     search.parts.push_back(make_part(scene, groups[group], pieces));
     for (const Point& point : points)

@@ -14,34 +14,39 @@ constexpr float edge = 0.02f;               // metres: a larger step of virtual 
 constexpr double bin_width = 0.1;           // metres of virtual depth
 constexpr std::size_t least_in_bin = 1000;  // pixels, for a quantile of 1 in 1000
 constexpr double outside_share = 0.001;     // of residuals that may lie beyond e(z)
-constexpr double outlier = 3.0;             // times the current e(z): not the robot's surface
-constexpr double least_a = 0.005;           // metres
+constexpr double object = 2.0;     // times the current e(z): farther off is another surface
+constexpr double least_a = 0.005;  // metres
 constexpr double round_to = 0.001;
 
 struct Residual {
   float z, nearer;  // metres: virtual depth, and how far the measurement lies before it
 };
 
-NearestPixels edges_of(const Image<float>& depth) {
+/// Edges of the robot, and objects before it.
+NearestPixels edges_of(const Image<float>& depth, const LabelView& labels) {
   Image<std::uint8_t> edges(depth.width(), depth.height());
   for (int v = 0; v < depth.height(); ++v)
     for (int u = 0; u < depth.width(); ++u) {
-      if (!(depth(u, v) > 0.0f)) edges(u, v) = 1;
+      if (!(depth(u, v) > 0.0f) || labels.labels(u, v) == static_cast<std::uint8_t>(Label::front))
+        edges(u, v) = 1;
       if (u > 0 && std::abs(depth(u, v) - depth(u - 1, v)) > edge) edges(u, v) = 1;
       if (v > 0 && std::abs(depth(u, v) - depth(u, v - 1)) > edge) edges(u, v) = 1;
     }
   return NearestPixels(edges);
 }
 
-std::vector<Residual> residuals_of(const Scene& scene, const Tolerance& current) {
+std::vector<Residual> residuals_of(const Scene& scene, LabelRule rule) {
+  for (double* const term : {&rule.tolerance.a, &rule.tolerance.b, &rule.tolerance.c})
+    *term *= object;
+  Labeller labeller(scene, rule);
   std::vector<Residual> residuals;
   for (const TuningFrame& frame : scene.frames) {
-    const NearestPixels edges = edges_of(frame.virtual_depth);
+    const NearestPixels edges = edges_of(frame.virtual_depth, labeller.label(frame));
     for (int v = 0; v < scene.camera.height(); ++v)
       for (int u = 0; u < scene.camera.width(); ++u) {
         const float z = frame.virtual_depth(u, v), d = frame.depth(u, v);
         if (z > 0.0f && d > 0.0f && edges.distance(u, v) >= inside &&
-            std::abs(z - d) < outlier * current.at(z))
+            std::abs(z - d) < rule.tolerance.at(z))
           residuals.push_back({z, z - d});
       }
   }
@@ -86,7 +91,9 @@ Tolerance scaled(const Tolerance& curve, const std::vector<Residual>& residuals)
   for (const Residual& residual : residuals)
     ratios.push_back(residual.nearer / static_cast<float>(curve.at(residual.z)));
   const double factor = quantile(ratios, 1.0 - outside_share);
-  const auto up = [](double value) { return std::ceil(value / round_to - 1e-6) * round_to; };
+  const auto up = [](double value) {
+    return std::max(0.0, std::ceil(value / round_to - 1e-6)) * round_to;
+  };
   return {.a = up(std::max(least_a, factor * curve.a)), .b = 0.0, .c = up(factor * curve.c)};
 }
 
@@ -105,7 +112,7 @@ double front_share(const Scene& scene, const LabelRule& rule) {
 }  // namespace
 
 ToleranceFit fit_tolerance(const Scene& scene, const LabelRule& current) {
-  const std::vector<Residual> residuals = residuals_of(scene, current.tolerance);
+  const std::vector<Residual> residuals = residuals_of(scene, current);
   if (residuals.size() < least_pixels)
     throw InputError("only " + std::to_string(residuals.size()) +
                      " pixels show the robot's surface where the URDF says; tune needs " +
