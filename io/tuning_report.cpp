@@ -105,8 +105,8 @@ Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
       if (is_outline(frame.virtual_depth, u, v)) image(u, v) = outline_color;
     }
   const std::string reach = std::to_string(fringe.reach);
-  draw_line("fringe_reach " + reach + " removes; without it " + percent(fringe.left_over.front()) +
-                " of the arm's points stay",
+  draw_line("removed by fringe_reach " + reach + "; without it " +
+                percent(fringe.left_over.front()) + " of the arm's points stay",
             removed_color, 0, image);
   const double left = fringe.left_over[static_cast<std::size_t>(fringe.reach / FringeFit::step)];
   draw_line("stays with it: " + percent(left), left_color, 1, image);
