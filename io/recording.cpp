@@ -51,6 +51,11 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   if (const YamlNode* margins = robot.find("margins"))
     for (const YamlNode& link : margins->entries())
       options.margins.emplace(link.key(), link.number());
+  if (const YamlNode* extras = robot.find("extra"))
+    for (const YamlNode& extra : extras->items()) {
+      extra.allow_only({"link", "mesh"});
+      options.extra.push_back({extra.at("link").text(), file_of(extra.at("mesh"), folder)});
+    }
   return options;
 }
 
@@ -145,7 +150,8 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
   const YamlNode root = YamlNode::read(file);
   root.allow_only({"robot", "camera", "frames", "targets"});
   const YamlNode& robot = root.at("robot");
-  robot.allow_only({"urdf", "packages", "geometry", "ignore_links", "only_links", "margins"});
+  robot.allow_only(
+      {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra"});
   std::optional<std::filesystem::path> targets;
   if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
   return {.file = file,

@@ -56,8 +56,10 @@ Json bag_json(const UsedBag& bag) {
 Json settings_json(const UsedSettings& used) {
   const LabelRule& rule = used.rule;
   const auto finite = [](double metres) { return std::isfinite(metres) ? Json(metres) : Json(); };
-  Json margins = Json::object();
+  Json margins = Json::object(), extras = Json::array();
   for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
+  for (const ExtraMesh& extra : used.robot.extra)
+    extras.push_back({{"link", extra.link}, {"mesh", extra.mesh.string()}});
   return {{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
           {"front_min_width", rule.front_min_width},
           {"edge_margin", rule.edge_margin},
@@ -73,6 +75,7 @@ Json settings_json(const UsedSettings& used) {
           {"geometry", geometry_json(used.robot)},
           {"geometry_fallback", used.robot.geometry_fallback},
           {"margins", std::move(margins)},
+          {"extra", std::move(extras)},
           {"ignore_links", list(used.robot.ignore_links)},
           {"only_links", list(used.robot.only_links)}};
 }

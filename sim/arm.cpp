@@ -16,6 +16,7 @@
 #include <penumbra/robot/mesh_file.hpp>
 
 #include <io/disk_file.hpp>
+#include <io/stl_file.hpp>
 #include <sim/arm.hpp>
 #include <sim/mujoco_handles.hpp>
 
@@ -57,22 +58,6 @@ fs::path resolve(const std::string& name, const fs::path& urdf, const RobotOptio
                    "' is not found above the file; name its folder");
 }
 
-void write_stl(const TriangleMesh& mesh, const fs::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  const std::string header(80, ' ');
-  stream.write(header.data(), 80);
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  stream.write(reinterpret_cast<const char*>(&count), 4);
-  for (const auto& triangle : mesh.triangles) {
-    std::array<float, 12> numbers{};  // the normal is left 0: readers make their own
-    for (std::size_t k = 0; k < 3; ++k)
-      std::copy_n(mesh.vertices[triangle[k]].data(), 3, numbers.begin() + 3 + 3 * k);
-    stream.write(reinterpret_cast<const char*>(numbers.data()), 48);
-    stream.write("\0\0", 2);
-  }
-  if (!stream.flush()) throw InputError(file.string() + ": cannot be written");
-}
-
 /// Puts a mesh where MuJoCo finds it; returns its name. MuJoCo knows meshes by name alone, so that
 /// each element gets a file of its own: one mesh may stand there at several scales.
 std::string place_mesh(const fs::path& from, const fs::path& folder, int number) {
@@ -84,7 +69,7 @@ std::string place_mesh(const fs::path& from, const fs::path& folder, int number)
     fs::copy_file(from, folder / name, fs::copy_options::overwrite_existing, error);
     if (error) throw InputError(from.string() + ": cannot be read (" + error.message() + ")");
   } else {
-    write_stl(load_mesh(from), folder / name);
+    io::write_stl(folder / name, load_mesh(from));
   }
   return name;
 }

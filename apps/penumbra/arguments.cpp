@@ -89,6 +89,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   PlayArguments play;
   LiveArguments live;
   ViewArguments view;
+  TuneArguments tune;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -100,6 +101,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     commands.emplace_back(of, [&arguments] { return Command(arguments); });
   };
   add("run", "label every frame of a recording", run, add_run);
+  add("tune", "measure the sensor: tolerance, fringe, what the URDF lacks", tune, add_tune);
   add("render", "render one virtual depth image", render, add_render);
   add("inspect", "tell what of a URDF is drawn", inspect, add_inspect);
   add("doctor", "tell what this machine offers", doctor, add_doctor);
@@ -121,10 +123,12 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   check_live(live);
   check_view(view);
   check_renderer(render.renderer);
+  check_renderer(tune.judging.renderer);
   for (const auto& [command, made] : commands)
     if (command->parsed()) return made();
   throw InputError(
-      "a command is needed: run, render, inspect, doctor, simulate, experiment, topics, play, "
+      "a command is needed: run, tune, render, inspect, doctor, simulate, experiment, topics, "
+      "play, "
       "live or view (penumbra --help tells more)");
 }
 

@@ -69,6 +69,7 @@ struct RunArguments {
   std::string geometry_default = "the recording's, else collision";  ///< in --help
   bool geometry_fallback = false;     ///< as in RobotOptions, on top of the recording's
   bool allow_missing_meshes = false;  ///< likewise
+  std::vector<ExtraMesh> extra;       ///< likewise
   std::optional<Tolerance> tolerance;
   std::optional<int> front_min_width;  ///< pixels
   std::optional<int> fringe_reach;     ///< pixels
@@ -109,6 +110,10 @@ struct InspectArguments {
   std::filesystem::path robot;
   RobotOptions options;
   bool json = false;
+};
+
+struct TuneArguments {
+  RunArguments judging;  ///< its input and output, what is drawn, the current rule
 };
 
 struct TopicsArguments {
@@ -171,7 +176,7 @@ struct ViewArguments {
 
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
                              SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments,
-                             LiveArguments, ViewArguments>;
+                             LiveArguments, ViewArguments, TuneArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

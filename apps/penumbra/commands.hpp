@@ -16,5 +16,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const PlayArguments& arguments);
 [[nodiscard]] int execute(const LiveArguments& arguments);
 [[nodiscard]] int execute(const ViewArguments& arguments);
+[[nodiscard]] int execute(const TuneArguments& arguments);
 
 }  // namespace penumbra::app

@@ -11,6 +11,7 @@ inline constexpr const char* about =
 inline constexpr const char* main_examples = R"(
 Examples:
   penumbra run recording/ -o out             label every frame of a recording
+  penumbra tune recording/ -o tuned          measure your sensor: tolerance, fringe, missing tools
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
   penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
@@ -45,6 +46,17 @@ Examples:
   penumbra run recording/ -o out --labels paper
   penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
   penumbra run recording/ -o out --renderer auto)";
+
+inline constexpr const char* tune_examples = R"(
+Measures a sensor on a recording in which the arm moves through free space before a camera that
+stands still. Prints the tolerance and the fringe reach that fit it, as lines of recording.yaml and
+as options of run, and what moves with a link though the URDF lacks it: a tool, a cable, a cover.
+OUT gets tune.json (all numbers), tune.png (the frame with the most fringe: green is removed, red
+stays) and extra_LINK.stl for each link with an extra part.
+
+Examples:
+  penumbra tune recording/ -o tuned
+  penumbra tune bag.mcap -o tuned --package ur_description=/opt/ur_description)";
 
 inline constexpr const char* view_examples = R"(
 Judges a recording or a bag as run does and serves a page that shows it while that goes on: robot, camera and points

@@ -67,6 +67,7 @@ void add_robot_choices(const RunArguments& arguments, RobotOptions& options) {
   if (arguments.geometry) options.geometry = *arguments.geometry;
   options.geometry_fallback |= arguments.geometry_fallback;
   options.allow_missing_meshes |= arguments.allow_missing_meshes;
+  options.extra.insert(options.extra.end(), arguments.extra.begin(), arguments.extra.end());
 }
 
 RunInput open_recording_input(const RunArguments& arguments) {

@@ -43,6 +43,19 @@ void add_bag_list(CLI::App& app, BagArguments& bag, const std::string& name,
   })->group(bag.group);
 }
 
+void add_input(CLI::App& app, RunArguments& run) {
+  add_path(app, "INPUT",
+           "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
+           "folder with metadata.yaml",
+           "", run.input)
+      ->required();
+}
+
+void add_frames(CLI::App& app, RunArguments& run) {
+  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
+             [&](const std::string& text) { run.frames = to_range(text); });
+}
+
 /// A bag holds its topics, all of them, in the camera's own image.
 void check_output_bag(RunArguments& run) {
   if (run.output.extension() != ".mcap") return;
@@ -112,6 +125,12 @@ void add_judging(CLI::App& app, RunArguments& run) {
   add_option(app, "--geometry", "collision or visual; default: " + run.geometry_default, "NAME",
              [&](const std::string& text) { run.geometry = to_geometry(text); });
   add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
+  add_list(app, "--extra",
+           "mesh that a link carries and the URDF lacks; may be given several times", "LINK=FILE",
+           [&](const std::string& text) {
+             const auto [link, file] = to_pair("--extra", text, "LINK=FILE");
+             run.extra.push_back({link, file});
+           });
   add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
              [&](const std::string& text) { run.tolerance = to_tolerance(text); });
   add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",
@@ -139,8 +158,7 @@ void add_judging(CLI::App& app, RunArguments& run) {
 void add_sequence(CLI::App& app, RunArguments& run) {
   add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
              [&](const std::string& text) { run.image = to_image(text); });
-  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
-             [&](const std::string& text) { run.frames = to_range(text); });
+  add_frames(app, run);
   add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
              "YAML", [&](const std::string& text) {
                if (text.empty()) refuse_option("--targets", text, "a path, or none");
@@ -149,13 +167,21 @@ void add_sequence(CLI::App& app, RunArguments& run) {
              });
 }
 
+void add_tune(CLI::App& app, TuneArguments& tune) {
+  app.footer(tune_examples);
+  RunArguments& run = tune.judging;
+  run.is_shown = true;  // the picture wants colour
+  add_input(app, run);
+  add_path(app, "-o,--output", "folder for the results, made if need be", "OUT", run.output)
+      ->required();
+  add_judging(app, run);
+  add_frames(app, run);
+  add_bag(app, run.bag);
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  add_path(app, "INPUT",
-           "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
-           "folder with metadata.yaml",
-           "", run.input)
-      ->required();
+  add_input(app, run);
   add_path(app, "-o,--output",
            "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
            run.output)

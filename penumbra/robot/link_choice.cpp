@@ -77,6 +77,12 @@ void check_options(const Urdf& urdf, const RobotOptions& options) {
       throw InputError(urdf.file + ": margin of " + in_quotes(pattern) + " is " + printed(margin) +
                        "; expected metres within -1 and 1");
   }
+  for (const ExtraMesh& extra : options.extra) {
+    const auto is_its = [&](const UrdfLink& link) { return link.name == extra.link; };
+    if (std::none_of(urdf.links.begin(), urdf.links.end(), is_its))
+      throw InputError(urdf.file + ": extra: " + in_quotes(extra.link) +
+                       " is no link of the robot");
+  }
 }
 
 /// Links that have geometry, but none of the kind that is wanted of them.

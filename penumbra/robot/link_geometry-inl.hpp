@@ -25,17 +25,22 @@ class GeometryLoader {
   GeometryLoader(const Urdf& urdf, const std::filesystem::path& folder, const RobotOptions& options)
       : file_(urdf.file),
         locator_(folder, options.packages),
-        allow_missing_(options.allow_missing_meshes) {}
+        allow_missing_(options.allow_missing_meshes),
+        extra_(options.extra) {}
 
-  /// The chosen geometry of a link, margin included. Throws InputError that names link, file and
-  /// reason for geometry that cannot be had, unless missing meshes are allowed.
+  /// The chosen geometry of a link and its extra meshes, margin included. Throws InputError that
+  /// names link, file and reason for geometry that cannot be had, unless missing meshes are
+  /// allowed.
   [[nodiscard]] LinkGeometry load(const UrdfLink& link, const LinkChoice& choice);
 
   /// Where packages were found, then what is odd about mesh files and about links' sizes.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
+  void add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out,
+                    Eigen::AlignedBox3d& without_margin);
   void add(const UrdfElement& element, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
+  void add(const ExtraMesh& extra, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
   /// Where a fault is, for messages.
   [[nodiscard]] std::string at(const UrdfElement& element, const std::string& link) const;
   void note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin);
@@ -46,6 +51,7 @@ class GeometryLoader {
   std::string file_;
   FileLocator locator_;
   bool allow_missing_;
+  std::vector<ExtraMesh> extra_;
   std::map<std::filesystem::path, TriangleMesh> files_;
   std::vector<std::string> file_notes_;
   std::vector<std::string> size_notes_;

@@ -74,6 +74,16 @@ Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
   return bounds;
 }
 
+/// Adds a mesh, with the link's margin, whose source is the last of the report's.
+void keep(TriangleMesh mesh, LinkGeometry& out, Eigen::AlignedBox3d& without_margin) {
+  without_margin.extend(bounds_of(mesh));
+  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
+  if (mesh.triangles.empty())
+    throw InputError(out.report.sources.back() + ": nothing is left of it with a margin of " +
+                     printed(out.report.margin) + " m");
+  out.meshes.push_back(std::move(mesh));
+}
+
 // The report's figures of the meshes as they are drawn.
 void measure(LinkGeometry& link) {
   LinkReport& report = link.report;
@@ -94,20 +104,28 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
   out.report.link = link.name;
   out.report.reason = choice.reason;
   out.report.missing = choice.lacks_geometry;
-  if (!choice.draw) return out;
+  const auto is_its = [&](const ExtraMesh& extra) { return extra.link == link.name; };
+  if (!choice.draw && std::none_of(extra_.begin(), extra_.end(), is_its)) return out;
   out.report.margin = choice.margin;
   Eigen::AlignedBox3d without_margin;
-  for (const UrdfElement& element : link.elements(choice.geometry)) {
+  if (choice.draw) add_elements(link, choice.geometry, out, without_margin);
+  for (const ExtraMesh& extra : extra_)
+    if (is_its(extra)) add(extra, out, without_margin);
+  measure(out);
+  note_size(out.report, without_margin);
+  out.report.load_ms = milliseconds_since(start);
+  return out;
+}
+
+void GeometryLoader::add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out,
+                                  Eigen::AlignedBox3d& without_margin) {
+  for (const UrdfElement& element : link.elements(geometry)) {
     try {
       add(element, out, without_margin);
     } catch (const InputError& error) {
       throw InputError(at(element, link.name) + error.what());
     }
   }
-  measure(out);
-  note_size(out.report, without_margin);
-  out.report.load_ms = milliseconds_since(start);
-  return out;
 }
 
 std::string GeometryLoader::at(const UrdfElement& element, const std::string& link) const {
@@ -137,12 +155,20 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out,
     out.report.reason += std::string("; missing: ") + error.what();
     return;
   }
-  without_margin.extend(bounds_of(mesh));
-  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
-  if (mesh.triangles.empty())
-    throw InputError(source + ": nothing is left of it with a margin of " +
-                     printed(out.report.margin) + " m");
-  out.meshes.push_back(std::move(mesh));
+  keep(std::move(mesh), out, without_margin);
+}
+
+void GeometryLoader::add(const ExtraMesh& extra, LinkGeometry& out,
+                         Eigen::AlignedBox3d& without_margin) {
+  out.report.sources.push_back(extra.mesh.string());
+  out.report.reason += "; with an extra mesh";
+  try {
+    TriangleMesh mesh = read_file(extra.mesh);
+    place(Eigen::Vector3d::Ones(), Eigen::Isometry3d::Identity(), mesh);
+    keep(std::move(mesh), out, without_margin);
+  } catch (const InputError& error) {
+    throw InputError("extra of link " + in_quotes(extra.link) + ": " + error.what());
+  }
 }
 
 std::vector<std::string> GeometryLoader::notes() const {

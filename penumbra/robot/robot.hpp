@@ -19,6 +19,12 @@ namespace penumbra {
 
 enum class Geometry { collision, visual };
 
+/// What a link carries that the URDF lacks: a tool, a cable, a cover.
+struct ExtraMesh {
+  std::string link;            ///< its name; no pattern
+  std::filesystem::path mesh;  ///< in the link's frame, metres
+};
+
 /// What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]); where
 /// several say different things of a link, a plain name goes before patterns, and two patterns are
 /// an error, as is a pattern that matches no link.
@@ -30,6 +36,7 @@ struct RobotOptions {
   std::vector<std::string> ignore_links = {};  ///< patterns of links that are not drawn
   std::vector<std::string> only_links = {};    ///< if not empty: patterns of the links drawn
   std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
+  std::vector<ExtraMesh> extra = {};  ///< drawn with their links, whatever else is drawn of them
 
   /// Go on without meshes that cannot be read and without links that have only the other geometry:
   /// their links are missing, in the report and in every frame.

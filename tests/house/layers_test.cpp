@@ -13,7 +13,8 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base", "camera", "robot", "render", "occlusion", "tracking", "pipeline"};
+  static const Names core{"base",      "camera",   "robot",    "render",
+                          "occlusion", "tracking", "pipeline", "tuning"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/camera", {"base", "camera"}},
@@ -21,7 +22,9 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/render", {"base", "camera", "render"}},
       {"penumbra/occlusion", {"base", "camera", "occlusion"}},
       {"penumbra/tracking", {"base", "camera", "occlusion", "tracking"}},
-      {"penumbra/pipeline", core},
+      {"penumbra/pipeline",
+       {"base", "camera", "robot", "render", "occlusion", "tracking", "pipeline"}},
+      {"penumbra/tuning", core},
       {"io", core},
       {"sim", core},
       {"apps", core},

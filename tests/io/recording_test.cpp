@@ -114,6 +114,7 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
       "  ignore_links: ['tool*', base]\n"
       "  only_links: ['*']\n"
       "  margins: {upper: 0.01, 'f*': -0.002}\n"
+      "  extra: [{link: lower, mesh: arm.urdf}]\n"
       "camera:\n"
       "  info: info.yaml\n"
       "  parent: lower\n"
@@ -134,6 +135,9 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
   EXPECT_EQ(recording.robot.only_links, (std::vector<std::string>{"*"}));
   EXPECT_EQ(recording.robot.margins,
             (std::map<std::string, double>{{"upper", 0.01}, {"f*", -0.002}}));
+  ASSERT_EQ(recording.robot.extra.size(), 1U);
+  EXPECT_EQ(recording.robot.extra[0].link, "lower");
+  EXPECT_EQ(recording.robot.extra[0].mesh, file("arm.urdf"));
   EXPECT_EQ(recording.camera.parent, "lower");
   ASSERT_TRUE(recording.camera.tolerance);
   EXPECT_EQ(recording.camera.tolerance->a, 0.02);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/temporary_folder.hpp"
 #include "urdf_text.hpp"
 
 #include <cmath>
@@ -54,6 +55,21 @@ TEST(LinkChoice, GeometryIsTheOneAskedFor) {
   EXPECT_EQ(drawn({.ignore_links = {"b"}}), "ad");
   EXPECT_EQ(drawn({.geometry = Geometry::visual, .ignore_links = {"d"}}), "ab");
   EXPECT_EQ(drawn({.geometry_of_links = {{"b", Geometry::visual}}}), "abd");
+}
+
+TEST(LinkChoice, ExtraMeshesAreDrawnWithTheirLinksAndNamed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("tool.stl",
+                                 "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                 "vertex 1 0 0\nvertex 0 2 0\nendloop\nendfacet\nendsolid t\n");
+  const Robot robot =
+      parse(four_links(), {.ignore_links = {"b"}, .extra = {{"c", mesh}, {"d", mesh}}});
+  const LinkReport& c = report_of(robot, "c");
+  EXPECT_TRUE(c.drawn);
+  EXPECT_EQ(c.sources, std::vector<std::string>{mesh.string()});
+  expect_bounds(c, {0, 0, 0}, {1, 2, 0});
+  EXPECT_EQ(report_of(robot, "d").sources.size(), 2U);
+  expect_bounds(report_of(robot, "d"), {-0.5, -0.5, -0.5}, {1, 2, 0.5});
 }
 
 TEST(LinkChoice, FallsBackOnlyWhenAsked) {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/tuning/tuning.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/output_folder.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/run_input.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/disk_file.hpp>
+#include <io/stl_file.hpp>
+#include <io/tuning_report.hpp>
+
+namespace penumbra::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The kept frames, and their colour images by index.
+struct Recorded {
+  TuningFrames frames;
+  std::map<std::size_t, Image<io::Rgb8>> colors;
+};
+
+Pipeline open_pipeline(const RunArguments& run, RunInput& input) {
+  PipelineConfig config = input.config;
+  config.backend = run.renderer.backend;
+  config.renderer = run.renderer.options;
+  config.rule = rule_of(run, config.rule);
+  config.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
+  return app::make_pipeline(std::move(input.robot), input.camera, config, input.camera_info);
+}
+
+Recorded read_frames(const RunInput& input, Pipeline& pipeline) {
+  Recorded recorded{TuningFrames(pipeline.rule().range), {}};
+  const auto source = input.frames(pipeline.robot());
+  Progress progress(source->size().value_or(0));
+  io::FrameData data;
+  Frame frame;
+  while (source->next(data, frame)) {
+    const FrameReport& report = pipeline.process(frame);
+    recorded.frames.add(report);
+    if (!data.color.empty() && recorded.frames.holds(report.index))
+      recorded.colors[report.index] = data.color;
+    std::erase_if(recorded.colors,
+                  [&](const auto& color) { return !recorded.frames.holds(color.first); });
+    progress.step();
+  }
+  return recorded;
+}
+
+/// The colour image of a frame as the report's images are; empty if there is none.
+Image<io::Rgb8> color_of(const Recorded& recorded, std::size_t index, const Pipeline& pipeline) {
+  const auto found = recorded.colors.find(index);
+  const Rectification* const lens = pipeline.rectification();
+  if (found == recorded.colors.end() || lens == nullptr)
+    return found == recorded.colors.end() ? Image<io::Rgb8>() : found->second;
+  Image<io::Rgb8> color(lens->pinhole().width(), lens->pinhole().height());
+  remap(lens->pinhole_to_raw(), found->second.view(), io::Rgb8{}, color.view());
+  return color;
+}
+
+std::string percent(double share) { return fixed(100.0 * share, 2) + " %"; }
+
+/// Without zeros at the end.
+std::string short_number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string size_of(const Eigen::AlignedBox3d& box) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) text += (i == 0 ? "" : " x ") + fixed(100.0 * box.sizes()[i], 0);
+  return text + " cm";
+}
+
+void print_measured(const Tuning& tuning, std::size_t frames, const Robot& robot) {
+  const ToleranceFit& tolerance = tuning.tolerance;
+  const FringeFit& fringe = tuning.fringe;
+  std::cout << frames << " frames with different poses of the robot\n"
+            << "tolerance: " << tolerance.pixels << " pixels well inside the robot's outline, "
+            << "median measured - virtual depth " << fixed(1e3 * tolerance.bias, 1)
+            << " mm\n  false front: " << percent(tolerance.false_front_now)
+            << " of the robot's pixels now, " << percent(tolerance.false_front_then)
+            << " with the tolerance below\n"
+            << "fringe: " << fringe.found << " of " << fringe.checked
+            << " pixels beside the arm show its depth; distance from it: median "
+            << fixed(fringe.median, 0) << " px, 90 % " << fixed(fringe.percent_90, 0)
+            << " px, 99 % " << fixed(fringe.percent_99, 0)
+            << " px\n  points of the arm that stay, by fringe_reach:";
+  for (std::size_t i = 0; i < fringe.left_over.size(); i += 2)
+    std::cout << (i == 0 ? " " : ", ") << i * FringeFit::step << ": "
+              << percent(fringe.left_over[i]);
+  std::cout << '\n';
+  for (const ExtraPart& part : tuning.extras)
+    for (const Eigen::AlignedBox3d& box : part.boxes)
+      std::cout << robot.links()[part.link] << ": " << size_of(box) << " that the URDF lacks\n";
+}
+
+/// Paths of meshes are relative to the recording.yaml.
+void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& extras,
+                    const RunArguments& run) {
+  const fs::path& folder = run.output;
+  const fs::path recording = fs::is_directory(run.input) ? run.input : run.input.parent_path();
+  const Tolerance& e = tuning.rule.tolerance;
+  const std::string a = short_number(e.a), c = short_number(e.c);
+  const int reach = tuning.rule.fringe_reach;
+  std::cout << "\nrecording.yaml:\ncamera:\n  tolerance: [" << a << ", 0, " << c
+            << "]\n  fringe_reach: " << reach << '\n';
+  std::string list, options;
+  for (const io::WrittenExtra& extra : extras) {
+    list += (list.empty() ? "" : ", ") + std::string("{link: ") + extra.link +
+            ", mesh: " + fs::proximate(folder / extra.file, recording).string() + "}";
+    options += " --extra " + extra.link + "=" + (folder / extra.file).string();
+  }
+  if (!extras.empty()) std::cout << "robot:\n  extra: [" << list << "]\n";
+  std::cout << "\nor the options: --tolerance " << a << ",0," << c << " --fringe-reach " << reach
+            << options << '\n';
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw InputError("--output: " + folder.string() + ": cannot be used as output folder (" +
+                     (error ? error.message() : "it is a file") + "); choose another");
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  io::OutputFile out(file);
+  out.write(text.data(), text.size());
+  out.close();
+}
+
+}  // namespace
+
+int execute(const TuneArguments& arguments) {
+  const RunArguments& run = arguments.judging;
+  const fs::path& folder = run.output;
+  make_folder(folder);
+  RunInput input = open_input(run, std::cout);
+  Pipeline pipeline = open_pipeline(run, input);
+  const Recorded recorded = read_frames(input, pipeline);
+  const Tuning tuning =
+      tune(recorded.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
+  std::vector<io::WrittenExtra> extras;
+  for (const ExtraPart& part : tuning.extras) {
+    const std::string& link = pipeline.robot().links()[part.link];
+    std::string name = link;
+    std::replace(name.begin(), name.end(), '/', '_');
+    extras.push_back({link, "extra_" + name + ".stl"});
+    io::write_stl(folder / extras.back().file, part.mesh);
+  }
+  const auto frames = recorded.frames.frames();
+  const TuningFrame& shown = frames[tuning.fringe.shown_frame];
+  const Image<io::Rgb8> color = color_of(recorded, shown.index, pipeline);
+  const Image<io::Rgb8> picture = io::draw_tuning(tuning, shown, color.view());
+  io::write_png(folder / "tune.png", picture.view());
+  write_text(folder / "tune.json", io::tuning_json(tuning, frames, extras) + "\n");
+  print_measured(tuning, frames.size(), pipeline.robot());
+  print_settings(tuning, extras, run);
+  return 0;
+}
+
+}  // namespace penumbra::app

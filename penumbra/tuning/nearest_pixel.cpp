@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include <penumbra/tuning/nearest_pixel-inl.hpp>
+
+namespace penumbra::tuning {
+
+NearestPixels::NearestPixels(const Image<std::uint8_t>& marked)
+    : nearest_(marked.width(), marked.height(), -1) {
+  const int width = marked.width(), height = marked.height();
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      if (marked(u, v) != 0) nearest_(u, v) = v * width + u;
+  const auto sweep_row = [&](int v, int from_v) {
+    for (int u = 0; u < width; ++u)
+      for (int du = -1; du <= 1; ++du) take(u, v, u + du, from_v);
+    for (int u = 1; u < width; ++u) take(u, v, u - 1, v);
+    for (int u = width - 2; u >= 0; --u) take(u, v, u + 1, v);
+  };
+  for (int v = 0; v < height; ++v) sweep_row(v, v - 1);
+  for (int v = height - 1; v >= 0; --v) sweep_row(v, v + 1);
+}
+
+double NearestPixels::distance(int u, int v) const {
+  const std::int32_t index = nearest_(u, v);
+  if (index < 0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(static_cast<double>(squared(u, v, index)));
+}
+
+std::int64_t NearestPixels::squared(int u, int v, std::int32_t index) const {
+  const std::int64_t du = index % nearest_.width() - u, dv = index / nearest_.width() - v;
+  return du * du + dv * dv;
+}
+
+void NearestPixels::take(int u, int v, int from_u, int from_v) {
+  if (from_u < 0 || from_v < 0 || from_u >= nearest_.width() || from_v >= nearest_.height()) return;
+  const std::int32_t candidate = nearest_(from_u, from_v);
+  std::int32_t& own = nearest_(u, v);
+  if (candidate < 0 || candidate == own) return;
+  if (own < 0 || squared(u, v, candidate) < squared(u, v, own)) own = candidate;
+}
+
+}  // namespace penumbra::tuning

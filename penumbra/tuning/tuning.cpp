@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/tuning/stages-inl.hpp>
+
+namespace penumbra {
+namespace tuning {
+
+Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
+                 const Robot& robot) {
+  const int width = camera.width(), height = camera.height();
+  Scene scene{frames, camera, robot, Image<float>(width, height)};
+  std::vector<std::vector<float>> depths(scene.background.size());
+  Image<std::uint8_t> covered(width, height);
+  for (const TuningFrame& frame : frames) {
+    for (std::size_t i = 0; i < covered.size(); ++i)
+      covered.data()[i] = frame.virtual_depth.data()[i] > 0.0f ? 1 : 0;
+    const NearestPixels robot_pixels(covered);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        if (frame.depth(u, v) > 0.0f && robot_pixels.distance(u, v) > FringeFit::farthest)
+          depths[static_cast<std::size_t>(v * width + u)].push_back(frame.depth(u, v));
+  }
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (depths[i].empty()) continue;
+    const auto middle = depths[i].begin() + static_cast<std::ptrdiff_t>(depths[i].size() / 2);
+    std::nth_element(depths[i].begin(), middle, depths[i].end());
+    scene.background.data()[i] = *middle;
+  }
+  return scene;
+}
+
+NearestPixels seen_robot(const LabelView& labels) {
+  Image<std::uint8_t> seen(labels.labels.width, labels.labels.height);
+  for (int v = 0; v < seen.height(); ++v)
+    for (int u = 0; u < seen.width(); ++u)
+      seen(u, v) = labels.labels(u, v) == static_cast<std::uint8_t>(Label::occluded) ? 1 : 0;
+  return NearestPixels(seen);
+}
+
+}  // namespace tuning
+
+Tuning tune(const TuningFrames& frames, const Intrinsics& camera, const Robot& robot,
+            const LabelRule& current) {
+  frames.check();
+  const tuning::Scene scene = tuning::make_scene(frames.frames(), camera, robot);
+  Tuning found;
+  found.rule = current;
+  found.tolerance = tuning::fit_tolerance(scene, current);
+  found.rule.tolerance = found.tolerance.tolerance;
+  tuning::ExtraSearch extras = tuning::find_extras(scene, found.rule);
+  found.fringe = tuning::fit_fringe(scene, found.rule, extras);
+  found.rule.fringe_reach = found.fringe.reach;
+  found.extras = std::move(extras.parts);
+  return found;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/tuning/tuning_frames.hpp>
+
+namespace penumbra {
+
+/// How far measured depths lie from the virtual ones inside the robot's outline.
+struct ToleranceFit {
+  Tolerance tolerance;            ///< recommended; b is 0
+  std::size_t pixels = 0;         ///< that were compared
+  double bias = 0.0;              ///< median of measured minus virtual depth, metres
+  double false_front_now = 0.0;   ///< share of the robot's pixels that are front, current rule
+  double false_front_then = 0.0;  ///< the same with the recommended one
+};
+
+/// How far the sensor carries the robot's depth past the outline.
+struct FringeFit {
+  static constexpr int farthest = 80;  ///< pixels; no farther pixel is looked at
+  static constexpr int step = 4;       ///< pixels between two candidates
+
+  enum Shown : std::uint8_t { nothing, removed, left };
+
+  int reach = 0;                                            ///< recommended, pixels
+  double median = 0.0, percent_90 = 0.0, percent_99 = 0.0;  ///< pixels
+  std::size_t checked = 0;        ///< pixels at the outline whose depth without the robot is known
+  std::size_t found = 0;          ///< of these: pixels that show the robot's depth
+  std::vector<double> left_over;  ///< by reach / step: share of the arm's points that stay
+  std::size_t shown_frame = 0;    ///< of TuningFrames::frames(), with the most fringe
+  Image<std::uint8_t> shown;      ///< its pixels: Shown, by the recommended rule
+};
+
+/// What a link carries and the URDF lacks, as far as the camera saw it.
+struct ExtraPart {
+  std::size_t link = 0;
+  std::vector<Eigen::AlignedBox3d> boxes;  ///< of each connected piece, in the link's frame, metres
+  TriangleMesh mesh;                       ///< in the link's frame, metres
+};
+
+struct Tuning {
+  LabelRule rule;  ///< recommended
+  ToleranceFit tolerance;
+  FringeFit fringe;
+  std::vector<ExtraPart> extras;  ///< one for each link that has any
+};
+
+/// Measures a sensor. `camera` is a pinhole camera whose images the frames are, `robot` what was
+/// drawn, `current` the rule in use. Throws InputError if the frames show too little.
+[[nodiscard]] Tuning tune(const TuningFrames& frames, const Intrinsics& camera, const Robot& robot,
+                          const LabelRule& current);
+
+}  // namespace penumbra
