@@ -3,14 +3,12 @@
 // and of objects pasted into it. Writes docs/tolerance.md's tables, its plot and a CSV file.
 #include "tolerance_study.hpp"
 
+#include "study_page.hpp"
+
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <sstream>
-
-#include <penumbra/base/error.hpp>
 
 namespace penumbra::study {
 namespace {
@@ -59,26 +57,6 @@ std::vector<NamedRule> variants() {
   for (const int margin : {0, 4, 12, 16})
     add("edge_margin = " + std::to_string(margin), [&](LabelRule& r) { r.edge_margin = margin; });
   return rules;
-}
-
-std::string number(double value, int digits) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
-
-/// A table in Markdown: a row of heads, then rows of cells.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
-  std::ostringstream out;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const std::string& cell : rows[i]) out << "| " << cell << ' ';
-    out << "|\n";
-    if (i > 0) continue;
-    out << "|---";
-    for (std::size_t j = 1; j < rows[i].size(); ++j) out << "|---:";
-    out << "|\n";
-  }
-  return out.str();
 }
 
 struct Study {
@@ -159,24 +137,6 @@ struct Study {
   }
 };
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
-  std::ofstream out(file, std::ios::binary);
-  out << content;
-  if (!out.flush()) throw InputError(file.string() + ": cannot be written");
-}
-
-/// Replaces what lies between the document's two markers.
-void update_document(const std::filesystem::path& file, const std::string& tables) {
-  std::ostringstream old;
-  old << std::ifstream(file, std::ios::binary).rdbuf();
-  const std::string text = old.str();
-  const std::string first = "<!-- begin: tolerance_study -->\n";
-  const auto begin = text.find(first), end = text.find("<!-- end: tolerance_study -->");
-  if (begin == std::string::npos || end == std::string::npos)
-    throw InputError(file.string() + ": has no markers of tolerance_study");
-  write_file(file, text.substr(0, begin + first.size()) + tables + text.substr(end));
-}
-
 void run(const std::filesystem::path& recording, const std::filesystem::path& root,
          int placements) {
   Study study{test::load_real_frames(recording), placements, {}, {}};
@@ -193,7 +153,7 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
   write_file(root / "bench/results/tolerance.csv", study.csv.str());
   write_file(root / "docs/tolerance.svg",
              svg_plot("Square of 5 cm before the robot", study.curves));
-  update_document(root / "docs/tolerance.md", out.str());
+  update_page(root / "docs/tolerance.md", "tolerance_study", out.str());
 }
 
 }  // namespace

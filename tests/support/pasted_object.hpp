@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "measured_paste.hpp"
 #include "real_frames.hpp"
 
-#include <cstddef>
 #include <random>
 #include <vector>
-
-#include <penumbra/base/image.hpp>
 
 namespace penumbra::test {
 
@@ -20,19 +18,6 @@ struct ObjectKind {
   double tilt = 0.0;   ///< radians between its plane and the image plane
 };
 
-/// What a depth sensor makes of a surface. Defaults are measured on the xArm recording: the local
-/// spread of measured against virtual depth inside smooth parts of the robot is 1 mm x z^2 in
-/// windows of 5 pixels and 3 mm x z^2 in windows of 21, half of the frames above and below.
-struct SensorModel {
-  double patchy = 0.0028;      ///< metres per square metre; Gaussian patches
-  double patch_sigma = 4.0;    ///< pixels
-  double white = 0.0008;       ///< metres per square metre, pixel by pixel
-  double edge = 2.0;           ///< pixels on both sides of the object's outline that may be mixed
-  double mixed = 0.3;          ///< share of those that hold a depth between object and background
-  double edge_holes = 0.15;    ///< share of those without measurement
-  double inside_holes = 0.01;  ///< share of all others of the object without measurement
-};
-
 /// Pastes objects into a frame's measured depth and takes them out again.
 class Paster {
  public:
@@ -43,25 +28,18 @@ class Paster {
   void paste(RealFrame& frame, const ObjectKind& kind, double gap);
 
   /// Puts back what was there.
-  void undo(RealFrame& frame);
+  void undo(RealFrame& frame) { paste_.undo(frame); }
 
   /// Pixels on the robot (v * width + u) where the object is measured: `edge` pixels or more inside
   /// its outline, and the band between.
-  [[nodiscard]] const std::vector<int>& core() const { return core_; }
-  [[nodiscard]] const std::vector<int>& band() const { return band_; }
+  [[nodiscard]] const std::vector<int>& core() const { return paste_.on_robot().core; }
+  [[nodiscard]] const std::vector<int>& band() const { return paste_.on_robot().band; }
 
  private:
   struct Plate;
   [[nodiscard]] Plate place(const RealFrame& frame, const ObjectKind& kind, double gap);
-  [[nodiscard]] double noise(double z, int u, int v);
-  void paste_pixel(RealFrame& frame, const Plate& plate, int u, int v);
 
-  SensorModel model_;
-  std::mt19937_64 random_;
-  Image<float> patches_;  // of spread 1, repeated over the plane
-  int shift_u_ = 0, shift_v_ = 0;
-  std::vector<int> core_, band_;
-  std::vector<std::pair<int, std::uint16_t>> before_;
+  MeasuredPaste paste_;
 };
 
 }  // namespace penumbra::test
