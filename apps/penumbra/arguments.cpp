@@ -24,6 +24,7 @@ void add_robot(CLI::App& app, RobotOptions& options) {
            [&](const std::string& text) { take_package(text, options.packages); });
   add_option(app, "--geometry", "collision or visual; default collision", "NAME",
              [&](const std::string& text) { options.geometry = to_geometry(text); });
+  add_extra(app, options.extra);
   add_leniency(app, options.allow_missing_meshes, options.geometry_fallback);
 }
 

@@ -38,6 +38,15 @@ void add_renderer(CLI::App& app, RendererArguments& renderer) {
              });
 }
 
+void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra) {
+  add_list(app, "--extra",
+           "mesh that a link carries and the URDF lacks; may be given several times", "LINK=FILE",
+           [&extra](const std::string& text) {
+             const auto [link, file] = to_pair("--extra", text, "LINK=FILE");
+             extra.push_back({link, file});
+           });
+}
+
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
   app.add_flag("--allow-missing-meshes", allow_missing_meshes,
                "go on without meshes that cannot be read and links that have only the other "

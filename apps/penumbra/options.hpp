@@ -54,6 +54,7 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 
 /// Options that several commands have.
 void add_renderer(CLI::App& app, RendererArguments& renderer);
+void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 
 /// By what frames are judged: renderer, geometry, tolerance, labels.

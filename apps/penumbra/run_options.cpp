@@ -125,12 +125,7 @@ void add_judging(CLI::App& app, RunArguments& run) {
   add_option(app, "--geometry", "collision or visual; default: " + run.geometry_default, "NAME",
              [&](const std::string& text) { run.geometry = to_geometry(text); });
   add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
-  add_list(app, "--extra",
-           "mesh that a link carries and the URDF lacks; may be given several times", "LINK=FILE",
-           [&](const std::string& text) {
-             const auto [link, file] = to_pair("--extra", text, "LINK=FILE");
-             run.extra.push_back({link, file});
-           });
+  add_extra(app, run.extra);
   add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
              [&](const std::string& text) { run.tolerance = to_tolerance(text); });
   add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",

@@ -15,20 +15,17 @@ class NearestPixels {
   explicit NearestPixels(const Image<std::uint8_t>& marked);
 
   struct Pixel {
-    int u, v;
+    std::int16_t u = -1, v = -1;
   };
-  /// No pixel is marked: infinite.
-  [[nodiscard]] double distance(int u, int v) const;  ///< pixels
-  [[nodiscard]] Pixel at(int u, int v) const {        ///< some pixel must be marked
-    const std::int32_t index = nearest_(u, v);
-    return {index % nearest_.width(), index / nearest_.width()};
-  }
+  /// In pixels; infinite if none is marked.
+  [[nodiscard]] double distance(int u, int v) const;
+  /// Some pixel must be marked.
+  [[nodiscard]] Pixel at(int u, int v) const { return nearest_(u, v); }
 
  private:
-  [[nodiscard]] std::int64_t squared(int u, int v, std::int32_t index) const;
   void take(int u, int v, int from_u, int from_v);
 
-  Image<std::int32_t> nearest_;  // v * width + u, or -1
+  Image<Pixel> nearest_;
 };
 
 }  // namespace penumbra::tuning

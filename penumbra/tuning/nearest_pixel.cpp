@@ -4,13 +4,21 @@
 #include <penumbra/tuning/nearest_pixel-inl.hpp>
 
 namespace penumbra::tuning {
+namespace {
+
+int squared(int u, int v, NearestPixels::Pixel to) {
+  return (to.u - u) * (to.u - u) + (to.v - v) * (to.v - v);
+}
+
+}  // namespace
 
 NearestPixels::NearestPixels(const Image<std::uint8_t>& marked)
-    : nearest_(marked.width(), marked.height(), -1) {
+    : nearest_(marked.width(), marked.height()) {
   const int width = marked.width(), height = marked.height();
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
-      if (marked(u, v) != 0) nearest_(u, v) = v * width + u;
+      if (marked(u, v) != 0)
+        nearest_(u, v) = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)};
   const auto sweep_row = [&](int v, int from_v) {
     for (int u = 0; u < width; ++u)
       for (int du = -1; du <= 1; ++du) take(u, v, u + du, from_v);
@@ -22,22 +30,17 @@ NearestPixels::NearestPixels(const Image<std::uint8_t>& marked)
 }
 
 double NearestPixels::distance(int u, int v) const {
-  const std::int32_t index = nearest_(u, v);
-  if (index < 0) return std::numeric_limits<double>::infinity();
-  return std::sqrt(static_cast<double>(squared(u, v, index)));
-}
-
-std::int64_t NearestPixels::squared(int u, int v, std::int32_t index) const {
-  const std::int64_t du = index % nearest_.width() - u, dv = index / nearest_.width() - v;
-  return du * du + dv * dv;
+  const Pixel nearest = nearest_(u, v);
+  return nearest.u < 0 ? std::numeric_limits<double>::infinity()
+                       : std::sqrt(static_cast<double>(squared(u, v, nearest)));
 }
 
 void NearestPixels::take(int u, int v, int from_u, int from_v) {
   if (from_u < 0 || from_v < 0 || from_u >= nearest_.width() || from_v >= nearest_.height()) return;
-  const std::int32_t candidate = nearest_(from_u, from_v);
-  std::int32_t& own = nearest_(u, v);
-  if (candidate < 0 || candidate == own) return;
-  if (own < 0 || squared(u, v, candidate) < squared(u, v, own)) own = candidate;
+  const Pixel candidate = nearest_(from_u, from_v);
+  Pixel& own = nearest_(u, v);
+  if (candidate.u >= 0 && (own.u < 0 || squared(u, v, candidate) < squared(u, v, own)))
+    own = candidate;
 }
 
 }  // namespace penumbra::tuning

@@ -307,6 +307,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                             {"geometry", "collision"},
                             {"geometry_fallback", false},
                             {"margins", Json::object()},
+                            {"extra", Json::array()},
                             {"ignore_links", Json::array()},
                             {"only_links", Json::array()}}));
 
