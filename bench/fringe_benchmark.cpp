@@ -61,8 +61,7 @@ void classify(benchmark::State& state, const RealScene& real, int reach, const s
     fringe[frame] = labels.pixels[static_cast<std::size_t>(Label::fringe)];
     frame = (frame + 1) % scene.path.size();
   }
-  if (static_cast<std::size_t>(state.iterations()) >= scene.path.size())
-    state.counters["fastest_us"] = 1e3 * times.typical();
+  state.counters["fastest_us"] = 1e3 * times.typical();
   double sum = 0.0;
   for (const std::size_t pixels : fringe) sum += static_cast<double>(pixels);
   state.counters["fringe_pixels"] = sum / static_cast<double>(fringe.size());
@@ -83,6 +82,7 @@ int main(int argc, char** argv) {
           (isa + ", fringe_reach " + std::to_string(reach)).c_str(),
           [real, reach, isa](benchmark::State& state) { classify(state, *real, reach, isa); })
           ->UseManualTime()
+          ->Iterations(isa == "scalar" ? 20 : 400)
           ->Unit(benchmark::kMicrosecond);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

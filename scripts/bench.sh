@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Measures the renderer on this machine and writes it down.
-#   scripts/bench.sh          bench/results/ but for the tolerance and Embree's views, then the tables
+#   scripts/bench.sh          bench/results/ but for the studies and Embree's views, then the tables
 #                             of docs/performance.md and docs/performance-gl.md, and their plots;
 #                             some 15 minutes
 #   scripts/bench.sh --gl     the OpenGL renderer alone, on this machine's device
@@ -23,7 +23,7 @@ esac
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
 targets=(gl_benchmark)
-$only_gl || targets+=(compare_renderers scaling target_benchmark pipeline_benchmark cpp_alone penumbra_app)
+$only_gl || targets+=(compare_renderers scaling target_benchmark pipeline_benchmark fringe_benchmark cpp_alone penumbra_app)
 cmake --build build/bench --target "${targets[@]}"
 mkdir -p "$results"
 if ! $only_gl; then
@@ -39,6 +39,7 @@ if ! $only_gl; then
     --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/frames.json" --benchmark_out_format=json |
     tee "$results/frames.txt"
+  build/bench/bench/fringe_benchmark | tee "$results/fringe.txt"
   bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
   PYTHONPATH=build/bench/python:build/bench/bench "${PYTHON:-/usr/bin/python3}" bench/python_overhead.py \
     --rounds "$rounds" "${PENUMBRA_DATA:-../shared/data}/xarm7_realsense" | tee "$results/python.txt"

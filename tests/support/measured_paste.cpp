@@ -60,8 +60,6 @@ void MeasuredPaste::begin() {
 void MeasuredPaste::add(RealFrame& frame, const SurfaceHit& hit, int u, int v) {
   const double inside = hit.inside * frame.intrinsics.fx() / hit.depth;  // pixels
   if (!(inside > -model_.edge)) return;
-  const auto robot = static_cast<double>(frame.robot(u, v));
-  if (robot > 0.0 && hit.depth >= robot) return;
   const double object = hit.depth + noise(hit.depth, u, v);
   const double behind = 0.001 * static_cast<double>(frame.measured(u, v));
   const bool at_edge = inside < model_.edge;
@@ -75,7 +73,7 @@ void MeasuredPaste::add(RealFrame& frame, const SurfaceHit& hit, int u, int v) {
   before_.emplace_back(pixel, frame.measured(u, v));
   frame.measured(u, v) = static_cast<std::uint16_t>(std::lround(1000.0 * z));
   if (inside <= 0.0 || z == 0.0) return;
-  Pixels& seen = robot > 0.0 ? on_robot_ : beside_;
+  Pixels& seen = frame.robot(u, v) > 0.0F ? on_robot_ : beside_;
   (at_edge ? seen.band : seen.core).push_back(pixel);
 }
 

@@ -50,7 +50,6 @@ class MeasuredPaste {
   /// Starts another object, with other noise.
   void begin();
 
-  /// Does nothing where the robot is nearer than the object.
   void add(RealFrame& frame, const SurfaceHit& hit, int u, int v);
 
   /// Puts back what was there.

@@ -165,8 +165,10 @@ bool SidePaster::find_place(const RealFrame& frame, const NearestRobot& nearest,
 
 void SidePaster::paste_at_place(RealFrame& frame) {
   paste_.begin();
-  place_.for_each_pixel(frame, 2.0,
-                        [&](int u, int v, const SurfaceHit& hit) { paste_.add(frame, hit, u, v); });
+  place_.for_each_pixel(frame, 2.0, [&](int u, int v, const SurfaceHit& hit) {
+    const auto robot = static_cast<double>(frame.robot(u, v));
+    if (robot <= 0.0 || hit.depth < robot) paste_.add(frame, hit, u, v);
+  });
 }
 
 void SidePaster::paste(RealFrame& frame, const NearestRobot& nearest, const SideObject& object,
