@@ -39,7 +39,8 @@ if ! $only_gl; then
     --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/frames.json" --benchmark_out_format=json |
     tee "$results/frames.txt"
-  build/bench/bench/fringe_benchmark | tee "$results/fringe.txt"
+  build/bench/bench/fringe_benchmark --benchmark_repetitions="$rounds" \
+    --benchmark_report_aggregates_only=true | tee "$results/fringe.txt"
   bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
   PYTHONPATH=build/bench/python:build/bench/bench "${PYTHON:-/usr/bin/python3}" bench/python_overhead.py \
     --rounds "$rounds" "${PENUMBRA_DATA:-../shared/data}/xarm7_realsense" | tee "$results/python.txt"
