@@ -25,8 +25,8 @@ struct Rgb8 {
 /// (missing, truncated at any byte, damaged, another pixel format or, where given, another size) is
 /// answered, never thrown; `image` is then unspecified. Allocates no more than the file can hold.
 ///
-/// uint16: 16-bit grey only, uint8: 8-bit grey, or the values of an 8-bit palette, only. Depths and labels must not be converted, so
-/// other depths, colour, palette, alpha and transparency are faults.
+/// uint16: 16-bit grey only; uint8: 8-bit grey, or the values of an 8-bit palette. Depths and
+/// labels must not be converted, so other depths, colour, alpha and transparency are faults.
 [[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<std::uint16_t>& image,
                                   std::optional<ImageSize> wanted = {});
 [[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<std::uint8_t>& image,

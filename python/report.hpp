@@ -17,7 +17,9 @@ namespace penumbra::python {
 /// The camera whose images a pipeline's reports are of.
 [[nodiscard]] inline Camera judged_camera(const Camera& camera, const Pipeline& pipeline) {
   if (pipeline.rectification() == nullptr) return camera;
-  return {.intrinsics = pipeline.intrinsics(), .distortion = {}, .range = camera.range,
+  return {.intrinsics = pipeline.intrinsics(),
+          .distortion = {},
+          .range = camera.range,
           .frame_id = camera.frame_id};
 }
 

@@ -87,9 +87,8 @@ Json target_json(const TargetMessage& target) {
 /// of a label image that could not be read.
 Json pixels_json(const std::string& labels, bool has_pose) {
   if (labels.empty())
-    return {{"robot", nullptr},   {"front", nullptr},  {"occluded", nullptr},
-            {"unknown", nullptr}, {"beyond", nullptr}, {"fringe", nullptr},
-            {"uncovered", nullptr}};
+    return {{"robot", nullptr},  {"front", nullptr},  {"occluded", nullptr}, {"unknown", nullptr},
+            {"beyond", nullptr}, {"fringe", nullptr}, {"uncovered", nullptr}};
   std::array<std::size_t, label_count> counts{};
   for (const char label : labels) {
     const auto value = static_cast<unsigned char>(label);

@@ -13,7 +13,7 @@ namespace {
 
 template <typename T>
 constexpr T no_depth = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN()
-                                                              : T{0};
+                                                             : T{0};
 
 /// Metres; 0: no measurement.
 float metres_of(std::uint16_t depth) {
