@@ -75,9 +75,9 @@ TEST_P(Fringe, IsTheDepthThatTheSensorCarriedPastTheOutline) {
 TEST_P(Fringe, EndsAtTheReach) {
   Scene scene = robot_before_wall();
   see(scene, robot_end, robot_end + 120, robot_z);
-  EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end - 1 + 40));
+  EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end + 40));
   EXPECT_EQ(fringe_columns(classify(scene, with_reach(12)), 48),
-            std::pair(robot_end, robot_end - 1 + 12));
+            std::pair(robot_end, robot_end + 12));
   EXPECT_EQ(fringe_columns(classify(scene, with_reach(0)), 48), std::pair(0, 0));
   EXPECT_EQ(fringe_columns(classify(scene, LabelRule::paper()), 48), std::pair(0, 0));
 }
