@@ -99,7 +99,9 @@ void add_counts(const LabelView& labels, std::vector<Line>& lines) {
     const double share =
         robot == 0 ? 0.0
                    : 100.0 * static_cast<double>(labels.pixels[i]) / static_cast<double>(robot);
-    if (is_robot(static_cast<std::uint8_t>(i)))
+    const bool is_of_robot = is_robot(static_cast<std::uint8_t>(i));
+    if (!is_of_robot && labels.pixels[i] == 0) continue;
+    if (is_of_robot)
       std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i], labels.pixels[i],
                     share);
     else

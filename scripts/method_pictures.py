@@ -22,9 +22,9 @@ RANGE = (0.8, 2.4)   # metres, of the depth images' colours
 MOST = 0.1           # metres, of the difference's colours
 NO_DEPTH, NO_DIFFERENCE = (0, 0, 0), (215, 215, 215)
 JPEG_QUALITY = 85
-# Okabe and Ito's, as in overlays: clear, front, occluded, unknown, beyond.
-LABELS = np.array([(255, 255, 255), (0, 114, 178), (213, 94, 0), (240, 228, 66), (204, 121, 167)],
-                  np.uint8)
+# Okabe and Ito's, as in overlays: clear, front, occluded, unknown, beyond, fringe.
+LABELS = np.array([(255, 255, 255), (0, 114, 178), (213, 94, 0), (240, 228, 66), (204, 121, 167),
+                   (0, 158, 115)], np.uint8)
 
 
 def coloured(values, low, high, name, nothing, blank=NO_DEPTH):

@@ -4,7 +4,7 @@
 PAGES = {
     "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "tune", "faq"],
     "Use": ["viewer", "ros2", "targets", "python", "cpp"],
-    "Rules": ["conventions", "time", "tolerance", "cloud", "targets-judging", "tracking", "renderers"],
+    "Rules": ["conventions", "time", "tolerance", "targets-judging", "tracking", "renderers"],
     "Figures": ["performance", "performance-gl", "experiments"],
     "Reference": ["api-python", "api-cpp", "architecture"],
 }

@@ -21,7 +21,7 @@ class FringeFill {
   std::size_t label(Work& work, const DepthView& measured);
 
  private:
-  /// An occluded pixel that touches a clear one, and what the flood from it may take: depths in
+  /// An occluded pixel that touches an open one, and what the flood from it may take: depths in
   /// [nearest, farthest] that differ from their neighbour's by at most `step`, millimetres.
   struct Source {
     std::uint16_t nearest, farthest, step;
@@ -51,8 +51,6 @@ class FringeFill {
   std::vector<Source> sources_;
   std::unique_ptr<Pixel[]> queue_;  // room for all pixels; begins with one for each source
   TileMask reachable_;
-  std::vector<std::uint8_t> column_;   // least label of 3 x 1 pixels of a row
-  std::vector<std::uint8_t> outline_;  // of a row: not 0 for sources
 };
 
 }  // namespace penumbra::labelling

@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 
 #include <penumbra/occlusion/fringe-inl.hpp>
-#include <penumbra/occlusion/region_spans-inl.hpp>
 
 namespace penumbra::labelling {
 namespace {
@@ -19,6 +18,7 @@ constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
 constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
 constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
 
+constexpr std::size_t rim = 10;  // pixels that whole vectors may run over a row's end
 constexpr float millimetres_per_metre = 1000.0f;
 constexpr std::uint16_t reached_once = 0x8000;  // a flag beside an open pixel's depth
 constexpr float farthest = 32.767f;             // metres; pixels past it are not open
@@ -27,102 +27,13 @@ std::uint16_t rounded(float millimetres) { return static_cast<std::uint16_t>(mil
 
 }  // namespace
 
-/// From a depth image's values to millimetres; 0: no measurement, or one past `farthest`.
-template <typename T>
-class Millimetres;
-
-template <>
-class Millimetres<float> {
- public:
-  explicit Millimetres(const Rule& rule)
-      : near_(rule.metres.near), far_(std::min(rule.metres.far, farthest)) {}
-  std::uint16_t operator()(float depth) const {
-    const bool is_open = (near_ <= depth) & (depth <= far_);
-    return rounded(is_open ? depth * millimetres_per_metre : 0.0f);
-  }
-
- private:
-  float near_, far_;
-};
-
-template <>
-class Millimetres<std::uint16_t> {
- public:
-  explicit Millimetres(const Rule& rule)
-      : near_(rounded(rule.millimetres.near * millimetres_per_metre)),
-        far_(rounded(std::min(rule.millimetres.far, farthest) * millimetres_per_metre)) {}
-  std::uint16_t operator()(std::uint16_t depth) const {
-    return (near_ <= depth) & (depth <= far_) ? depth : std::uint16_t{0};
-  }
-
- private:
-  std::uint16_t near_, far_;
-};
-
 FringeFill::FringeFill(int width, int height, int reach)
-    : reach_(reach), pitch_(static_cast<std::size_t>(width) + 4), reachable_(width, height) {
+    : reach_(reach), pitch_(static_cast<std::size_t>(width) + rim), reachable_(width, height) {
   if (reach == 0) return;
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  open_.resize(pitch_ * static_cast<std::size_t>(height + 2));
+  open_.resize(pitch_ * static_cast<std::size_t>(height + 2) + rim);
   sources_.reserve(pixels);
   queue_ = std::make_unique_for_overwrite<Pixel[]>(pixels);
-  column_.resize(static_cast<std::size_t>(width) + 2);
-  outline_.resize(static_cast<std::size_t>(width));
-}
-
-std::size_t FringeFill::label(Work& work, const DepthView& measured) {
-  if (reach_ == 0) return 0;
-  sources_.clear();
-  std::visit(
-      [&](const auto& depth) {
-        open_clear_pixels(work, depth);
-        find_sources(work, depth);
-      },
-      measured);
-  return flood(work);
-}
-
-/// In all tiles that the flood may reach.
-template <typename T>
-void FringeFill::open_clear_pixels(const Work& work, ImageView<const T> measured) {
-  const Millimetres<T> millimetres(work.rule);
-  const ImageView<const std::uint8_t> labels = work.labels.view();
-  reachable_.tile_width = work.touched.tile_width;
-  for (std::size_t j = 0; j < reachable_.rows.size(); ++j)
-    reachable_.rows[j] = marked_around(work.touched, j, reach_);
-  reachable_.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (int v = v0; v < v1; ++v) {
-      const std::uint8_t* const label = labels.row(v);
-      const T* const depth = measured.row(v);
-      std::uint16_t* const open = open_.data() + index(0, v);
-      for (int u = u0; u < u1; ++u)
-        open[u] = label[u] == clear ? millimetres(depth[u]) : std::uint16_t{0};
-    }
-  });
-}
-
-template <typename T>
-void FringeFill::find_sources(const Work& work, ImageView<const T> measured) {
-  const ImageView<const std::uint8_t> labels = work.labels.view();
-  work.touched.for_each_span([&](int u0, int u1, int v0, int v1) {
-    const int left = std::max(u0 - 1, 0), right = std::min(u1 + 1, work.width);
-    for (int v = v0; v < v1; ++v) {
-      const std::uint8_t* const above = labels.row(std::max(v - 1, 0));
-      const std::uint8_t* const here = labels.row(v);
-      const std::uint8_t* const below = labels.row(std::min(v + 1, work.height - 1));
-      std::uint8_t* const column = column_.data() + 1;  // the image's first and last count twice
-      for (int u = left; u < right; ++u)
-        column[u] = std::min(std::min(above[u], below[u]), here[u]);
-      column[-1] = column[0];
-      column[work.width] = column[work.width - 1];
-      for (int u = u0; u < u1; ++u) {
-        const std::uint8_t least = std::min(std::min(column[u - 1], column[u + 1]), column[u]);
-        outline_[static_cast<std::size_t>(u)] = (least == clear) & (here[u] == occluded) ? 1 : 0;
-      }
-      for (int u = u0; (u += first_set(&outline_[static_cast<std::size_t>(u)], u1 - u)) < u1; ++u)
-        add_source(work.rule, u, v, metres(measured(u, v)));
-    }
-  });
 }
 
 void FringeFill::add_source(const Rule& rule, int u, int v, float z) {
@@ -143,6 +54,76 @@ void FringeFill::add_source(const Rule& rule, int u, int v, float z) {
 
 HWY_BEFORE_NAMESPACE();
 namespace penumbra::labelling {
+
+/// Copies depths of clear pixels to millimetres, else 0. `count`: of the row.
+void open_row(const Rule& rule, const std::uint8_t* labels, const std::uint16_t* depth, int count,
+              std::uint16_t* open) {
+  const std::uint16_t near = rounded(rule.millimetres.near * millimetres_per_metre);
+  const float far = std::min(rule.millimetres.far, farthest) * millimetres_per_metre;
+  const auto nearest = hn::Set(Eight(), near), last = hn::Set(Eight(), rounded(far));
+  const hn::Rebind<std::uint8_t, Eight> bytes;
+  int u = 0;
+  for (; u + 8 <= count; u += 8) {
+    const auto d = hn::LoadU(Eight(), depth + u);
+    const auto label = hn::PromoteTo(Eight(), hn::LoadU(bytes, labels + u));
+    const auto is_clear = hn::Eq(label, hn::Set(Eight(), clear));
+    const auto is_in_range = hn::Eq(hn::Min(hn::Max(d, nearest), last), d);
+    hn::StoreU(hn::IfThenElseZero(hn::And(is_clear, is_in_range), d), Eight(), open + u);
+  }
+  for (; u < count; ++u) {
+    const bool is_open = labels[u] == clear && near <= depth[u] && depth[u] <= rounded(far);
+    open[u] = is_open ? depth[u] : std::uint16_t{0};
+  }
+}
+
+void open_row(const Rule& rule, const std::uint8_t* labels, const float* depth, int count,
+              std::uint16_t* open) {
+  const float near = rule.metres.near, far = std::min(rule.metres.far, farthest);
+  for (int u = 0; u < count; ++u) {
+    const bool is_open = labels[u] == clear && near <= depth[u] && depth[u] <= far;
+    open[u] = is_open ? rounded(depth[u] * millimetres_per_metre) : std::uint16_t{0};
+  }
+}
+
+/// In all tiles that the flood may reach.
+template <typename T>
+void FringeFill::open_clear_pixels(const Work& work, ImageView<const T> measured) {
+  const ImageView<const std::uint8_t> labels = work.labels.view();
+  reachable_.tile_width = work.touched.tile_width;
+  for (std::size_t j = 0; j < reachable_.rows.size(); ++j)
+    reachable_.rows[j] = marked_around(work.touched, j, reach_);
+  reachable_.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v)
+      open_row(work.rule, labels.row(v) + u0, measured.row(v) + u0, u1 - u0, &open_[index(u0, v)]);
+  });
+}
+
+/// Occluded pixels that have an open one among their eight neighbours.
+template <typename T>
+void FringeFill::find_sources(const Work& work, ImageView<const T> measured) {
+  const ImageView<const std::uint8_t> labels = work.labels.view();
+  const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
+  const auto row_around = [](const std::uint16_t* open) HWY_ATTR {
+    return hn::Or(hn::Or(hn::LoadU(Eight(), open - 1), hn::LoadU(Eight(), open)),
+                  hn::LoadU(Eight(), open + 1));
+  };
+  work.touched.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
+    for (int v = v0; v < v1; ++v) {
+      const std::uint8_t* const label = labels.row(v);
+      const std::uint16_t* const open = &open_[index(0, v)];
+      for (int u = u0; u < u1; u += 8) {
+        const auto around = hn::Or(hn::Or(row_around(open + u - pitch), row_around(open + u)),
+                                   row_around(open + u + pitch));
+        if (hn::AllTrue(Eight(), hn::Eq(around, hn::Zero(Eight())))) continue;
+        std::array<std::uint16_t, 8> is_near;
+        hn::StoreU(around, Eight(), is_near.data());
+        for (int i = 0; i < std::min(8, u1 - u); ++i)
+          if (label[u + i] == occluded && is_near[static_cast<std::size_t>(i)] != 0)
+            add_source(work.rule, u + i, v, metres(measured(u + i, v)));
+      }
+    }
+  });
+}
 
 /// Breadth first, so that each pixel comes from a near part of the outline. What the loop uses is
 /// local: writes of bytes, as those to labels, may change any member for all the compiler knows.
@@ -201,6 +182,18 @@ std::size_t FringeFill::flood(Work& work) {
     }
   }
   return end - first;
+}
+
+std::size_t FringeFill::label(Work& work, const DepthView& measured) {
+  if (reach_ == 0) return 0;
+  sources_.clear();
+  std::visit(
+      [&](const auto& depth) {
+        open_clear_pixels(work, depth);
+        find_sources(work, depth);
+      },
+      measured);
+  return flood(work);
 }
 
 }  // namespace penumbra::labelling

@@ -228,8 +228,8 @@ Image<float> measure(const Camera& camera, const std::vector<Solid>& scene,
 void check_labels(const CastScene& robot, const RawRender& raw, const Image<float>& measured,
                   Tally& tally) {
   LabelRule rule;
+  rule.front_min_width = 0;  // neither the clean-up nor the fringe is a matter of single rays
   rule.fringe_reach = 0;
-  rule.front_min_width = 0;  // the clean-up is no matter of single rays
   Classifier classifier(raw.depth.width(), raw.depth.height(), rule);
   const LabelView view =
       classifier.classify({raw.depth.view(), raw.links.view(), &raw.touched}, measured.view());
@@ -280,7 +280,10 @@ TEST_P(LensScene, DepthLinksAndLabelsAreRightWithinAPixel) {
   for (const int count : total.labels) std::cout << ' ' << count;
   std::cout << '\n';
   EXPECT_GT(total.uniform, 0.7 * total.robot);  // else the check would say little
-  for (const int count : total.labels) EXPECT_GT(count, test::sanitized ? 10 : 100);
+  for (std::size_t i = 0; i < total.labels.size(); ++i) {
+    if (static_cast<Label>(i) == Label::fringe) continue;
+    EXPECT_GT(total.labels[i], test::sanitized ? 10 : 100) << i;
+  }
   EXPECT_LT(total.at_lens_edge, 0.02 * total.reached);
 }
 

@@ -56,7 +56,9 @@ struct NaiveTarget {
   void look(int u, int v, NaiveJudgement& result) const {
     auto label = static_cast<Label>(labels(u, v));
     if (label == Label::beyond) label = beyond_hides ? Label::occluded : Label::clear;
-    const float z = robot(u, v), d = measured(u, v), ze = expected(u, v);
+    const bool is_fringe = label == Label::fringe;  // it hides nothing and measures nothing
+    if (is_fringe) label = Label::clear;
+    const float z = robot(u, v), d = is_fringe ? 0 : measured(u, v), ze = expected(u, v);
     if (ze > 0) {
       const float m = tolerance(ze) + depth_margin;
       const bool on_robot = label != Label::clear;

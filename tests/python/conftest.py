@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 
 import numpy as np
+from PIL import Image
 import pytest
 
 import penumbra
@@ -68,9 +69,5 @@ def address(array):
 
 
 def read_png(file):
-    """Pixel values of an 8-bit or 16-bit grey PNG, by an independent reader."""
-    from matplotlib import image  # reads PNG as fractions of the largest value
-
-    values = image.imread(file)
-    largest = 255 if file.parent.name == "labels" else 65535
-    return np.round(values * largest).astype(np.uint16)
+    """Pixel values of a grey or palette PNG, by an independent reader."""
+    return np.array(Image.open(file)).astype(np.uint16)
