@@ -21,7 +21,8 @@ void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k)
       std::copy_n(mesh.vertices[triangle[k]].data(), 3, numbers.begin() + 3 + 3 * k);
     append(numbers.data(), sizeof numbers);
-    append("\0", 2);
+    const std::uint16_t attributes = 0;
+    append(&attributes, sizeof attributes);
   }
   OutputFile out(file);
   out.write(bytes.data(), bytes.size());

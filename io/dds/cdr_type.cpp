@@ -52,14 +52,14 @@ ddsi_serdata* count_arrival(CdrSample* sample) {
 
 /// Where RTPS 2.3 puts what (9.4.4, 9.4.5.3, 9.4.5.4): bytes from the start of a packet, and of a
 /// DATA or DATA_FRAG in it.
-constexpr std::size_t guid_prefix_at = 8, writer_at = 12, number_at = 16, number_end = 24;
+constexpr std::size_t guid_prefix_at = 8, writer_at = 12, number_at = 16, header_end = 24;
 
 /// Counts what is missing by the writer's number of a sample, which Cyclone DDS does not pass on
 /// but leaves in the packet.
 void note_number(const CdrSample& sample, const nn_rdata& fragment) {
   const std::size_t start = NN_RDATA_SUBMSG_OFF(&fragment);
   const auto* const packet = reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOAD(fragment.rmsg));
-  const bool whole = start >= 20 && start + number_end <= NN_RDATA_PAYLOAD_OFF(&fragment);
+  const bool whole = start >= 20 && start + header_end <= NN_RDATA_PAYLOAD_OFF(&fragment);
   if (!sample.counts || !whole || std::memcmp(packet, "RTPS", 4) != 0) return;
   const std::byte* const message = packet + start;
   const bool little = (message[1] & std::byte{1}) != std::byte{0};

@@ -23,7 +23,9 @@ constexpr float millimetres_per_metre = 1000.0f;
 constexpr std::uint16_t reached_once = 0x8000;  // a flag beside an open pixel's depth
 constexpr float farthest = 32.767f;             // metres; pixels past it are not open
 
-std::uint16_t rounded(float millimetres) { return static_cast<std::uint16_t>(millimetres + 0.5f); }
+std::uint16_t rounded(float millimetres) {
+  return static_cast<std::uint16_t>((static_cast<std::uint32_t>(2.0f * millimetres) + 1) / 2);
+}
 
 }  // namespace
 

@@ -20,7 +20,9 @@ Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u)
         if (frame.depth(u, v) > 0.0f && robot_pixels.distance(u, v) > FringeFit::farthest)
-          depths[static_cast<std::size_t>(v * width + u)].push_back(frame.depth(u, v));
+          depths[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(u)]
+              .push_back(frame.depth(u, v));
   }
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (depths[i].empty()) continue;
