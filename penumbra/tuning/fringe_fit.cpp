@@ -9,7 +9,8 @@
 namespace penumbra::tuning {
 namespace {
 
-constexpr double may_stay = 0.002;  // share of the arm's points, more than the largest reach leaves
+constexpr double may_stay =
+    0.0005;  // share of the arm's points, more than the largest reach leaves
 constexpr int candidates = FringeFit::farthest / FringeFit::step + 1;
 
 struct Candidate {
