@@ -89,6 +89,10 @@ void bind_mesh(py::module_& m) {
 }
 
 void bind_options(py::module_& m) {
+  py::class_<ExtraMesh> extra(m, "ExtraMesh",
+                              "What a link carries that the URDF lacks: a tool, a cable, a cover.");
+  bind_fields(extra, Field{"link", &ExtraMesh::link, "Its name; no pattern."},
+              Field{"mesh", &ExtraMesh::mesh, "A file, in the link's frame, metres."});
   py::class_<RobotOptions> options(
       m, "RobotOptions",
       "What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]).");
@@ -102,6 +106,7 @@ void bind_options(py::module_& m) {
       Field{"ignore_links", &O::ignore_links, "Patterns of links that are not drawn."},
       Field{"only_links", &O::only_links, "If not empty: patterns of the links drawn."},
       Field{"margins", &O::margins, "By pattern: surface offset, metres, -1 to 1."},
+      Field{"extra", &O::extra, "Drawn with their links, whatever else is drawn of them."},
       Field{"allow_missing_meshes", &O::allow_missing_meshes,
             "Go on without meshes that cannot be read: their links are missing, in every report."});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -63,5 +64,13 @@ inline constexpr std::uint16_t saturated_depth = 0xFFFF;
 /// A sensor's depth image: millimetres as uint16 or metres as float32, z-depth along the optical
 /// axis. 0, NaN, inf, negative values and saturated_depth are "no measurement".
 using DepthView = std::variant<ImageView<const std::uint16_t>, ImageView<const float>>;
+
+/// A sensor's depth in metres; 0: no measurement.
+[[nodiscard]] inline float metres_of(std::uint16_t depth) {
+  return depth == saturated_depth ? 0.0F : 0.001F * static_cast<float>(depth);
+}
+[[nodiscard]] inline float metres_of(float depth) {
+  return std::isfinite(depth) && depth > 0 ? depth : 0.0F;
+}
 
 }  // namespace penumbra

@@ -30,9 +30,6 @@ constexpr auto farthest_z = static_cast<float>(DepthRegistration::max_depth);
 template <typename T>
 constexpr T unseen = std::numeric_limits<T>::max();
 
-float metres_of(std::uint16_t millimetres) { return 1e-3F * static_cast<float>(millimetres); }
-float metres_of(float metres) { return metres; }
-
 /// 0 where the kind has no number for it.
 void store_depth(float metres, std::uint16_t& to) {
   const float rounded = 1e3F * metres + 0.5F;

@@ -12,7 +12,7 @@
 
 namespace penumbra::labelling {
 
-/// Finds the fringe (LabelRule): a flood from the robot's measured outline into clear pixels.
+/// Finds the fringe (LabelRule): a flood over blocks of 2 x 2 pixels.
 class FringeFill {
  public:
   FringeFill(int width, int height, int reach);
@@ -21,35 +21,38 @@ class FringeFill {
   std::size_t label(Work& work, const DepthView& measured);
 
  private:
-  /// An occluded pixel that touches an open one, and what the flood from it may take: depths in
+  /// A block on the robot's outline, and the depths that the flood from it may take: those in
   /// [nearest, farthest] that differ from their neighbour's by at most `step`, millimetres.
   struct Source {
     std::uint16_t nearest, farthest, step;
-    std::int16_t u, v;
+    std::int16_t x, y;
   };
-  struct Pixel {
-    std::int16_t u, v;
+  struct Block {
+    std::int16_t x, y;
     std::uint32_t source;  ///< index in sources_
     std::uint16_t depth;   ///< millimetres
   };
 
   template <typename T>
-  void open_clear_pixels(const Work& work, ImageView<const T> measured);
+  void fill_blocks(const Work& work, ImageView<const T> measured);
+  void find_sources(const Work& work);
+  void add_source(const Rule& rule, int x, int y, std::uint16_t depth);
+  void flood();
   template <typename T>
-  void find_sources(const Work& work, ImageView<const T> measured);
-  void add_source(const Rule& rule, int u, int v, float z);
-  std::size_t flood(Work& work);
+  std::size_t paint(Work& work, ImageView<const T> measured) const;
 
-  [[nodiscard]] std::size_t index(int u, int v) const {
-    return static_cast<std::size_t>(v + 1) * pitch_ + static_cast<std::size_t>(u + 1);
+  [[nodiscard]] std::uint16_t* block(int x, int y) {
+    return &blocks_[static_cast<std::size_t>(y + 1) * pitch_ + static_cast<std::size_t>(x + 1)];
   }
 
   int reach_;
   std::size_t pitch_;
-  /// Millimetres where a pixel near the robot is clear and measured, else 0; with a rim of zeros.
-  std::vector<std::uint16_t> open_;
+  /// Near the robot, with a rim of zeros: of each block the nearest depth of its occluded pixels,
+  /// in millimetres; without any that of its clear pixels, with the bit is_open; without any 0.
+  std::vector<std::uint16_t> blocks_;
   std::vector<Source> sources_;
-  std::unique_ptr<Pixel[]> queue_;  // room for all pixels; begins with one for each source
+  std::unique_ptr<Block[]> queue_;  // the sources' blocks, then those that the flood took
+  std::size_t queued_ = 0;
   TileMask reachable_;
 };
 

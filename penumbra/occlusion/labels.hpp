@@ -66,19 +66,21 @@ struct Tolerance {
 ///
 /// Fringe: real sensors carry the robot's depth past its outline. Stereo matching fattens it, gaps
 /// between links are filled, and mixed pixels lie between the robot's depth and the background's.
-/// A flood finds such pixels. It starts from the occluded and beyond pixels that touch a clear one
-/// and goes on, breadth first, from pixel p to a clear, measured neighbour q (of eight) if
+/// A flood over blocks of 2 x 2 pixels finds such pixels. A block's depth is the nearest of its
+/// occluded pixels, if it has any, else the nearest of its clear, measured ones. The flood starts
+/// from the blocks with occluded pixels and goes on, breadth first, from block p to a neighbour q
+/// (of four) without occluded pixels if
 ///   |d(q) - d(p)| <= fringe_step e(d(s)), |d(q) - d(s)| <= fringe_drift e(d(s))
-/// and q lies within fringe_reach of s, where s is the outline pixel that the flood reached p from.
-/// q becomes fringe when a second neighbour reaches it, so that single mixed pixels do not lead the
-/// flood into an object that stands next to the robot. A real object at the robot's own depth that
-/// touches its outline is fringe up to fringe_reach; no rule on one image can tell.
+/// and q lies within fringe_reach of s, where s is the block that the flood reached p from. The
+/// clear pixels of the blocks that it starts from and reaches become fringe where they differ from
+/// their block's depth by at most 2 fringe_step e(d(s)). A real object at the robot's own depth
+/// that touches its outline is fringe up to fringe_reach; no rule on one image can tell.
 struct LabelRule {
   static constexpr int cell = 4;                ///< pixels
   static constexpr int max_width = 63;          ///< pixels, of front_min_width
   static constexpr int max_edge_margin = 64;    ///< pixels
   static constexpr int max_fringe_reach = 255;  ///< pixels
-  static constexpr double fringe_step = 0.5;    ///< of e(z), from one pixel to the next
+  static constexpr double fringe_step = 0.6;    ///< of e(z), from one block to the next
   static constexpr double fringe_drift = 3.0;   ///< of e(z), from the outline's depth
 
   Tolerance tolerance;

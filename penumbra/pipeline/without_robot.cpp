@@ -15,12 +15,6 @@ template <typename T>
 constexpr T no_depth = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN()
                                                              : T{0};
 
-/// Metres; 0: no measurement.
-float metres_of(std::uint16_t depth) {
-  return depth == saturated_depth ? 0.0F : 0.001F * static_cast<float>(depth);
-}
-float metres_of(float depth) { return std::isfinite(depth) && depth > 0 ? depth : 0.0F; }
-
 }  // namespace
 
 void without_robot(const FrameReport& report, DepthImage& out) {

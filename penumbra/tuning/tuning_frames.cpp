@@ -16,19 +16,14 @@ double difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
          lever * Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-float metres(float depth) { return depth; }
-float metres(std::uint16_t depth) {
-  return depth == saturated_depth ? 0.0f : 0.001f * static_cast<float>(depth);
-}
-
 Image<float> measured(const DepthView& view, const DepthRange& range) {
   return std::visit(
       [&](const auto& depth) {
         Image<float> out(depth.width, depth.height);
         for (int v = 0; v < depth.height; ++v)
           for (int u = 0; u < depth.width; ++u)
-            if (const float z = metres(depth(u, v));
-                z > 0.0f && z < 1e3f && z >= range.near && z <= range.far)
+            if (const float z = metres_of(depth(u, v));
+                z >= range.near && z <= std::min(range.far, 1e3))
               out(u, v) = z;
         return out;
       },

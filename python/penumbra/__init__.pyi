@@ -248,6 +248,20 @@ class Body:
     def meshes(self) -> Tuple[TriangleMesh, ...]: ...
 
 @final
+class ExtraMesh:
+    def __init__(self, *, link: str = ..., mesh: Union[str, os.PathLike[str]] = ...) -> None: ...
+    @property
+    def link(self) -> str: ...
+    @property
+    def mesh(self) -> pathlib.Path: ...
+    def replace(
+        self,
+        *,
+        link: str = ...,
+        mesh: Union[str, os.PathLike[str]] = ...,
+    ) -> ExtraMesh: ...
+
+@final
 class RobotOptions:
     def __init__(
         self,
@@ -259,6 +273,7 @@ class RobotOptions:
         ignore_links: Sequence[str] = ...,
         only_links: Sequence[str] = ...,
         margins: Mapping[str, float] = ...,
+        extra: Sequence[ExtraMesh] = ...,
         allow_missing_meshes: bool = ...,
     ) -> None: ...
     @property
@@ -276,6 +291,8 @@ class RobotOptions:
     @property
     def margins(self) -> Mapping[str, float]: ...
     @property
+    def extra(self) -> Tuple[ExtraMesh, ...]: ...
+    @property
     def allow_missing_meshes(self) -> bool: ...
     def replace(
         self,
@@ -287,6 +304,7 @@ class RobotOptions:
         ignore_links: Sequence[str] = ...,
         only_links: Sequence[str] = ...,
         margins: Mapping[str, float] = ...,
+        extra: Sequence[ExtraMesh] = ...,
         allow_missing_meshes: bool = ...,
     ) -> RobotOptions: ...
 

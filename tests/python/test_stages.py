@@ -133,6 +133,19 @@ def test_robots_tell_of_their_parts(shipped):
     assert parsed.links == ("l",) and parsed.variables == ()
 
 
+def test_an_extra_mesh_is_drawn_with_its_link(tmp_path):
+    (tmp_path / "tool.stl").write_text(
+        "solid tool\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nendsolid\n")
+    urdf = '<robot name="bare"><link name="base"/></robot>'
+    extra = [penumbra.ExtraMesh(link="base", mesh=tmp_path / "tool.stl")]
+    robot = penumbra.Robot.parse(urdf, tmp_path, penumbra.RobotOptions(extra=extra))
+    assert [link.triangles for link in robot.report] == [1]
+    lost = penumbra.RobotOptions(extra=[penumbra.ExtraMesh(link="hand", mesh="tool.stl")])
+    with pytest.raises(penumbra.InputError, match="hand"):
+        penumbra.Robot.parse(urdf, tmp_path, lost)
+
+
 def test_two_programs_that_tell_one_joint_are_told_apart(shipped):
     robot = shipped.robot
     buffer = penumbra.JointBuffer(robot)
