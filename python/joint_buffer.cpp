@@ -25,6 +25,8 @@ void bind_joint_answers(py::module_& m) {
               Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
               Field{"last_seen", &JointGap::last_seen,
                     "Stamp of its latest state at or before, nanoseconds; None: there is none."},
+              Field{"jump", &JointGap::jump,
+                    "Rad or m between two states next to the stamp, more than the joint can move."},
               Field{"source", &JointGap::source,
                     "Where several programs tell it: who is believed, and awaited."});
 

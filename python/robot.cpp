@@ -130,6 +130,7 @@ void bind_robot_parts(py::module_& m) {
               Field{"parent", &J::parent, "Link index."}, Field{"child", &J::child, "Link index."},
               Field{"origin", &J::origin, "T_parent_joint, metres."},
               Field{"axis", &J::axis, "Unit, in the joint's frame."},
+              Field{"velocity", &J::velocity, "Limit, rad/s or m/s; None: none."},
               Field{"lower", &J::lower, "Limit, rad or m; None: none."},
               Field{"upper", &J::upper, "Limit, rad or m; None: none."},
               Field{"variable", &J::variable,

@@ -72,7 +72,7 @@ class Diagnostics {
   Diagnostics(io::Participant& graph, const io::NameResolver& names)
       : publication_(graph.advertise(names.resolve(diagnostics_topic),
                                      "diagnostic_msgs/msg/DiagnosticArray",
-                                     {.reliable = true, .depth = 2})),
+                                     {.reliable = true, .depth = 10})),
         speaker_(live_speaker(names)) {}
 
   [[nodiscard]] const io::LiveSpeaker& speaker() const { return speaker_; }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 
 #include <io/live/live_camera.hpp>
 
@@ -11,8 +12,6 @@ namespace {
 
 constexpr std::size_t most_kept_colors = 8;
 constexpr std::size_t most_intervals = 4;
-/// A stamp that far behind the newest one means another clock, as in PoseHistory.
-constexpr std::int64_t info_clock_jump = 1'000'000'000;
 
 }  // namespace
 
@@ -60,7 +59,7 @@ void LiveCamera::take_depth(KeptImage image, std::int64_t now) {
 
 void LiveCamera::take_info(const CameraInfoMessage& info, std::int64_t now) {
   const std::int64_t stamp = info.header.stamp;
-  const bool jumped = stamp < newest_info_ - info_clock_jump;
+  const bool jumped = is_clock_jump(stamp, newest_info_);
   newest_info_ = jumped ? stamp : std::max(newest_info_, stamp);
   pairs_.add_info(stamp);
   if (jumped) valid_from_ = 0;

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include <penumbra/base/stamps.hpp>
+
 #include <io/ros_frames/info_pairs.hpp>
 
 namespace penumbra::io {
@@ -14,12 +16,11 @@ constexpr std::size_t most_infos = 256;
 /// A camera_info is no word on images that are older by more. Of a clock that began anew all that
 /// came before is later than what comes now.
 constexpr std::int64_t longest_cover = 1'000'000'000;
-constexpr std::int64_t clock_jump = 1'000'000'000;
 
 }  // namespace
 
 bool InfoPairs::is_jump(std::int64_t newest, std::int64_t stamp) {
-  return stamp < newest - clock_jump;
+  return is_clock_jump(stamp, newest);
 }
 
 void InfoPairs::match(ImageStamp& image, std::int64_t info) {

@@ -17,6 +17,14 @@ namespace penumbra {
   return x - static_cast<std::uint64_t>(std::min(a, b));
 }
 
+/// Nanoseconds by which a stamp may lie before the newest one: messages overtake one another.
+/// Farther back its clock was set back, as by a bag that is played in a loop.
+inline constexpr std::int64_t least_clock_jump = 1'000'000'000;
+
+[[nodiscard]] inline bool is_clock_jump(std::int64_t stamp, std::int64_t newest) {
+  return stamp < newest && stamp_distance(stamp, newest) > std::uint64_t{least_clock_jump};
+}
+
 /// Where a stamp lies between two others, 0 to 1.
 [[nodiscard]] inline double stamp_share(std::int64_t before, std::int64_t stamp,
                                         std::int64_t after) {

@@ -14,8 +14,6 @@
 namespace penumbra {
 namespace {
 
-constexpr double checked_depth = 20.0;  // metres up to which a tolerance must not be negative
-
 template <typename... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
   std::ostringstream message;
@@ -23,11 +21,9 @@ template <typename... Parts>
   throw InputError(message.str());
 }
 
-/// The least e(z) for z in 0..checked_depth.
-double least(const Tolerance& e) {
-  double value = std::min(e.at(0.0), e.at(checked_depth));
-  if (e.c > 0.0) value = std::min(value, e.at(std::clamp(-e.b / (2 * e.c), 0.0, checked_depth)));
-  return value;
+/// For some z >= 0.
+bool is_negative(const Tolerance& e) {
+  return e.a < 0.0 || e.c < 0.0 || (e.b < 0.0 && e.b * e.b > 4.0 * e.a * e.c);
 }
 
 }  // namespace
@@ -65,9 +61,9 @@ LabelRule LabelRule::for_sensor(std::string_view name) {
 
 void LabelRule::check() const {
   const Tolerance& e = tolerance;
-  if (!std::isfinite(e.a) || !std::isfinite(e.b) || !std::isfinite(e.c) || least(e) < 0.0)
-    fail("tolerance ", e.a, ",", e.b, ",", e.c, ": a + b z + c z^2 must be finite and not negative",
-         " for z from 0 to ", checked_depth, " m");
+  if (!std::isfinite(e.a) || !std::isfinite(e.b) || !std::isfinite(e.c) || is_negative(e))
+    fail("tolerance ", e.a, ",", e.b, ",", e.c,
+         ": a + b z + c z^2 must be finite and not negative at any depth");
   if (!std::isfinite(beyond_factor) || beyond_factor < 1.0)
     fail("beyond factor ", beyond_factor, ": must be a number, 1 or more");
   if (front_min_width < 0 || front_min_width > max_width)

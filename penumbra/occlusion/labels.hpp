@@ -102,7 +102,7 @@ struct LabelRule {
   [[nodiscard]] static LabelRule for_sensor(std::string_view name);
 
   /// Throws InputError, with the values it got: a tolerance that is not finite or negative
-  /// somewhere in 0..20 m, factor < 1, width, margin or reach out of bounds, near >= far.
+  /// at some depth, factor < 1, width, margin or reach out of bounds, near >= far.
   void check() const;
 };
 

@@ -208,6 +208,10 @@ std::string describe(const Robot& robot, const JointInput& joints) {
   for (const JointGap& gap : joints.gaps) {
     text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
             "' ";
+    if (gap.jump) {
+      text += "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
+      continue;
+    }
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
     if (!gap.last_seen) continue;
     text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";

@@ -114,7 +114,6 @@ struct Pipeline::State {
   void without_pose(FrameStatus status);
   void finish(FrameStatus status, const VirtualDepthView& virtual_depth, const LabelView& labels);
   void judge_targets(const Frame& frame);
-  void forget_unidentified(std::span<const Target> given);
   [[nodiscard]] JudgedFrame judged_frame(const LinkDoubts& doubts) const;
 
   Robot robot;
@@ -136,7 +135,6 @@ struct Pipeline::State {
   std::vector<std::uint16_t> no_depth_row;  // likewise
   Camera judged_camera;                     // of the report's images
   TargetStage targets;
-  std::vector<std::string> unidentified;  // targets of the last call
   DepthView seen;                         // of this frame, as it was compared
   LabelView labels;                       // likewise
   std::size_t calls = 0;
@@ -306,23 +304,10 @@ void Pipeline::State::finish(FrameStatus status, const VirtualDepthView& virtual
   labels = made;
 }
 
-/// After their call as before it, so that nothing of them is left to one that has that name by
-/// right.
-void Pipeline::State::forget_unidentified(std::span<const Target> given) {
-  for (const std::string& name : unidentified) targets.forget(name);
-  unidentified.clear();
-  for (const Target& target : given) {
-    if (target.has_identity) continue;
-    targets.forget(target.name);
-    unidentified.emplace_back(target.name);
-  }
-}
-
 void Pipeline::State::judge_targets(const Frame& frame) {
   std::optional<double> time;
   {
     const StageTimer timer(time);
-    forget_unidentified(frame.targets);
     report.targets = targets.process(frame.targets, judged_frame(frame.doubts));
   }
   if (!frame.targets.empty()) report.timing.targets = time;

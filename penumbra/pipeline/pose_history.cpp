@@ -7,11 +7,7 @@ namespace penumbra {
 
 PoseHistory::PoseHistory(const Robot& robot, const PoseHistoryOptions& options)
     : joints_(robot, options.joints),
-      transforms_(options.transforms),
-      clock_jump_(span_nanoseconds(options.clock_jump, "pose history: clock_jump")) {
-  if (clock_jump_ == 0)
-    throw InputError("pose history: clock_jump is 0 s; expected more, as messages overtake others");
-}
+      transforms_(options.transforms) {}
 
 std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::string> names,
                                     std::span<const double> positions, std::string_view source) {
@@ -19,8 +15,11 @@ std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::str
     ++no_stamps_;
     return 0;
   }
-  if (const auto newest = joints_.newest_of(names)) note_stamp(stamp, *newest, "joint states");
+  const auto newest = joints_.newest_of(names);
   ++revision_;
+  const std::size_t taken = joints_.insert(stamp, names, positions, source);
+  // One that is refused, as of values that are not finite, says nothing of the clock.
+  if (taken == 0 || !newest || !note_stamp(stamp, *newest, "joint states")) return taken;
   return joints_.insert(stamp, names, positions, source);
 }
 
@@ -44,8 +43,7 @@ TransformInsert PoseHistory::add_static_transform(std::string_view parent, std::
 }
 
 bool PoseHistory::note_stamp(std::int64_t stamp, std::int64_t newest, std::string_view of) {
-  if (stamp >= newest || stamp_distance(stamp, newest) <= static_cast<std::uint64_t>(clock_jump_))
-    return false;
+  if (!is_clock_jump(stamp, newest)) return false;
   ++clock_jumps_;
   last_jump_ = "the clock jumped back by " +
                std::to_string(stamp_distance(stamp, newest) / 1'000'000) + " ms: stamp " +

@@ -18,7 +18,6 @@ namespace penumbra {
 struct PoseHistoryOptions {
   JointBufferOptions joints = {};
   TransformBufferOptions transforms = {};
-  double clock_jump = 1.0;  ///< seconds, > 0: a stamp farther back than that is a clock's jump
 };
 
 /// All that is told of where a robot and its cameras were: joint states and transforms, of all
@@ -67,7 +66,6 @@ class PoseHistory {
  private:
   JointBuffer joints_;
   TransformBuffer transforms_;
-  std::int64_t clock_jump_;  // nanoseconds
   std::uint64_t revision_ = 0;
   std::uint64_t epoch_ = 0;
   std::size_t clock_jumps_ = 0;

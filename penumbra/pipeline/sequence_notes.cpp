@@ -84,7 +84,7 @@ void SequenceNotes::add_stamp(const FrameReport& report) {
 /// Before add_stamp().
 void SequenceNotes::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
-  if (report.stamp && last_stamp_ && *report.stamp < *last_stamp_) ++forgotten_;
+  if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
   const bool is_waiting =
       std::any_of(report.targets.begin(), report.targets.end(),
                   [](const TargetReport& target) { return target.wants_stamp; });
@@ -111,7 +111,7 @@ std::vector<std::string> SequenceNotes::lines() const {
   if (late_stamps_ > 0) lines.push_back(stamp_line());
   if (longest_period_ > 0 && longest_period_ < shortest_period) lines.push_back(period_line());
   if (forgotten_ > 0)
-    lines.push_back("stamps went back in " + counted(forgotten_, "frame") +
+    lines.push_back("stamps went back by more than a second in " + counted(forgotten_, "frame") +
                     " with targets: what was known of them until then was forgotten");
   if (not_handled_ > 0)
     lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +

@@ -89,8 +89,9 @@ class TargetStage {
   RecentPoses recent_poses_;
   RecentFrames recent_frames_;
   Memories memories_;
+  std::deque<std::string> without_identity_;  // names in memories_ of the last call
   std::size_t calls_ = 0;
-  std::optional<std::int64_t> last_stamp_;
+  std::optional<std::int64_t> newest_stamp_;
   const JudgedFrame* judged_ = nullptr;  // that the judge's begin() was called with
   std::deque<Slot> slots_;               // grows only
   std::vector<TargetReport> reports_;    // likewise

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
 
@@ -13,6 +14,9 @@ namespace {
 /// By this name targets are judged whose stamp is before one that was judged: what verdicts
 /// remember is of later frames, and is left alone.
 constexpr std::string_view out_of_order("\0 out of order", 14);
+
+/// Before the names by which targets without identity are known, for one call.
+constexpr char without_identity = '\1';
 
 std::int64_t nanoseconds(double seconds) {
   if (seconds >= 0.0 && seconds <= PipelineConfig::max_target_history)
@@ -113,22 +117,26 @@ void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& fram
   ++calls_;
   judged_ = nullptr;
   if (frame.stamp) {
-    // Frames come in order: one that goes back is of a clock that was set back, and begins anew.
-    if (last_stamp_ && *frame.stamp < *last_stamp_) forget_all();
-    last_stamp_ = frame.stamp;
+    if (newest_stamp_ && is_clock_jump(*frame.stamp, *newest_stamp_)) forget_all();
+    newest_stamp_ = std::max(newest_stamp_.value_or(*frame.stamp), *frame.stamp);
     if (frame.poses.known()) recent_poses_.keep(*frame.stamp, frame.poses);
   }
+  for (const std::string& name : without_identity_) forget(name);
+  without_identity_.clear();
   if (reports_.size() < targets.size()) reports_.resize(targets.size());
   while (slots_.size() < targets.size()) slots_.emplace_back();
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Memories::value_type& known_target = known(targets[i].name);
+    std::string_view name = targets[i].name;
+    if (!targets[i].has_identity)
+      name = without_identity_.emplace_back(without_identity + std::string(name));
+    Memories::value_type& known_target = known(name);
     TargetRecord& memory = known_target.second;
     memory.times = memory.call == calls_ ? memory.times + 1 : 1;
     memory.call = calls_;
     slots_[i].known = &known_target;
     slots_[i].seen = nullptr;
     reports_[i] = {};
-    reports_[i].name = known_target.first;
+    reports_[i].name = std::string_view(known_target.first).substr(targets[i].has_identity ? 0 : 1);
   }
 }
 
@@ -227,6 +235,7 @@ Judgement TargetStage::judge_on(const JudgedFrame& frame, const Target& target, 
     outside.verdict = Verdict::out_of_view;
     return outside;
   }
+  view->name = slot.known->first;
   if (judged_ != &frame) judge_.begin(frame.images);
   judged_ = &frame;
   if (is_late) {
@@ -299,7 +308,7 @@ void TargetStage::forget_all() {
   memories_.clear();
   recent_poses_.clear();
   recent_frames_.clear();
-  last_stamp_.reset();
+  newest_stamp_.reset();
 }
 
 }  // namespace penumbra

@@ -29,26 +29,36 @@ double JointRule::distance(double a, double b) const { return std::abs(way(a, b)
 
 double JointRule::noise() const { return kind == Kind::linear ? shift_noise : turn_noise; }
 
+double JointRule::longest_way(double seconds) const {
+  constexpr double jitter = 1e-9 * static_cast<double>(ToldTrack<double, JointRule>::jitter);
+  const double way = velocity * (seconds + jitter) + noise();
+  return kind == Kind::linear ? way : std::min(way, max_turn);
+}
+
 JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
     : max_gap_(span_nanoseconds(options.max_gap, "joint buffer: max_gap")),
       history_(span_nanoseconds(options.history, "joint buffer: history")),
       max_states_(options.max_states),
-      kinds_(robot.variables().size(), Kind::linear),
+      rules_(robot.variables().size()),
       rotation_of_(robot.variables().size()) {
   if (max_states_ == 0) throw InputError("joint buffer: max_states is 0; expected at least 1");
-  for (std::size_t i = 0; i < kinds_.size(); ++i) index_.emplace(robot.variables()[i], i);
+  using Kind = JointRule::Kind;
+  for (std::size_t i = 0; i < rules_.size(); ++i) index_.emplace(robot.variables()[i], i);
   for (const Joint& joint : robot.joints()) {
     if (!joint.variable || joint.mimics) continue;
-    if (joint.type == JointType::revolute) kinds_[*joint.variable] = Kind::revolute;
-    if (joint.type == JointType::continuous) kinds_[*joint.variable] = Kind::turning;
-    if (joint.type == JointType::planar) kinds_[*joint.variable + 2] = Kind::turning;
+    JointRule& rule = rules_[*joint.variable];
+    if (joint.velocity && joint.type != JointType::planar && joint.type != JointType::floating)
+      rule.velocity = *joint.velocity;
+    if (joint.type == JointType::revolute) rule.kind = Kind::revolute;
+    if (joint.type == JointType::continuous) rule.kind = Kind::turning;
+    if (joint.type == JointType::planar) rules_[*joint.variable + 2].kind = Kind::turning;
     if (joint.type != JointType::floating) continue;
     const std::size_t first = *joint.variable + 3;
     for (std::size_t i = first; i < first + 4; ++i) rotation_of_[i] = rotations_.size();
     rotations_.push_back({first, RotationTrack({}, max_gap_, options.compare_sources)});
   }
-  for (const Kind kind : kinds_)
-    tracks_.emplace_back(JointRule{kind}, max_gap_, options.compare_sources);
+  for (const JointRule& rule : rules_)
+    tracks_.emplace_back(rule, max_gap_, options.compare_sources);
 }
 
 std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string> names,
@@ -116,13 +126,13 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   answer.positions.resize(tracks_.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (rotation_of_[i] || interpolate(i, stamp, answer)) continue;
-    answer.gaps.push_back(gap_of(tracks_[i], stamp));
+    answer.gaps.push_back(gap_of(tracks_[i], rules_[i], stamp));
     answer.gaps.back().variable = i;
   }
   for (const Rotation& rotation : rotations_) {
     if (interpolate(rotation, stamp, answer)) continue;
     for (std::size_t i = rotation.first; i < rotation.first + 4; ++i) {
-      answer.gaps.push_back(gap_of(rotation.track, stamp));
+      answer.gaps.push_back(gap_of(rotation.track, RotationRule(), stamp));
       answer.gaps.back().variable = i;
     }
   }
@@ -139,8 +149,10 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
   const auto &a = *around.before, &b = *around.after;
   answer.positions[variable] = a.value;
   if (a.stamp == stamp) return true;
-  answer.positions[variable] =
-      JointRule{kinds_[variable]}.between(a.value, stamp_share(a.stamp, stamp, b.stamp), b.value);
+  const JointRule& rule = rules_[variable];
+  const double seconds = 1e-9 * static_cast<double>(around.gap());
+  if (rule.distance(a.value, b.value) > rule.longest_way(seconds)) return false;
+  answer.positions[variable] = rule.between(a.value, stamp_share(a.stamp, stamp, b.stamp), b.value);
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -151,6 +163,7 @@ bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
   Eigen::Quaterniond q = a.value;
+  if (RotationRule().distance(a.value, b.value) > JointRule::max_turn) return false;
   if (a.stamp != stamp)
     q = RotationRule().between(q, stamp_share(a.stamp, stamp, b.stamp), b.value);
   Eigen::Map<Eigen::Vector4d>(&answer.positions[rotation.first]) = q.coeffs();
@@ -158,12 +171,14 @@ bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
   return true;
 }
 
-template <typename AnyTrack>
-JointGap JointBuffer::gap_of(const AnyTrack& track, std::int64_t stamp) const {
+template <typename AnyTrack, typename Rule>
+JointGap JointBuffer::gap_of(const AnyTrack& track, const Rule& rule, std::int64_t stamp) const {
   JointGap gap;
   if (!track.all().states().empty()) gap.why = JointStatus::stale;
   if (const auto before = track.track_at(stamp).up_to(stamp); !before.empty())
     gap.last_seen = before.back().stamp;
+  if (const auto around = track.around(stamp))
+    gap.jump = rule.distance(around.before->value, around.after->value);
   if (const auto teller = track.teller_at(stamp)) gap.source = sources_.name_of(*teller);
   return gap;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/source_names.hpp>
 #include <penumbra/robot/told_track.hpp>
+#include <penumbra/robot/transform_buffer.hpp>
 
 namespace penumbra {
 
@@ -34,7 +36,8 @@ struct JointGap {
   std::size_t variable = 0;                ///< index into Robot::variables()
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
   std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
-  std::string source;  ///< where several tell it: whose word is taken, and awaited
+  std::optional<double> jump;  ///< rad or m between the states next to the stamp, if too much
+  std::string source;          ///< where several tell it: whose word is taken, and awaited
 };
 
 /// A variable of which two sources told different values near the stamp that was asked for.
@@ -59,6 +62,8 @@ struct JointAnswer {
 struct JointRule {
   enum class Kind { linear, revolute, turning };
 
+  static constexpr double max_turn = TransformBuffer::max_turn;
+
   /// What sources may differ by though nothing moves: encoders, backlash, digits. An arc of 5 mm at
   /// half a metre, which joint states and TF may differ by, too.
   static constexpr double turn_noise = 0.01;           ///< radians
@@ -66,6 +71,7 @@ struct JointRule {
   static constexpr bool one_value_of_a_stamp = false;  ///< the last one counts
 
   Kind kind = Kind::linear;
+  double velocity = std::numeric_limits<double>::infinity();  ///< limit, rad/s or m/s
 
   /// The way from one value to another: of turning ones the short way.
   [[nodiscard]] double way(double from, double to) const;
@@ -74,6 +80,8 @@ struct JointRule {
     return a + share * way(a, b);
   }
   [[nodiscard]] double noise() const;
+  /// The longest way that two states may be apart by `seconds`.
+  [[nodiscard]] double longest_way(double seconds) const;
 };
 
 /// Likewise of the rotation of a floating joint.
@@ -96,7 +104,9 @@ struct RotationRule {
 ///
 /// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
 /// round. The quaternion of a floating joint is interpolated on the sphere; its parts may come in
-/// several states of one stamp that a source tells one after another.
+/// several states of one stamp that a source tells one after another. A joint that jumps is
+/// "stale" between the two states: by more than a right angle, or than the velocity limit of the
+/// URDF allows in their time. Encoders wrap, and values come wrong.
 ///
 /// Where several sources tell a variable, its value is that of one of them, and what they say of
 /// the same time is compared: see ToldTrack. A variable of which two contradict each other near a
@@ -133,7 +143,6 @@ class JointBuffer {
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
-  using Kind = JointRule::Kind;
   using Track = ToldTrack<double, JointRule>;
   using RotationTrack = ToldTrack<Eigen::Quaterniond, RotationRule>;
 
@@ -155,8 +164,8 @@ class JointBuffer {
                                  JointAnswer& answer) const;
   [[nodiscard]] bool interpolate(const Rotation& rotation, std::int64_t stamp,
                                  JointAnswer& answer) const;
-  template <typename AnyTrack>
-  [[nodiscard]] JointGap gap_of(const AnyTrack& track, std::int64_t stamp) const;
+  template <typename AnyTrack, typename Rule>
+  [[nodiscard]] JointGap gap_of(const AnyTrack& track, const Rule& rule, std::int64_t stamp) const;
   template <typename Found>
   [[nodiscard]] JointDispute dispute_of(const Found& found) const;
   void add_disputes(std::int64_t stamp, JointAnswer& answer) const;
@@ -167,7 +176,7 @@ class JointBuffer {
   std::size_t max_states_;
   std::map<std::string, std::size_t, std::less<>> index_;  // variable of each name
   std::vector<Track> tracks_;                              // of each variable but rotations' parts
-  std::vector<Kind> kinds_;                                // of each variable
+  std::vector<JointRule> rules_;                           // of each variable
   std::vector<Rotation> rotations_;
   std::vector<std::optional<std::size_t>> rotation_of_;  // of each variable that is a part of one
   SourceNames sources_;

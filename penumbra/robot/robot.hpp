@@ -72,6 +72,7 @@ struct Joint {
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< T_parent_joint
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           ///< unit, in the joint's frame
   std::optional<double> lower, upper;  ///< limits of revolute and prismatic joints, rad or m
+  std::optional<double> velocity;      ///< limit, rad/s or m/s, above 0
 
   /// First of this joint's values in the position vector; not set for a fixed joint. A mimicking
   /// joint's value is multiplier * positions[variable] + offset, chains folded.

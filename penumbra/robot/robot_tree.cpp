@@ -105,6 +105,7 @@ Joint make_joint(const UrdfJoint& from, std::size_t parent, std::size_t child) {
   joint.child = child;
   joint.origin = from.origin;
   joint.axis = from.axis;
+  joint.velocity = from.velocity;
   joint.lower = from.lower;
   joint.upper = from.upper;
   return joint;

@@ -66,6 +66,7 @@ struct UrdfJoint {
   std::string parent, child;
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
+  std::optional<double> velocity;
   std::optional<double> lower, upper;
   std::optional<UrdfMimic> mimic;
 };

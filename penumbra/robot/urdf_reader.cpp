@@ -39,8 +39,8 @@ constexpr Names kJointIgnored = {"dynamics", "safety_controller", "calibration",
                                  "gazebo",   "joint_properties",  "verbose"};
 constexpr Names kLinkReference = {"link"};
 constexpr Names kAxisAttributes = {"xyz"};
-constexpr Names kLimitAttributes = {"lower", "upper"};
-constexpr Names kLimitIgnored = {"effort", "velocity", "acceleration", "deceleration", "jerk"};
+constexpr Names kLimitAttributes = {"lower", "upper", "velocity"};
+constexpr Names kLimitIgnored = {"effort", "acceleration", "deceleration", "jerk"};
 constexpr Names kMimicAttributes = {"joint", "multiplier", "offset"};
 
 constexpr ElementRule kRobotRule{kRobotAttributes, {}, kRobotChildren, kRobotIgnored};
@@ -196,6 +196,8 @@ void read_limits(const UrdfNode& joint, UrdfJoint& out) {
   node->expect(kLimitRule);
   const double lower = node->number_or("lower", 0.0);
   const double upper = node->number_or("upper", 0.0);
+  const double velocity = node->number_or("velocity", 0.0);
+  if (velocity > 0.0) out.velocity = velocity;
   if (out.type != JointType::revolute && out.type != JointType::prismatic) return;
   if (lower > upper) node->fail("lower is above upper");
   out.lower = lower;

@@ -204,7 +204,7 @@ TEST(RuleCheck, AcceptsDefaultsAndPaper) {
   EXPECT_EQ(message_of(LabelRule{}), "");
   EXPECT_EQ(message_of(LabelRule::paper()), "");
   LabelRule falling;
-  falling.tolerance = {0.02, -0.001, 0.0};  // 0 at 20 m
+  falling.tolerance = {0.02, -0.02, 0.005};  // 0 at 2 m, its least
   EXPECT_EQ(message_of(falling), "");
 }
 
@@ -218,6 +218,8 @@ TEST(RuleCheck, RefusesAndSaysWhatItGot) {
   expect("tolerance -0.01,0,0", [](LabelRule& r) { r.tolerance = {-0.01, 0, 0}; });
   expect("tolerance 0.02,-0.1,0.1", [](LabelRule& r) { r.tolerance = {0.02, -0.1, 0.1}; });
   expect("tolerance 0.02,-0.01,0", [](LabelRule& r) { r.tolerance = {0.02, -0.01, 0}; });
+  expect("tolerance 0.02,-0.001,0", [](LabelRule& r) { r.tolerance = {0.02, -0.001, 0}; });
+  expect("tolerance 1,0,-1e-06", [](LabelRule& r) { r.tolerance = {1, 0, -1e-6}; });
   expect("tolerance inf", [](LabelRule& r) { r.tolerance.a = infinity; });
   expect("nan", [](LabelRule& r) { r.tolerance.c = std::nan(""); });
   expect("factor 0.9", [](LabelRule& r) { r.beyond_factor = 0.9; });

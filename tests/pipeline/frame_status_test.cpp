@@ -75,13 +75,15 @@ TEST_F(FrameStatusTest, NoJoints) {
 TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   JointAnswer answer;
   answer.status = JointStatus::stale;
-  answer.gaps = {{.variable = 0, .why = JointStatus::stale, .last_seen = 42, .source = "driver"}};
+  answer.gaps = {
+      {.variable = 0, .why = JointStatus::stale, .last_seen = 42, .jump = {}, .source = "driver"}};
   expect_pose_unknown(
       with_joints(answer), FrameStatus::stale_joints,
       "'slide' has no position near the stamp (last seen at 42 ns by driver, who is "
       "waited for)");
   answer.status = JointStatus::missing;
-  answer.gaps = {{.variable = 0, .why = JointStatus::missing, .last_seen = {}, .source = {}}};
+  answer.gaps = {
+      {.variable = 0, .why = JointStatus::missing, .last_seen = {}, .jump = {}, .source = {}}};
   expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
 
   answer = {

@@ -141,17 +141,24 @@ TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
       << "a clock that is set back begins a new sequence";
 }
 
-/// Half a second is enough: at the old stamps the target is elsewhere.
-TEST_F(TargetsTest, AClockThatIsSetBackALittleLeavesNothingMeasured) {
+/// At the old stamps the target is elsewhere.
+TEST_F(TargetsTest, AClockThatIsSetBackByMoreThanASecondLeavesNothingMeasured) {
   for (int i = 0; i < 6; ++i)
-    ASSERT_EQ(judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.0)).handled->source,
+    ASSERT_EQ(judge(i * 250 * ms, estimated(i * 250 * ms, beside_slab, 0.0)).handled->source,
               Source::measured);
   for (int i = 0; i < 6; ++i) {
-    const TargetReport& report = judge(i * 100 * ms, estimated(i * 100 * ms, beside_slab, 0.17));
+    const TargetReport& report = judge(i * 250 * ms, estimated(i * 250 * ms, beside_slab, 0.17));
     ASSERT_EQ(report.estimate, penumbra::Outcome::accepted);
     EXPECT_EQ(report.handled->source, Source::measured);
     EXPECT_NEAR(report.handled->position->x(), 0.17, 1e-9);
   }
+}
+
+TEST_F(TargetsTest, FramesThatOvertakeOneAnotherLeaveTracksAlone) {
+  ASSERT_EQ(judge(0, followed(beside_slab)).handled->source, Source::measured);
+  ASSERT_EQ(judge(200 * ms, followed(beside_slab)).handled->source, Source::measured);
+  judge(100 * ms, followed(beside_slab));
+  EXPECT_EQ(judge(300 * ms, followed(behind_slab)).handled->source, Source::held);
 }
 
 /// As of a clock that stands still.

@@ -203,7 +203,7 @@ TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
   waiting[1].wants_stamp = true;
   FrameReport report;
   for (const std::int64_t stamp : {5, 4, 6, 6, 2}) {
-    report.stamp = stamp * ms;
+    report.stamp = stamp * 1001 * ms;
     report.targets = stamp == 2 ? std::span<const TargetReport>() : plain;
     notes.add(report, {});
   }
@@ -214,8 +214,8 @@ TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
   const Lines lines = notes.lines();
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[1],
-            "stamps went back in 1 frame with targets: what was known of them until then was "
-            "forgotten");
+            "stamps went back by more than a second in 1 frame with targets: what was known of "
+            "them until then was forgotten");
   EXPECT_EQ(lines[2],
             "targets that want handling in 2 frames without a stamp: none is handled there");
 }

@@ -300,5 +300,20 @@ TEST_F(TargetsTest, ANameOfNoObjectRemembersNone) {
       << "names that lie: without this the test shows nothing";
 }
 
+/// A tracked cup, and a detector's first cup of this frame that goes by the same name.
+TEST_F(TargetsTest, ANameOfNoObjectLeavesATrackOfThatNameAlone) {
+  const Target tracked{
+      .name = "cup", .shape = RegionTarget{beside_slab}, .handling = PointTrackerConfig{}};
+  const Target again{
+      .name = "cup", .shape = RegionTarget{behind_slab}, .handling = PointTrackerConfig{}};
+  const Target nameless{
+      .name = "cup", .has_identity = false, .shape = RegionTarget{behind_slab, Extent::modal}};
+  ASSERT_EQ(process(1 * ms, std::vector{tracked, nameless}).targets[0].handled->source,
+            Source::measured);
+  const FrameReport& report = process(2 * ms, std::vector{nameless, again});
+  EXPECT_EQ(report.targets[0].name, "cup");
+  EXPECT_EQ(report.targets[1].handled->source, Source::held);
+}
+
 }  // namespace
 }  // namespace penumbra::test

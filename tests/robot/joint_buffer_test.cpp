@@ -43,10 +43,10 @@ class Buffer : public ::testing::Test {
 
 TEST_F(Buffer, InterpolatesBetweenStatesAndTellsTheirAge) {
   EXPECT_EQ(insert(0, {"p", "q"}, {1.0, 2.0}), 2u);
-  EXPECT_EQ(insert(40, {"q", "p"}, {4.0, 0.0}), 2u);
+  EXPECT_EQ(insert(40, {"q", "p"}, {3.0, 0.0}), 2u);
   EXPECT_EQ(at(10).status, JointStatus::ok);
   EXPECT_NEAR(answer_.positions[0], 0.75, kTolerance);
-  EXPECT_NEAR(answer_.positions[1], 2.5, kTolerance);
+  EXPECT_NEAR(answer_.positions[1], 2.25, kTolerance);
   EXPECT_EQ(answer_.age, 30 * kMs);
   EXPECT_TRUE(answer_.gaps.empty());
 }
@@ -88,13 +88,13 @@ TEST_F(Buffer, MissingIsToldBeforeStale) {
 }
 
 TEST_F(Buffer, PartialStatesAreMergedInAnyOrderOfTime) {
-  insert(60, {"q"}, {6.0});
+  insert(60, {"q"}, {1.5});
   insert(20, {"p"}, {2.0});
   insert(0, {"q"}, {0.0});
   insert(40, {"p"}, {4.0});
   EXPECT_EQ(at(30).status, JointStatus::ok);
   EXPECT_NEAR(answer_.positions[0], 3.0, kTolerance);
-  EXPECT_NEAR(answer_.positions[1], 3.0, kTolerance);
+  EXPECT_NEAR(answer_.positions[1], 0.75, kTolerance);
   EXPECT_EQ(buffer_.complete_until(), 40 * kMs);
 }
 
@@ -227,10 +227,49 @@ TEST(BufferKinds, PartsOfAQuaternionBelongToOneStamp) {
   EXPECT_EQ(answer.status, JointStatus::stale);
   EXPECT_EQ(answer.gaps.size(), 4u);
   const std::vector<std::string> rest = {"q/qz", "q/qw"};
-  buffer.insert(10 * kMs, rest, std::vector<double>{1, 0});
+  buffer.insert(10 * kMs, rest, std::vector<double>{0.6, 0.8});
   buffer.at(5 * kMs, answer);
   EXPECT_EQ(answer.status, JointStatus::ok);
   EXPECT_EQ(buffer.complete_until(), 10 * kMs);
+}
+
+TEST(BufferJumps, AreNeverInterpolated) {
+  const double slow = 0.5, half = 0.9;  // rad/s; of a rotation by more than a right angle
+  struct Case {
+    std::string type, body;
+    std::vector<double> before, after;
+    bool ok;
+  };
+  const std::vector<double> no_turn = {0, 0, 0, 0, 0, 0, 1};
+  const std::vector<double> turned = {0, 0, 0, 0, 0, std::sin(half), std::cos(half)};
+  const std::string limit = "<limit velocity=\"" + std::to_string(slow) + "\"/>";
+  const Case cases[] = {
+      {"revolute", "", {3.1}, {-3.1}, false},  // an encoder that wraps
+      {"revolute", "", {0.0}, {1.5}, true},
+      {"revolute", limit, {0.0}, {0.1}, false},  // 0.1 s at 0.5 rad/s, and 20 ms of jitter
+      {"revolute", limit, {0.0}, {0.05}, true},
+      {"continuous", "", {3.1}, {-3.1}, true},  // 0.08 rad the short way
+      {"continuous", "", {0.0}, {1.7}, false},
+      {"prismatic", "", {0.0}, {1.0}, true},  // nothing says how fast a slide is
+      {"prismatic", limit, {0.0}, {0.1}, false},
+      {"floating", "", no_turn, turned, false},
+  };
+  for (const Case& each : cases) {
+    const Robot robot = arm(each.type, each.body);
+    std::vector<std::string> names(robot.variables().begin() + 1, robot.variables().end());
+    JointBuffer buffer(robot);
+    for (const std::int64_t stamp : {std::int64_t{0}, 100 * kMs}) {
+      buffer.insert(stamp, std::vector<std::string>{"p"}, std::vector<double>{0.0});
+      buffer.insert(stamp, names, stamp == 0 ? each.before : each.after);
+    }
+    JointAnswer answer;
+    buffer.at(50 * kMs, answer);
+    EXPECT_EQ(answer.status, each.ok ? JointStatus::ok : JointStatus::stale)
+        << each.type << ' ' << each.after.back();
+    EXPECT_EQ(!answer.gaps.empty() && answer.gaps.back().jump, !each.ok);
+    buffer.at(100 * kMs, answer);
+    EXPECT_EQ(answer.status, JointStatus::ok) << "a state itself is no jump";
+  }
 }
 
 TEST(BufferKinds, QuaternionsThatAreNoneAreRefused) {
