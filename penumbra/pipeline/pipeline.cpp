@@ -135,8 +135,8 @@ struct Pipeline::State {
   std::vector<std::uint16_t> no_depth_row;  // likewise
   Camera judged_camera;                     // of the report's images
   TargetStage targets;
-  DepthView seen;                         // of this frame, as it was compared
-  LabelView labels;                       // likewise
+  DepthView seen;    // of this frame, as it was compared
+  LabelView labels;  // likewise
   std::size_t calls = 0;
   FrameReport report;
 };
