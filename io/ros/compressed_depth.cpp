@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <io/numbers.hpp>
+#include <io/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_limits-inl.hpp>
@@ -88,7 +89,7 @@ std::optional<std::string> decode_compressed_depth(const CompressedImageMessage&
   const DepthFormat format = parse_format(message.format);
   const bool is_float = format.encoding == "32FC1";
   if ((!is_float && format.encoding != "16UC1") || (format.codec != "png" && format.codec != "rvl"))
-    return "has format '" + message.format +
+    return "has format '" + printable(message.format) +
            "'; '16UC1; compressedDepth' or '32FC1; compressedDepth', png or rvl, is wanted";
   if (message.data.size() < parameter_bytes) return "ends before its data";
   const auto packed = message.data.subspan(parameter_bytes);

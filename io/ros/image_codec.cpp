@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <io/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/colour_conversion-inl.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
@@ -84,7 +85,8 @@ std::optional<std::string> decode_depth(const ImageMessage& message, DecodedDept
     return of_image("depth image", take_depth(message, depth.millimetres, depth.view));
   if (message.encoding == "32FC1")
     return of_image("depth image", take_depth(message, depth.metres, depth.view));
-  return "depth image has encoding '" + message.encoding + "'; 16UC1, mono16 or 32FC1 is wanted";
+  return "depth image has encoding '" + printable(message.encoding) +
+         "'; 16UC1, mono16 or 32FC1 is wanted";
 }
 
 std::optional<std::string> decode_depth(const CompressedImageMessage& message,
@@ -98,7 +100,7 @@ std::optional<std::string> decode_depth(const CompressedImageMessage& message,
 std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8>& image) {
   const ColourFormat* format = find_colour_format(message.encoding);
   if (format == nullptr)
-    return "colour image has encoding '" + message.encoding +
+    return "colour image has encoding '" + printable(message.encoding) +
            "'; rgb8, bgr8, rgba8, bgra8, mono8, yuv422 or yuv422_yuy2 is wanted";
   if (auto fault = check_layout(message, format->pixel_bytes))
     return of_image("colour image", fault);
@@ -118,7 +120,7 @@ std::optional<std::string> decode_colour(const CompressedImageMessage& message,
     return of_image("colour image", decode_png(message.data, image));
   if (begins_with(message.data, "\xff\xd8\xff"))
     return of_image("colour image", decode_jpeg(message.data, image));
-  return "colour image of format '" + message.format + "' is neither PNG nor JPEG";
+  return "colour image of format '" + printable(message.format) + "' is neither PNG nor JPEG";
 }
 
 template <typename T>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
-#include <penumbra/robot/primitives.hpp>
 
 namespace penumbra {
 namespace {
@@ -24,12 +25,69 @@ void check_mesh(const TriangleMesh* mesh) {
                          std::to_string(mesh->vertices.size()) + " vertices");
 }
 
+/// Columns [u0, u1) and rows [v0, v1).
+struct PixelRectangle {
+  int u0, u1, v0, v1;
+
+  [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
+};
+
+/// Those that may show a box; all of them where it reaches before the near plane.
+PixelRectangle pixels_of(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box,
+                         const Intrinsics& camera) {
+  const Eigen::AlignedBox3d box(-0.5 * size, 0.5 * size);
+  Eigen::AlignedBox2d seen;
+  bool is_near = false;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d p =
+        T_camera_box * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    is_near = is_near || p.z() < DepthRenderer::near_plane;
+    if (!is_near) seen.extend(camera.project(p));
+  }
+  const int width = camera.width(), height = camera.height();
+  if (is_near) return {0, width, 0, height};
+  const auto inside = [](double at, int size_of_image) {
+    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size_of_image)));
+  };
+  return {inside(std::floor(seen.min().x()), width), inside(std::floor(seen.max().x()) + 1, width),
+          inside(std::floor(seen.min().y()), height),
+          inside(std::floor(seen.max().y()) + 1, height)};
+}
+
+/// Meets a box with rays from the camera's centre (Kay and Kajiya 1986, slabs). In the box's frame.
+class BoxRays {
+ public:
+  BoxRays(const Eigen::Vector3d& half, const Eigen::Vector3d& camera)
+      : lower_((-half - camera).cast<float>()), upper_((half - camera).cast<float>()) {}
+
+  /// Depths of `count` pixels of a row, whose rays of depth 1 begin at `first` and go on by `step`;
+  /// 0: the box is not met. What lies before the near plane is cut away.
+  void draw(const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count,
+            float* out) const {
+    constexpr auto nearest = static_cast<float>(DepthRenderer::near_plane);
+    const Eigen::Vector3f from = first.cast<float>(), by = step.cast<float>();
+    for (int i = 0; i < count; ++i) {
+      float in = -std::numeric_limits<float>::infinity(), leaves = -in;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float d = from[axis] + static_cast<float>(i) * by[axis];
+        const float a = lower_[axis] / d, b = upper_[axis] / d;
+        in = std::max(in, std::min(a, b));
+        leaves = std::min(leaves, std::max(a, b));
+      }
+      const float depth = in >= nearest ? in : leaves;
+      out[i] = in <= leaves && depth >= nearest ? depth : 0.0f;
+    }
+  }
+
+ private:
+  Eigen::Vector3f lower_, upper_;  // faces, seen from the camera
+};
+
 }  // namespace
 
-/// A renderer and what it draws: a mesh, or a box of that size.
+/// A renderer and what it draws.
 struct ObjectRenderers::Kept {
   std::shared_ptr<const TriangleMesh> mesh;
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();
   std::unique_ptr<DepthRenderer> renderer;
   std::size_t last_use = 0;
 };
@@ -44,14 +102,35 @@ ObjectRenderers::~ObjectRenderers() = default;
 
 VirtualDepthView ObjectRenderers::box(const Eigen::Vector3d& size,
                                       const Eigen::Isometry3d& T_camera_box) {
-  for (const auto& kept : kept_)
-    if (!kept->mesh && kept->size == size) return render(*kept, T_camera_box);
-  const TriangleMesh mesh = make_box(size);
-  const Body body{"target", {&mesh, 1}};
-  auto renderer = make_depth_renderer(backend_, intrinsics_, {&body, 1}, options_);
-  Kept& kept = place();
-  kept = {nullptr, size, std::move(renderer), 0};
-  return render(kept, T_camera_box);
+  clear_box();
+  const PixelRectangle pixels = pixels_of(size, T_camera_box, intrinsics_);
+  if (!pixels.empty()) {
+    const Eigen::Isometry3d T_box_camera = T_camera_box.inverse();
+    const BoxRays rays(0.5 * size, T_box_camera.translation());
+    const auto direction = [&](int u, int v) -> Eigen::Vector3d {
+      return T_box_camera.linear() * intrinsics_.ray(u, v);
+    };
+    for (int v = pixels.v0; v < pixels.v1; ++v) {
+      const Eigen::Vector3d first = direction(pixels.u0, v);
+      rays.draw(first, direction(pixels.u0 + 1, v) - first, pixels.u1 - pixels.u0,
+                &box_depth_(pixels.u0, v));
+    }
+    box_touched_.mark(pixels.u0, pixels.v0, pixels.u1 - 1, pixels.v1 - 1);
+  }
+  return in_image({box_depth_.view(), box_links_.view(), &box_touched_});
+}
+
+void ObjectRenderers::clear_box() {
+  const int width = intrinsics_.width(), height = intrinsics_.height();
+  if (box_depth_.empty()) {
+    box_depth_ = Image<float>(width, height);
+    box_links_ = Image<std::uint16_t>(width, height);
+    box_touched_ = TileMask(width, height);
+  }
+  box_touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int v = v0; v < v1; ++v) std::fill_n(&box_depth_(u0, v), u1 - u0, 0.0f);
+  });
+  std::fill(box_touched_.rows.begin(), box_touched_.rows.end(), 0);
 }
 
 VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>& mesh,
@@ -62,7 +141,7 @@ VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>
   const Body body{"target", {mesh.get(), 1}};
   auto renderer = make_depth_renderer(backend_, intrinsics_, {&body, 1}, options_);
   Kept& kept = place();
-  kept = {mesh, Eigen::Vector3d::Zero(), std::move(renderer), 0};
+  kept = {mesh, std::move(renderer), 0};
   return render(kept, T_camera_mesh);
 }
 
@@ -75,7 +154,10 @@ ObjectRenderers::Kept& ObjectRenderers::place() {
 
 VirtualDepthView ObjectRenderers::render(Kept& kept, const Eigen::Isometry3d& T_camera_object) {
   kept.last_use = ++uses_;
-  const VirtualDepthView rendered = kept.renderer->render({&T_camera_object, 1});
+  return in_image(kept.renderer->render({&T_camera_object, 1}));
+}
+
+VirtualDepthView ObjectRenderers::in_image(const VirtualDepthView& rendered) {
   if (rectification_ == nullptr) return rendered;
   if (!raw_images_) raw_images_.emplace(*rectification_);
   return raw_images_->virtual_depth(rendered);

@@ -6,8 +6,7 @@
 namespace penumbra {
 
 PoseHistory::PoseHistory(const Robot& robot, const PoseHistoryOptions& options)
-    : joints_(robot, options.joints),
-      transforms_(options.transforms) {}
+    : joints_(robot, options.joints), transforms_(options.transforms) {}
 
 std::size_t PoseHistory::add_joints(std::int64_t stamp, std::span<const std::string> names,
                                     std::span<const double> positions, std::string_view source) {

@@ -64,6 +64,7 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
     : robot_(robot),
       options_(std::move(options)),
       camera_parent_(find_camera_parent(robot, options_.camera_parent)),
+      rest_(robot.rest_positions()),
       T_root_link_(robot.links().size()) {
   if (!(options_.agreement >= 0.0))
     throw InputError("agreement of joint states and TF is " + std::to_string(options_.agreement) +
@@ -95,6 +96,9 @@ void PoseLookup::note_movers() {
       return false;
     }));
   }
+  carries_ = counts_;
+  for (std::size_t link = frames_.size() - 1; link > 0; --link)  // parents stand before children
+    if (carries_[link]) carries_[robot_.joints()[link - 1].parent] = true;
 }
 
 void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) {
@@ -119,27 +123,36 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
                              PoseAnswer& answer) const {
   history.joints().at(stamp, answer.joints);
   answer.age = answer.joints.age;
-  if (answer.joints.status == JointStatus::ok) return;
-  if (answer.joints.status == JointStatus::disputed) judge_disputes(answer);
+  if (answer.joints.status != JointStatus::ok) judge_unknown_joints(answer);
   answer.status = status_of(answer.joints.status);
   if (answer.status != FrameStatus::ok) answer.message = describe(robot_, answer.joints);
 }
 
-void PoseLookup::judge_disputes(PoseAnswer& answer) const {
+void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
+  JointStatus& status = answer.joints.status;
+  auto& gaps = answer.joints.gaps;
   auto& disputes = answer.joints.disputes;
-  const auto counts = [this](const JointDispute& dispute) { return moves_[dispute.variable]; };
-  if (std::any_of(disputes.begin(), disputes.end(), counts)) {
-    std::erase_if(disputes, std::not_fn(counts));
+  const auto idle = std::not_fn([this](const auto& unknown) { return moves_[unknown.variable]; });
+  if (!std::all_of(gaps.begin(), gaps.end(), idle) ||
+      !std::all_of(disputes.begin(), disputes.end(), idle)) {
+    std::erase_if(gaps, idle);
+    std::erase_if(disputes, idle);
+    status = gaps.empty() ? JointStatus::disputed : JointStatus::stale;
+    for (const JointGap& gap : gaps)
+      if (gap.why == JointStatus::missing) status = JointStatus::missing;
     return;
   }
-  const auto is_disputed = [&](std::size_t variable) {
-    return std::any_of(disputes.begin(), disputes.end(),
-                       [&](const JointDispute& dispute) { return dispute.variable == variable; });
+  answer.doubt = describe(robot_, answer.joints);
+  const auto is_unknown = [&](std::size_t variable) {
+    const auto is_meant = [variable](const auto& unknown) { return unknown.variable == variable; };
+    return std::any_of(gaps.begin(), gaps.end(), is_meant) ||
+           std::any_of(disputes.begin(), disputes.end(), is_meant);
   };
   for (std::size_t link = 0; link < frames_.size(); ++link)
-    if (any_variable_above(link, is_disputed)) answer.doubted_links.push_back(link);
-  answer.doubt = describe(robot_, answer.joints);
-  answer.joints.status = JointStatus::ok;
+    if (any_variable_above(link, is_unknown)) answer.doubted_links.push_back(link);
+  for (const JointGap& gap : gaps) answer.joints.positions[gap.variable] = rest_[gap.variable];
+  status = JointStatus::ok;
+  gaps.clear();
   disputes.clear();
 }
 
@@ -147,15 +160,23 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
                             PoseAnswer& answer) {
   answer.T_root_link.resize(frames_.size());
   answer.T_root_link[0].setIdentity();
+  const auto is_doubted = [&](std::size_t link) {
+    return std::count(answer.doubted_links.begin(), answer.doubted_links.end(), link) > 0;
+  };
   for (const Joint& joint : robot_.joints()) {
-    const Eigen::Isometry3d& T_root_parent = answer.T_root_link[joint.parent];
-    if (joint.type == JointType::fixed && !transforms.knows(frames_[joint.child])) {
-      answer.T_root_link[joint.child] = T_root_parent * joint.origin;
-      continue;
+    const bool is_given = joint.type != JointType::fixed || transforms.knows(frames_[joint.child]);
+    const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
+                                                      frames_[joint.child], answer);
+    if (!is_found && carries_[joint.child]) return;
+    answer.T_root_link[joint.child] =
+        answer.T_root_link[joint.parent] *
+        (is_given && is_found ? transform_.T_target_source : joint.origin);
+    if (!is_found) {
+      answer.status = FrameStatus::ok;
+      answer.doubt = std::exchange(answer.message, {});
     }
-    if (!find_transform(transforms, stamp, frames_[joint.parent], frames_[joint.child], answer))
-      return;
-    answer.T_root_link[joint.child] = T_root_parent * transform_.T_target_source;
+    if ((!is_found || is_doubted(joint.parent)) && !is_doubted(joint.child))
+      answer.doubted_links.push_back(joint.child);
   }
 }
 

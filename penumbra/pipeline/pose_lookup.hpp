@@ -54,7 +54,8 @@ struct PoseAnswer {
   std::vector<Eigen::Isometry3d> T_root_link;        ///< of PoseSource::transforms and both: TF's
   std::optional<Eigen::Isometry3d> T_parent_camera;  ///< if the camera's frame is in TF
   std::optional<Disagreement> disagreement;          ///< of PoseSource::both; ok or not
-  /// Of an answer that is ok: links that two sources put elsewhere, and why, as LinkDoubts has it.
+  /// Of an answer that is ok: links whose place is not known for sure, and why, as LinkDoubts has
+  /// it.
   std::vector<std::size_t> doubted_links;
   std::string doubt;
 };
@@ -68,9 +69,9 @@ class PoseLookup {
   PoseLookup(const Robot& robot, PoseOptions options);
 
   /// From TF every link is looked up in its parent link. A fixed joint's link whose frame TF never
-  /// named is where the URDF says; any other one is missing_transform. A joint of which two sources
-  /// tell different values is poses_disagree, if it moves a drawn link or the camera's parent; else
-  /// the links that it moves are doubted.
+  /// named is where the URDF says. Joints and transforms that are missing or stale, or of which two
+  /// sources tell different values, make the answer so if they move a drawn link or the camera's
+  /// parent; else the links that they move are doubted.
   /// Allocates nothing for an answer that is ok, once the answer has been used.
   void at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer);
 
@@ -81,7 +82,7 @@ class PoseLookup {
   template <typename F>
   [[nodiscard]] bool any_variable_above(std::size_t link, const F& is_meant) const;
   void find_joints(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) const;
-  void judge_disputes(PoseAnswer& answer) const;
+  void judge_unknown_joints(PoseAnswer& answer) const;
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void compare(PoseAnswer& answer);
@@ -93,7 +94,9 @@ class PoseLookup {
   std::vector<std::string> frames_;  // of each link, in TF
   std::size_t camera_parent_;
   std::vector<bool> counts_;   // of each link: whether it is drawn or the camera's parent
+  std::vector<bool> carries_;  // of each link: one of these, or itself
   std::vector<bool> moves_;    // of each variable: one of these
+  std::vector<double> rest_;   // of each variable
   TransformAnswer transform_;  // of the last lookup
   std::vector<Eigen::Isometry3d> T_root_link_;  // by the joint states
 };

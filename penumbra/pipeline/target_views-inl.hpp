@@ -29,7 +29,8 @@ namespace penumbra {
 [[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses,
                                         const Robot& robot);
 
-/// Renders objects alone, each by a renderer of its own that is kept as long as it is in use.
+/// Renders objects alone: each mesh by a renderer of its own that is kept as long as it is in use,
+/// boxes, whose size may change with every frame, by the rays of their pixels.
 class ObjectRenderers {
  public:
   /// Renderers that are kept; where more are wanted in one frame, they are made again and again.
@@ -40,8 +41,8 @@ class ObjectRenderers {
                   const Rectification* rectification);
   ~ObjectRenderers();
 
-  /// Depth of a box or mesh; valid until the next call. Throws InputError for a size or mesh that
-  /// cannot be drawn.
+  /// Depth of a box or mesh; valid until the next call. Throws InputError for a mesh that cannot be
+  /// drawn.
   VirtualDepthView box(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box);
   VirtualDepthView mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                         const Eigen::Isometry3d& T_camera_mesh);
@@ -49,13 +50,18 @@ class ObjectRenderers {
  private:
   struct Kept;
   VirtualDepthView render(Kept& kept, const Eigen::Isometry3d& T_camera_object);
+  VirtualDepthView in_image(const VirtualDepthView& rendered);
+  void clear_box();
   Kept& place();
 
   Intrinsics intrinsics_;
   Backend backend_;
   RendererOptions options_;
   const Rectification* rectification_;
-  std::optional<RawImages> raw_images_;  // made with the first renderer
+  std::optional<RawImages> raw_images_;  // made with the first object
+  Image<float> box_depth_;               // made with the first box
+  Image<std::uint16_t> box_links_;       // zeros
+  TileMask box_touched_;
   std::vector<std::unique_ptr<Kept>> kept_;
   std::size_t uses_ = 0;
 };
@@ -79,8 +85,7 @@ class TargetViews {
   struct Builder;
 
   [[nodiscard]] Eigen::Matrix2d pixels_per_metre(const Eigen::Vector2d& ray, double depth) const;
-  [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
-                                        double radius) const;
+  [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, double radius) const;
 
   const Robot& robot_;
   const Camera& camera_;

@@ -111,6 +111,7 @@ TEST(RosImage, SizesThatDoNotFitAreFaults) {
   EXPECT_HAS(with([](auto& m) { m.width = 4'000'000'000; }), "has 4000000000 x 3 pixels");
   EXPECT_HAS(with([](auto& m) { m.step = 4'000'000'000; }), "steps of 4000000000");
   EXPECT_HAS(with([](auto& m) { m.encoding = "rgb8"; }), "has encoding 'rgb8'; 16UC1, mono16 or");
+  EXPECT_HAS(with([](auto& m) { m.encoding = "\x1b[2J\nok"; }), "has encoding '?[2J?ok'; 16UC1");
 }
 
 TEST(RosImage, Colours) {

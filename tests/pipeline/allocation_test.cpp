@@ -55,6 +55,7 @@ TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
     if (GetParam().history > 0) targets.back().stamp = (i - 5) * 10'000'000;
     const std::size_t before = allocations();
     positions[0] = 0.01 * i;
+    std::get<BoxTarget>(targets[2].shape).size.x() = 0.05 + 0.001 * i;  // detectors' sizes jitter
     const DepthView depth = i % 2 == 0 ? DepthView(metres.view()) : DepthView(millimetres.view());
     const FrameReport& report = pipeline.process(
         {.stamp = i * 10'000'000, .depth = depth, .joints = positions, .targets = targets});

@@ -120,14 +120,51 @@ TEST_F(PoseLookupTest, ByJointsThatTwoProgramsTellDifferently) {
   expect(FrameStatus::poses_disagree, "at 0 by publisher 2 of /joint_states");
 }
 
-TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
-  const Robot robot = Robot::parse(
+/// Nothing of the link `frame` is drawn.
+Robot box_and_frame() {
+  return Robot::parse(
       "<robot name=\"r\"><link name=\"base\"/><link name=\"box\"><collision><geometry>"
       "<box size=\"1 1 1\"/></geometry></collision></link><link name=\"frame\"/>"
       "<joint name=\"a\" type=\"prismatic\"><parent link=\"base\"/><child link=\"box\"/></joint>"
       "<joint name=\"b\" type=\"prismatic\"><parent link=\"box\"/><child link=\"frame\"/></joint>"
       "</robot>",
       ".");
+}
+
+TEST_F(PoseLookupTest, WhatMovesNothingDrawnMayBeMissing) {
+  const Robot robot = box_and_frame();
+  const std::vector<std::size_t> frame = {*robot.find_link("frame")};
+  const std::string a[] = {"a"}, b[] = {"b"};
+  const double some[] = {0.1};
+  {
+    PoseHistory history(robot);
+    history.add_joints(10 * ms, a, some);
+    PoseLookup lookup(robot, {});
+    lookup.at(history, 10 * ms, answer_);
+    EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+    EXPECT_EQ(answer_.doubted_links, frame);
+    EXPECT_NE(answer_.doubt.find("joint 'b' was never seen"), std::string::npos) << answer_.doubt;
+    EXPECT_EQ(answer_.joints.positions, (std::vector<double>{0.1, 0.0}));
+    PoseHistory other(robot);
+    other.add_joints(10 * ms, b, some);
+    lookup.at(other, 10 * ms, answer_);
+    expect(FrameStatus::missing_joints, "joint 'a' was never seen");
+  }
+  PoseLookup lookup(robot, {.source = PoseSource::transforms});
+  PoseHistory history(robot);
+  history.add_transform(10 * ms, "base", "box", shift(0.1, 0, 0));
+  lookup.at(history, 10 * ms, answer_);
+  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+  EXPECT_EQ(answer_.doubted_links, frame);
+  EXPECT_NE(answer_.doubt.find("'frame'"), std::string::npos) << answer_.doubt;
+  PoseHistory other(robot);
+  other.add_transform(10 * ms, "box", "frame", shift(0.1, 0, 0));
+  lookup.at(other, 10 * ms, answer_);
+  expect(FrameStatus::missing_transform, "'box'");
+}
+
+TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
+  const Robot robot = box_and_frame();
   PoseHistory history(robot);
   const std::string names[] = {"a", "b"};
   for (std::int64_t t = 10; t <= 300; t += 10) {
