@@ -74,7 +74,8 @@ FringeFill::FringeFill(int width, int height, int reach)
 
 void FringeFill::add_source(const Rule& rule, int x, int y, std::uint16_t depth) {
   const float z = static_cast<float>(depth) / millimetres_per_metre;
-  const float e = (rule.a + (rule.b + rule.c * z) * z) * millimetres_per_metre;
+  const float e =
+      std::min((rule.a + (rule.b + rule.c * z) * z) * millimetres_per_metre, float{farthest});
   const auto drift = static_cast<int>(static_cast<float>(LabelRule::fringe_drift) * e);
   const auto step = static_cast<int>(static_cast<float>(LabelRule::fringe_step) * e);
   const auto at_x = static_cast<std::int16_t>(x), at_y = static_cast<std::int16_t>(y);
@@ -159,7 +160,7 @@ namespace {
 
 using Vector = hn::VFromD<Eight>;
 
-/// What eight pixels give to their blocks, of which the least counts: the depth of an occluded
+/// What eight pixels give to their blocks. The least of a block counts: the depth of an occluded
 /// one, that of a clear one with is_open, or nothing.
 HWY_INLINE Vector ranks(const std::uint8_t* labels, const std::uint16_t* depth, Vector near,
                         Vector far) {
@@ -227,7 +228,7 @@ void FringeFill::find_sources(const Work& work) {
             hn::Or(hn::Or(row_around(at - pitch), row_around(at)), row_around(at + pitch));
         const auto here = hn::LoadU(Eight(), at);
         const auto is_robot = hn::And(hn::Lt(here, open), hn::Ne(here, hn::Zero(Eight())));
-        std::array<std::uint8_t, 8> bits;  // of which Highway may write all
+        std::array<std::uint8_t, 8> bits;  // Highway may write all of them
         hn::StoreMaskBits(Eight(), hn::And(is_robot, hn::TestBit(around, open)), bits.data());
         for (unsigned left = bits[0]; left != 0; left &= left - 1) {
           const int i = std::countr_zero(left);

@@ -63,7 +63,8 @@ class Pipeline {
   const FrameReport& process(const Frame& frame);
 
   /// Forgets a target's verdict, extent and track: the name stands for something new. All of them,
-  /// and the kept frames: a new sequence begins. A stamp before the last frame's does so, too.
+  /// and the kept frames: a new sequence begins. A stamp more than 1 s before the newest one does
+  /// so, too.
   void forget_target(std::string_view name);
   void forget_targets();
 
