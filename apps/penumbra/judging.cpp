@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/sequence_notes.hpp>
+#include <penumbra/tuning/missing_parts.hpp>
 
 #include <apps/penumbra/judging.hpp>
 #include <apps/penumbra/text.hpp>
@@ -130,6 +131,7 @@ bool Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
 
 void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on) {
   SequenceNotes doubts(pipeline_.robot(), {.image = arguments_.image});
+  MissingParts missing(pipeline_.robot(), pipeline_.rule().fringe_reach);
   RendererWatch watch(pipeline_);
   io::FrameData data;
   Frame frame;
@@ -139,6 +141,7 @@ void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on
       const FrameReport& report = judge(pipeline_, frame, statistics_);
       statistics_.add(report);
       doubts.add(report, frame.joints.positions);
+      missing.add(report);
       color_.add(data.color_message);
       watch.look(report.index);
       output.save(report, data, {frame.targets, pipeline_.robot(), camera_});
@@ -149,7 +152,7 @@ void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on
     lost_ = "frame " + std::to_string(data.index) +
             " and later ones are not judged: " + without_device(error);
   }
-  for (const auto& more : {doubts.lines(), watch.notes()})
+  for (const auto& more : {doubts.lines(), missing.lines(), watch.notes()})
     sequence_notes_.insert(sequence_notes_.end(), more.begin(), more.end());
 }
 

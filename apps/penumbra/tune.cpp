@@ -95,7 +95,7 @@ void print_measured(const Tuning& tuning, std::size_t frames, const Robot& robot
             << " of the robot's pixels now, " << percent(tolerance.false_front_then)
             << " with the tolerance below\n"
             << "fringe: " << fringe.found << " of " << fringe.checked
-            << " pixels beside the arm show its depth; distance from it: median "
+            << " pixels next to the arm show its depth; distance from it: median "
             << fixed(fringe.median, 0) << " px, 90 % " << fixed(fringe.percent_90, 0)
             << " px, 99 % " << fixed(fringe.percent_99, 0)
             << " px\n  points of the arm that stay, by fringe_reach:";

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <penumbra/tuning/missing_parts.hpp>
+#include <penumbra/tuning/nearest_pixel-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr double still = 1e-3;  // of a pose; links that stand still may touch what they stand on
+constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
+constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
+
+}  // namespace
+
+MissingParts::MissingParts(const Robot& robot, int fringe_reach)
+    : robot_(robot), far_(far * fringe_reach), links_(robot.links().size()) {}
+
+void MissingParts::add(const FrameReport& report) {
+  if (report.pixels.fringe == 0 || !std::has_single_bit(++frames_)) return;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (frames_ == 1) links_[i].first_pose = report.T_root_link[i];
+    if (!report.T_root_link[i].isApprox(links_[i].first_pose, still)) links_[i].has_moved = true;
+  }
+  measure(report);
+}
+
+void MissingParts::measure(const FrameReport& report) {
+  const auto& labels = report.labels;
+  Image<std::uint8_t> seen(labels.width, labels.height);
+  for (int v = 0; v < labels.height; ++v)
+    for (int u = 0; u < labels.width; ++u) seen(u, v) = labels(u, v) == occluded;
+  const tuning::NearestPixels robot(seen);
+  for (int v = 0; v < labels.height; ++v)
+    for (int u = 0; u < labels.width; ++u) {
+      if (labels(u, v) != fringe) continue;
+      const auto nearest = robot.at(u, v);
+      Link& link = links_[report.virtual_depth.links(nearest.u, nearest.v) - std::size_t{1}];
+      ++link.fringe;
+      if (robot.distance(u, v) > far_) ++link.far_fringe;
+    }
+}
+
+std::vector<std::string> MissingParts::lines() const {
+  const std::size_t measured = static_cast<std::size_t>(std::bit_width(frames_));
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    if (link.has_moved && link.fringe >= least_fringe * measured &&
+        static_cast<double>(link.far_fringe) > most * static_cast<double>(link.fringe))
+      lines.push_back("something large moves with link '" + robot_.links()[i] +
+                      "' that the URDF lacks, or touches it: run 'penumbra tune' on this input");
+  }
+  return lines;
+}
+
+}  // namespace penumbra
