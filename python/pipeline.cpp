@@ -119,11 +119,9 @@ void bind_pipeline(py::module_& m) {
            "link, "
            "a pose that is not rigid, and what the parts refuse.")
       .def("process", &process, py::arg("frame"),
-           "Judges one frame. Whatever is wrong with it is the report's status. Raises InputError "
-           "if "
-           "the camera's centre lies inside of a closed link, ValueError while an array upon the "
-           "last "
-           "report's images is in use, DeviceError if a graphics device fails.")
+           "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
+           "while an array upon the last report's images is in use, DeviceError if a graphics "
+           "device fails.")
       .def("forget_target", &forget, py::arg("name"),
            "Forgets a target's verdict, extent and track: the name stands for something new.")
       .def("forget_targets", &forget_all, "Forgets all of them, and the kept frames.");

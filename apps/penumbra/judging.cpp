@@ -61,21 +61,6 @@ io::UsedSettings settings_of(const RunArguments& arguments, const RunInput& inpu
           .bag = input.bag};
 }
 
-/// Where a later frame's joints put the camera inside of a link, that frame is bad and the others
-/// are judged; where no frame before was usable, it is the recording that is wrong.
-const FrameReport& judge(Pipeline& pipeline, Frame frame, const Statistics& before) {
-  try {
-    return pipeline.process(frame);
-  } catch (const InputError& error) {
-    if (before.usable_frames() == 0) throw;
-    std::string message(frame.source_message);
-    message += (message.empty() ? "" : "; ") + std::string(error.what());
-    frame.source_status = FrameStatus::missing_transform;
-    frame.source_message = message;
-    return pipeline.process(frame);
-  }
-}
-
 /// Notes the warnings that the renderer's choice gets while frames are judged.
 class RendererWatch {
  public:
@@ -138,7 +123,7 @@ void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on
   try {
     while (!stopped_ && source_->next(data, frame)) {
       if (targets_) frame.targets = targets_->of_frame(data.index);
-      const FrameReport& report = judge(pipeline_, frame, statistics_);
+      const FrameReport& report = pipeline_.process(frame);
       statistics_.add(report);
       doubts.add(report, frame.joints.positions);
       missing.add(report);

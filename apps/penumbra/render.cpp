@@ -161,6 +161,7 @@ int render(const RenderArguments& arguments) {
   // Any depth will do: nothing of what is written comes of it.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
   const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
+  if (!first.T_root_camera) throw InputError(first.message);
   RenderedImages images(arguments, first);
   tell_notes(pipeline.robot().notes());
   tell_choice(choice);

@@ -70,7 +70,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
     frame.depth = no_depth_;
   }
   frame.source_message = message_;
-  const FrameReport& report = process(frame);
+  const FrameReport& report = tools_->pipeline.process(frame);
   note_renderer();
   WithoutOverlay without_overlay(sink);
   ResultSink& taken = job.with_overlay ? sink : without_overlay;
@@ -99,18 +99,6 @@ std::string LiveWorker::read_depth(const LiveJob& job, DepthView& depth) {
     return {};
   }
   return tools_->depth.bring(job.T_judged_depth, depth);
-}
-
-const FrameReport& LiveWorker::process(Frame frame) {
-  try {
-    return tools_->pipeline.process(frame);
-  } catch (const InputError& error) {
-    // The camera's centre inside of a link, as far as these joints say.
-    message_ += (message_.empty() ? "" : "; ") + std::string(error.what());
-    frame.source_status = FrameStatus::missing_transform;
-    frame.source_message = message_;
-    return tools_->pipeline.process(frame);
-  }
 }
 
 void LiveWorker::show_color(const LiveJob& job, bool wanted) {

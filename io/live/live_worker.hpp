@@ -35,7 +35,6 @@ class LiveWorker {
 
   [[nodiscard]] bool follow(const std::shared_ptr<LiveSetup>& setup);
   [[nodiscard]] std::string read_depth(const LiveJob& job, DepthView& depth);
-  const FrameReport& process(Frame frame);
   void show_color(const LiveJob& job, bool wanted);
   void note_renderer();
 

@@ -72,7 +72,7 @@ void check_region(const Region& region, int width, int height);
 /// What a region covers of its target.
 enum class Extent {
   amodal,  ///< all of it, hidden parts too
-  modal    ///< what a detector still sees; judged together with the last good extent
+  modal    ///< what a detector still sees; compared with the whole target as it was seen before
 };
 
 /// From which share of its pixels on a target counts as hidden, and when again as seen. Shares are

@@ -73,12 +73,19 @@ bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
 std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds,
                                     bool is_uncovered) {
   if (!sight.has_pose) return "the robot's pose is not known in this frame";
-  if (sight.is_cut)
-    return "seen at the image's border alone: how much of it the robot beside it hides is not "
-           "known";
-  if (sight.first_near_robot)
-    return "first seen beside the robot: how much of it the robot hides is not known";
-  if (sight.is_missing) return "its mask is smaller than it was, and the robot is beside it";
+  switch (sight.size_doubt) {
+    case SizeDoubt::none:
+      break;
+    case SizeDoubt::cut:
+      return "the image's border cuts it: how much of it the robot next to it hides is not known";
+    case SizeDoubt::first_near_robot:
+      return "first seen next to the robot: how much of it the robot hides is not known";
+    case SizeDoubt::moved:
+      return "it moved next to the robot, and how large it is there is not known without an "
+             "expected depth";
+  }
+  if (sight.is_missing)
+    return "its mask is smaller than the whole target, and the robot is next to it";
   if (sight.is_expected && sight.is_passed(thresholds.past_limit))
     return "the sensor looks past where most of it is expected";
   if (sight.is_expected && sight.is_unmeasured(thresholds.min_measured))
@@ -168,7 +175,7 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
   if (memory.frame == number) region_fault("its name is used twice in a frame");
   memory.frame = number;
 
-  const Sight sight = sights.look({frame, number, target, expected, robot.reach()}, memory);
+  const Sight sight = sights.look({frame, target, expected, robot.reach()}, memory);
   Judgement judgement;
   judgement.verdict = decide(sight, target.thresholds, memory);
   judgement.covered = sight.covered;
@@ -190,7 +197,7 @@ Judgement TargetJudge::State::judge(const TargetView& target) {
         has_lens && is_uncovered(frame, sights.seen().spans(), sight.pixels[Seen::unknown]));
   }
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
-    sights.remember(target.motion, number, memory);
+    sights.remember(target, memory);
   add_point(target, expected, judgement);
   return judgement;
 }

@@ -29,7 +29,7 @@ struct JudgedImages {
 
 /// A target as it is judged in one frame.
 struct TargetView {
-  std::string_view name;  ///< what hysteresis and the last good extent are remembered by
+  std::string_view name;  ///< what hysteresis and the last whole extent are remembered by
   Region region;
   Extent extent = Extent::amodal;
   /// Metres, ze below; of the whole region. A rendered region has its own. Without it, no pixel is
@@ -106,19 +106,21 @@ struct Judgement {
 /// expected depth, d > ze + m. It is out_of_view whatever else is known.
 /// Hysteresis goes on from the last verdict that was neither.
 ///
-/// A modal extent is compared with the last good one: that of the last frame with verdict visible,
-/// except that a smaller one replaces it only where no robot is near, within the last good extent's
-/// own width and height. An extent smaller by more than partial_enter does not show the whole
-/// target. Then the last good extent is judged as well, moved by `motion` (without `motion`, where
-/// it was, for extent_frames frames), and the worse counts; and where the robot may hide what is
-/// missing, which is near the last good extent or as near to the mask as what is missing can reach,
-/// what is missing beside what is known to be hidden is unknown, however long, and unknown_limit
-/// passes over nothing that is. What `motion`
-/// carries out of the image is missing too, unless the mask lies at that border and is no larger
-/// than what is left. A target that is first seen near the robot is unknown. So is one whose last
-/// good extent reaches the image's border, or that of what the camera saw, where the robot is as
-/// near as the target may be large: there is more of it than was seen. Raw pixels that a lens's
-/// pinhole image does not cover may be robot.
+/// A modal extent is compared with the whole target as it was seen before. The judge remembers the
+/// last extent and the average size of about 100 frames in which the robot did not touch the
+/// target. A larger extent replaces the size at once; one that is smaller by more than
+/// partial_enter is not the whole target and never does. With expected depths the size scales by
+/// 1 / depth^2.
+/// - The target stands still, or moves by `motion`, and nothing of it is seen outside of where the
+///   last whole extent is then: that extent is judged as well, and the worse counts.
+/// - What is missing of its size counts as unknown where the robot may hide it: the robot is near
+///   the last whole extent, or as near to the mask as what is missing can reach. unknown_limit
+///   passes over none of it.
+/// - Its size is not known, and the verdict unknown unless what is seen to be hidden decides it:
+///   if it was first seen next to the robot; if it was seen at the image's border only (or at that
+///   of what the camera saw), and the robot is as near as the target may be large; if it touches
+///   the robot without expected depths, and is at another place than expected or larger, as it may
+///   have come nearer. Pixels that a lens's pinhole image does not cover count as robot here.
 ///
 /// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
@@ -127,9 +129,6 @@ struct Judgement {
 /// Verdicts other than visible and partial have none.
 class TargetJudge {
  public:
-  /// How many frames the last good extent of a target is judged where it was.
-  static constexpr std::uint64_t extent_frames = 30;
-
   /// For images of a camera as they come (with its distortion) or of its pinhole part.
   /// Throws InputError as Camera and LabelRule do. `rule`: that of the labels. `links`: how many
   /// the robot has, for blame. `unseen`: not 0 where the images, rectified ones, show nothing that

@@ -24,11 +24,11 @@ namespace penumbra {
 struct TargetMemory {
   std::uint64_t frame = 0;           ///< in which it was last judged
   Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
-  std::vector<RowSpan> extent;       ///< modal: the last good one; empty: none
-  std::size_t extent_pixels = 0;     ///< inside the image
-  bool is_cut = false;               ///< of the extent: by the image's border; there is more of it
-  std::uint64_t extent_frame = 0;    ///< in which it stood where it stands
+  std::vector<RowSpan> extent;       ///< modal: the last whole one; empty: none
   Eigen::Vector2d moved{0, 0};       ///< since then, until the last verdict visible
+  double size = 0;                   ///< modal: pixels of the whole target
+  std::optional<double> depth;       ///< expected, metres, that the size is of
+  bool is_cut = false;               ///< the extent reaches the image's border: there is more of it
 };
 
 /// Finds a name without making a string of it.
@@ -41,6 +41,9 @@ struct TargetNameHash {
 
 using TargetMemories =
     std::unordered_map<std::string, TargetMemory, TargetNameHash, std::equal_to<>>;
+
+/// Why the size of a modal target is not known.
+enum class SizeDoubt { none, first_near_robot, cut, moved };
 
 /// An extent as it is seen.
 struct Sight {
@@ -71,15 +74,13 @@ struct Sight {
   bool is_expected = false;            ///< its depth is
   const LinkCounts* links = nullptr;
   bool has_pose = true;
-  bool first_near_robot = false;  ///< how much more of it there is is not known
-  bool is_cut = false;            ///< likewise: it was never seen clear of the image's border
-  bool is_missing = false;        ///< some of it is not in its mask, and near the robot
+  SizeDoubt size_doubt = SizeDoubt::none;
+  bool is_missing = false;  ///< some of it is not in its mask, and near the robot
 };
 
 /// A target and the frame it is looked at on.
 struct Look {
   const LabelledFrame& frame;
-  std::uint64_t number;  ///< of the frame
   const TargetView& target;
   const ExpectedDepth& expected;
   int reach;  ///< pixels: robot as near as this may hide more than it seems to
@@ -107,8 +108,7 @@ class Sights {
   [[nodiscard]] Sight look(const Look& at, const TargetMemory& memory);
 
   /// Remembers the modal extent that was just looked at and is visible.
-  void remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_t number,
-                TargetMemory& memory) const;
+  void remember(const TargetView& target, TargetMemory& memory) const;
 
  private:
   [[nodiscard]] static Sight look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally);
@@ -117,15 +117,15 @@ class Sights {
                               const SpanBox& box);
   [[nodiscard]] bool reaches_border() const;
   [[nodiscard]] Sight look_last(const Look& at, std::size_t missing);
-  bool place_last(const Look& at, const TargetMemory& memory, const Sight& now, const SpanBox& box);
-  [[nodiscard]] bool lies_near_robot(const Look& at, const SpanBox& box,
-                                     const SpanBox& whole) const;
+  [[nodiscard]] bool place_last(const Look& at, const TargetMemory& memory, const SpanBox& box);
+  [[nodiscard]] bool may_hide_missing(const Look& at, const SpanBox& box,
+                                      const SpanBox& whole) const;
 
   int width_, height_;
   SeenPixels seen_pixels_;
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;
-  bool may_replace_ = false;  // a smaller extent the last good one
+  bool touches_robot_ = false;  // the modal extent that was looked at
 };
 
 /// The verdict, which `memory.level` follows.

@@ -7,9 +7,12 @@
 namespace penumbra {
 namespace {
 
-/// Networks draw masks at a quarter of the image's size, so that one of what the border cuts may
-/// end so many pixels before it.
-constexpr int border_margin = 4;
+/// Pixels. Networks draw masks at a quarter of the image's size: a mask may end so far from the
+/// border that cuts it, and so far outside of the last one of a target that stands still.
+constexpr int mask_error = 4;
+
+/// Of how many frames the size of a modal target is the average.
+constexpr double averaged_frames = 100;
 
 double bad_share(const Sight& sight, bool others_hide) {
   return sight.hidden(others_hide) + sight.fraction(Seen::unknown);
@@ -53,11 +56,16 @@ bool holds_robot(const LabelledFrame& frame, const SpanBox& box) {
   return false;
 }
 
-/// Whether a box reaches each border of the image that another one leaves it through.
-bool follows_out(const LabelledFrame& frame, const SpanBox& box, const SpanBox& leaving) {
-  return (leaving.u0 >= 0 || box.u0 == 0) && (leaving.v0 >= 0 || box.v0 == 0) &&
-         (leaving.u1 < frame.width || box.u1 == frame.width - 1) &&
-         (leaving.v1 < frame.height || box.v1 == frame.height - 1);
+bool lies_in(const SpanBox& inner, const SpanBox& outer) {
+  return inner.u0 >= outer.u0 && inner.u1 <= outer.u1 && inner.v0 >= outer.v0 &&
+         inner.v1 <= outer.v1;
+}
+
+/// By which pixels at a target's expected depth count, to be compared with its remembered size; 1
+/// where a depth is not known. Area in the image goes with 1 / depth^2.
+double area_scale(const TargetMemory& memory, const TargetView& target) {
+  if (!memory.depth || !target.expected_depth) return 1.0;
+  return (*target.expected_depth * *target.expected_depth) / (*memory.depth * *memory.depth);
 }
 
 }  // namespace
@@ -110,11 +118,13 @@ Sight Sights::look(const Look& at, const TargetMemory& memory) {
 }
 
 Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight& now) {
+  touches_robot_ = false;
   if (is_out_of_view(now, at.target.thresholds)) return now;
   const SpanBox box = box_of_spans(seen_.spans());
+  touches_robot_ = holds_robot(at.frame, grown(box, at.reach, at.reach));
   if (memory.extent.empty()) {
     Sight first = now;
-    first.first_near_robot = holds_robot(at.frame, grown(box, at.reach, at.reach));
+    if (touches_robot_) first.size_doubt = SizeDoubt::first_near_robot;
     return first;
   }
   Sight sight = compare(at, memory, now, box);
@@ -123,60 +133,56 @@ Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight
     const SpanBox last = box_of_spans(memory.extent);
     const int more =
         at.reach + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
-    sight.is_cut = sight.first_near_robot = holds_robot(at.frame, grown(box, more, more));
+    if (holds_robot(at.frame, grown(box, more, more))) sight.size_doubt = SizeDoubt::cut;
   }
   return sight;
 }
 
 Sight Sights::compare(const Look& at, const TargetMemory& memory, const Sight& now,
                       const SpanBox& box) {
-  const SpanBox whole_box = box_of_spans(memory.extent);
-  may_replace_ = !holds_robot(
-      at.frame, grown(box, at.reach + width_of(whole_box), at.reach + height_of(whole_box)));
-  const bool has_place = place_last(at, memory, now, box);
-  const std::size_t whole = has_place && at.target.motion ? last_.inside() : memory.extent_pixels;
-  const auto least = (1 - at.target.thresholds.partial_enter) * static_cast<double>(whole);
-  if (static_cast<double>(now.inside) >= least) return now;
-
-  const bool is_near = lies_near_robot(at, box, whole_box);
-  may_replace_ = may_replace_ && !is_near;
-  const std::size_t missing = is_near ? whole - now.inside : 0;
-  if (has_place) {
+  const TargetThresholds& thresholds = at.target.thresholds;
+  const bool is_placed = place_last(at, memory, box);
+  const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
+                                                     : memory.size / area_scale(memory, at.target);
+  const double lacking = std::max(whole - static_cast<double>(now.inside), 0.0);
+  const auto missing = may_hide_missing(at, box, box_of_spans(memory.extent))
+                           ? static_cast<std::size_t>(lacking)
+                           : std::size_t{0};
+  const double tolerance = thresholds.partial_enter * whole;
+  const bool has_depths = memory.depth && at.target.expected_depth;
+  Sight moved = now;
+  if (lacking <= tolerance && touches_robot_ && !has_depths &&
+      (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
+    moved.size_doubt = SizeDoubt::moved;  // it may have come nearer, and be hidden in part
+  } else if (is_placed) {
     const Sight last = look_last(at, missing);
-    const bool others_hide = at.target.thresholds.others_hide;
-    return bad_share(last, others_hide) >= bad_share(now, others_hide) ? last : now;
+    const bool is_worse =
+        bad_share(last, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
+    return is_worse ? last : now;
+  } else if (lacking > tolerance) {
+    moved.covered += missing;
+    moved.inside += missing;
+    moved.pixels[Seen::unknown] += missing;
+    moved.is_missing = missing > 0;
   }
-  Sight shrunk = now;
-  shrunk.covered += missing;
-  shrunk.inside += missing;
-  shrunk.pixels[Seen::unknown] += missing;
-  shrunk.is_missing = missing > 0;
-  return shrunk;
+  return moved;
 }
 
-/// Puts the last good extent where it is expected, and says whether it can be judged there. Motion
-/// that carries it out of the image is believed where the mask goes with it: it lies at that
-/// border, and is no larger than what is left.
-bool Sights::place_last(const Look& at, const TargetMemory& memory, const Sight& now,
-                        const SpanBox& box) {
-  const std::optional<Eigen::Vector2d>& motion = at.target.motion;
-  const Eigen::Vector2d by = memory.moved + motion.value_or(Eigen::Vector2d::Zero());
-  last_.fill_moved(memory.extent, by);
+/// Puts the last whole extent where it is expected, and says whether what is seen now can be part
+/// of it: it has the same expected depth and nothing is seen outside of it.
+bool Sights::place_last(const Look& at, const TargetMemory& memory, const SpanBox& box) {
+  last_.fill_moved(memory.extent,
+                   memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero()));
   last_.keep(seen_pixels_);
   if (last_.inside() == 0) return false;
-  if (!motion) return at.number - memory.extent_frame <= TargetJudge::extent_frames;
-  if (last_.inside() == memory.extent_pixels) return true;
-  SpanBox moved = box_of_spans(memory.extent);
-  const int du = static_cast<int>(std::round(by.x())), dv = static_cast<int>(std::round(by.y()));
-  moved = {moved.u0 + du, moved.u1 + du, moved.v0 + dv, moved.v1 + dv};
-  const double most =
-      (1 + at.target.thresholds.partial_enter) * static_cast<double>(last_.inside());
-  return follows_out(at.frame, box, moved) && static_cast<double>(now.inside) <= most;
+  const double change = std::abs(area_scale(memory, at.target) - 1.0);
+  return change <= at.target.thresholds.partial_enter &&
+         lies_in(box, grown(box_of_spans(last_.spans()), mask_error, mask_error));
 }
 
-/// Whether the robot may hide what is missing in a mask: it lies near the last good extent, or as
+/// Whether the robot may hide what is missing in a mask: it lies near the last whole extent, or as
 /// near to the mask as what is missing can reach.
-bool Sights::lies_near_robot(const Look& at, const SpanBox& box, const SpanBox& whole) const {
+bool Sights::may_hide_missing(const Look& at, const SpanBox& box, const SpanBox& whole) const {
   const int du = std::max(width_of(whole) - width_of(box), 0);
   const int dv = std::max(height_of(whole) - height_of(box), 0);
   if (holds_robot(at.frame, grown(box, at.reach + du, at.reach + dv))) return true;
@@ -198,35 +204,42 @@ Sight Sights::look_last(const Look& at, std::size_t missing) {
 bool Sights::reaches_border() const {
   const std::span<const RowSpan> spans = seen_.spans();
   return std::any_of(spans.begin(), spans.end(), [&](const RowSpan& span) {
-    for (const int dv : {-border_margin, 0, border_margin}) {
-      const RowSpan around{span.v + dv, span.u0 - border_margin, span.u1 + border_margin};
+    for (const int dv : {-mask_error, 0, mask_error}) {
+      const RowSpan around{span.v + dv, span.u0 - mask_error, span.u1 + mask_error};
       if (!seen_pixels_.hold(around, width_, height_)) return true;
     }
     return false;
   });
 }
 
-void Sights::remember(const std::optional<Eigen::Vector2d>& motion, std::uint64_t number,
-                      TargetMemory& memory) const {
-  if (seen_.inside() >= memory.extent_pixels || may_replace_) {
-    memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
-    memory.extent_pixels = seen_.inside();
-    memory.is_cut = reaches_border();
-    memory.moved.setZero();
-    memory.extent_frame = number;
-  } else if (motion) {
-    memory.moved += *motion;
-    memory.extent_frame = number;
+void Sights::remember(const TargetView& target, TargetMemory& memory) const {
+  const double size = static_cast<double>(seen_.inside()) * area_scale(memory, target);
+  const double tolerance = target.thresholds.partial_enter * memory.size;
+  const bool has_depths = memory.depth && target.expected_depth;
+  const bool is_whole =
+      touches_robot_ ? has_depths && size >= memory.size : size >= memory.size - tolerance;
+  if (!is_whole) {
+    memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
+    return;
   }
+  const bool is_larger = size > memory.size + tolerance;
+  const double change = (size - memory.size) / (is_larger ? 1.0 : averaged_frames);
+  const double average = memory.size + change;
+  memory.size = average / area_scale(memory, target);
+  memory.depth = target.expected_depth;
+  memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
+  memory.is_cut = reaches_border();
+  memory.moved.setZero();
 }
 
 Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMemory& memory) {
   if (is_out_of_view(sight, thresholds)) return Verdict::out_of_view;
   if (!sight.has_pose) return Verdict::unknown;
   const double hidden = sight.hidden(thresholds.others_hide);
-  const double unknown = sight.first_near_robot ? 1 - hidden : sight.fraction(Seen::unknown);
+  const bool has_size = sight.size_doubt == SizeDoubt::none;
+  const double unknown = has_size ? sight.fraction(Seen::unknown) : 1 - hidden;
   // What its mask lacks is not seen: no limit passes over what else is unknown.
-  const bool is_doubtful = sight.first_near_robot || sight.is_missing;
+  const bool is_doubtful = !has_size || sight.is_missing;
   const double limit =
       is_doubtful ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
   const Verdict level = next_level(memory.level, hidden, thresholds);

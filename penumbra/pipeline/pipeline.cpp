@@ -105,8 +105,8 @@ struct Pipeline::State {
 
   [[nodiscard]] TargetStage::Setup target_setup(const PipelineConfig& config) const;
   void begin(const Frame& frame);
-  std::optional<std::span<const Eigen::Isometry3d>> pose_links(const Frame& frame);
-  void look_around_camera(std::span<const Eigen::Isometry3d> T_camera_link);
+  FrameStatus pose_links(const Frame& frame);
+  void add_message(const std::string& more);
   VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
   DepthView seen_depth(const DepthView& measured);
@@ -189,14 +189,7 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
   s.begin(frame);
-  try {
-    s.label(frame);
-  } catch (const std::exception& fault) {
-    // The report must not go on saying what the last frame was.
-    s.report.status = FrameStatus::missing_transform;
-    s.report.message = fault.what();
-    throw;
-  }
+  s.label(frame);
   s.judge_targets(frame);
   return s.report;
 }
@@ -208,14 +201,11 @@ void Pipeline::State::label(const Frame& frame) {
   check(frame, report);
   const FrameStatus status = report.status;
   if (!has_pose(status)) return without_pose(status);
-
-  const auto T_camera_link = pose_links(frame);
-  if (!T_camera_link)
-    return without_pose(by_joints_alone(frame) ? FrameStatus::missing_joints
-                                               : FrameStatus::missing_transform);
+  if (const FrameStatus fault = pose_links(frame); fault != FrameStatus::ok)
+    return without_pose(fault);
 
   const DepthView measured = has_depth(status) ? frame.depth : DepthView{};
-  const VirtualDepthView virtual_depth = render(*T_camera_link);
+  const VirtualDepthView virtual_depth = render(poses.T_camera_link());
   finish(status, virtual_depth, classify(virtual_depth, measured));
 }
 
@@ -235,26 +225,31 @@ void Pipeline::State::begin(const Frame& frame) {
   report.near_links = {};
 }
 
-std::optional<std::span<const Eigen::Isometry3d>> Pipeline::State::pose_links(const Frame& frame) {
+/// ok, or why the poses cannot be drawn; the report's message says it.
+FrameStatus Pipeline::State::pose_links(const Frame& frame) {
   const StageTimer timer(report.timing.kinematics);
-  const auto lost = poses.update(frame);
-  if (!lost) return poses.T_camera_link();
-  report.message = (by_joints_alone(frame) ? "joint positions put link '" : "poses put link '") +
-                   robot.links()[*lost] + "' more than 1000 km from the camera";
-  return std::nullopt;
+  const bool by_joints = by_joints_alone(frame);
+  if (const auto lost = poses.update(frame)) {
+    add_message((by_joints ? "joint positions put link '" : "poses put link '") +
+                robot.links()[*lost] + "' more than 1000 km from the camera");
+    return by_joints ? FrameStatus::missing_joints : FrameStatus::missing_transform;
+  }
+  if (const auto link = camera_inside.find(poses.T_camera_link())) {
+    add_message("the camera's centre lies inside of link '" + robot.links()[*link] +
+                "': correct the camera's pose, or name the link in ignore_links if it is the "
+                "camera's own housing");
+    return FrameStatus::missing_transform;
+  }
+  return FrameStatus::ok;
 }
 
-void Pipeline::State::look_around_camera(std::span<const Eigen::Isometry3d> T_camera_link) {
-  if (const auto link = camera_inside.find(T_camera_link))
-    throw InputError("the camera's centre lies inside of link '" + robot.links()[*link] +
-                     "': correct the camera's pose, or name the link in ignore_links if it is the "
-                     "camera's own housing");
-  report.near_links = near_plane.find(T_camera_link);
+void Pipeline::State::add_message(const std::string& more) {
+  report.message += (report.message.empty() ? "" : "; ") + more;
 }
 
 VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
   const StageTimer timer(report.timing.render);
-  look_around_camera(T_camera_link);
+  report.near_links = near_plane.find(T_camera_link);
   const VirtualDepthView rendered = chosen.render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
 }

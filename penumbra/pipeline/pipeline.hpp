@@ -54,12 +54,10 @@ class Pipeline {
   Pipeline& operator=(Pipeline&&) noexcept;
 
   /// Judges one frame; the report is valid until the next call. Whatever is wrong with the frame is
-  /// its status: an image of another frame never shows. Throws InputError if the camera's centre
-  /// lies inside of a closed link, which is the user's to mend if the first frame shows it. Whoever
-  /// takes it for a later frame's own fault calls again with source_status missing_transform.
-  /// Throws InputError, too, for doubts of what is no link. Throws DeviceError if the graphics
-  /// device of a renderer that was asked for by name fails; where `backend` is nothing the CPU
-  /// draws from then on, and renderer_choice() has a warning more.
+  /// its status: an image of another frame never shows. Throws InputError for doubts of what is no
+  /// link. Throws DeviceError if the graphics device of a renderer that was asked for by name
+  /// fails; where `backend` is nothing the CPU draws from then on, and renderer_choice() has a
+  /// warning more.
   const FrameReport& process(const Frame& frame);
 
   /// Forgets a target's verdict, extent and track: the name stands for something new. All of them,

@@ -49,7 +49,7 @@ struct KeypointTarget {
   std::optional<double> expected_depth = {};  ///< metres, > 0
 };
 
-/// A ball around a point. Judged as an ellipse of the point's depth.
+/// A ball around a point. Judged as the ellipse that is its outline, at the point's depth.
 struct PointTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
   double radius = 0.02;                                ///< metres, > 0

@@ -85,8 +85,7 @@ class TargetViews {
   struct Builder;
 
   [[nodiscard]] Eigen::Matrix2d pixels_per_metre(const Eigen::Vector2d& ray, double depth) const;
-  [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
-                                        double radius) const;
+  [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, double radius) const;
 
   const Robot& robot_;
   const Camera& camera_;

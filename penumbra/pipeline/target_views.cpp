@@ -122,7 +122,7 @@ struct TargetViews::Builder {
     if (views.uncovered_ && views.uncovered_->holds(p)) throw InputError(uncovered);
     const auto pixel = views.project(p);
     if (!pixel) return false;
-    view.region = views.ellipse_of(p, *pixel, target.radius);
+    view.region = views.ellipse_of(p, target.radius);
     view.expected_depth = p.z();
     view.depth_margin += target.radius;
     view.point_pixel = pixel;
@@ -161,7 +161,7 @@ struct TargetViews::Builder {
   bool nearest_pixel(const Eigen::Vector3d& middle, double radius) {
     const auto pixel = views.project(middle);
     if (!pixel || !is_inside(*pixel)) return false;
-    const PixelEllipse ellipse = views.ellipse_of(middle, *pixel, radius);
+    const PixelEllipse ellipse = views.ellipse_of(middle, radius);
     if (ellipse.semi_axes.maxCoeff() > 1.0)
       throw InputError(
           "no pixel shows it, though its middle lies in the image: too thin, or hollow");
@@ -207,13 +207,23 @@ Eigen::Matrix2d TargetViews::pixels_per_metre(const Eigen::Vector2d& ray, double
   return Eigen::Vector2d(k.fx(), k.fy()).asDiagonal() * camera_.distortion.derivative(ray) / depth;
 }
 
-/// The image of the disc of that radius around the point, parallel to the image plane.
-PixelEllipse TargetViews::ellipse_of(const Eigen::Vector3d& p, const Eigen::Vector2d& pixel,
-                                     double radius) const {
-  const Eigen::Matrix2d J = pixels_per_metre(p.head<2>() / p.z(), p.z()) * radius;
-  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(J, Eigen::ComputeFullU);
+/// The outline of a ball. On the plane z = 1 it is the ellipse in which the cone around the ball
+/// cuts the plane (Eberly, "Perspective projection of a sphere"); a lens bends it as it does its
+/// centre.
+PixelEllipse TargetViews::ellipse_of(const Eigen::Vector3d& p, double radius) const {
+  if (p.z() <= radius) throw InputError("it reaches the plane of the camera's lens");
+  const double depth_squared = p.z() * p.z() - radius * radius;
+  const Eigen::Vector2d centre = p.head<2>() * p.z() / depth_squared;
+  const double across = radius / std::sqrt(depth_squared);
+  const double along = across * std::sqrt((p.squaredNorm() - radius * radius) / depth_squared);
+  const auto pixel = project({centre.x(), centre.y(), 1.0});
+  if (!pixel) throw InputError(uncovered);
+  const Eigen::Matrix2d axes = Eigen::Rotation2Dd(std::atan2(p.y(), p.x())).toRotationMatrix() *
+                               Eigen::Vector2d(along, across).asDiagonal();
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(pixels_per_metre(centre, 1.0) * axes,
+                                              Eigen::ComputeFullU);
   const Eigen::Vector2d axis = svd.matrixU().col(0);
-  return {pixel, svd.singularValues(), std::atan2(axis.y(), axis.x())};
+  return {*pixel, svd.singularValues(), std::atan2(axis.y(), axis.x())};
 }
 
 }  // namespace penumbra

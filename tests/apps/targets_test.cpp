@@ -94,7 +94,7 @@ TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
   EXPECT_NE(outcome.out.find("target cylinder: 4 frames visible, 8 partial, 0 hidden"),
             std::string::npos)
       << outcome.out;
-  EXPECT_NE(outcome.out.find("target lid: 5 frames visible, 1 partial, 4 hidden, 2 unknown, 0 out"),
+  EXPECT_NE(outcome.out.find("target lid: 4 frames visible, 2 partial, 4 hidden, 2 unknown, 0 out"),
             std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("\ntargets: median "), std::string::npos) << "its time";
@@ -132,7 +132,6 @@ TEST_F(RunTargetsTest, AHiddenPointIsHeldAndComesBack) {
   EXPECT_EQ(hidden["handled"]["position"], (Json{0.42, 0.56, 0.30}));
   EXPECT_TRUE(hidden["handled"]["orientation"].is_null()) << "of a point";
   EXPECT_EQ(target(json, 1, "lid")["handled"]["source"], "measured");
-  EXPECT_EQ(target(json, 4, "lid")["handled"]["source"], "measured");
   EXPECT_EQ(target(json, 6, "lid")["verdict"], "hidden") << "by the arm of a person";
   EXPECT_GT(target(json, 6, "lid")["hidden_by_other_fraction"], 0.9);
   EXPECT_EQ(target(json, 3, "lid")["verdict"], "unknown") << "what is not hidden is not measured";

@@ -300,6 +300,27 @@ TEST_F(TargetsTest, ANameOfNoObjectRemembersNone) {
       << "names that lie: without this the test shows nothing";
 }
 
+/// Balls all over the image against the rays that meet them.
+TEST_F(TargetsTest, ABallCoversThePixelsWhoseRaysMeetIt) {
+  const Intrinsics k = slab_camera().intrinsics;
+  constexpr double radius = 0.25;
+  constexpr double edge = 0.03;  // of the pixels: those whose centres lie on the outline
+  for (const double x : {-1.0, -0.4, 0.0, 0.8})
+    for (const double y : {-0.6, 0.0, 0.5}) {
+      const Eigen::Vector3d middle(x, y, 1.6);
+      std::size_t pixels = 0;
+      for (int v = -k.height(); v < 2 * k.height(); ++v)  // covered are those outside, too
+        for (int u = -k.width(); u < 2 * k.width(); ++u)
+          pixels += k.ray(u, v).normalized().cross(middle).norm() <= radius;
+      const TargetReport& report =
+          judge(1, {.name = "ball", .shape = PointTarget{middle, radius, {}}});
+      ASSERT_TRUE(report.judgement) << report.reason;
+      EXPECT_NEAR(static_cast<double>(report.judgement->covered), static_cast<double>(pixels),
+                  edge * static_cast<double>(pixels))
+          << x << ' ' << y;
+    }
+}
+
 /// A tracked cup, and a detector's first cup of this frame that goes by the same name.
 TEST_F(TargetsTest, ANameOfNoObjectLeavesATrackOfThatNameAlone) {
   const Target tracked{

@@ -103,7 +103,7 @@ test('jumps to the next and the previous occlusion', () =>
     await showsFrame(page, 2);
     assert.match(await page.locator('#announce').textContent(), /cylinder, lid/);
     await page.click('#next-occlusion');
-    await showsFrame(page, 5);
+    await showsFrame(page, 4);
     await page.keyboard.press(']');
     assert.match(await page.locator('#announce').textContent(), /no later occlusion/);
     await page.keyboard.press('[');
