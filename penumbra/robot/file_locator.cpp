@@ -101,7 +101,7 @@ fs::path FileLocator::package_folder(const std::string& name, const fs::path& fi
   if (!taken)
     throw InputError("package " + in_quotes(name) + " was not found by AMENT_PREFIX_PATH, by " +
                      "ROS_PACKAGE_PATH, or beside or above the URDF with " + file.string() +
-                     " in it; give its folder: " + name + "=DIR");
+                     " in it; give its folder: --package " + name + "=DIR");
   notes_.push_back("package " + name + ": taken from " + taken->folder.string() + " (" +
                    taken->how + ")");
   return found_[name] = taken->folder;

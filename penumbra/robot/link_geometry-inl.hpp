@@ -41,6 +41,8 @@ class GeometryLoader {
                     Eigen::AlignedBox3d& without_margin);
   void add(const UrdfElement& element, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
   void add(const ExtraMesh& extra, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
+  /// Notes that the link lacks some of its geometry.
+  static void lack(const std::string& where, const std::string& what, LinkReport& link);
   /// Where a fault is, for messages.
   [[nodiscard]] std::string at(const UrdfElement& element, const std::string& link) const;
   void note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin);

@@ -120,12 +120,23 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
 void GeometryLoader::add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out,
                                   Eigen::AlignedBox3d& without_margin) {
   for (const UrdfElement& element : link.elements(geometry)) {
+    if (!element.fault.empty()) {
+      if (!allow_missing_) throw InputError(element.fault);
+      lack("", element.fault, out.report);
+      continue;
+    }
     try {
       add(element, out, without_margin);
     } catch (const InputError& error) {
       throw InputError(at(element, link.name) + error.what());
     }
   }
+}
+
+void GeometryLoader::lack(const std::string& where, const std::string& what, LinkReport& link) {
+  link.missing = true;
+  if (link.fault.empty()) link.fault = where + what;
+  link.reason += "; missing: " + what;
 }
 
 std::string GeometryLoader::at(const UrdfElement& element, const std::string& link) const {
@@ -150,10 +161,7 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out,
     mesh = make_mesh(element, source);
   } catch (const InputError& error) {
     if (!allow_missing_) throw;
-    out.report.missing = true;
-    if (out.report.fault.empty()) out.report.fault = at(element, out.report.link) + error.what();
-    out.report.reason += std::string("; missing: ") + error.what();
-    return;
+    return lack(at(element, out.report.link), error.what(), out.report);
   }
   keep(std::move(mesh), out, without_margin);
 }

@@ -72,7 +72,8 @@ std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, cons
   }
   for (std::size_t i = 0; i < model->variables.size(); ++i)
     model->variable_index.emplace(model->variables[i], i);
-  model->notes = loader.notes();
+  model->notes = urdf.warnings;
+  for (std::string& note : loader.notes()) model->notes.push_back(std::move(note));
   for (std::string& note : detail::lacking_notes(urdf, choices))
     model->notes.push_back(std::move(note));
   return model;

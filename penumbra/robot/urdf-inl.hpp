@@ -38,6 +38,7 @@ struct UrdfElement {
   int line = 0;
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // T_link_shape
   std::variant<UrdfBox, UrdfCylinder, UrdfSphere, UrdfCapsule, UrdfMesh> shape;
+  std::string fault;  // why it cannot be drawn, with its place in the file; empty: it can
 };
 
 struct UrdfLink {
@@ -76,10 +77,11 @@ struct Urdf {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::vector<std::string> warnings;  // lines
 };
 
-/// Reads the text of a URDF. Throws InputError naming file, line and element for what is neither
-/// understood nor known to be irrelevant.
+/// Reads the text of a URDF. Throws InputError that names file, line and element; faults of visual
+/// and collision elements are kept for those who draw them.
 [[nodiscard]] Urdf read_urdf(std::string_view xml, const std::string& file);
 
 }  // namespace penumbra::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,8 +15,7 @@
 namespace penumbra::detail {
 
 /// What an element of a URDF may hold. Names with a namespace prefix (drake:..., xsi:...) are other
-/// tools' extensions and need no entry, unless the name behind the prefix is one that is read: such
-/// an element may well be meant for us, so it is an error, as is what is in no list.
+/// tools' extensions and need no entry.
 struct ElementRule {
   std::span<const std::string_view> attributes;          ///< that are read
   std::span<const std::string_view> ignored_attributes;  ///< known to change nothing that is drawn
@@ -23,17 +23,24 @@ struct ElementRule {
   std::span<const std::string_view> ignored_children;    ///< known to change nothing that is drawn
 };
 
+/// A file that is read, and what it holds that is not known.
+struct UrdfFile {
+  std::string name;
+  std::map<std::string, std::string> warnings;  ///< one line for each kind, by what it is of
+};
+
 /// An element of a URDF and where it stands, for messages. Every function throws InputError that
 /// names file, line and element.
 class UrdfNode {
  public:
-  UrdfNode(const XmlElement& xml, const std::string& file, std::string where)
+  UrdfNode(const XmlElement& xml, UrdfFile& file, std::string where)
       : xml_(&xml), file_(&file), where_(std::move(where)) {}
 
   [[nodiscard]] const std::string& name() const { return xml_->name; }
   [[nodiscard]] int line() const { return xml_->line; }
 
-  /// Fails for anything in the element that the rule does not list, and for text.
+  /// Warns of elements, attributes and text in the element that the rule does not list. Fails for
+  /// those whose name is nearly one that is read, or is one behind a namespace prefix.
   void expect(const ElementRule& rule) const;
 
   [[nodiscard]] std::vector<UrdfNode> children() const;
@@ -56,8 +63,13 @@ class UrdfNode {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  void check_name(const std::string& what, std::string_view name,
+                  std::span<const std::string_view> read,
+                  std::span<const std::string_view> ignored) const;
+  [[nodiscard]] std::string place() const;  ///< file, line and element
+
   const XmlElement* xml_;
-  const std::string* file_;
+  UrdfFile* file_;
   std::string where_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/robot/text-inl.hpp>
@@ -24,17 +25,36 @@ bool is_disguised(std::span<const std::string_view> read, std::string_view name)
          contains(read, name.substr(colon + 1));
 }
 
-std::string without_prefix(std::string_view name) {
-  const std::string local(name.substr(name.find(':') + 1));
-  return "would be skipped, as it has a prefix, and " + local +
-         " is read; write it without the prefix, or remove it";
+/// How many letters must be changed, added, left out or swapped with the next to make one name of
+/// the other (optimal string alignment); upper and lower case are the same.
+std::size_t distance(std::string_view a, std::string_view b) {
+  const auto same = [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
+  };
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      const std::size_t changed = d[i - 1][j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, changed});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]))
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
 }
 
-std::string listed(std::span<const std::string_view> names) {
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
-  return out.empty() ? "nothing" : out;
+/// The name that was probably meant; nothing if none is near.
+std::optional<std::string_view> meant(std::span<const std::string_view> read,
+                                      std::string_view name) {
+  constexpr std::size_t letters_per_mistake = 4;
+  for (const std::string_view known : read)
+    if (distance(name, known) <= std::max<std::size_t>(known.size() / letters_per_mistake, 1))
+      return known;
+  return std::nullopt;
 }
 
 bool is_macro_text(std::string_view text) {
@@ -50,23 +70,27 @@ void UrdfNode::expect(const ElementRule& rule) const {
   for (const auto& [key, value] : xml_->attributes) {
     if (key.starts_with("xacro:") || is_macro_text(value))
       fail("attribute " + key + "=" + in_quotes(value) + ": " + kExpandXacro);
-    if (is_disguised(rule.attributes, key))
-      fail("attribute " + in_quotes(key) + " " + without_prefix(key));
-    if (!is_extension(key) && !contains(rule.attributes, key) &&
-        !contains(rule.ignored_attributes, key))
-      fail("unknown attribute " + in_quotes(key) + "; expected " + listed(rule.attributes));
+    check_name("attribute " + in_quotes(key), key, rule.attributes, rule.ignored_attributes);
   }
   for (const XmlElement& c : xml_->children) {
     const UrdfNode child(c, *file_, where_);
     if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + kExpandXacro);
-    if (is_disguised(rule.children, c.name))
-      child.fail("<" + c.name + "> " + without_prefix(c.name));
-    if (!is_extension(c.name) && !contains(rule.children, c.name) &&
-        !contains(rule.ignored_children, c.name))
-      child.fail("unknown element <" + c.name + ">; expected " + listed(rule.children));
+    child.check_name("element <" + c.name + ">", c.name, rule.children, rule.ignored_children);
   }
   if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + kExpandXacro);
-  if (!xml_->text.empty()) fail("unexpected text " + in_quotes(xml_->text) + "; remove it");
+  if (!xml_->text.empty())
+    file_->warnings.try_emplace("text", place() + "text " + in_quotes(xml_->text) + " is ignored");
+}
+
+void UrdfNode::check_name(const std::string& what, std::string_view name,
+                          std::span<const std::string_view> read,
+                          std::span<const std::string_view> ignored) const {
+  if (is_disguised(read, name))
+    fail(what + " has a prefix and would be ignored; write it without the prefix, or remove it");
+  if (is_extension(name) || contains(read, name) || contains(ignored, name)) return;
+  if (const auto known = meant(read, name))
+    fail("unknown " + what + "; is " + in_quotes(std::string(*known)) + " meant?");
+  file_->warnings.try_emplace(what, place() + "unknown " + what + " is ignored");
 }
 
 std::vector<UrdfNode> UrdfNode::children() const {
@@ -139,9 +163,11 @@ void UrdfNode::numbers(std::string_view key, std::span<double> out) const {
   fail(std::string(key) + "=" + in_quotes(value) + " is not " + expected);
 }
 
-void UrdfNode::fail(const std::string& what) const {
-  throw InputError(*file_ + ":" + std::to_string(line()) + ": " +
-                   (where_.empty() ? xml_->name : where_) + ": " + what);
+std::string UrdfNode::place() const {
+  return file_->name + ":" + std::to_string(line()) + ": " +
+         (where_.empty() ? xml_->name : where_) + ": ";
 }
+
+void UrdfNode::fail(const std::string& what) const { throw InputError(place() + what); }
 
 }  // namespace penumbra::detail

@@ -138,11 +138,15 @@ void read_shape(const UrdfNode& geometry, UrdfElement& element) {
 }
 
 UrdfElement read_element(const UrdfNode& node) {
-  node.expect(kElementRule);
   UrdfElement element;
   element.line = node.line();
-  element.origin = read_origin(node);
-  read_shape(node.required_child("geometry"), element);
+  try {
+    node.expect(kElementRule);
+    element.origin = read_origin(node);
+    read_shape(node.required_child("geometry"), element);
+  } catch (const InputError& error) {
+    element.fault = error.what();
+  }
   return element;
 }
 
@@ -234,7 +238,7 @@ UrdfJoint read_joint(const UrdfNode& unnamed) {
 
 // Elements that are ignored are searched too: a file that holds a macro anywhere is not expanded.
 // An xmlns:xacro alone is no sign of one: expanded files often keep it.
-void refuse_xacro(const XmlElement& xml, const std::string& file) {
+void refuse_xacro(const XmlElement& xml, UrdfFile& file) {
   if (xml.name.starts_with("xacro:"))
     UrdfNode(xml, file, "")
         .fail(
@@ -247,18 +251,20 @@ void refuse_xacro(const XmlElement& xml, const std::string& file) {
 Urdf read_urdf(std::string_view xml, const std::string& file) {
   const XmlElement root = read_xml(xml, file);
   require_utf8(root, file);
-  const UrdfNode node(root, file, "");
+  UrdfFile source{file, {}};
+  const UrdfNode node(root, source, "");
   if (root.name != "robot")
     node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>");
-  refuse_xacro(root, file);
+  refuse_xacro(root, source);
   node.expect(kRobotRule);
   if (node.has("version") && !node.text("version").starts_with("1"))
     node.fail("version=" + in_quotes(node.text("version")) + " is unknown; expected 1.0");
-  Urdf urdf{file, node.identifier("name"), {}, {}};
+  Urdf urdf{file, node.identifier("name"), {}, {}, {}};
   for (const UrdfNode& child : node.children()) {
     if (child.name() == "link") urdf.links.push_back(read_link(child));
     if (child.name() == "joint") urdf.joints.push_back(read_joint(child));
   }
+  for (auto& [kind, line] : source.warnings) urdf.warnings.push_back(std::move(line));
   return urdf;
 }
 

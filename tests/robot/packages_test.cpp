@@ -157,7 +157,7 @@ TEST_F(Packages, OnePackageIsNotedOnce) {
 TEST_F(Packages, UnknownPackageAndMissingFileAreSaid) {
   const std::string unknown = message_of([&] { (void)load("package://p/t.stl"); });
   EXPECT_TRUE(holds(unknown, "package \"p\" was not found"));
-  EXPECT_TRUE(holds(unknown, "p=DIR"));
+  EXPECT_TRUE(holds(unknown, "--package p=DIR"));
   add_mesh("given/t.stl", 1);
   EXPECT_TRUE(holds(message_of([&] {
                       (void)load("package://p/u.stl", {.packages = {{"p", in("given")}}});

@@ -114,14 +114,16 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Structure, UrdfError,
     ::testing::Values(
-        BadUrdf{"unknown_element",
+        BadUrdf{"element_mistyped",
                 robot_xml(link_xml("a", "\n<colision/>")),
-                {":3:", "link \"a\"", "<colision>", "visual or collision"}},
-        BadUrdf{"unknown_attribute",
-                shaped("<sphere radius=\"1\" diameter=\"2\"/>"),
-                {"\"diameter\"", "expected radius"}},
-        BadUrdf{"unknown_root_element", robot_xml("<loop_joint name=\"l\"/>"), {"<loop_joint>"}},
-        BadUrdf{"text", robot_xml(link_xml("a", ">")), {"unexpected text \">\""}},
+                {":3:", "link \"a\"", "<colision>", "\"collision\" meant"}},
+        BadUrdf{"origin_mistyped",
+                joint_with("fixed", "<orgin xyz=\"1 0 0\"/>"),
+                {":4:", "joint \"j\"", "<orgin>", "\"origin\" meant"}},
+        BadUrdf{"letters_swapped", joint_with("revolute", "<aixs/>"), {"\"axis\" meant"}},
+        BadUrdf{"attribute_mistyped",
+                shaped("<mesh fileName=\"a.stl\"/>"),
+                {"\"fileName\"", "\"filename\" meant"}},
         BadUrdf{"link_without_name", robot_xml("<link/>"), {":2:", "\"name\" is missing"}},
         BadUrdf{"link_empty_name", robot_xml(link_xml("")), {"\"name\" is empty"}},
         BadUrdf{"two_links_of_a_name",
@@ -224,12 +226,12 @@ INSTANTIATE_TEST_SUITE_P(
     Shapes, UrdfError,
     ::testing::Values(
         BadUrdf{"none",
-                robot_xml(link_xml("a", "<visual><geometry/></visual>")),
-                {"link \"a\", visual, geometry", "holds no shape"}},
-        BadUrdf{"no_geometry", robot_xml(link_xml("a", "<visual/>")), {"<geometry> is missing"}},
+                robot_xml(link_xml("a", "<collision><geometry/></collision>")),
+                {"link \"a\", collision, geometry", "holds no shape"}},
+        BadUrdf{"no_geometry", robot_xml(link_xml("a", "<collision/>")), {"<geometry> is missing"}},
         BadUrdf{"two", shaped("<sphere radius=\"1\"/><box size=\"1 1 1\"/>"), {"second shape"}},
         BadUrdf{"two_of_a_kind", shaped("<box size=\"1 1 1\"/><box size=\"1 1 1\"/>"), {"twice"}},
-        BadUrdf{"unknown", shaped("<cone radius=\"1\"/>"), {"<cone>", "capsule or mesh"}},
+        BadUrdf{"unknown", shaped("<cone radius=\"1\"/>"), {"holds no shape", "capsule or mesh"}},
         BadUrdf{"extension_alone", shaped("<drake:ellipsoid a=\"1\"/>"), {"holds no shape"}},
         BadUrdf{"flat_box", shaped("<box size=\"1 0 1\"/>"), {"size=\"1 0 1\"", "above 0"}},
         BadUrdf{"box_of_one", shaped("<box size=\"1\"/>"), {"3 finite numbers"}},
@@ -259,9 +261,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadUrdf{"link", robot_xml("<u:link name=\"b\"/>" + link_xml("a")), {":2: ", "<u:link>"}},
         BadUrdf{"joint",
                 robot_xml(link_xml("a") + "<drake:joint name=\"j\" type=\"planar\"/>"),
-                {":3: ", "<drake:joint> would be skipped", "without the prefix"}},
-        BadUrdf{"collision", in_link("<u:collision/>"), {":3: link \"a\": <u:collision>"}},
-        BadUrdf{"visual", in_link("<u:visual/>"), {":3: link \"a\": <u:visual>"}},
+                {":3: ", "<drake:joint>", "without the prefix"}},
+        BadUrdf{"collision", in_link("<u:collision/>"), {":3: link \"a\": element <u:collision>"}},
+        BadUrdf{"visual", in_link("<u:visual/>"), {":3: link \"a\": element <u:visual>"}},
         BadUrdf{"origin",
                 in_link(collision_xml("<sphere radius=\"1\"/>", "<u:origin xyz=\"5 0 0\"/>")),
                 {":3: ", "<u:origin>"}},
@@ -270,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadUrdf{"mesh", shaped("<sphere radius=\"1\"/><u:mesh filename=\"x\"/>"), {"<u:mesh>"}},
         BadUrdf{"mimic",
                 joint_with("revolute", "<drake:mimic joint=\"k\"/>"),
-                {"joint \"j\": <drake:mimic>"}},
+                {"joint \"j\": element <drake:mimic>"}},
         BadUrdf{"attribute",
                 in_link(collision_xml("<sphere radius=\"1\"/>", "<origin u:xyz=\"5 0 0\"/>")),
                 {":3: ", "\"u:xyz\""}}),
@@ -291,6 +293,33 @@ TEST(UrdfFile, OtherToolsElementsAreAccepted) {
       "<robot name=\"r\" xmlns:drake=\"http://d\" xmlns:name=\"http://n\" xmlns=\"http://u\">" +
       link + more + "</robot>");
   EXPECT_EQ(robot.links().size(), 1U);
+}
+
+/// What no reader of URDFs knows is ignored, and said once for each kind.
+TEST(UrdfFile, UnknownElementsAreWarnings) {
+  const std::string traits = "<traits kind=\"x\"/>";
+  const Robot robot = parse(
+      robot_xml(link_xml("a", collision_xml("<sphere radius=\"1\" diameter=\"2\"/>") + traits) +
+                link_xml("b", traits + ">") +
+                joint_xml("j", "fixed", "a", "b", "<controller_gains/>") + "<frame name=\"f\"/>"));
+  std::string all;
+  for (const std::string& note : robot.notes()) all += note + '\n';
+  EXPECT_EQ(robot.notes().size(), 5U) << all;
+  for (const char* part : {":2: link \"a\": unknown element <traits>", "\"diameter\"", "text \">\"",
+                           ":4: joint \"j\": unknown element <controller_gains>", "<frame>"})
+    EXPECT_TRUE(holds(all, part));
+}
+
+/// A box of size 0 that is never drawn.
+TEST(UrdfFile, GeometryThatIsNotDrawnIsNotChecked) {
+  const std::string xml = robot_xml(
+      link_xml("a", collision_xml("<sphere radius=\"1\"/>") + visual_xml("<box size=\"0 0 0\"/>")));
+  EXPECT_EQ(parse(xml).links().size(), 1U);
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(xml, {.geometry = Geometry::visual}); }),
+                    "link \"a\", visual, geometry, box"));
+  RobotOptions options{.geometry = Geometry::visual};
+  options.allow_missing_meshes = true;
+  EXPECT_TRUE(holds(parse(xml, options).report()[0].fault, "size=\"0 0 0\""));
 }
 
 INSTANTIATE_TEST_SUITE_P(
