@@ -92,15 +92,18 @@ std::optional<double> lateness(const TargetReport& target, const FrameReport& re
   return seconds_from(*target.stamp, *report.stamp);
 }
 
-/// What stands at a target: "crate hidden 97%, 0.20 s ago, predicted". Where the verdict is unknown
-/// a share would look like one that is known.
+/// What stands at a target: "crate hidden 97%, 0.20 s ago, predicted"; "crate unknown, at least
+/// 57%".
 std::string caption(const TargetReport& target, const std::optional<double>& late) {
   std::string text(target.name);
   text += " " + std::string(to_string(target.verdict));
-  if (target.verdict != Verdict::unknown && target.judgement && target.judgement->inside > 0) {
+  if (target.judgement && target.judgement->inside > 0) {
     const double hidden =
         target.judgement->occluded + target.judgement->hidden_by_other.value_or(0);
-    text += " " + std::to_string(std::lround(100.0 * hidden)) + "%";
+    const long percent = std::lround(100.0 * hidden);
+    const bool is_known = target.verdict != Verdict::unknown;
+    if (is_known || percent > 0)
+      text += (is_known ? " " : ", at least ") + std::to_string(percent) + "%";
   }
   if (late) {
     std::array<char, 32> ago{};

@@ -128,14 +128,12 @@ function blameBars(target: TargetReport): HTMLElement {
   return list;
 }
 
-/**
- * What of it is hidden, by robot and others, as the overlay's captions have it; null: not known. Where
- * the verdict is unknown a share would look like one that is known.
- */
-export function hiddenOf(target: TargetReport): number | null {
-  const isJudged = verdictOf(target.verdict) !== 'unknown' && (target.inside ?? 0) > 0;
+/** How much of it robot and others hide; where the verdict is unknown, at least. */
+function hiddenText(target: TargetReport): string {
   const { occluded_fraction: occluded, hidden_by_other_fraction: other } = target;
-  return isJudged ? hiddenShare({ occluded, other }) : null;
+  const share = (target.inside ?? 0) > 0 ? hiddenShare({ occluded, other }) : null;
+  if (verdictOf(target.verdict) !== 'unknown') return percent(share, 0);
+  return share !== null && share >= 0.005 ? `≥ ${percent(share, 0)}` : percent(null, 0);
 }
 
 /** Targets of a frame to choose from. */
@@ -147,7 +145,7 @@ export function targetList(
   const list = element('div', 'target-list');
   for (const target of frame.targets) {
     const verdict = verdictOf(target.verdict);
-    const hidden = percent(hiddenOf(target), 0);
+    const hidden = hiddenText(target);
     const amount = element('span', 'amount', hidden);
     amount.title = 'hidden, by the robot or by others';
     const button = element(
