@@ -1290,20 +1290,11 @@ class PointCloud:
     def __len__(self) -> int: ...
 
 @final
-class RendererChoice:
-    @property
-    def backend(self) -> Backend: ...
-    @property
-    def reason(self) -> str: ...
-    @property
-    def warnings(self) -> Tuple[str, ...]: ...
-
-@final
 class PipelineConfig:
     def __init__(
         self,
         *,
-        backend: Optional[Backend] = ...,
+        backend: Backend = ...,
         renderer: RendererOptions = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
@@ -1312,7 +1303,7 @@ class PipelineConfig:
         target_history: float = ...,
     ) -> None: ...
     @property
-    def backend(self) -> Optional[Backend]: ...
+    def backend(self) -> Backend: ...
     @property
     def renderer(self) -> RendererOptions: ...
     @property
@@ -1328,7 +1319,7 @@ class PipelineConfig:
     def replace(
         self,
         *,
-        backend: Optional[Backend] = ...,
+        backend: Backend = ...,
         renderer: RendererOptions = ...,
         rule: LabelRule = ...,
         image: ImageSpace = ...,
@@ -1347,8 +1338,6 @@ class Pipeline:
     def robot(self) -> Robot: ...
     @property
     def renderer(self) -> RendererInfo: ...
-    @property
-    def renderer_choice(self) -> RendererChoice: ...
     @property
     def triangle_count(self) -> int: ...
     @property
