@@ -31,6 +31,12 @@ Json opengl_json(const MachineReport& machine) {
   return {{"fault", or_null(machine.gl_fault)}, {"devices", std::move(devices)}};
 }
 
+Json renderers_json(const std::vector<Backend>& renderers) {
+  Json names = Json::array();
+  for (const Backend renderer : renderers) names.push_back(to_string(renderer));
+  return names;
+}
+
 Json libraries_json(const std::vector<LibraryVersion>& libraries) {
   Json all = Json::array();
   for (const LibraryVersion& library : libraries)
@@ -50,10 +56,7 @@ std::string machine_json(const MachineReport& machine) {
                        {"threads", machine.threads == 0 ? Json(nullptr) : Json(machine.threads)},
                        {"simd", machine.simd}}},
                      {"opengl", opengl_json(machine)},
-                     {"auto",
-                      {{"backend", to_string(machine.choice.backend)},
-                       {"reason", machine.choice.reason},
-                       {"warnings", machine.choice.warnings}}},
+                     {"renderers", renderers_json(machine.renderers)},
                      {"network",
                       {{"receive_buffer_limit", or_null(machine.receive_buffer_limit)},
                        {"advice", or_null(machine.receive_buffer_advice)}}},

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/renderer_choice.hpp>
 
 namespace penumbra::io {
 
@@ -36,8 +36,8 @@ struct MachineReport {
   unsigned threads = 0;           ///< hardware threads; 0: the system does not say
   std::vector<std::string> simd;  ///< targets by Highway's names, best first: it is the one used
   std::vector<GlDevice> gl_devices;
-  std::string gl_fault;  ///< why there are no OpenGL devices, and what to install
-  RendererChoice choice;
+  std::string gl_fault;            ///< why there are no OpenGL devices, and what to install
+  std::vector<Backend> renderers;  ///< that draw on this machine, the default first
   /// The most bytes that a socket may hold for its reader; nothing: the system does not say.
   std::optional<std::uint64_t> receive_buffer_limit;
   std::string receive_buffer_advice;  ///< where that is too little for images; empty: it is not

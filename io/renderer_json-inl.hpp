@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <penumbra/render/depth_renderer.hpp>
+
 #include <io/json-inl.hpp>
-#include <io/report_json.hpp>
 
 namespace penumbra::io {
 
 /// "renderer" of report.json.
-[[nodiscard]] Json renderer_json(const UsedRenderer& used);
+[[nodiscard]] Json renderer_json(const RendererInfo& info);
 
 }  // namespace penumbra::io

@@ -8,6 +8,7 @@
 
 #include <io/disk_file.hpp>
 #include <io/renderer_json-inl.hpp>
+#include <io/report_json.hpp>
 #include <io/target_json-inl.hpp>
 
 namespace penumbra::io {
@@ -170,18 +171,11 @@ Json joint_json(const Robot& robot, const Joint& joint) {
 
 }  // namespace
 
-Json renderer_json(const UsedRenderer& used) {
-  const RendererInfo& info = used.info;
+Json renderer_json(const RendererInfo& info) {
   return {{"backend", to_string(info.backend)},
           {"isa", or_null(info.isa)},
           {"threads", info.backend == Backend::gl ? Json(nullptr) : Json(info.threads)},
-          {"device", or_null(info.device)},
-          {"requested", used.requested ? to_string(*used.requested) : "auto"},
-          {"reason", or_null(used.reason)}};
-}
-
-UsedRenderer used_renderer(const Pipeline& pipeline, std::optional<Backend> requested) {
-  return {pipeline.renderer(), requested, pipeline.renderer_choice().reason};
+          {"device", or_null(info.device)}};
 }
 
 std::string report_start(const ReportHead& head) {

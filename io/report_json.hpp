@@ -13,23 +13,12 @@
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/statistics.hpp>
-#include <penumbra/render/renderer_choice.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <io/recording.hpp>
 
 namespace penumbra::io {
-
-/// Which renderer was asked for, which is used, and why.
-struct UsedRenderer {
-  RendererInfo info;
-  std::optional<Backend> requested;  ///< nothing: auto
-  std::string reason;                ///< RendererChoice::reason
-};
-
-/// Of a pipeline, whose configuration asked for `requested`.
-[[nodiscard]] UsedRenderer used_renderer(const Pipeline& pipeline,
-                                         std::optional<Backend> requested);
 
 /// What was taken of a bag.
 struct UsedBag {
@@ -60,11 +49,11 @@ struct UsedSettings {
 /// What a report says before its frames.
 struct ReportHead {
   std::string input;
-  UsedRenderer renderer;
+  RendererInfo renderer;
   UsedSettings settings;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read
-  std::span<const std::string> notes;  ///< before the frames: Robot::notes(), the renderer's
+  std::span<const std::string> notes;          ///< before the frames: Robot::notes()
 };
 
 /// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file
@@ -102,7 +91,7 @@ struct RenderResult {
   std::size_t triangles = 0;
   std::size_t robot_pixels = 0;
   std::size_t uncovered_pixels = 0;  ///< PixelCounts::uncovered
-  UsedRenderer renderer;
+  RendererInfo renderer;
   std::span<const std::string> variables;      ///< names of the joint positions
   std::span<const double> positions;           ///< in their order, rad and m
   std::span<const std::string> missing_links;  ///< as in ReportHead

@@ -12,15 +12,10 @@ namespace {
 using State = PipelineState;
 
 void bind_pipeline_settings(py::module_& m) {
-  py::class_<RendererChoice> choice(m, "RendererChoice", "Which backend is used, and why.");
-  using R = RendererChoice;
-  show_fields(choice, Field{"backend", &R::backend, "The backend."},
-              Field{"reason", &R::reason, "One sentence; empty: not measured."},
-              Field{"warnings", &R::warnings, "Why OpenGL could not be used."});
   py::class_<PipelineConfig> config(m, "PipelineConfig", "How frames are judged.");
   using C = PipelineConfig;
   bind_fields(
-      config, Field{"backend", &C::backend, "None: the faster one of cpu and gl, measured."},
+      config, Field{"backend", &C::backend, "What draws."},
       Field{"renderer", &C::renderer, "How the backend draws."},
       Field{"rule", &C::rule, "Its range and the camera's both apply."},
       Field{"image", &C::image, "Which image results are given in."},
@@ -69,25 +64,9 @@ void bind_pipeline_facts(py::class_<State, std::shared_ptr<State>>& pipeline) {
       .def_property_readonly(
           "robot", [](const State& s) { return s.pipeline.robot(); }, "The robot.")
       .def_property_readonly(
-          "renderer",
-          [](State& s) {
-            const OneThread::Use use(s.thread, "Pipeline.renderer");
-            return s.pipeline.renderer();
-          },
-          "What draws.")
+          "renderer", [](const State& s) { return s.pipeline.renderer(); }, "What draws.")
       .def_property_readonly(
-          "renderer_choice",
-          [](State& s) {
-            const OneThread::Use use(s.thread, "Pipeline.renderer_choice");
-            return s.pipeline.renderer_choice();
-          },
-          "Why that renderer.")
-      .def_property_readonly(
-          "triangle_count",
-          [](State& s) {
-            const OneThread::Use use(s.thread, "Pipeline.triangle_count");
-            return s.pipeline.triangle_count();
-          },
+          "triangle_count", [](const State& s) { return s.pipeline.triangle_count(); },
           "Of all links.")
       .def_property_readonly(
           "rule", [](const State& s) { return s.pipeline.rule(); },

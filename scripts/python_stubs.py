@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the type stubs of the module from the signatures that it tells itself.
+"""Writes the type stubs of the module from its own signatures; the build calls it.
 
-usage: PYTHONPATH=build/release/python scripts/python_stubs.py python/penumbra/__init__.pyi
+usage: PYTHONPATH=FOLDER_OF_THE_PACKAGE scripts/python_stubs.py OUT.pyi
 """
 
 import enum
 import inspect
+import os
 import re
 import sys
 from typing import Any, List, NamedTuple, Optional
@@ -31,6 +32,7 @@ from typing import (
     overload,
 )
 
+import numpy
 from numpy import bool_, float32, float64, int32, uint8, uint16, uint32
 from numpy.typing import ArrayLike, NDArray
 
@@ -174,6 +176,7 @@ def stubs(module: Any) -> str:
 if __name__ == "__main__":
     import penumbra._core
 
-    text = stubs(penumbra._core)
-    with open(sys.argv[1], "w", encoding="utf-8") as out:
-        out.write(text)
+    part = sys.argv[1] + ".part"  # takes its name when it is whole
+    with open(part, "w", encoding="utf-8") as out:
+        out.write(stubs(penumbra._core))
+    os.replace(part, sys.argv[1])

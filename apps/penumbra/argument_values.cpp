@@ -13,11 +13,10 @@ void refuse_option(const std::string& option, const std::string& value, const st
   throw InputError(option + ": '" + value + "' is not " + wanted);
 }
 
-std::optional<Backend> to_backend(const std::string& name) {
-  if (name == "auto") return std::nullopt;
+Backend to_backend(const std::string& name) {
   for (const Backend backend : {Backend::cpu, Backend::gl, Backend::reference})
     if (name == to_string(backend)) return backend;
-  refuse_option("--renderer", name, "one of cpu, gl, reference, auto");
+  refuse_option("--renderer", name, "one of cpu, gl, reference");
 }
 
 Geometry to_geometry(const std::string& name) {

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,8 +15,7 @@ namespace penumbra::app {
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& wanted);
 
-/// Nothing for auto.
-[[nodiscard]] std::optional<Backend> to_backend(const std::string& name);
+[[nodiscard]] Backend to_backend(const std::string& name);
 [[nodiscard]] Geometry to_geometry(const std::string& name);
 [[nodiscard]] ImageSpace to_image(const std::string& name);
 [[nodiscard]] PoseSource to_poses(const std::string& name);

@@ -35,8 +35,8 @@ struct FrameRange {
 };
 
 struct RendererArguments {
-  std::optional<Backend> backend = Backend::cpu;  ///< nothing: auto
-  bool is_named = false;                          ///< the backend, by --renderer
+  Backend backend = Backend::cpu;
+  bool is_named = false;  ///< the backend, by --renderer
   RendererOptions options;
 };
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -49,20 +48,11 @@ void print_opengl(const io::MachineReport& machine) {
   print_table(rows);
 }
 
-/// Whether the list of devices says it already.
-bool is_told(const std::string& warning, const io::MachineReport& machine) {
-  if (!machine.gl_fault.empty()) return true;
-  return std::any_of(machine.gl_devices.begin(), machine.gl_devices.end(), [&](const auto& device) {
-    return !device.fault.empty() && warning.ends_with(device.fault);
-  });
-}
-
-void print_choice(const io::MachineReport& machine) {
-  const RendererChoice& choice = machine.choice;
-  std::cout << "\nRenderer, for a small robot at 640x480\n  --renderer auto takes "
-            << to_string(choice.backend) << ": " << choice.reason << '\n';
-  for (const std::string& warning : choice.warnings)
-    if (!is_told(warning, machine)) std::cout << "  note: " << warning << '\n';
+void print_renderers(const std::vector<Backend>& renderers) {
+  std::cout << "\nRenderers on this machine (--renderer)\n";
+  for (const Backend renderer : renderers)
+    std::cout << "  " << to_string(renderer) << (renderer == Backend::cpu ? " (default)" : "")
+              << '\n';
 }
 
 void print_network(const io::MachineReport& machine) {
@@ -99,7 +89,7 @@ int execute(const DoctorArguments& arguments) {
   print_build(machine.build);
   print_cpu(machine);
   print_opengl(machine);
-  print_choice(machine);
+  print_renderers(machine.renderers);
   print_network(machine);
   print_libraries(machine.build.libraries);
   return 0;

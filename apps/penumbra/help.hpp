@@ -45,7 +45,7 @@ Examples:
   penumbra run recording/ -o out --save labels,overlay --frames 10:20
   penumbra run recording/ -o out --labels paper
   penumbra run recording/ -o out --tolerance 0.02,0,0.012 --front-min-width 0
-  penumbra run recording/ -o out --renderer auto)";
+  penumbra run recording/ -o out --renderer gl)";
 
 inline constexpr const char* tune_examples = R"(
 Measures a sensor on a recording in which the arm moves through free space before a camera that
@@ -95,9 +95,8 @@ Examples:
   penumbra inspect ur5e.urdf --package ur_description=/opt/ur_description --json)";
 
 inline constexpr const char* doctor_examples = R"(
-Prints versions, SIMD targets, OpenGL devices and their faults, which renderer
---renderer auto would take for a small robot at 640x480, and whether the kernel gives sockets enough
-for live images. The exit status is 0 without OpenGL too.
+Prints versions, SIMD targets, OpenGL devices and their faults, the renderers that work on this
+machine, and whether the kernel gives sockets enough for live images. The exit status is 0 without OpenGL too.
 
 Examples:
   penumbra doctor

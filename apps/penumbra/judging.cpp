@@ -61,25 +61,6 @@ io::UsedSettings settings_of(const RunArguments& arguments, const RunInput& inpu
           .bag = input.bag};
 }
 
-/// Notes the warnings that the renderer's choice gets while frames are judged.
-class RendererWatch {
- public:
-  explicit RendererWatch(const Pipeline& pipeline)
-      : pipeline_(pipeline), seen_(pipeline.renderer_choice().warnings.size()) {}
-
-  void look(std::size_t index) {
-    const auto& warnings = pipeline_.renderer_choice().warnings;
-    for (; seen_ < warnings.size(); ++seen_)
-      notes_.push_back("frame " + std::to_string(index) + ": " + warnings[seen_]);
-  }
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-
- private:
-  const Pipeline& pipeline_;
-  std::size_t seen_;
-  std::vector<std::string> notes_;
-};
-
 }  // namespace
 
 Judging::Judging(const RunArguments& arguments)
@@ -89,18 +70,15 @@ Judging::Judging(const RunArguments& arguments)
       targets_(open_targets(arguments, input_, camera_)),
       pipeline_(
           make_pipeline(arguments, input_, targets_ ? targets_->history() : input_.target_history)),
-      source_(input_.frames(pipeline_.robot())) {
-  tell_choice(pipeline_.renderer_choice());
-  notes_ = notes_of(pipeline_);
-}
+      source_(input_.frames(pipeline_.robot())) {}
 
 io::ReportHead Judging::head() const {
   return {arguments_.input.string(),
-          io::used_renderer(pipeline_, arguments_.renderer.backend),
+          pipeline_.renderer(),
           settings_of(arguments_, input_, pipeline_, targets_),
           pipeline_.robot().links(),
           pipeline_.missing_links(),
-          notes_};
+          pipeline_.robot().notes()};
 }
 
 bool Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
@@ -117,7 +95,6 @@ bool Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
 void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on) {
   SequenceNotes doubts(pipeline_.robot(), {.image = arguments_.image});
   MissingParts missing(pipeline_.robot(), pipeline_.rule().fringe_reach);
-  RendererWatch watch(pipeline_);
   io::FrameData data;
   Frame frame;
   try {
@@ -128,7 +105,6 @@ void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on
       doubts.add(report, frame.joints.positions);
       missing.add(report);
       color_.add(data.color_message);
-      watch.look(report.index);
       output.save(report, data, {frame.targets, pipeline_.robot(), camera_});
       stopped_ = !go_on();
     }
@@ -137,8 +113,8 @@ void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on
     lost_ = "frame " + std::to_string(data.index) +
             " and later ones are not judged: " + without_device(error);
   }
-  for (const auto& more : {doubts.lines(), missing.lines(), watch.notes()})
-    sequence_notes_.insert(sequence_notes_.end(), more.begin(), more.end());
+  sequence_notes_ = doubts.lines();
+  for (std::string& line : missing.lines()) sequence_notes_.push_back(std::move(line));
 }
 
 void Judging::tell(const std::string& where) const {

@@ -23,8 +23,8 @@ namespace penumbra::app {
 /// An input with its pipeline, judged frame by frame: what `run` and `view` have in common.
 class Judging {
  public:
-  /// Opens the input, and says on stdout what of a bag is taken and on stderr which renderer auto
-  /// took. Throws InputError that names the file.
+  /// Opens the input, and says on stdout what of a bag is taken. Throws InputError that names the
+  /// file.
   explicit Judging(const RunArguments& arguments);
 
   [[nodiscard]] const RunInput& input() const { return input_; }
@@ -55,7 +55,7 @@ class Judging {
   std::optional<io::TargetsFile> targets_;
   Pipeline pipeline_;
   std::unique_ptr<io::FrameSource> source_;
-  std::vector<std::string> notes_, late_notes_;
+  std::vector<std::string> late_notes_;
   Statistics statistics_;
   ColorFaults color_;
   std::vector<std::string> sequence_notes_;

@@ -15,12 +15,12 @@
 #include <sys/resource.h>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/robot/primitives.hpp>
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
-#include <apps/penumbra/live_renderer.hpp>
 #include <apps/penumbra/live_setup.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
@@ -119,6 +119,21 @@ std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
   return std::nullopt;
 }
 
+/// Draws a small box with the chosen renderer: a device that cannot draw would fail every image.
+/// Throws InputError if it cannot.
+void check_draws(const RendererArguments& renderer) {
+  const TriangleMesh mesh = make_box({0.1, 0.1, 0.1});
+  const Body box{"box", {&mesh, 1}};
+  const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
+  const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1));
+  try {
+    static_cast<void>(make_depth_renderer(renderer.backend, small, {&box, 1}, renderer.options)
+                          ->render({&pose, 1}));
+  } catch (const DeviceError& fault) {
+    throw InputError(fault.what());
+  }
+}
+
 PipelineConfig config_of(const LiveArguments& arguments) {
   PipelineConfig config;
   config.backend = arguments.judging.renderer.backend;
@@ -164,7 +179,6 @@ class Live {
     receiving.join();
     runner_->stop();
     if (!fault_) fault_ = runner_->fault();
-    tell_renderers();
     return stopped;
   }
 
@@ -194,13 +208,6 @@ class Live {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
   }
 
-  /// stderr may be slow: not while the inbox is held.
-  void tell_renderers() {
-    const auto news =
-        runner_->with_inbox([&](const io::LiveInbox& inbox) { return renderers_.look(inbox); });
-    for (const std::string& line : news) std::cerr << "penumbra: " << line << '\n';
-  }
-
   bool report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
     io::LiveDiagnostics words(io::LiveRunner::steady_now(), diagnostics.speaker());
     auto next = Clock::now();
@@ -216,7 +223,6 @@ class Live {
         return words.report(inbox, links,
                             {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
       }));
-      tell_renderers();
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -233,7 +239,6 @@ class Live {
   std::vector<std::unique_ptr<GraphResults>> results_;
   std::unique_ptr<io::LiveRunner> runner_;
   std::unique_ptr<LiveSubscriptions> subscriptions_;
-  RendererNews renderers_;
   std::exception_ptr fault_;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -9,8 +10,6 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
 #include <penumbra/base/version.hpp>
-#include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/robot/primitives.hpp>
 
 #include <apps/penumbra/build_info.hpp>
 #include <apps/penumbra/machine.hpp>
@@ -76,19 +75,13 @@ std::vector<GlDevice> devices_or_fault(std::string& fault) {
   }
 }
 
-/// An arm of capsules and spheres, as large as a small robot's.
-std::vector<TriangleMesh> small_arm() {
-  return {make_cylinder(0.09, 0.12), make_sphere(0.08),         make_capsule(0.06, 0.4),
-          make_sphere(0.07),         make_capsule(0.05, 0.35),  make_sphere(0.05),
-          make_capsule(0.04, 0.1),   make_box({0.1, 0.1, 0.05})};
-}
-
-RendererChoice choose_for_small_arm() {
-  const std::vector<TriangleMesh> arm = small_arm();
-  std::vector<Body> bodies;
-  bodies.reserve(arm.size());
-  for (const TriangleMesh& mesh : arm) bodies.push_back({"link", {&mesh, 1}});
-  return choose_backend(Intrinsics(640, 480, 600, 600, 319.5, 239.5), bodies);
+std::vector<Backend> renderers_of(const std::vector<GlDevice>& devices) {
+  std::vector<Backend> renderers = {Backend::cpu};
+  if (std::any_of(devices.begin(), devices.end(),
+                  [](const GlDevice& device) { return device.fault.empty(); }))
+    renderers.push_back(Backend::gl);
+  renderers.push_back(Backend::reference);
+  return renderers;
 }
 
 }  // namespace
@@ -99,7 +92,7 @@ io::MachineReport examine_machine() {
   machine.threads = std::thread::hardware_concurrency();
   machine.simd = simd_target_names();
   machine.gl_devices = devices_or_fault(machine.gl_fault);
-  machine.choice = choose_for_small_arm();
+  machine.renderers = renderers_of(machine.gl_devices);
   machine.receive_buffer_limit = io::receive_buffer_limit();
   machine.receive_buffer_advice = io::receive_buffer_advice(machine.receive_buffer_limit);
   machine.build = {PENUMBRA_VERSION,

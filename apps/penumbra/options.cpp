@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <optional>
-
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/options.hpp>
@@ -21,9 +19,8 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 }
 
 void add_renderer(CLI::App& app, RendererArguments& renderer) {
-  add_option(app, "--renderer",
-             "cpu (default), gl (OpenGL), reference, or auto: the faster of cpu and gl, measured",
-             "NAME", [&](const std::string& text) {
+  add_option(app, "--renderer", "cpu (default), gl (OpenGL) or reference", "NAME",
+             [&](const std::string& text) {
                renderer.backend = to_backend(text);
                renderer.is_named = true;
              });
@@ -56,16 +53,14 @@ void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fall
 }
 
 void check_renderer(const RendererArguments& renderer) {
-  const std::optional<Backend> backend = renderer.backend;
+  const std::string name(to_string(renderer.backend));
   const int threads = renderer.options.threads, device = renderer.options.gl_device;
-  if (backend && backend != Backend::cpu && threads > 1)
-    throw InputError("--threads " + std::to_string(threads) + ": the " +
-                     std::string(to_string(*backend)) +
+  if (renderer.backend != Backend::cpu && threads > 1)
+    throw InputError("--threads " + std::to_string(threads) + ": the " + name +
                      " renderer uses one thread; leave --threads out, or choose --renderer cpu");
-  if (backend && backend != Backend::gl && device >= 0)
-    throw InputError("--gl-device " + std::to_string(device) + ": the " +
-                     std::string(to_string(*backend)) +
-                     " renderer uses no OpenGL; choose --renderer gl or auto");
+  if (renderer.backend != Backend::gl && device >= 0)
+    throw InputError("--gl-device " + std::to_string(device) + ": the " + name +
+                     " renderer uses no OpenGL; choose --renderer gl");
 }
 
 }  // namespace penumbra::app

@@ -156,7 +156,6 @@ int render(const RenderArguments& arguments) {
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
-  const RendererChoice choice = pipeline.renderer_choice();  // before its device can fail
 
   // Any depth will do: nothing of what is written comes of it.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
@@ -164,7 +163,6 @@ int render(const RenderArguments& arguments) {
   if (!first.T_root_camera) throw InputError(first.message);
   RenderedImages images(arguments, first);
   tell_notes(pipeline.robot().notes());
-  tell_choice(choice);
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
   SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
@@ -177,14 +175,14 @@ int render(const RenderArguments& arguments) {
   for (int i = 0; i < arguments.repeat; ++i)
     repeats.add(pipeline.process({.depth = seen.view(), .joints = positions}));
   images.finish();
-  tell_notes(std::span(pipeline.renderer_choice().warnings).subspan(choice.warnings.size()));
-  std::vector<std::string> notes = notes_of(pipeline);
+  const auto of_robot = pipeline.robot().notes();
+  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
   append(notes, of_pose);
 
   const io::RenderResult result{.triangles = pipeline.triangle_count(),
                                 .robot_pixels = pixels.robot.value_or(0),
                                 .uncovered_pixels = pixels.uncovered,
-                                .renderer = io::used_renderer(pipeline, arguments.renderer.backend),
+                                .renderer = pipeline.renderer(),
                                 .variables = pipeline.robot().variables(),
                                 .positions = positions,
                                 .missing_links = pipeline.missing_links(),

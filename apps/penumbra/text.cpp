@@ -61,22 +61,4 @@ void tell_notes(std::span<const std::string> notes) {
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }
 
-std::string words_of_choice(Backend backend, const std::string& reason) {
-  return "--renderer auto takes " + std::string(to_string(backend)) + ": " + reason;
-}
-
-void tell_choice(const RendererChoice& choice) {
-  if (!choice.reason.empty())
-    std::cerr << "penumbra: " << words_of_choice(choice.backend, choice.reason) << '\n';
-  tell_notes(choice.warnings);
-}
-
-std::vector<std::string> notes_of(const Pipeline& pipeline) {
-  const auto of_robot = pipeline.robot().notes();
-  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
-  const auto& warnings = pipeline.renderer_choice().warnings;
-  notes.insert(notes.end(), warnings.begin(), warnings.end());
-  return notes;
-}
-
 }  // namespace penumbra::app

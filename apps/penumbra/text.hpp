@@ -39,13 +39,4 @@ void print_table(std::vector<std::vector<std::string>> rows);
 /// Prints on stderr, a line each.
 void tell_notes(std::span<const std::string> notes);
 
-/// What auto took and why, one line.
-[[nodiscard]] std::string words_of_choice(Backend backend, const std::string& reason);
-
-/// Prints on stderr what auto took and why, and its warnings; nothing for a backend by name.
-void tell_choice(const RendererChoice& choice);
-
-/// Robot::notes() and RendererChoice::warnings.
-[[nodiscard]] std::vector<std::string> notes_of(const Pipeline& pipeline);
-
 }  // namespace penumbra::app

@@ -20,7 +20,7 @@ HEADERS = {
     "Robot": ["robot/robot.hpp"],
     "Camera": ["camera/camera.hpp", "camera/intrinsics.hpp", "camera/distortion.hpp",
                "camera/rectification.hpp", "camera/registration.hpp"],
-    "Renderers": ["render/depth_renderer.hpp", "render/renderer_choice.hpp"],
+    "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["occlusion/labels.hpp", "occlusion/target.hpp",
                             "occlusion/target_judge.hpp"],
     "Tracking": ["tracking/track.hpp", "tracking/pose_tracker.hpp", "tracking/point_tracker.hpp"],
@@ -56,7 +56,7 @@ GROUPS = {
     "Errors": "InputError", "Names": "Label", "Cameras": "Intrinsics", "Robots": "TriangleMesh",
     "Joint states": "JointBufferOptions", "Renderers": "RendererOptions", "Labels": "Tolerance",
     "Trackers": "PoseTrackerConfig", "Regions": "PixelBox", "Targets": "TargetThresholds",
-    "What is said of targets": "Blame", "Frames and reports": "Frame", "The pipeline": "RendererChoice",
+    "What is said of targets": "Blame", "Frames and reports": "Frame", "The pipeline": "PipelineConfig",
     "Files": "RecordingCamera", "Experiments": "experiments",
 }
 IDENTITY = r"array\(\[\[1\., 0\., 0\., 0\.\],[^)]*1\.\]\]\)"

@@ -123,12 +123,11 @@ void add_tally(Status& status, const LiveTally& tally) {
 }
 
 /// With the names that report.json has.
-void add_renderer(Status& status, const LiveRenderer& renderer) {
-  const Json json = renderer_json(renderer.used);
+void add_renderer(Status& status, const RendererInfo& renderer) {
+  const Json json = renderer_json(renderer);
   for (const auto& [key, value] : json.items())
     if (!value.is_null())
       add(status, "renderer " + key, value.is_string() ? value.get<std::string>() : value.dump());
-  for (const std::string& warning : renderer.warnings) add(status, "note", warning);
 }
 
 bool is_of_robot(LiveRole role) {

@@ -50,13 +50,6 @@ void add_topics_of_camera(const LiveCameraOptions& options, std::size_t camera,
   add(LiveRole::depth, options.depth_topic, type_of_images(options.depth_topic));
 }
 
-void add_renderer(const std::shared_ptr<const LiveRenderer>& renderer, LiveTally& tally) {
-  tally.renderer = renderer;
-  auto& told = tally.renderer_warnings;
-  for (const std::string& warning : renderer->warnings)
-    if (std::find(told.begin(), told.end(), warning) == told.end()) told.push_back(warning);
-}
-
 template <typename M>
 constexpr bool is_of_pixels =
     std::is_same_v<M, Detection2DArrayMessage> || std::is_same_v<M, KeypointsMessage>;
@@ -181,7 +174,7 @@ void LiveInbox::done(std::size_t camera, const LiveOutcome& outcome, std::int64_
   cameras_[camera]->done(outcome);
   LiveTally& tally = tallies_[camera];
   tally.last = outcome;
-  if (outcome.renderer && outcome.renderer != tally.renderer) add_renderer(outcome.renderer, tally);
+  if (outcome.renderer) tally.renderer = outcome.renderer;
   if (!outcome.is_published) return;
   tally.last_published = now;
   ++tally.statuses[std::string(to_string(outcome.status))];

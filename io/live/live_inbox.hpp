@@ -66,9 +66,8 @@ struct LiveTally {
   LatencyHistogram processing;   ///< from arrival to published, ms
   std::size_t beyond_clock = 0;  ///< images stamped by another clock than the system's: no latency
   LiveOutcome last;
-  std::shared_ptr<const LiveRenderer> renderer;  ///< that drew last; null: none yet
-  std::vector<std::string> renderer_warnings;    ///< of all that drew, each once
-  std::optional<std::int64_t> last_published;    ///< on the caller's clock
+  std::optional<RendererInfo> renderer;        ///< that drew last; nothing: none yet
+  std::optional<std::int64_t> last_published;  ///< on the caller's clock
 };
 
 /// All that was told on the graph: one robot, its cameras. Knows no transport, no thread and no

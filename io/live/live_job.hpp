@@ -53,12 +53,6 @@ struct LiveJob {
   std::optional<KeptImage> color;   ///< for the overlay
 };
 
-/// What draws the robot for a camera.
-struct LiveRenderer {
-  UsedRenderer used;
-  std::vector<std::string> warnings;  ///< RendererChoice::warnings
-};
-
 /// What became of it.
 struct LiveOutcome {
   bool is_published = false;
@@ -69,8 +63,7 @@ struct LiveOutcome {
   StageTimes timing;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
-  /// Another one once there is anything new to say of it; null: none could be made.
-  std::shared_ptr<const LiveRenderer> renderer;
+  std::optional<RendererInfo> renderer;  ///< that drew; nothing: it could not be made
 };
 
 }  // namespace penumbra::io

@@ -24,7 +24,7 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally, const Written
     written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
   return {{"name", camera.options().name},
           {"depth_topic", camera.options().depth_topic},
-          {"renderer", tally.renderer ? renderer_json(tally.renderer->used) : Json(nullptr)},
+          {"renderer", tally.renderer ? renderer_json(*tally.renderer) : Json(nullptr)},
           {"received", counts.received},
           {"judged", counts.judged},
           {"failed", counts.failed},
@@ -40,8 +40,7 @@ Json camera_json(const LiveCamera& camera, const LiveTally& tally, const Written
           {"targets_not_judged",
            {{"replaced", targets.replaced},
             {"discarded", targets.discarded},
-            {"messages_before_setup", targets.early}}},
-          {"notes", tally.renderer_warnings}};
+            {"messages_before_setup", targets.early}}}};
 }
 
 }  // namespace

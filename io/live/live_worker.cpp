@@ -41,7 +41,6 @@ LiveWorker::Tools::Tools(const LiveSetup& setup, const PipelineConfig& config)
 bool LiveWorker::follow(const std::shared_ptr<LiveSetup>& setup) {
   if (setup == setup_) return tools_ != nullptr;
   tools_.reset();
-  renderer_.reset();
   setup_ = setup;
   fault_.clear();
   try {
@@ -71,7 +70,6 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   }
   frame.source_message = message_;
   const FrameReport& report = tools_->pipeline.process(frame);
-  note_renderer();
   WithoutOverlay without_overlay(sink);
   ResultSink& taken = job.with_overlay ? sink : without_overlay;
   show_color(job, taken.wants(Result::overlay));
@@ -82,7 +80,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;
-  outcome.renderer = renderer_;
+  outcome.renderer = tools_->pipeline.renderer();
   return outcome;
 }
 
@@ -105,13 +103,6 @@ void LiveWorker::show_color(const LiveJob& job, bool wanted) {
   const bool shown =
       wanted && job.color && decode_color(*job.color, job.setup->cameras.judged, color_).empty();
   if (!shown) color_ = {};
-}
-
-void LiveWorker::note_renderer() {
-  const std::vector<std::string>& warnings = tools_->pipeline.renderer_choice().warnings;
-  if (renderer_ && renderer_->warnings.size() == warnings.size()) return;
-  renderer_ = std::make_shared<const LiveRenderer>(
-      LiveRenderer{used_renderer(tools_->pipeline, config_.backend), warnings});
 }
 
 }  // namespace penumbra::io

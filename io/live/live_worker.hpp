@@ -36,15 +36,13 @@ class LiveWorker {
   [[nodiscard]] bool follow(const std::shared_ptr<LiveSetup>& setup);
   [[nodiscard]] std::string read_depth(const LiveJob& job, DepthView& depth);
   void show_color(const LiveJob& job, bool wanted);
-  void note_renderer();
 
   PipelineConfig config_;
   std::shared_ptr<LiveSetup> setup_;
   std::unique_ptr<Tools> tools_;
-  std::shared_ptr<const LiveRenderer> renderer_;  // of the tools, once they have drawn
-  std::string fault_;                             // why there are no tools
-  std::string message_;                           // of the frame
-  DepthView no_depth_;                            // of the images' kind
+  std::string fault_;    // why there are no tools
+  std::string message_;  // of the frame
+  DepthView no_depth_;   // of the images' kind
   Image<Rgb8> color_;
 };
 

@@ -80,13 +80,6 @@ LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
   return rule;
 }
 
-ChosenRenderer renderer_of(const PipelineConfig& config, const Intrinsics& intrinsics,
-                           std::span<const Body> bodies) {
-  if (!config.backend) return make_fastest_renderer(intrinsics, bodies, config.renderer);
-  return {{*config.backend, {}, {}},
-          make_depth_renderer(*config.backend, intrinsics, bodies, config.renderer)};
-}
-
 bool by_joints_alone(const Frame& frame) {
   return frame.T_root_link.empty() && !frame.T_parent_camera;
 }
@@ -126,7 +119,7 @@ struct Pipeline::State {
   LinkPoses poses;
   CameraInsideCheck camera_inside;
   NearPlaneCheck near_plane;
-  ChosenRenderer chosen;
+  std::unique_ptr<DepthRenderer> renderer;
   std::optional<RawImages> raw_images;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered;       // with distortion
@@ -153,7 +146,8 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       poses(robot, config),
       camera_inside(bodies_of(robot)),
       near_plane(render_intrinsics, bodies_of(robot)),
-      chosen(renderer_of(config, render_intrinsics, bodies_of(robot))),
+      renderer(make_depth_renderer(config.backend, render_intrinsics, bodies_of(robot),
+                                   config.renderer)),
       uncovered(uncovered_of(rectification, config.image)),
       classifier(output_intrinsics.width(), output_intrinsics.height(), rule_of(camera, config),
                  config.backend == Backend::reference ? "scalar" : config.renderer.isa),
@@ -176,9 +170,8 @@ Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Robot& Pipeline::robot() const { return state_->robot; }
-const RendererInfo& Pipeline::renderer() const { return state_->chosen.renderer->info(); }
-const RendererChoice& Pipeline::renderer_choice() const { return state_->chosen.choice; }
-std::size_t Pipeline::triangle_count() const { return state_->chosen.renderer->triangle_count(); }
+const RendererInfo& Pipeline::renderer() const { return state_->renderer->info(); }
+std::size_t Pipeline::triangle_count() const { return state_->renderer->triangle_count(); }
 const LabelRule& Pipeline::rule() const { return state_->classifier.rule(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->output_intrinsics; }
 const Rectification* Pipeline::rectification() const {
@@ -250,7 +243,7 @@ void Pipeline::State::add_message(const std::string& more) {
 VirtualDepthView Pipeline::State::render(std::span<const Eigen::Isometry3d> T_camera_link) {
   const StageTimer timer(report.timing.render);
   report.near_links = near_plane.find(T_camera_link);
-  const VirtualDepthView rendered = chosen.render(T_camera_link);
+  const VirtualDepthView rendered = renderer->render(T_camera_link);
   return raw_images ? raw_images->virtual_depth(rendered) : rendered;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +12,7 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/render/renderer_choice.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
@@ -25,9 +24,7 @@ enum class ImageSpace {
 };
 
 struct PipelineConfig {
-  /// Nothing: the faster one of cpu and gl, measured at the start (make_fastest_renderer); results
-  /// of the two are not the same to the last bit.
-  std::optional<Backend> backend = Backend::cpu;
+  Backend backend = Backend::cpu;
   RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
   LabelRule rule;            ///< its range and the camera's both apply
   ImageSpace image = ImageSpace::raw;
@@ -47,7 +44,7 @@ class Pipeline {
  public:
   /// Throws InputError for a robot of which nothing is drawn, a camera parent that is no link, a
   /// camera pose that is no rigid transform or over 1000 km away, and what Camera, LabelRule and
-  /// make_depth_renderer or make_fastest_renderer refuse.
+  /// make_depth_renderer refuse.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;
@@ -55,9 +52,7 @@ class Pipeline {
 
   /// Judges one frame; the report is valid until the next call. Whatever is wrong with the frame is
   /// its status: an image of another frame never shows. Throws InputError for doubts of what is no
-  /// link. Throws DeviceError if the graphics device of a renderer that was asked for by name
-  /// fails; where `backend` is nothing the CPU draws from then on, and renderer_choice() has a
-  /// warning more.
+  /// link. Throws DeviceError if the graphics device fails.
   const FrameReport& process(const Frame& frame);
 
   /// Forgets a target's verdict, extent and track: the name stands for something new. All of them,
@@ -68,10 +63,6 @@ class Pipeline {
 
   [[nodiscard]] const Robot& robot() const;
   [[nodiscard]] const RendererInfo& renderer() const;
-
-  /// Why that renderer; without reason or warnings where the configuration names the backend.
-  [[nodiscard]] const RendererChoice& renderer_choice() const;
-
   [[nodiscard]] std::size_t triangle_count() const;
 
   /// The rule that labels are made by: the configuration's, its range cut to the camera's.

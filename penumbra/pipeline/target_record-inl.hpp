@@ -20,7 +20,6 @@ namespace penumbra {
 struct StampedVerdict {
   std::int64_t stamp = 0;
   Verdict verdict = Verdict::unknown;
-  double seen = 0.0;        ///< fraction of the target that is clear or front
   bool was_judged = false;  ///< false: robot or depth were not wholly known, or the target refused
 };
 
@@ -45,9 +44,9 @@ class TargetTrack {
 
   [[nodiscard]] bool handles() const { return tracker_.index() != 0; }
 
-  /// An estimate of the verdict's stamp, in a frame whose pose is T_root_frame.
-  Outcome update(const TargetEstimate& estimate, const Eigen::Isometry3d& T_root_frame,
-                 const StampedVerdict& judged);
+  /// An estimate of that stamp, in a frame whose pose is T_root_frame.
+  Outcome update(const TargetEstimate& estimate, std::int64_t stamp,
+                 const Eigen::Isometry3d& T_root_frame, Verdict verdict);
 
   /// Nothing where the target is not handled. `is_measured`: an estimate of this frame was taken;
   /// else nothing is `measured`, not even by another one of the same stamp.

@@ -81,8 +81,8 @@ TargetTrack::TargetTrack(const TargetHandling& handling) {
   if (stays) carried_ = Source::held;
 }
 
-Outcome TargetTrack::update(const TargetEstimate& estimate, const Eigen::Isometry3d& T_root_frame,
-                            const StampedVerdict& judged) {
+Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
+                            const Eigen::Isometry3d& T_root_frame, Verdict verdict) {
   try {
     check_estimate(estimate);
   } catch (const InputError&) {
@@ -91,14 +91,13 @@ Outcome TargetTrack::update(const TargetEstimate& estimate, const Eigen::Isometr
   std::optional<Matrix6d> covariance;
   if (estimate.covariance) covariance = turned(*estimate.covariance, T_root_frame.linear());
   if (auto* points = std::get_if<PointTracker>(&tracker_)) {
-    PointEstimate point{judged.stamp, T_root_frame * position_of(estimate), {}};
+    PointEstimate point{stamp, T_root_frame * position_of(estimate), {}};
     if (covariance) point.covariance = covariance->topLeftCorner<3, 3>();
-    return points->update(point, judged.verdict);
+    return points->update(point, verdict);
   }
   const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value);
   if (pose == nullptr) return Outcome::refused_invalid;
-  return std::get<PoseTracker>(tracker_).update(
-      {judged.stamp, T_root_frame * *pose, covariance, judged.seen}, judged.verdict);
+  return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
 }
 
 std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_measured) const {

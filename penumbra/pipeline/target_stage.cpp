@@ -78,10 +78,6 @@ bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
   return judged.measured.value_or(0.0) < thresholds.min_measured * (judged.clear + judged.front);
 }
 
-double seen_fraction(const TargetReport& report) {
-  return report.judgement ? report.judgement->clear + report.judgement->front : 0.0;
-}
-
 /// What stands for an estimate that was not given, of the target's stamp.
 std::optional<TargetEstimate> own_estimate(const Target& target, const TargetReport& report) {
   if (const auto* point = std::get_if<PointTarget>(&target.shape))
@@ -184,7 +180,7 @@ void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& sl
   report.reason = report.verdict == Verdict::unknown ? std::string_view(slot.reason) : "";
   if (report.judgement) report.judgement->reason = report.reason;
   if (report.stamp && memory.track && memory.track->handles())
-    memory.log.add({*report.stamp, report.verdict, seen_fraction(report), was_judged});
+    memory.log.add({*report.stamp, report.verdict, was_judged});
 }
 
 void TargetStage::check(const Target& target, TargetRecord& memory) const {
@@ -298,7 +294,7 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
   const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, *poses, robot_);
   if (is_in_camera(estimate, poses->T_root_camera.inverse() * T_root_frame))
     return Outcome::refused_invalid;
-  return memory.track->update(estimate, T_root_frame, *verdict);
+  return memory.track->update(estimate, stamp, T_root_frame, verdict->verdict);
 }
 
 void TargetStage::forget(std::string_view name) {

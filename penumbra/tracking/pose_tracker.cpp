@@ -99,8 +99,7 @@ PoseTracker& PoseTracker::operator=(PoseTracker&&) noexcept = default;
 Outcome PoseTracker::update(const PoseEstimate& estimate, Verdict verdict) {
   const Eigen::Vector3d position = estimate.pose.translation();
   const auto orientation = nearest_rotation(estimate.pose.linear());
-  const Matrix6d covariance =
-      estimate.covariance.value_or(state_->covariance) / (estimate.seen * estimate.seen);
+  const Matrix6d covariance = estimate.covariance.value_or(state_->covariance);
   if (!position.allFinite() || !orientation || !detail::is_covariance<6>(covariance)) {
     return Outcome::refused_invalid;
   }

@@ -64,9 +64,6 @@ struct PoseEstimate {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /// Of position and of the rotation vector, fixed frame: true rotation = Exp(vector) * estimated.
   std::optional<Matrix6d> covariance = std::nullopt;
-  /// Fraction of the target that was seen, in (0, 1]. What is estimated from a part is less
-  /// certain: the covariance is divided by its square.
-  double seen = 1.0;
 };
 
 /// Of a target of which nothing is known: lost, with infinite age and variances.

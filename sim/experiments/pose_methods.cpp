@@ -202,26 +202,21 @@ class PenumbraPose : public PoseMethod {
         "taken only while the object is visible, and its pose is predicted meanwhile."};
   }
   PoseAnswer look(const PoseView& view) override {
-    const Judgement judgement = judge(view);
-    return weighed(estimate(view, view.detection.mask.view()), judgement);
+    const Verdict verdict = judge(view);
+    return {estimate(view, view.detection.mask.view()), verdict};
   }
 
  protected:
-  static PoseAnswer weighed(std::optional<PoseEstimate> estimate, const Judgement& judgement) {
-    if (estimate) estimate->seen = judgement.clear + judgement.front;
-    return {estimate, judgement.verdict};
-  }
-
-  Judgement judge(const PoseView& view) {
+  Verdict judge(const PoseView& view) {
     TargetView target;
     target.name = "object";
     target.region = PixelMask{view.detection.mask.view()};
     target.extent = view.detection.extent;
     target.motion = motion_since_good(view.sensed.stamp);
     judge_.begin(view.sensed.robot);
-    const Judgement judgement = judge_.judge(target);
-    if (judgement.verdict == Verdict::visible) last_good_ = view.sensed.stamp;
-    return judgement;
+    const Verdict verdict = judge_.judge(target).verdict;
+    if (verdict == Verdict::visible) last_good_ = view.sensed.stamp;
+    return verdict;
   }
 
  private:
@@ -253,13 +248,13 @@ class PenumbraPartial : public PenumbraPose {
         "partial); pixels that are not labelled clear or front are taken from the region."};
   }
   PoseAnswer look(const PoseView& view) override {
-    const Judgement judgement = judge(view);
+    const Verdict verdict = judge(view);
     const auto& labels = view.sensed.robot.labels.labels;
     const auto rest = without(view.detection.mask, view.detection.box, [&](int u, int v) {
       const Label label{labels(u, v)};
       return label != Label::clear && label != Label::front;
     });
-    return weighed(estimate(view, rest.view()), judgement);
+    return {estimate(view, rest.view()), verdict};
   }
 };
 

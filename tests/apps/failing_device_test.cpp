@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,6 @@ class FailingDevice : public testing::Test {
   void SetUp() override {
     if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // it wants to be the first library
     if (!has_opengl()) GTEST_SKIP() << no_opengl;
-    device_ = working_device();
     write_tiny_recording(folder_.path());
   }
 
@@ -33,16 +31,6 @@ class FailingDevice : public testing::Test {
     return penumbra({"run", folder_.path(), "-o", out(), "--renderer", "gl", "--save", "labels"},
                     {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE,
                      "PENUMBRA_TEST_SPARED=" + std::to_string(spared)});
-  }
-  /// `render --renderer auto --repeat 3 --json`, of which OpenGL is the faster.
-  [[nodiscard]] Outcome render_by_auto(int spared) const {
-    return penumbra(
-        {"render", "--robot", folder_.path() / "tiny.urdf", "--camera",
-         folder_.path() / "camera_info.yaml", "--pose", folder_.path() / "camera_pose.csv", "-o",
-         folder_.path() / "vdi.npy", "--renderer", "auto", "--gl-device", std::to_string(*device_),
-         "--repeat", "3", "--json"},
-        {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_GL_WINS=1",
-         "PENUMBRA_TEST_SPARED=" + std::to_string(spared)});
   }
   [[nodiscard]] std::filesystem::path out() const { return folder_.path() / "out"; }
 
@@ -71,7 +59,6 @@ class FailingDevice : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::optional<std::size_t> device_;
 };
 
 /// The device fails ever later until the run is done.
@@ -99,25 +86,6 @@ TEST_F(FailingDevice, IsNoFaultOfRender) {
   EXPECT_NE(outcome.err.find("penumbra: OpenGL: the graphics device was reset"), std::string::npos)
       << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "vdi.npy"));
-}
-
-TEST_F(FailingDevice, AmongTheRepeatsIsToldByRenderAndItsJson) {
-  std::size_t by_cpu_later = 0, by_gl = 0;
-  for (int spared = 0; spared < most_questions && by_gl == 0; ++spared) {
-    const Outcome outcome = render_by_auto(spared);
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const Json json = Json::parse(outcome.out);
-    const std::string backend = json["renderer"]["backend"], told = json["notes"].dump();
-    const bool took_gl = outcome.err.find("--renderer auto takes gl") != std::string::npos;
-    const bool replaced = told.find("cpu draws from now on") != std::string::npos;
-    EXPECT_EQ(backend, took_gl && !replaced ? "gl" : "cpu") << spared << outcome.err;
-    EXPECT_EQ(replaced, outcome.err.find("cpu draws from now on") != std::string::npos)
-        << spared << outcome.err;
-    if (replaced) ++by_cpu_later;
-    if (backend == "gl") ++by_gl;
-  }
-  EXPECT_GE(by_cpu_later, 4U) << "the first frame and each of the three repeats";
-  EXPECT_EQ(by_gl, 1U);
 }
 
 }  // namespace

@@ -68,7 +68,6 @@ TEST(LiveCommand, ADeviceThatCannotDrawIsRefusedBeforeTheGraphIsJoined) {
   expect_refused({"--renderer", "gl"}, "renderer 'gl'", no_egl_driver);
   if (!has_opengl()) GTEST_SKIP() << no_opengl;
   expect_refused({"--renderer", "gl", "--gl-device", "99"}, "there is no device 99");
-  expect_refused({"--renderer", "auto", "--gl-device", "99"}, "there is no device 99");
 }
 
 TEST(LiveCommand, HelpNamesItsOwnDefaults) {

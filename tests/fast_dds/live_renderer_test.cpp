@@ -59,23 +59,6 @@ class LiveRenderers : public testing::Test {
 /// Takes no byte.
 constexpr const char* full_disk = "/dev/full";
 
-TEST_F(LiveRenderers, WhatAutoTookAndWhyIsToldOnce) {
-  if (sanitized) GTEST_SKIP() << "the program is slow under sanitizers";
-  const Outcome outcome = live({"--renderer", "auto"}, no_egl_driver);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const Json camera = told()["cameras"][0];
-  EXPECT_GT(camera["judged"], 1);
-  EXPECT_EQ(camera["renderer"]["backend"], "cpu");
-  EXPECT_EQ(camera["renderer"]["requested"], "auto");
-  const std::string reason = camera["renderer"]["reason"];
-  EXPECT_EQ(count(outcome.err, "penumbra: --renderer auto takes cpu: " + reason + "\n"), 1U)
-      << outcome.err;
-  ASSERT_FALSE(camera["notes"].empty());
-  for (const std::string note : camera["notes"])
-    EXPECT_EQ(count(outcome.err, "penumbra: note: " + note + "\n"), 1U) << outcome.err;
-  EXPECT_TRUE(told()["fault"].is_null());
-}
-
 TEST_F(LiveRenderers, ASummaryThatCannotBeWrittenIsAFault) {
   if (!std::filesystem::exists(full_disk)) GTEST_SKIP() << "no " << full_disk;
   const Outcome outcome =
@@ -114,17 +97,6 @@ TEST_F(LiveRenderers, ADeviceThatFailsAtItsFirstDrawIsRefused) {
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
   EXPECT_EQ(count(outcome.err, "OpenGL: the graphics device was reset"), 1U) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(summary_));
-}
-
-TEST_F(LiveRenderers, OfADeviceThatFailsAtItsFirstDrawAutoTakesTheOther) {
-  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
-  if (!has_opengl()) GTEST_SKIP() << no_opengl;
-  const Outcome outcome =
-      live({"--renderer", "auto"},
-           {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=0"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(told()["cameras"][0]["renderer"]["backend"], "cpu");
-  EXPECT_GT(told()["cameras"][0]["judged"], 1);
 }
 
 TEST_F(LiveRenderers, ADeviceThatFailsLeavesTheSummary) {

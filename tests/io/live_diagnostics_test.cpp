@@ -135,27 +135,12 @@ TEST_F(LiveDiagnosticsTest, TellsWhatDraws) {
   bench_.tell_all();
   EXPECT_EQ(values_of(camera(), "renderer backend"), Words{}) << "nothing draws yet";
   judge();
-  const Status by_name = camera();
-  EXPECT_EQ(values_of(by_name, "renderer backend"), Words{"cpu"});
-  EXPECT_EQ(values_of(by_name, "renderer isa"), Words{simd_target_names().front()});
-  EXPECT_EQ(values_of(by_name, "renderer threads"), Words{"1"});
-  EXPECT_EQ(values_of(by_name, "renderer requested"), Words{"cpu"});
-  EXPECT_EQ(values_of(by_name, "renderer reason"), Words{});
-
-  PipelineConfig config;
-  config.backend.reset();
-  bench_.worker = io::LiveWorker(config);
-  bench_.now += seconds;
-  judge();
-  const auto& renderer = bench_.inbox.tally(0).renderer;
-  ASSERT_TRUE(renderer);
-  const Status by_auto = camera();
-  EXPECT_EQ(values_of(by_auto, "renderer requested"), Words{"auto"});
-  EXPECT_EQ(values_of(by_auto, "renderer reason"), Words{renderer->used.reason});
-  EXPECT_NE(renderer->used.reason, "");
-  EXPECT_EQ(values_of(by_auto, "note"), renderer->warnings);
+  const Status drawn = camera();
+  EXPECT_EQ(values_of(drawn, "renderer backend"), Words{"cpu"});
+  EXPECT_EQ(values_of(drawn, "renderer isa"), Words{simd_target_names().front()});
+  EXPECT_EQ(values_of(drawn, "renderer threads"), Words{"1"});
   const std::string summary = io::live_summary_json(bench_.inbox, links_, {.results = {{}}});
-  EXPECT_NE(summary.find("\"requested\": \"auto\""), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\"backend\": \"cpu\""), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"fault\": null"), std::string::npos) << summary;
 }
 
@@ -168,32 +153,6 @@ TEST_F(LiveDiagnosticsTest, TheSummaryCountsWhatWasPublished) {
   const Json& written = summary["cameras"][0]["results_written"];
   EXPECT_EQ(written["labels"], 17);
   EXPECT_EQ(written["overlay/compressed"], 0);
-}
-
-TEST_F(LiveDiagnosticsTest, KeepsWhatWasWrongWithRenderersOfBefore) {
-  bench_.tell_all();
-  const auto judge_with = [&](const Words& warnings) {
-    bench_.tell_joints(bench_.now - 10 * milliseconds);
-    bench_.tell_joints(bench_.now + 10 * milliseconds);
-    bench_.tell_depth(bench_.now);
-    ASSERT_TRUE(bench_.inbox.next(0, bench_.now, false, bench_.job));
-    io::LiveOutcome outcome = bench_.worker.judge(bench_.job, bench_.results);
-    outcome.renderer = std::make_shared<const io::LiveRenderer>(
-        io::LiveRenderer{outcome.renderer->used, warnings});
-    bench_.inbox.done(0, outcome, bench_.now, bench_.now);
-    bench_.now += seconds / 10;
-  };
-  judge_with({"the device was reset"});
-  EXPECT_EQ(values_of(camera(), "note"), Words{"the device was reset"});
-  judge_with({"the device was reset", "and again"});
-  judge_with({"and again"});
-  judge_with({});
-  EXPECT_EQ(values_of(camera(), "note"), Words{});
-  EXPECT_EQ(bench_.inbox.tally(0).renderer_warnings, (Words{"the device was reset", "and again"}));
-  const std::string summary =
-      io::live_summary_json(bench_.inbox, links_, {.results = {{}}, .fault = "unplugged"});
-  for (const char* words : {"the device was reset", "and again", "\"fault\": \"unplugged\""})
-    EXPECT_NE(summary.find(words), std::string::npos) << summary;
 }
 
 TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {

@@ -99,10 +99,3 @@ def test_a_device_that_is_not_there_is_an_error():
     with pytest.raises(penumbra.InputError):
         penumbra.Renderer(Backend.gl, INTRINSICS, [penumbra.Body("box", [box_mesh(0.5)])],
                           penumbra.RendererOptions(gl_device=4711))
-
-
-def test_auto_says_what_it_took_and_why():
-    opened = Opened(SHIPPED, backend=None)
-    choice = opened.pipeline.renderer_choice
-    assert choice.backend in (Backend.cpu, Backend.gl) and choice.reason
-    assert opened.pipeline.renderer.backend is choice.backend

@@ -145,6 +145,7 @@ BAD_CALLS = [
     (lambda o: penumbra.Pipeline(o.robot, None), TypeError, "penumbra.Camera"),
     (lambda o: penumbra.Pipeline(o.robot, o.camera, None), TypeError, "penumbra.PipelineConfig"),
     (lambda o: penumbra.PipelineConfig(backend="gl"), TypeError, "penumbra.Backend"),
+    (lambda o: penumbra.PipelineConfig(backend=None), TypeError, "penumbra.Backend"),
     (lambda o: penumbra.PipelineConfig(bakend=None), TypeError, "backend"),
     (lambda o: o.config.replace(tolerance=1), TypeError, "rule"),
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),

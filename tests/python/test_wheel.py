@@ -10,8 +10,10 @@ import pytest
 from conftest import ROOT, SHIPPED
 
 CHECK = """
-import sys, penumbra
+import pathlib, sys, penumbra
 assert sys.prefix in penumbra.__file__, penumbra.__file__
+package = pathlib.Path(penumbra.__file__).parent
+assert (package / "__init__.pyi").exists() and (package / "py.typed").exists()
 given = penumbra.open_input(sys.argv[1])
 pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
 print(sum(pipeline.process(frame.frame).pixels.robot for frame in given))

@@ -4,13 +4,9 @@
 #include "render_test.hpp"
 #include "shapes.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <random>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/renderer_choice.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -46,13 +42,6 @@ TEST_P(Allocation, NoneInTheFrameLoop) {
   EXPECT_EQ(allocations() - before, 0U);
 }
 
-int usable_device() {
-  const std::vector<GlDevice> devices = gl_devices();
-  const auto usable = std::find_if(devices.begin(), devices.end(),
-                                   [](const GlDevice& device) { return device.fault.empty(); });
-  return static_cast<int>(usable - devices.begin());
-}
-
 /// Fine enough that a list of its triangles is larger than anything else that is made.
 class ShortMemory : public ::testing::Test {
  protected:
@@ -80,22 +69,6 @@ TEST_F(ShortMemory, IsTheUsersFaultAndSaysWhatIsLarge) {
     EXPECT_NE(message.find(" triangles"), std::string::npos) << message;
     EXPECT_NE(message.find("32 x 24"), std::string::npos) << message;
   }
-}
-
-TEST_F(ShortMemory, ForOpenGLAloneLeavesTheCpu) {
-  std::size_t of_the_cpu = 0;
-  {
-    const MemoryShortage none(large, SIZE_MAX);
-    static_cast<void>(make({Backend::cpu, "", 1}, camera_, scene_.bodies()));
-    of_the_cpu = none.asked();
-  }
-  const MemoryShortage shortage(large, of_the_cpu);
-  const ChosenRenderer chosen =
-      make_fastest_renderer(camera_, scene_.bodies(), {.gl_device = usable_device()});
-  EXPECT_GT(shortage.asked(), of_the_cpu);
-  EXPECT_EQ(chosen.choice.backend, Backend::cpu);
-  ASSERT_EQ(chosen.choice.warnings.size(), 1U);
-  EXPECT_NE(chosen.choice.warnings[0].find("memory"), std::string::npos);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/renderer_choice.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -66,37 +65,8 @@ TEST_F(GlFaults, WithoutAnythingToSeeAreToldToo) {
   EXPECT_EQ(Frame(renderer->render(behind)).covered(), 0U);
   renderer->submit(behind);
   const InjectedFault lost(GlFault::reset);
-  EXPECT_THROW(static_cast<void>(renderer->collect()), std::runtime_error);
-  EXPECT_THROW(renderer->submit(behind), std::runtime_error);
-}
-
-TEST_F(GlFaults, BringInTheSpareRendererOfAChoiceOnceForAll) {
-  const BackendChoice cpu{Backend::cpu, "", 1};
-  ChosenRenderer chosen{{Backend::gl, "measured", {}},
-                        make(opengl, odd_camera, scene_.bodies()),
-                        make(cpu, odd_camera, scene_.bodies())};
-  expect_same_bits(chosen.render(poses_[0]), frames_[0].view());
-  EXPECT_EQ(chosen.choice.backend, Backend::gl);
-  {
-    const InjectedFault lost(GlFault::reset);
-    const Frame drawn(chosen.render(poses_[1]));
-    expect_same_bits(drawn.view(), make(cpu, odd_camera, scene_.bodies())->render(poses_[1]));
-  }
-  EXPECT_EQ(chosen.choice.backend, Backend::cpu);
-  EXPECT_EQ(chosen.renderer->info().backend, Backend::cpu);
-  ASSERT_EQ(chosen.choice.warnings.size(), 1U);
-  EXPECT_EQ(chosen.choice.warnings[0],
-            "OpenGL: the graphics device was reset; a new renderer is needed: cpu draws from now "
-            "on");
-  EXPECT_GT(Frame(chosen.render(poses_[2])).covered(), 0U);
-  EXPECT_EQ(chosen.choice.warnings.size(), 1U);
-}
-
-TEST_F(GlFaults, OfARendererByNameComeThrough) {
-  ChosenRenderer named{{Backend::gl, {}, {}}, make(opengl, odd_camera, scene_.bodies())};
-  const InjectedFault lost(GlFault::reset);
-  EXPECT_THROW(static_cast<void>(named.render(poses_[0])), DeviceError);
-  EXPECT_EQ(named.choice.backend, Backend::gl);
+  EXPECT_THROW(static_cast<void>(renderer->collect()), DeviceError);
+  EXPECT_THROW(renderer->submit(behind), DeviceError);
 }
 
 TEST_F(GlFaults, OfOneDeviceDoNotHideTheOthers) {
