@@ -2,7 +2,7 @@
 """Which pages there are, in which order."""
 
 PAGES = {
-    "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "tune", "faq"],
+    "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "faq"],
     "Use": ["viewer", "ros2", "targets", "python", "cpp"],
     "Rules": ["conventions", "time", "tolerance", "targets-judging", "tracking", "renderers"],
     "Figures": ["performance", "performance-gl", "experiments"],
