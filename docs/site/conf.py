@@ -39,9 +39,9 @@ html_last_updated_fmt = None
 def add_what_is_made(app, docname, source):
     if docname == root_doc:
         source[0] += pages.contents()
-    elif docname == "docs/api-python":
+    elif docname == "docs/python":
         source[0] += reference.python_pages()
-    elif docname == "docs/api-cpp":
+    elif docname == "docs/cpp":
         source[0] += reference.cpp_pages()
 
 

@@ -4,9 +4,9 @@
 PAGES = {
     "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "faq"],
     "Use": ["viewer", "ros2", "targets", "python", "cpp"],
-    "Rules": ["conventions", "time", "tolerance", "targets-judging", "tracking", "renderers"],
+    "Rules": ["time", "tolerance", "targets-judging", "tracking", "renderers"],
     "Figures": ["performance", "performance-gl", "experiments"],
-    "Reference": ["api-python", "api-cpp", "architecture"],
+    "Reference": ["architecture"],
 }
 
 

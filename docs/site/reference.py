@@ -192,7 +192,7 @@ def python_pages():
     writer, text = Writer(), ""
     for title, members in groups(penumbra._core).items():
         parts = "\n".join(writer.described(name, value) for name, value in members)
-        text += f"\n## {title}\n\n```{{eval-rst}}\n.. py:currentmodule:: penumbra\n\n{parts}\n```\n"
+        text += f"\n### {title}\n\n```{{eval-rst}}\n.. py:currentmodule:: penumbra\n\n{parts}\n```\n"
     return text
 
 
@@ -221,8 +221,8 @@ def cpp_parts():
 def cpp_pages():
     parts, text = cpp_parts(), ""
     for title, headers in HEADERS.items():
-        text += f"\n## {title}\n"
+        text += f"\n### {title}\n"
         for header in headers:
             file = f"penumbra/{header}"
-            text += f"\n### {file}\n\n```{{eval-rst}}\n" + "\n".join(parts[file]) + "```\n"
+            text += f"\n#### {file}\n\n```{{eval-rst}}\n" + "\n".join(parts[file]) + "```\n"
     return text

@@ -95,7 +95,7 @@ void check_rigid(const Json& root) {
 
 /// Assimp makes a rotation's length, squared, a scale, and shows one of a node's instances.
 void check_transforms(const Json& root) {
-  constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (conventions.md)
+  constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (docs/method.md)
   constexpr const char* instancing = "EXT_mesh_gpu_instancing";
   for (const Json& node : array_of(root, "nodes")) {
     if (node.contains("extensions") && node.at("extensions").contains(instancing))
