@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Measures the renderer on this machine and writes it down.
 #   scripts/bench.sh          bench/results/ but for the studies and Embree's views, then the tables
-#                             of docs/performance.md and docs/performance-gl.md, and their plots;
+#                             of docs/performance.md, and its plots;
 #                             some 15 minutes
 #   scripts/bench.sh --gl     the OpenGL renderer alone, on this machine's device
 #   scripts/bench.sh --quick  a few rounds only, to see that it runs; writes to build/bench/results
@@ -49,5 +49,5 @@ fi
 device=$(build/bench/bench/gl_benchmark --name)
 build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |
   tee "$results/gl-$device.txt"
-[[ $page == docs ]] || cp docs/performance.md docs/performance-gl.md "$page/"
+[[ $page == docs ]] || cp docs/performance.md "$page/"
 scripts/performance_page.py "$results" "$page"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of docs/performance-gl.md, from gl_benchmark's reports, one per device."""
+"""The OpenGL parts of docs/performance.md, from gl_benchmark's reports, one per device."""
 from performance_table import table
 
 
@@ -58,28 +58,8 @@ def verdict(report):
                      f"{where})")
     text = f'gl against one thread of cpu: {", ".join(parts)}.'
     if all(min(row[4:]) >= 1.0 for row in rows):
-        text += " **So gl pays nowhere on this device: take `cpu`.**"
+        text += " **Use `cpu` on this device.**"
     return text
-
-
-def cost_cells(c):
-    return (f'{c["typical_ms"]:.3f}', f'{c["median_ms"]:.3f}', f'{c["cpu_ms"]:.3f}',
-            f'{c["thread_ms"]:.3f}', f'{c["ahead_frames_per_s"]:.0f}', f'{c["ahead_cpu_ms"]:.3f}',
-            f'{c["ahead_thread_ms"]:.3f}')
-
-
-COST_HEADER = ("typical ms", "median", "CPU ms", "of the caller", "ahead: frames/s", "CPU ms",
-               "of the caller")
-
-
-def frames_table(report):
-    rows = []
-    for row in report["frame_costs"]:
-        for c in row["contenders"]:
-            wrong = (f'{row["coverage_differs"]} / {row["depth_differs"]} of {row["robot_pixels"]}'
-                     if c["name"] == "gl" else "")
-            rows.append((what(row), c["name"], *cost_cells(c), wrong))
-    return table(("frame", "renderer", *COST_HEADER, "unlike cpu: coverage / depth"), rows)
 
 
 def cameras_table(report):
@@ -90,17 +70,11 @@ def cameras_table(report):
                   for r in report["cameras"]])
 
 
-def soak_table(report):
-    return table(("how often", "what", "resident kB, before / after", "open files, before / after"),
-                 [(r["times"], r["what"], " / ".join(map(str, r["resident_kb"])),
-                   " / ".join(map(str, r["files"]))) for r in report["soak"]])
-
-
 def disturbed(report):
     if float(report["load_average"]["start"].split()[0]) <= 1.0:
         return ""
-    return (" Other programs ran meanwhile: frame times and frames/s are worse than on a quiet "
-            "machine, more so where threads of a driver have to meet; CPU times suffer less.")
+    return (" Other programs ran at the same time: frame times and frames/s are worse than on a "
+            "quiet machine, CPU times less so.")
 
 
 def settings(report):
@@ -113,11 +87,8 @@ def settings(report):
 
 
 def section(report):
-    parts = [f"## {short(report)}", settings(report), verdict(report), ratio_table(report),
-             "### All figures", frames_table(report),
-             "### Several cameras, xArm 7, 1280x720", cameras_table(report)]
-    if "soak" in report:
-        parts += ["### What is left behind, UR5e collision, 640x480", soak_table(report)]
+    parts = [f"### {short(report)}", settings(report), verdict(report), ratio_table(report),
+             "Several cameras, xArm 7, 1280x720:", cameras_table(report)]
     return "\n\n".join(parts)
 
 
@@ -128,8 +99,8 @@ def gl_sections(reports):
 def devices(reports):
     """What was measured, and plainly what was not."""
     if all(report["software"] for report in reports):
-        return ("**No GPU was at hand: all that is measured here is software OpenGL, which draws "
-                "on the same CPU. What a GPU gains is not known yet.**")
+        return ("**No GPU was available: these figures are of software OpenGL, which draws on the "
+                "same CPU. What a GPU gains is not measured yet.**")
     return f'Measured: {", ".join(short(report) for report in reports)}.'
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env -S python3 -B
 # SPDX-License-Identifier: Apache-2.0
-"""Rewrites the tables of the performance pages, and draws their plots, from the benchmarks' JSON.
+"""Rewrites the tables of the performance page, and draws its plots, from the benchmarks' JSON.
 
 performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json,
 RESULTS/targets.json, RESULTS/frames.json, RESULTS/run.txt and every RESULTS/gl-*.json; replaces
-what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md and
-PAGE/performance-gl.md; writes PAGE/performance.svg and PAGE/performance-gl.svg.
+what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md; writes
+PAGE/performance.svg and PAGE/performance-gl.svg.
 """
 import json
 import math
@@ -18,10 +18,6 @@ from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
 RATIOS = ("against_llvmpipe", "against_embree_rectangle", "against_embree_hulls")
-# With AVX2: times llvmpipe's and Embree's speed, and what labels and clean-up may add.
-AIMS = {"UR5e collision, 640x480": (12, 20, "0.03"),
-        "UR5e collision, 1280x720": (12, 25, "0.06 + 0.03"),
-        "xArm 7, 1280x720": (15, 18, "0.07 + 0.03")}
 COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
 
 
@@ -29,11 +25,9 @@ def renderers_table(report):
     rows = []
     for scene in report["scenes"]:
         for c in scene["contenders"]:
-            rows.append((scene["scene"], c["name"], f'{c["typical_ms"]:.3f}', f'{c["median_ms"]:.3f}',
-                         f'{c["min_ms"]:.3f}', f'{c["cold_ms"]:.3f}',
+            rows.append((scene["scene"], c["name"], f'{c["typical_ms"]:.3f}', f'{c["cold_ms"]:.3f}',
                          f'{c["coverage_differs"]} / {c["depth_differs"]} of {c["robot_pixels"]}'))
-    return table(("frame", "renderer", "typical ms", "median", "min", "cold",
-                  "pixels wrong: coverage / depth"), rows)
+    return table(("frame", "renderer", "typical ms", "cold", "pixels wrong: coverage / depth"), rows)
 
 
 def ratios_table(report):
@@ -41,21 +35,6 @@ def ratios_table(report):
             for scene in report["scenes"] for r in scene["ratios"]]
     return table(("frame", "SIMD target", "times llvmpipe's speed", "Embree's, rectangle",
                   "Embree's, hulls"), rows)
-
-
-def aims_table(report):
-    rows = []
-    for scene in report["scenes"]:
-        if scene["scene"] not in AIMS:
-            continue
-        llvmpipe, embree, added = AIMS[scene["scene"]]
-        ratios = next(r for r in scene["ratios"] if r["isa"] == "AVX2")
-        ms = {c["name"]: c["typical_ms"] for c in scene["contenders"]}
-        rows.append((scene["scene"], f"{llvmpipe} / {embree}",
-                     " / ".join(f"{ratios[key]:.1f}" for key in RATIOS[:2]),
-                     f"{ratios[RATIOS[2]]:.1f}", f"{added} ms",
-                     f'{ms["cpu AVX2 + labels"] - ms["cpu AVX2"]:.3f} ms'))
-    return table(("frame", "aim", "measured", "Embree, hulls", "added: aim", "measured"), rows)
 
 
 def targets_table(report):
@@ -74,13 +53,10 @@ def frames_table(report):
 
 
 def settings(renderers, scaling):
-    widths = ", ".join(f"{bits} bits {ms:.2f} ms" for bits, ms in
-                       renderers["llvmpipe_vector_width_trials_ms"].items())
     return (f'{renderers["cpu"]}; one thread; {renderers["rounds"]} rounds of '
             f'{renderers["frames"]} frames, seed {renderers["seed"]}. OpenGL: '
-            f'{renderers["scenes"][0]["opengl"]}; its vector widths tried (geometric mean of the '
-            f'scenes): {widths}; used: {renderers["llvmpipe_vector_width"]} bits. Scaling: '
-            f'{scaling["rounds"]} rounds of {scaling["frames"]} frames.')
+            f'{renderers["scenes"][0]["opengl"]}, {renderers["llvmpipe_vector_width"]} bits, its '
+            f'fastest vector width. Scaling: {scaling["rounds"]} rounds of {scaling["frames"]} frames.')
 
 
 def axis_table(axis, rows):
@@ -158,18 +134,17 @@ def main():
     renderers = json.loads((results / "renderers.json").read_text())
     scaling = json.loads((results / "scaling.json").read_text())
     parts = {"settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
-             "ratios": ratios_table(renderers), "aims": aims_table(renderers)}
+             "ratios": ratios_table(renderers)}
     targets = json.loads((results / "targets.json").read_text())
     parts["targets"] = targets_table(targets)
     parts["frames"] = frames_table(json.loads((results / "frames.json").read_text()))
     parts["run"] = ": ".join((results / "run.txt").read_text().splitlines()[:2]) + "."
     parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
+    reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
+    parts |= {"devices": devices(reports), "paper": paper_table(reports), "gl": gl_sections(reports)}
     fill(page / "performance.md", parts)
     (page / "performance.svg").write_text(plot(
         [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))
-    reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
-    fill(page / "performance-gl.md", {"devices": devices(reports), "paper": paper_table(reports),
-                                      "gl": gl_sections(reports)})
     (page / "performance-gl.svg").write_text(plot(gl_panels(reports)))
 
 

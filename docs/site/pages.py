@@ -4,8 +4,8 @@
 PAGES = {
     "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "faq"],
     "Use": ["viewer", "ros2", "targets", "python", "cpp"],
-    "Rules": ["time", "tolerance", "targets-judging", "tracking", "renderers"],
-    "Figures": ["performance", "performance-gl", "experiments"],
+    "Rules": ["time", "tolerance", "targets-judging", "tracking"],
+    "Figures": ["performance", "experiments"],
     "Reference": ["architecture"],
 }
 
