@@ -18,16 +18,15 @@ from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
 RATIOS = ("against_llvmpipe", "against_embree_rectangle", "against_embree_hulls")
+TABLED_AXES = ("triangles", "image", "threads")  # the others are plotted alone
 COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
 
 
 def renderers_table(report):
-    rows = []
-    for scene in report["scenes"]:
-        for c in scene["contenders"]:
-            rows.append((scene["scene"], c["name"], f'{c["typical_ms"]:.3f}', f'{c["cold_ms"]:.3f}',
-                         f'{c["coverage_differs"]} / {c["depth_differs"]} of {c["robot_pixels"]}'))
-    return table(("frame", "renderer", "typical ms", "cold", "pixels wrong: coverage / depth"), rows)
+    names = [c["name"] for c in report["scenes"][0]["contenders"]]
+    rows = [(scene["scene"], *(f'{c["typical_ms"]:.3f}' for c in scene["contenders"]))
+            for scene in report["scenes"]]
+    return table(("typical ms", *names), rows)
 
 
 def ratios_table(report):
@@ -38,10 +37,11 @@ def ratios_table(report):
 
 
 def targets_table(report):
-    rows = [(run["run_name"], f'{run["cpu_time"]:.1f}', int(run["pixels"]),
+    rows = [(run["run_name"], f'{run["cpu_time"]:.1f}',
              f'{1e3 * run["cpu_time"] / run["pixels"]:.2f}')
-            for run in report["benchmarks"] if run.get("aggregate_name") == "median"]
-    return table(("targets", "us per frame", "pixels", "ns per pixel"), rows)
+            for run in report["benchmarks"] if run.get("aggregate_name") == "median"
+            and not run["run_name"].startswith("large")]
+    return table(("targets", "us per frame", "ns per pixel"), rows)
 
 
 def frames_table(report):
@@ -56,14 +56,16 @@ def settings(renderers, scaling):
     return (f'{renderers["cpu"]}; one thread; {renderers["rounds"]} rounds of '
             f'{renderers["frames"]} frames, seed {renderers["seed"]}. OpenGL: '
             f'{renderers["scenes"][0]["opengl"]}, {renderers["llvmpipe_vector_width"]} bits, its '
-            f'fastest vector width. Scaling: {scaling["rounds"]} rounds of {scaling["frames"]} frames.')
+            f'fastest vector width. Scaling: {scaling["rounds"]} rounds of {scaling["frames"]} '
+            'frames.')
 
 
 def axis_table(axis, rows):
     isas = list(rows[0]["ms"])
-    return table((axis, "triangles", "robot pixels", *(f"{isa}, ms" for isa in isas)),
-                 [(r["value"], r["triangles"], r["robot_pixels"],
-                   *(f'{r["ms"][isa]:.4f}' for isa in isas)) for r in rows])
+    key = "triangles" if axis == "triangles" else "value"
+    return table((axis, "robot pixels", *(f"{isa}, ms" for isa in isas)),
+                 [(r[key], r["robot_pixels"], *(f'{r["ms"][isa]:.4f}' for isa in isas))
+                  for r in rows])
 
 
 def abscissa(axis, row):
@@ -139,9 +141,10 @@ def main():
     parts["targets"] = targets_table(targets)
     parts["frames"] = frames_table(json.loads((results / "frames.json").read_text()))
     parts["run"] = ": ".join((results / "run.txt").read_text().splitlines()[:2]) + "."
-    parts |= {axis: axis_table(axis, rows) for axis, rows in scaling["axes"].items()}
+    parts |= {axis: axis_table(axis, scaling["axes"][axis]) for axis in TABLED_AXES}
     reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
-    parts |= {"devices": devices(reports), "paper": paper_table(reports), "gl": gl_sections(reports)}
+    parts |= {"devices": devices(reports), "paper": paper_table(reports),
+              "gl": gl_sections(reports)}
     fill(page / "performance.md", parts)
     (page / "performance.svg").write_text(plot(
         [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))

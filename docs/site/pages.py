@@ -2,9 +2,9 @@
 """Which pages there are, in which order."""
 
 PAGES = {
-    "Start": ["getting-started", "method", "recording", "results", "cloud", "tuning", "faq"],
-    "Use": ["viewer", "ros2", "targets", "python", "cpp"],
-    "Rules": ["time", "tolerance", "targets-judging", "tracking"],
+    "Start": ["getting-started", "method", "tuning"],
+    "Use": ["recording", "results", "viewer", "ros2", "cloud", "targets", "python", "cpp"],
+    "Details": ["time", "tolerance", "targets-judging", "tracking"],
     "Figures": ["performance", "experiments"],
     "Reference": ["architecture"],
 }
