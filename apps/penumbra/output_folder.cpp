@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file.hpp>
 
 #include <apps/penumbra/output_folder.hpp>
 #include <io/cloud_file.hpp>
@@ -85,8 +86,8 @@ void OutputFolder::write_page() const {
                      ", which is whole, is larger than " +
                      std::to_string(io::most_report_page_bytes >> 20U) +
                      " MB; choose fewer frames with --frames");
-  const std::string text =
-      io::report_page(io::read_text(report_file(), io::most_report_page_bytes), key_frames_.json());
+  const std::string text = io::report_page(
+      read_whole_file(report_file(), io::most_report_page_bytes), key_frames_.json());
   io::PendingFile pending(page);
   io::OutputFile file(pending.part());
   file.write(text.data(), text.size());

@@ -4,7 +4,8 @@
 #include <cstring>
 #include <utility>
 
-#include <io/disk_file.hpp>
+#include <penumbra/base/whole_file.hpp>
+
 #include <io/json-inl.hpp>
 #include <io/npy.hpp>
 #include <io/png.hpp>
@@ -15,7 +16,6 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t name_digits = 6;
-constexpr std::uint64_t most_overlay_bytes = std::uint64_t{1} << 28U;
 constexpr std::array saved_kinds{Part::overlay, Part::labels, Part::links, Part::vdi};
 
 /// What of a frame is the same each time that it is judged.
@@ -52,7 +52,7 @@ std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part
   Image<Rgb8> image;
   if (!read_png(file, image).ok()) return std::nullopt;
   return PartBytes{"image/png", image.width(), image.height(),
-                   shared_bytes(read_text(file, most_overlay_bytes))};
+                   shared_bytes(read_whole_file(file, FileLimit::data))};
 }
 
 }  // namespace
