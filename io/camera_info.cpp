@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/camera_info.hpp>
 #include <io/camera_info_fields-inl.hpp>

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/csv.hpp>
 #include <io/numbers.hpp>

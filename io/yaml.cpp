@@ -10,7 +10,7 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/names.hpp>
 #include <io/numbers.hpp>

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 
 #include <io/stl_file.hpp>

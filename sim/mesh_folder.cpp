@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <sim/mesh_folder.hpp>
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_decoder.hpp>

@@ -4,7 +4,8 @@
 #include <cstring>
 #include <utility>
 
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/json-inl.hpp>
 #include <io/npy.hpp>
@@ -25,6 +26,16 @@ Json judged_of(const std::string& frame) {
   return json;
 }
 
+/// Throws InputError for a file that lies outside of the folder, behind a link.
+void check_is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto root = std::filesystem::weakly_canonical(folder, error);
+  const auto real = std::filesystem::weakly_canonical(file, error);
+  const auto end = std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first;
+  if (error || end != root.end())
+    throw InputError(file.string() + ": leads out of the run's folder and is not shown");
+}
+
 template <typename T>
 std::optional<PartBytes> bytes_of(const Image<T>& image, const FileResult& read, const char* type) {
   if (!read.ok()) return std::nullopt;
@@ -33,7 +44,9 @@ std::optional<PartBytes> bytes_of(const Image<T>& image, const FileResult& read,
   return PartBytes{type, image.width(), image.height(), shared_bytes(std::move(bytes))};
 }
 
-std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part) {
+std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part,
+                                    const std::filesystem::path& folder) {
+  check_is_inside(file, folder);
   if (part == Part::labels) {
     Image<std::uint8_t> image;
     const FileResult read = read_png(file, image);
@@ -69,7 +82,7 @@ class RunFolder::SavedFrame final : public PacketFrame {
   }
   [[nodiscard]] std::optional<PartBytes> part(Part part) const override {
     if (folder_.is_saved(part))
-      if (auto saved = read_saved(file(part), part)) return saved;
+      if (auto saved = read_saved(file(part), part, folder_.folder_)) return saved;
     return again_ ? again_->part(part) : std::nullopt;
   }
 

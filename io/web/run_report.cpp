@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/json-inl.hpp>
 #include <io/web/run_folder.hpp>

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 namespace penumbra {
 namespace {

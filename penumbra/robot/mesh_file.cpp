@@ -5,7 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/mesh_formats-inl.hpp>
 

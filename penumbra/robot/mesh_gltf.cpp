@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_formats-inl.hpp>
 
 namespace penumbra::mesh_formats {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/package_search-inl.hpp>
 #include <penumbra/robot/xml_document-inl.hpp>
 

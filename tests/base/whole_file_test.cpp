@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/whole_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 namespace penumbra {
 namespace {
