@@ -8,16 +8,14 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/camera_info.hpp>
 #include <io/camera_info_fields-inl.hpp>
-#include <io/disk_file.hpp>
 #include <io/yaml.hpp>
 
 namespace penumbra::io {
 namespace {
-
-constexpr std::uint64_t max_camera_info_bytes = 1 << 20;
 
 /// The value of one of two spellings of a key, which must not both stand there.
 const YamlNode* find_either(const YamlNode& map, std::string_view key, std::string_view other) {
@@ -157,7 +155,7 @@ Camera parse_camera_info(const std::string& text, const std::filesystem::path& f
 }
 
 Camera read_camera_info(const std::filesystem::path& file, bool rectified) {
-  return parse_camera_info(read_text(file, max_camera_info_bytes), file, rectified);
+  return parse_camera_info(read_whole_file(file, FileLimit::text), file, rectified);
 }
 
 }  // namespace penumbra::io

@@ -2,15 +2,15 @@
 #include <algorithm>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/csv.hpp>
-#include <io/disk_file.hpp>
 #include <io/numbers.hpp>
 
 namespace penumbra::io {
 
-std::string read_csv(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  std::string text = read_text(file, max_bytes);
+std::string read_csv(const std::filesystem::path& file) {
+  std::string text = read_whole_file(file, FileLimit::data);
   // With a byte order mark, or in its place a first letter of which one byte is 0.
   const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
                         (text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0'));

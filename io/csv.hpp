@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,8 +9,9 @@
 
 namespace penumbra::io {
 
-/// A file's content for CsvLines. Throws InputError as read_text does, and for UTF-16.
-[[nodiscard]] std::string read_csv(const std::filesystem::path& file, std::uint64_t max_bytes);
+/// Returns a file's content for CsvLines. Throws InputError as read_whole_file() does, and for
+/// UTF-16.
+[[nodiscard]] std::string read_csv(const std::filesystem::path& file);
 
 /// Walks over the lines of a text of comma-separated cells that are not empty. Quotes have no
 /// meaning; spaces around cells, a byte order mark and carriage returns are dropped.

@@ -85,16 +85,4 @@ void OutputFile::close() {
   if (closed != 0) throw_unwritable(file_, errno);
 }
 
-std::string read_text(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  InputFile input;
-  input.open(file).require();
-  if (input.size() > max_bytes)
-    throw InputError(file.string() + ": has " + std::to_string(input.size()) +
-                     " bytes, more than the " + std::to_string(max_bytes) +
-                     " that such a file may have");
-  std::string text(input.size(), '\0');
-  text.resize(input.read(text.data(), text.size()));
-  return text;
-}
-
 }  // namespace penumbra::io

@@ -51,7 +51,4 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-/// A text file's content. Throws InputError if it cannot be read or is larger than `max_bytes`.
-[[nodiscard]] std::string read_text(const std::filesystem::path& file, std::uint64_t max_bytes);
-
 }  // namespace penumbra::io

@@ -13,7 +13,6 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_table_bytes = std::uint64_t{1} << 28;
 constexpr std::string_view stamp_column = "stamp";
 constexpr std::string_view depth_column = "expected_depth";
 
@@ -87,7 +86,7 @@ const ValueTables::Table& ValueTables::read(const std::filesystem::path& file) {
   entry->second = std::make_unique<Table>();
   Table& table = *entry->second;
   table.file = file;
-  table.text = read_csv(file, max_table_bytes);
+  table.text = read_csv(file);
   CsvLines lines(table.text);
   if (!lines.next()) throw InputError(file.string() + ": is empty; a header frame,... is wanted");
   table.read_header(lines);

@@ -15,7 +15,6 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_joint_bytes = std::uint64_t{1} << 30;
 /// The number behind a frame's is one, too: ranges end there.
 constexpr std::int64_t largest_frame = std::numeric_limits<std::int64_t>::max() - 1;
 
@@ -95,7 +94,7 @@ std::string read_values(const Columns& columns, const std::vector<std::string_vi
 }  // namespace
 
 std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const Robot& robot) {
-  const std::string text = read_csv(file, max_joint_bytes);
+  const std::string text = read_csv(file);
   const auto place = [&](std::size_t line) {
     return file.string() + ":" + std::to_string(line) + ": ";
   };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <system_error>
 
-#include <penumbra/base/error.hpp>
-
 #include <io/pending_file.hpp>
 
 namespace penumbra::io {
@@ -28,11 +26,11 @@ bool is_without_name(const fs::path& file, const fs::path& found) {
   return !fs::is_regular_file(file, error) || !fs::equivalent(file, found, error);
 }
 
-/// Whether `file` is a file or a link of its own, not a folder or a device.
-bool is_removable(const fs::path& file) {
+std::optional<fs::file_time_type> time_of(const fs::path& file) {
   std::error_code error;
-  const fs::file_status found = fs::symlink_status(file, error);
-  return fs::is_regular_file(found) || fs::is_symlink(found);
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  const fs::file_time_type time = fs::last_write_time(file, error);
+  return error ? std::nullopt : std::optional(time);
 }
 
 }  // namespace
@@ -43,24 +41,34 @@ void check_is_no_folder(const std::string& option, const fs::path& file) {
     throw InputError(option + ": " + file.string() + " is a folder; the name of a file is wanted");
 }
 
-std::string left_as_it_was(const fs::path& file) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) ? "; " + file.string() + " is left as it was"
-                                          : std::string();
+FormerFiles::FormerFiles(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) files_.push_back({file, time_of(file)});
 }
+
+std::string FormerFiles::state() const {
+  std::string text;
+  for (const File& file : files_)
+    if (const auto now = time_of(file.path))
+      text += "; " + file.path.string() +
+              (now == file.time ? " is left as it was" : " is new and whole");
+  return text;
+}
+
+fs::path PendingFile::part_of(fs::path file) { return file += ".penumbra.part"; }
 
 PendingFile::PendingFile(const fs::path& file) : file_(file), part_(file) {
   const fs::path found = behind_links(file);
   if (is_without_name(file, found)) return;
-  file_ = part_ = found;
-  part_ += ".penumbra.part";
+  file_ = found;
+  part_ = part_of(found);
   std::error_code error;
-  if (is_removable(part_)) fs::remove(part_, error);
+  if (fs::is_symlink(part_, error)) fs::remove(part_, error);
+  lock_.emplace(part_, file_);
 }
 
 PendingFile::~PendingFile() {
   std::error_code ignored;
-  if (!finished_ && part_ != file_ && is_removable(part_)) fs::remove(part_, ignored);
+  if (!finished_ && lock_) fs::remove(part_, ignored);
 }
 
 void PendingFile::finish() {

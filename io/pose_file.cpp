@@ -15,11 +15,10 @@ namespace {
 
 constexpr double max_rotation_error = 1e-4;  // per element; files with few digits are off by less
 constexpr double max_distance = 1e6;         // metres: float32 depths beyond would mean nothing
-constexpr std::uint64_t max_bytes = 1 << 16;
 constexpr std::string_view rows_wanted = "four rows of four comma-separated numbers are wanted";
 
 Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
-  const std::string text = read_csv(file, max_bytes);
+  const std::string text = read_csv(file);
   Eigen::Matrix4d matrix;
   CsvLines lines(text);
   int row = 0;

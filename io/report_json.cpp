@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <penumbra/base/version.hpp>
 
 #include <io/disk_file.hpp>
+#include <io/pending_file.hpp>
 #include <io/renderer_json-inl.hpp>
 #include <io/report_json.hpp>
 #include <io/target_json-inl.hpp>
@@ -179,7 +179,8 @@ Json renderer_json(const RendererInfo& info) {
 }
 
 std::string report_start(const ReportHead& head) {
-  return "{\"penumbra\": " + dump(PENUMBRA_VERSION) + ",\n\"input\": " + dump(head.input) +
+  return std::string(report_json_start) + dump(PENUMBRA_VERSION) +
+         ",\n\"input\": " + dump(head.input) +
          ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
          ",\n\"settings\": " + dump(settings_json(head.settings)) +
          ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [";
@@ -195,8 +196,7 @@ std::string report_end(const Statistics& statistics, std::span<const std::string
 std::string unfinished_report_end() { return "\n],\n\"summary\": null}\n"; }
 
 struct ReportWriter::State {
-  explicit State(std::filesystem::path file_)
-      : file(std::move(file_)), part(file.string() + ".part"), output(part) {}
+  explicit State(const std::filesystem::path& file) : pending(file), output(pending.part()) {}
 
   void write(std::string_view text, bool now = false) {
     waiting += text;
@@ -205,29 +205,22 @@ struct ReportWriter::State {
     waiting.clear();
   }
 
-  std::filesystem::path file;
-  std::filesystem::path part;
+  PendingFile pending;
   OutputFile output;
   std::string waiting;
   std::vector<std::string> missing_links;
   std::vector<std::string> notes;
   bool first = true;
-  bool finished = false;
 };
 
 ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& head)
     : state_(std::make_unique<State>(file)) {
-  std::error_code gone;
-  std::filesystem::remove(file, gone);
   state_->missing_links.assign(head.missing_links.begin(), head.missing_links.end());
   state_->notes.assign(head.notes.begin(), head.notes.end());
   state_->write(report_start(head));
 }
 
-ReportWriter::~ReportWriter() {
-  std::error_code ignored;
-  if (!state_->finished) std::filesystem::remove(state_->part, ignored);
-}
+ReportWriter::~ReportWriter() = default;
 
 void ReportWriter::add(const FrameReport& report) {
   state_->write((state_->first ? "\n" : ",\n") + report_frame(report));
@@ -239,12 +232,7 @@ void ReportWriter::finish(const Statistics& statistics, std::span<const std::str
   s.notes.insert(s.notes.end(), notes.begin(), notes.end());
   s.write(report_end(statistics, s.missing_links, s.notes), true);
   s.output.close();
-  std::error_code error;
-  std::filesystem::rename(s.part, s.file, error);
-  if (error)
-    throw InputError(s.file.string() + ": cannot be written (" + error.message() +
-                     "); choose another output folder");
-  s.finished = true;
+  s.pending.finish();
 }
 
 std::string render_json(const RenderResult& result) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <penumbra/occlusion/labels.hpp>
@@ -56,9 +57,11 @@ struct ReportHead {
   std::span<const std::string> notes;          ///< before the frames: Robot::notes()
 };
 
-/// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. The file
-/// appears under its name when it is complete: until then it ends in ".part", and a report of that
-/// name from before is removed. Members throw InputError where the file cannot be written.
+/// How every report begins.
+inline constexpr std::string_view report_json_start = "{\"penumbra\": ";
+
+/// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. It is
+/// a PendingFile. Members throw InputError where the file cannot be written.
 class ReportWriter {
  public:
   ReportWriter(const std::filesystem::path& file, const ReportHead& head);

@@ -7,7 +7,6 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/disk_file.hpp>
 #include <io/frame_values.hpp>
 #include <io/printable.hpp>
 #include <io/target_shapes.hpp>
@@ -24,8 +23,6 @@ struct TargetSource {
 };
 
 namespace {
-
-constexpr std::uint64_t max_targets_bytes = 16 << 20;  // thousands of targets, or masks
 
 /// Pixels are of the image that the file says, else of the camera's as it comes.
 void check_image(const YamlNode& root, const TargetsContext& context) {
@@ -153,7 +150,7 @@ TargetsFile& TargetsFile::operator=(TargetsFile&&) noexcept = default;
 TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsContext& context) {
   auto state = std::make_unique<State>();
   state->file = file;
-  const YamlNode root = YamlNode::parse(read_text(file, max_targets_bytes), file);
+  const YamlNode root = YamlNode::read(file);
   root.allow_only({"image", "history", "targets"});
   check_image(root, context);
   ValueTables tables;

@@ -10,7 +10,8 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include <io/disk_file.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
+
 #include <io/names.hpp>
 #include <io/numbers.hpp>
 #include <io/printable.hpp>
@@ -19,9 +20,9 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::uint64_t max_yaml_bytes = 1 << 20;
 constexpr std::size_t max_depth = 16;
-constexpr std::size_t max_quoted = 60;  // letters of the file that a message repeats
+constexpr std::ptrdiff_t max_marks = 1'000'000;  // a token each, which takes 200 bytes
+constexpr std::size_t max_quoted = 60;           // letters of the file that a message repeats
 
 std::string quoted(const std::string& text) {
   std::string shown = "'";
@@ -137,7 +138,7 @@ class YamlBuilder : public YAML::EventHandler {
 };
 
 YamlNode YamlNode::read(const std::filesystem::path& file) {
-  return parse(read_text(file, max_yaml_bytes), file);
+  return parse(read_whole_file(file, FileLimit::text), file);
 }
 
 YamlNode YamlNode::parse(const std::string& text, const std::filesystem::path& file) {
@@ -148,6 +149,11 @@ YamlNode YamlNode::parse(const std::string& text, const std::filesystem::path& f
 
 std::vector<YamlNode> YamlNode::parse_all(const std::string& text,
                                           const std::filesystem::path& file) {
+  constexpr std::string_view marks = "[]{},:-?\n";
+  if (std::count_if(text.begin(), text.end(),
+                    [&](char c) { return marks.find(c) != std::string_view::npos; }) > max_marks)
+    throw InputError(file.string() + ": has more than " + std::to_string(max_marks) +
+                     " lines, commas and brackets; check that it is the right file");
   std::vector<YamlNode> documents;
   try {
     std::istringstream stream(text);

@@ -18,8 +18,9 @@ namespace penumbra::io {
 /// with file, line and key ("recording.yaml:12: camera.tolerance: ...").
 class YamlNode {
  public:
-  /// The file's one document. Doubled keys, aliases, keys that are no plain texts, several
-  /// documents and files of more than 1 MB are errors.
+  /// Returns the file's one document. Doubled keys, aliases, keys that are no plain texts, several
+  /// documents, more than a million lines, commas and brackets and files above
+  /// FileLimit::text are errors.
   [[nodiscard]] static YamlNode read(const std::filesystem::path& file);
 
   /// The same from text; `file` is for messages.

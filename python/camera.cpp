@@ -73,6 +73,24 @@ void bind_distortion(py::module_& m) {
       });
 }
 
+/// By how many coefficients there are, as OpenCV does.
+Distortion distortion_of(const std::vector<double>& coefficients) {
+  if (coefficients.empty()) return {};
+  return Distortion(coefficients.size() == 8 ? "rational_polynomial" : "plumb_bob", coefficients);
+}
+
+Camera camera_from_matrix(const Eigen::Matrix3d& K, std::pair<int, int> size,
+                          const std::vector<double>& D) {
+  Eigen::Matrix3d rest = K;
+  rest(0, 0) = rest(1, 1) = rest(0, 2) = rest(1, 2) = 0.0;
+  if (rest != Eigen::Vector3d(0, 0, 1).asDiagonal().toDenseMatrix())
+    throw py::value_error("K: expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]");
+  return {Intrinsics(size.first, size.second, K(0, 0), K(1, 1), K(0, 2), K(1, 2)),
+          distortion_of(D),
+          {},
+          {}};
+}
+
 void bind_camera_class(py::module_& m) {
   py::class_<DepthRange> range(
       m, "DepthRange",
@@ -91,6 +109,10 @@ void bind_camera_class(py::module_& m) {
              py::arg("intrinsics"), py::kw_only(), py::arg("distortion") = Distortion(),
              py::arg("range") = DepthRange(), py::arg("frame_id") = std::string(),
              "Raises InputError unless 0 <= near < far.");
+  camera.def_static("from_matrix", &camera_from_matrix, py::arg("K"), py::arg("size"),
+                    py::arg("D") = std::vector<double>(),
+                    "K: OpenCV's camera matrix, 3 x 3, pixels; size: (width, height); D: its "
+                    "distortion coefficients, none, 4, 5 or 8.");
   show_fields(camera, Field{"intrinsics", &Camera::intrinsics, "Of the image as it comes."},
               Field{"distortion", &Camera::distortion, "Of the image as it comes."},
               Field{"range", &Camera::range, "Which depths are measurements."},

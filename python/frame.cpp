@@ -2,15 +2,37 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
+#include <python/robot.hpp>
 
 namespace penumbra::python {
 
-Frame OwnedFrame::view(std::vector<Target>& views) const {
+namespace {
+
+std::vector<double> in_order(const NamedPositions& named, const Robot& robot) {
+  for (const auto& [name, position] : named)
+    if (!robot.find_variable(name)) throw py::key_error(no_variable(robot, name));
+  std::vector<double> positions;
+  for (const std::string& variable : robot.variables()) {
+    const auto at = named.find(variable);
+    if (at == named.end())
+      throw py::key_error("joints: the position of '" + variable + "' is missing");
+    positions.push_back(at->second);
+  }
+  return positions;
+}
+
+}  // namespace
+
+Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   Frame frame;
   frame.stamp = stamp;
   if (depth) frame.depth = depth->view;
   if (const auto* positions = std::get_if<Numbers>(&joints)) {
     frame.joints = positions->values;
+    frame.joints.age = joint_age;
+  } else if (const auto* named = std::get_if<NamedPositions>(&joints)) {
+    parts.positions = in_order(*named, robot);
+    frame.joints = parts.positions;
     frame.joints.age = joint_age;
   } else if (const auto* answer = std::get_if<JointAnswer>(&joints)) {
     frame.joints = *answer;
@@ -18,8 +40,8 @@ Frame OwnedFrame::view(std::vector<Target>& views) const {
   frame.T_root_link = T_root_link;
   frame.T_parent_camera = T_parent_camera;
   if (const auto* own = std::get_if<0>(&targets)) {
-    for (const auto& target : *own) views.push_back(target_of(target));
-    frame.targets = views;
+    for (const auto& target : *own) parts.targets.push_back(target_of(target));
+    frame.targets = parts.targets;
   } else {
     frame.targets = std::get<1>(targets).targets();
   }
@@ -73,8 +95,10 @@ void bind_constructor(FrameClass& frame) {
       py::arg("index") = defaults.index, py::arg("joint_age") = std::optional<std::int64_t>(),
       py::arg("doubted_links") = std::vector<std::size_t>(), py::arg("doubt") = std::string(),
       "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
-      "measurement; None: there is none. joints: positions in the order of Robot.variables, rad "
-      "and m, or what JointBuffer.at() says; None: not known. stamp: of the depth image, "
+      "measurement; None: there is none. joints: a dict of positions by name, or an array in the "
+      "order "
+      "of Robot.variables, rad and m, or what JointBuffer.at() says; None: not known. stamp: of "
+      "the depth image, "
       "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
       "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
       "configuration's. source_status, source_message: what is known to be wrong with the frame. "
@@ -135,6 +159,9 @@ void bind_frame(py::module_& m) {
   bind_constructor(frame);
   bind_values(frame);
   bind_replace(frame, arguments());
+  frame.def("__repr__", [](const Self<OwnedFrame>& self) {
+    return repr_of(self, {"index", "stamp", "source_status"});
+  });
 }
 
 }  // namespace penumbra::python

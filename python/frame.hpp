@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,8 +13,10 @@
 
 namespace penumbra::python {
 
-/// Joint positions, an answer of a JointBuffer, or nothing: not known.
-using OwnedJoints = std::variant<std::monostate, JointAnswer, Numbers>;
+using NamedPositions = std::map<std::string, double>;
+
+/// Joint positions, by name or in order, an answer of a JointBuffer, or nothing: not known.
+using OwnedJoints = std::variant<std::monostate, JointAnswer, NamedPositions, Numbers>;
 using OwnedTargets = std::variant<std::vector<OwnedTarget>, SourceTargets>;
 
 /// A frame of Python's: it keeps what C++'s refers to.
@@ -31,8 +34,14 @@ struct OwnedFrame {
   std::vector<std::size_t> doubted_links;
   std::string doubt;
 
-  /// Refers to this and to `views`, which it fills.
-  [[nodiscard]] Frame view(std::vector<Target>& views) const;
+  /// What a view refers to beside the frame.
+  struct Parts {
+    std::vector<Target> targets;
+    std::vector<double> positions;
+  };
+  /// Refers to this and to `parts`, which it fills. Raises KeyError for named positions that are
+  /// not those of the robot's variables.
+  [[nodiscard]] Frame view(const Robot& robot, Parts& parts) const;
 };
 
 }  // namespace penumbra::python

@@ -45,6 +45,24 @@ RecordedFrame next(const std::shared_ptr<Frames>& self) {
   return recorded(std::move(data), frame, std::move(targets));
 }
 
+std::size_t size_of(const std::shared_ptr<Input>& self) {
+  const auto size = Frames(present(self, "Input")).source->size();
+  if (!size)
+    throw py::type_error("a bag's number of frames is known at its end: count while iterating");
+  return *size;
+}
+
+/// Reads the frames before it, too.
+RecordedFrame frame_at(const std::shared_ptr<Input>& self, std::size_t i) {
+  const auto frames = std::make_shared<Frames>(present(self, "Input"));
+  try {
+    for (std::size_t before = 0; before < i; ++before) next(frames);
+    return next(frames);
+  } catch (const py::stop_iteration&) {
+    throw py::index_error("frame " + std::to_string(i) + ": the input has fewer");
+  }
+}
+
 std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                                   std::optional<Geometry> geometry, bool geometry_fallback,
                                   bool allow_missing_meshes,
@@ -121,6 +139,8 @@ void bind_input_classes(py::module_& m) {
            [](const std::shared_ptr<Input>& self) {
              return std::make_shared<Frames>(present(self, "Input"));
            })
+      .def("__len__", &size_of)
+      .def("__getitem__", &frame_at, py::arg("i"), "Reads the frames before it, too.")
       .def_property_readonly(
           "robot", [](const Input& self) { return self.input.robot; }, "The robot.")
       .def_property_readonly(

@@ -37,8 +37,8 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
   self->lease.end("Pipeline.process", "the last report's labels, virtual_depth or link_image");
   std::optional<OneThread::Use> held;
   if (const auto* given = std::get_if<SourceTargets>(&frame.targets)) held.emplace(given->hold());
-  std::vector<Target> targets;
-  const Frame view = frame.view(targets);
+  OwnedFrame::Parts parts;
+  const Frame view = frame.view(self->pipeline.robot(), parts);
   ++self->calls;
   const FrameReport* report = nullptr;
   {

@@ -154,7 +154,10 @@ void bind_recorded_frames(py::module_& m) {
           "Red, green, blue; None: not asked for, not recorded or not usable.")
       .def_property_readonly(
           "color_message", [](const F& f) { return f.data->color_message; },
-          "Why a recorded colour image is not usable; empty if it is.");
+          "Why a recorded colour image is not usable; empty if it is.")
+      .def("__repr__", [](const Self<F>& self) {
+        return repr_of(self, {"index", "stamp", "status"});
+      });
   py::class_<Reader, std::shared_ptr<Reader>>(
       m, "FrameReader",
       "A recording's frames, by their places in the joint file: len(), [i], iteration. May be used "

@@ -216,6 +216,9 @@ void bind_report(py::module_& m) {
   bind_report_numbers(report);
   bind_report_images(report);
   bind_without_robot(m, report);
+  report.def("__repr__", [](const Self<Report>& self) {
+    return repr_of(self, {"index", "status", "message"});
+  });
 }
 
 }  // namespace penumbra::python

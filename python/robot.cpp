@@ -174,6 +174,12 @@ Poses link_poses(const Robot& robot, const Numbers& positions) {
   return poses;
 }
 
+std::size_t find_variable(const Robot& robot, const std::string& name) {
+  const auto index = robot.find_variable(name);
+  if (!index) throw py::key_error(no_variable(robot, name));
+  return *index;
+}
+
 void bind_robot_class(py::module_& m) {
   py::class_<Robot>(m, "Robot", "A URDF's links, joints and geometry. Immutable.")
       .def_static("load", &Robot::load, py::arg("urdf"), py::arg("options") = RobotOptions(),
@@ -204,7 +210,8 @@ void bind_robot_class(py::module_& m) {
           "bodies", [](const Robot& r) { return Frozen<OwnedBody>{bodies_of(r)}; },
           "The links with their meshes, to draw.")
       .def("find_link", &Robot::find_link, py::arg("name"), "Its index, or None.")
-      .def("find_variable", &Robot::find_variable, py::arg("name"), "Its index, or None.")
+      .def("find_variable", &find_variable, py::arg("name"),
+           "Its index. Raises KeyError for an unknown name.")
       .def(
           "rest_positions", [](const Robot& r) { return Numbers{r.rest_positions()}; },
           "Positions of every variable at rest: 0, and the unit quaternion. A read-only array.")
@@ -221,6 +228,12 @@ void bind_robot_class(py::module_& m) {
 }
 
 }  // namespace
+
+std::string no_variable(const Robot& robot, const std::string& name) {
+  std::string message = "'" + name + "' is no variable of robot '" + robot.name() + "'; it has";
+  for (const std::string& variable : robot.variables()) message += " " + variable;
+  return message;
+}
 
 void bind_robot(py::module_& m) {
   bind_mesh(m);

@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 
 #include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {
 
@@ -30,6 +31,9 @@ struct OwnedBody {
   std::string name;
   std::vector<Mesh> meshes;
 };
+
+/// The message of a KeyError for a name that is none of the robot's variables.
+[[nodiscard]] std::string no_variable(const Robot& robot, const std::string& name);
 
 }  // namespace penumbra::python
 

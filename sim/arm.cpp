@@ -13,9 +13,9 @@
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 
-#include <io/disk_file.hpp>
 #include <io/stl_file.hpp>
 #include <sim/arm.hpp>
 #include <sim/mujoco_handles.hpp>
@@ -24,8 +24,6 @@ namespace penumbra::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t most_urdf_bytes = 50'000'000;
 
 // All links stay bodies of their own, so that a pixel tells its link. A URDF drawn for pictures has
 // no masses; nothing falls here, so that any will do.
@@ -76,7 +74,7 @@ std::string place_mesh(const fs::path& from, const fs::path& folder, int number)
 
 /// The URDF with meshes that MuJoCo can read and with its compiler's options.
 std::string prepared(const fs::path& urdf, const RobotOptions& options, const fs::path& folder) {
-  const std::string text = io::read_text(urdf, most_urdf_bytes);
+  const std::string text = read_whole_file(urdf, FileLimit::text);
   static const std::regex pattern(R"re(<robot\b[^>]*>|filename\s*=\s*"([^"]*)")re");
   std::string out;
   auto from = text.cbegin();

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/disk_file.hpp>
 #include <sim/mesh_folder.hpp>
 
 namespace penumbra::sim {
@@ -14,14 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;  // of one mesh
-
 bool is_same_file(const fs::path& one, const fs::path& other) {
   std::error_code error;
   if (!fs::is_regular_file(other, error) ||
       fs::file_size(one, error) != fs::file_size(other, error))
     return false;
-  return io::read_text(one, most_bytes) == io::read_text(other, most_bytes);
+  return read_whole_file(one, FileLimit::data) == read_whole_file(other, FileLimit::data);
 }
 
 /// Whether every file of `wanted` is in `folder`.

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/disk_file.hpp>
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
@@ -15,8 +15,6 @@ namespace penumbra::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t most_description_bytes = std::uint64_t{1} << 26;
 
 /// Reliable, transient local, the last one kept, by the numbers of rmw, as rosbag2 stores it: its
 /// player then offers these topics to those who come late.
@@ -120,7 +118,7 @@ void RecordingBag::write_scene(std::int64_t stamp) {
     write(topic, stamp, message, Durability::latched);
   };
   latch("/robot_description",
-        io::StringMessage{io::read_text(simulation_.urdf(), most_description_bytes)});
+        io::StringMessage{read_whole_file(simulation_.urdf(), FileLimit::text)});
   const io::MessageHeader root{stamp, root_};
   io::TfMessage mounts{{{root, simulation_.camera().frame_id, simulation_.T_base_camera()}}};
   if (second_camera_)

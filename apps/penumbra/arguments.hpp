@@ -82,6 +82,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
   bool no_targets = false;                       ///< not the recording's either
   bool report_page = false;                      ///< report.html, too
+  bool force = false;                            ///< into a folder that holds other files, too
   bool is_shown = false;                         ///< in the viewer
   BagArguments bag;
 

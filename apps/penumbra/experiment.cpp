@@ -4,7 +4,6 @@
 #include <optional>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <io/pending_file.hpp>
 #include <sim/experiments/experiment.hpp>
@@ -21,9 +20,7 @@ int execute(const ExperimentArguments& arguments) {
     std::cout << report.string() << '\n';
     return 0;
   };
-  return run_or_tell_left(run, [&] {
-    return io::left_as_it_was(arguments.output / "metrics.json") + io::left_as_it_was(report);
-  });
+  return io::run_or_say_state({arguments.output / "metrics.json", report}, run);
 }
 
 }  // namespace penumbra::app

@@ -18,7 +18,6 @@
 #include <penumbra/robot/primitives.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/live_setup.hpp>
@@ -245,7 +244,8 @@ class Live {
 /// Takes its name once it is written: a run that fails before leaves an earlier one's as it was.
 class SummaryFile {
  public:
-  explicit SummaryFile(const std::filesystem::path& file) : file_(file), pending_(file) {
+  explicit SummaryFile(const std::filesystem::path& file)
+      : file_(file), former_({file}), pending_(file) {
     io::check_is_no_folder("--summary", file);
     stream_.open(pending_.part());
     if (!stream_) refuse();
@@ -259,8 +259,7 @@ class SummaryFile {
   }
 
   void tell_unwritten() const {
-    tell_notes(
-        std::vector{"no camera was found, and no summary is written" + io::left_as_it_was(file_)});
+    tell_notes(std::vector{"no camera was found, and no summary is written" + former_.state()});
   }
 
  private:
@@ -269,6 +268,7 @@ class SummaryFile {
   }
 
   std::filesystem::path file_;
+  io::FormerFiles former_;
   io::PendingFile pending_;
   std::ofstream stream_;
 };
@@ -337,10 +337,10 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
 }  // namespace
 
 int execute(const LiveArguments& arguments) {
-  std::exception_ptr fault;  // a summary is then none from before
-  const int status = run_or_tell_left(
-      [&] { return label_live(arguments, fault); },
-      [&] { return arguments.summary ? io::left_as_it_was(*arguments.summary) : std::string(); });
+  std::exception_ptr fault;
+  std::vector<std::filesystem::path> files;
+  if (arguments.summary) files.push_back(*arguments.summary);
+  const int status = io::run_or_say_state(files, [&] { return label_live(arguments, fault); });
   if (fault) std::rethrow_exception(fault);
   return status;
 }

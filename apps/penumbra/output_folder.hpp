@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
 #include <apps/penumbra/arguments.hpp>
-#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/run_output.hpp>
+#include <io/file_lock.hpp>
 #include <io/overlay_painter.hpp>
 #include <io/web/key_frames.hpp>
 
@@ -20,14 +21,24 @@ namespace penumbra::app {
 /// Digits of a frame's index in file names, at least.
 inline constexpr std::size_t frame_digits = 6;
 
+/// Throws InputError unless the output folder is missing, empty, holds the report of an earlier
+/// run, or the user forces it. Touches nothing.
+void check_output_folder(const RunArguments& arguments);
+
 /// Where `run` writes. Files are named by the frame's index: vdi/000000.npy, labels/000000.png.
 class OutputFolder final : public RunOutput {
  public:
-  /// Makes the folder and those of the images to save. `rectification` brings recorded images to
-  /// the report's; null where they fit, else it must outlive this. Throws InputError where the
-  /// folder is refused.
+  /// Makes the folder and those of the images to save, and removes an earlier run's report, page
+  /// and images. `rectification` brings recorded images to the report's; null where they fit, else
+  /// it must outlive this. Throws InputError if the folder cannot be used or another run writes to
+  /// it.
   OutputFolder(const std::filesystem::path& folder, const RunArguments& arguments,
                const Rectification* rectification);
+
+  /// Removes this run's images, unless it was finished.
+  ~OutputFolder() override;
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
 
   void begin(const io::ReportHead& head) override;
 
@@ -47,6 +58,7 @@ class OutputFolder final : public RunOutput {
                                            const char* ending) const;
 
   std::filesystem::path folder_;
+  io::FileLock lock_;
   Saves saves_;
   bool has_page_;
   std::string points_frame_;
@@ -56,7 +68,8 @@ class OutputFolder final : public RunOutput {
   PointCloud cloud_;
   io::OverlayPainter painter_;
   io::KeyFrames key_frames_;
-  UnfinishedRun unfinished_;
+  std::vector<std::size_t> saved_;  // frames of which images may be written
+  bool finished_ = false;
   std::optional<io::ReportWriter> report_;
 };
 

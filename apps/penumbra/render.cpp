@@ -16,7 +16,6 @@
 #include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/camera_info.hpp>
 #include <io/names.hpp>
@@ -99,12 +98,6 @@ void check_outputs(const RenderArguments& arguments) {
   if (arguments.links) check_ending("--links", *arguments.links, ".png", "a 16-bit PNG");
   io::check_is_no_folder("-o", arguments.output);
   if (arguments.links) io::check_is_no_folder("--links", *arguments.links);
-}
-
-/// Of an error's message: what still stands of an earlier call.
-std::string left_of(const RenderArguments& arguments) {
-  return io::left_as_it_was(arguments.output) +
-         (arguments.links ? io::left_as_it_was(*arguments.links) : std::string());
 }
 
 void append(std::vector<std::string>& notes, const std::vector<std::string>& more) {
@@ -200,7 +193,9 @@ int render(const RenderArguments& arguments) {
 
 int execute(const RenderArguments& arguments) {
   check_outputs(arguments);
-  return run_or_tell_left([&] { return render(arguments); }, [&] { return left_of(arguments); });
+  std::vector<std::filesystem::path> files = {arguments.output};
+  if (arguments.links) files.push_back(*arguments.links);
+  return io::run_or_say_state(files, [&] { return render(arguments); });
 }
 
 }  // namespace penumbra::app

@@ -7,7 +7,6 @@
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/former_results.hpp>
 #include <apps/penumbra/judging.hpp>
 #include <apps/penumbra/output_bag.hpp>
 #include <apps/penumbra/output_folder.hpp>
@@ -17,7 +16,7 @@
 namespace penumbra::app {
 namespace {
 
-/// What an earlier run wrote will be removed or replaced: nothing else may stand there.
+/// Throws InputError if results would take the place of anything but an earlier run's.
 void check_output(const RunArguments& arguments) {
   std::error_code error;
   const std::filesystem::path input = std::filesystem::absolute(arguments.input);
@@ -36,17 +35,10 @@ void check_output(const RunArguments& arguments) {
   if (std::filesystem::exists(output / "recording.yaml", error))
     throw InputError("--output: " + output.string() +
                      " is a recording (it has a recording.yaml); choose another folder");
-  check_former_run(output);
-  if (arguments.report_page) check_former_page(output);
+  check_output_folder(arguments);
 }
 
-/// Of an error's message: that an earlier run's results still stand.
-std::string left_of(const RunArguments& arguments) {
-  const bool is_bag = is_output_bag(arguments.output);
-  return io::left_as_it_was(is_bag ? arguments.output : arguments.output / "report.json");
-}
-
-/// Makes room for the results in a folder; a bag takes the place of an earlier one at the end.
+/// Takes the place of earlier results: in a folder now, in a bag at the end.
 std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunInput& input,
                                        const Pipeline& pipeline) {
   if (is_output_bag(arguments.output))
@@ -56,7 +48,6 @@ std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunI
     throw InputError("--points-frame: no link '" + arguments.points_frame + "'; the root is '" +
                      pipeline.robot().links().front() +
                      "', and `penumbra inspect URDF` lists the others");
-  remove_former_run(arguments.output);
   return std::make_unique<OutputFolder>(arguments.output, arguments, pipeline.rectification());
 }
 
@@ -79,7 +70,9 @@ int judge_all(const RunArguments& arguments) {
 
 int execute(const RunArguments& arguments) {
   check_output(arguments);
-  return run_or_tell_left([&] { return judge_all(arguments); }, [&] { return left_of(arguments); });
+  const std::filesystem::path& output = arguments.output;
+  return io::run_or_say_state({is_output_bag(output) ? output : output / "report.json"},
+                              [&] { return judge_all(arguments); });
 }
 
 }  // namespace penumbra::app

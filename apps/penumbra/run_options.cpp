@@ -67,6 +67,7 @@ void check_output_bag(RunArguments& run) {
   if (run.saves != Saves{}) refuse("--save");
   if (!run.points_frame.empty()) refuse("--points-frame");
   if (run.report_page) refuse("--report");
+  if (run.force) refuse("--force");
   if (run.image == ImageSpace::rectified) refuse("--image rectified");
   run.saves.overlay = true;
 }
@@ -191,6 +192,8 @@ void add_run(CLI::App& app, RunArguments& run) {
              "LINK", [&](const std::string& text) { run.points_frame = text; });
   app.add_flag("--report", run.report_page,
                "write report.html, too: one file with the targets' timeline and key frames");
+  app.add_flag("--force", run.force,
+               "write into a folder that holds files and no report.json of penumbra");
   add_bag(app, run.bag);
 }
 

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <utility>
 
-#include <io/disk_file.hpp>
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
+
 #include <io/json-inl.hpp>
 #include <io/npy.hpp>
 #include <io/png.hpp>
@@ -15,7 +17,6 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t name_digits = 6;
-constexpr std::uint64_t most_overlay_bytes = std::uint64_t{1} << 28U;
 constexpr std::array saved_kinds{Part::overlay, Part::labels, Part::links, Part::vdi};
 
 /// What of a frame is the same each time that it is judged.
@@ -23,6 +24,16 @@ Json judged_of(const std::string& frame) {
   Json json = Json::parse(frame);
   json.erase("timing_ms");
   return json;
+}
+
+/// Throws InputError for a file that lies outside of the folder, behind a link.
+void check_is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto root = std::filesystem::weakly_canonical(folder, error);
+  const auto real = std::filesystem::weakly_canonical(file, error);
+  const auto end = std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first;
+  if (error || end != root.end())
+    throw InputError(file.string() + ": leads out of the run's folder and is not shown");
 }
 
 template <typename T>
@@ -33,7 +44,9 @@ std::optional<PartBytes> bytes_of(const Image<T>& image, const FileResult& read,
   return PartBytes{type, image.width(), image.height(), shared_bytes(std::move(bytes))};
 }
 
-std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part) {
+std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part,
+                                    const std::filesystem::path& folder) {
+  check_is_inside(file, folder);
   if (part == Part::labels) {
     Image<std::uint8_t> image;
     const FileResult read = read_png(file, image);
@@ -52,7 +65,7 @@ std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part
   Image<Rgb8> image;
   if (!read_png(file, image).ok()) return std::nullopt;
   return PartBytes{"image/png", image.width(), image.height(),
-                   shared_bytes(read_text(file, most_overlay_bytes))};
+                   shared_bytes(read_whole_file(file, FileLimit::data))};
 }
 
 }  // namespace
@@ -69,7 +82,7 @@ class RunFolder::SavedFrame final : public PacketFrame {
   }
   [[nodiscard]] std::optional<PartBytes> part(Part part) const override {
     if (folder_.is_saved(part))
-      if (auto saved = read_saved(file(part), part)) return saved;
+      if (auto saved = read_saved(file(part), part, folder_.folder_)) return saved;
     return again_ ? again_->part(part) : std::nullopt;
   }
 

@@ -2,15 +2,13 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/disk_file.hpp>
 #include <io/json-inl.hpp>
 #include <io/web/run_folder.hpp>
 
 namespace penumbra::io {
 namespace {
-
-constexpr std::uint64_t most_report_bytes = std::uint64_t{1} << 30U;
 
 Backend backend_of(const std::string& name) {
   for (const Backend backend : {Backend::gl, Backend::reference})
@@ -45,7 +43,7 @@ void read_frames(const Json& frames, RunReport& report) {
 RunReport RunReport::read(const std::filesystem::path& file) {
   RunReport report;
   try {
-    Json json = Json::parse(read_text(file, most_report_bytes));
+    Json json = Json::parse(read_whole_file(file, FileLimit::data));
     report.input = json.at("input");
     report.backend = backend_of(json.at("renderer").at("backend"));
     read_settings(json.at("settings"), report);

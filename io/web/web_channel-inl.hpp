@@ -2,7 +2,6 @@
 // What the server's connections share, and those that became WebSockets.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <list>
@@ -16,7 +15,7 @@
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 
-#include <io/web/waiting_answers-inl.hpp>
+#include <io/web/shared_limit-inl.hpp>
 #include <io/web/web_guard.hpp>
 #include <io/web/web_server.hpp>
 #include <io/web/web_types.hpp>
@@ -45,42 +44,27 @@ struct Shared {
       : options(options_),
         handler(handler_),
         guard(std::move(guard_)),
+        strangers(options.max_strangers),
+        guests(options.max_connections),
         waiting(options.max_waiting_bytes) {}
 
   WebOptions options;
   WebHandler& handler;
   WebGuard guard;
-  WaitingAnswers waiting;
-  std::atomic<std::size_t> connections{0};
+  SharedLimit strangers;  // connections that have not shown the token
+  SharedLimit guests;     // those that have; the one that was used last is the newest
+  SharedLimit waiting;    // bytes
   std::mutex channels_mutex;
   std::list<std::weak_ptr<Channel>> channels;
 };
 
-/// Counts a connection as long as it lives.
-class Counted {
- public:
-  explicit Counted(std::atomic<std::size_t>& count) : count_(&count), before_(count++) {}
-  Counted(Counted&& other) noexcept
-      : count_(std::exchange(other.count_, nullptr)), before_(other.before_) {}
-  Counted& operator=(Counted&&) = delete;
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-  ~Counted() {
-    if (count_ != nullptr) --*count_;
-  }
-  [[nodiscard]] std::size_t before() const { return before_; }
-
- private:
-  std::atomic<std::size_t>* count_;
-  std::size_t before_;
-};
-
-/// What gives an answer up, by any thread: its connection is closed.
+/// Closes a client's connection on its strand; may be called by any thread.
 template <typename Client>
-std::function<void()> close_of(std::weak_ptr<Client> weak) {
-  return [weak = std::move(weak)] {
-    if (const auto client = weak.lock())
-      asio::post(client->socket().get_executor(), [client] { client->socket().close(); });
+std::function<void()> close_of(Client& client) {
+  return [executor = client.socket().get_executor(), weak = client.weak_from_this()] {
+    asio::post(executor, [weak] {
+      if (const auto alive = weak.lock()) alive->socket().close();
+    });
   };
 }
 
@@ -90,14 +74,11 @@ class Channel : public std::enable_shared_from_this<Channel> {
  public:
   static constexpr std::size_t most_message_bytes = 4 * 1024;  // of a client's
 
-  Channel(beast::tcp_stream stream, Shared& shared, Counted counted,
-          std::unique_ptr<WebChannel> channel)
-      : counted_(std::move(counted)),
-        shared_(shared),
-        stream_(std::move(stream)),
-        channel_(std::move(channel)) {}
+  Channel(beast::tcp_stream stream, Shared& shared, std::unique_ptr<WebChannel> channel)
+      : shared_(shared), stream_(std::move(stream)), channel_(std::move(channel)) {}
 
   void run(const Request& request) {
+    stay();
     socket().expires_never();
     auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.idle_timeout = std::chrono::seconds(30);
@@ -124,6 +105,8 @@ class Channel : public std::enable_shared_from_this<Channel> {
   }
 
  private:
+  void stay() { seat_.take(shared_.guests, close_of(*this)); }
+
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) self->take();
@@ -131,6 +114,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
   }
 
   void take() {
+    stay();
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
     if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
@@ -160,7 +144,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
     if (!message) return;
     message_ = std::move(*message);
     sending_ = true;
-    const auto place = shared_.waiting.add({size_of(message_), close_of(weak_from_this())});
+    const auto place = shared_.waiting.add({size_of(message_), close_of(*this)});
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : message_) buffers.emplace_back(part->data(), part->size());
     stream_.binary(true);
@@ -168,13 +152,15 @@ class Channel : public std::enable_shared_from_this<Channel> {
       self->shared_.waiting.remove(place);
       self->sending_ = false;
       self->message_.clear();
-      if (!error) self->send();
+      if (error) return;
+      self->stay();
+      self->send();
     };
     stream_.async_write(buffers, written);
   }
 
-  Counted counted_;
   Shared& shared_;
+  Seat seat_;
   websocket::stream<beast::tcp_stream> stream_;
   std::unique_ptr<WebChannel> channel_;
   beast::flat_buffer buffer_;

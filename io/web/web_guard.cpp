@@ -64,7 +64,7 @@ bool WebGuard::is_own_host(std::string_view host) const {
 }
 
 std::optional<WebAnswer> WebGuard::refuse(const WebSender& sender) const {
-  if (!sender.host) return web_error(400, "a request needs a Host header");
+  if (!sender.host) return web_error(400, "a request needs one Host header");
   if (!is_own_host(*sender.host))
     return web_error(403, "this server does not serve under that name; open " +
                               (token_.empty() ? url() : std::string("the address it printed")));

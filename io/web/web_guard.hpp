@@ -10,7 +10,8 @@
 
 namespace penumbra::io {
 
-/// What of a request tells who sends it. Views into the request; nothing: the header is not there.
+/// What of a request tells who sends it. Views into the request; nothing: the header is not there,
+/// or there is more than one Host.
 struct WebSender {
   std::optional<std::string_view> host, origin;
   std::string_view cookies;

@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::uint32_t most_header_bytes = 8 * 1024;
 constexpr int send_buffer_bytes = 512 * 1024;  // of the kernel, for each connection
-constexpr std::size_t most_refused = 64;  // connections over the limit that still get their 503
-constexpr auto refusal_time = std::chrono::seconds(2);
+constexpr auto closing_time = std::chrono::seconds(2);
 constexpr auto accept_pause = std::chrono::milliseconds(100);
 
 // Scripts, styles and images come from here alone; nothing frames the page or is sent elsewhere.
@@ -37,8 +36,7 @@ beast::string_view beast_view(std::string_view text) { return {text.data(), text
 
 WebSender sender_of(const Request& request) {
   WebSender sender;
-  if (const auto at = request.find(http::field::host); at != request.end())
-    sender.host = view_of(at->value());
+  if (request.count(http::field::host) == 1) sender.host = view_of(request[http::field::host]);
   if (const auto at = request.find(http::field::origin); at != request.end())
     sender.origin = view_of(at->value());
   sender.cookies = view_of(request[http::field::cookie]);
@@ -54,12 +52,8 @@ std::string machine_name() {
 /// An HTTP client: reads a request, answers it, reads the next.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(tcp::socket socket, Shared& shared, Counted counted)
-      : counted_(std::move(counted)),
-        shared_(shared),
-        is_over_limit_(counted_.before() >= shared.options.max_connections),
-        stream_(std::move(socket)),
-        buffer_(most_header_bytes + 1024) {
+  Connection(tcp::socket socket, Shared& shared)
+      : shared_(shared), stream_(std::move(socket)), buffer_(most_header_bytes + 1024) {
     beast::error_code ignored;
     stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer_bytes), ignored);
     stream_.socket().set_option(tcp::no_delay(true), ignored);
@@ -68,6 +62,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   [[nodiscard]] beast::tcp_stream& socket() { return stream_; }
 
   void run() {
+    seat_.take(shared_.strangers, close_of(*this));
     asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
   }
 
@@ -75,10 +70,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(most_header_bytes);
-    if (is_over_limit_)
-      stream_.expires_after(refusal_time);
-    else
-      stream_.expires_after(shared_.options.request_time);
+    stream_.expires_after(shared_.options.request_time);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
                        if (error) return self->refuse_malformed(error);
@@ -102,27 +94,27 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void handle() {
     const Request request = parser_->release();
-    keep_alive_ = request.keep_alive() && !is_over_limit_;
+    keep_alive_ = request.keep_alive();
     is_head_ = request.method() == http::verb::head;
     version_ = request.version();
-    if (is_over_limit_)
-      return answer(web_error(503, "too many connections; try again in a moment"));
     const WebSender sender = sender_of(request);
     if (const auto refusal = shared_.guard.refuse(sender)) return answer(*refusal);
     if (request.method() != http::verb::get && !is_head_)
       return answer(web_error(405, "only GET and HEAD are served"));
     const auto target = parse_target(view_of(request.target()));
     if (!target) return answer(web_error(400, "the request's path is none"));
-    if (shared_.guard.brings_token(*target)) return admit(*target);
-    if (!shared_.guard.knows_token(sender))
+    const bool brings_token = shared_.guard.brings_token(*target);
+    if (!brings_token && !shared_.guard.knows_token(sender))
       return answer(web_error(401, "the token is missing; open the address that was printed"));
+    seat_.take(shared_.guests, close_of(*this));
+    if (brings_token) return admit();
     if (websocket::is_upgrade(request)) return upgrade(request, *target);
     answer(made_answer(*target));
   }
 
   /// The token goes into a cookie and out of the address, where histories would keep it.
-  void admit(const WebRequest& request) {
-    extra_.emplace_back(http::field::location, request.path.starts_with("//") ? "/" : request.path);
+  void admit() {
+    extra_.emplace_back(http::field::location, "/");
     extra_.emplace_back(http::field::set_cookie, shared_.guard.cookie());
     answer({.status = 303, .type = "text/plain", .body = {}});
   }
@@ -140,8 +132,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void upgrade(const Request& request, const WebRequest& target) {
     auto channel = shared_.handler.open_channel(target.path);
     if (!channel) return answer(web_error(404, "there is no WebSocket at " + target.path));
-    std::make_shared<Channel>(std::move(stream_), shared_, std::move(counted_), std::move(channel))
-        ->run(request);
+    seat_.leave();
+    std::make_shared<Channel>(std::move(stream_), shared_, std::move(channel))->run(request);
   }
 
   Head head_of(const WebAnswer& answer) {
@@ -157,7 +149,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
     head.set("X-Content-Type-Options", "nosniff");
     head.set("Cross-Origin-Resource-Policy", "same-origin");
     head.set("Referrer-Policy", "no-referrer");
-    if (answer.status == 503) head.set(http::field::retry_after, "1");
     if (answer.status == 405) head.set(http::field::allow, "GET, HEAD");
     for (const auto& [field, value] : std::exchange(extra_, {})) head.set(field, value);
     return head;
@@ -170,7 +161,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!is_head_) body_.insert(body_.end(), answer.body.begin(), answer.body.end());
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : body_) buffers.emplace_back(part->data(), part->size());
-    const auto place = shared_.waiting.add({size_of(body_), close_of(weak_from_this())});
+    const auto place = shared_.waiting.add({size_of(body_), close_of(*this)});
     stream_.expires_after(shared_.options.answer_time);
     asio::async_write(stream_, buffers,
                       [self = shared_from_this(), place](beast::error_code error, std::size_t) {
@@ -185,7 +176,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close() {
     beast::error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(refusal_time);
+    stream_.expires_after(closing_time);
     drain();
   }
 
@@ -200,9 +191,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
                             });
   }
 
-  Counted counted_;
   Shared& shared_;
-  bool is_over_limit_;
+  Seat seat_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -256,14 +246,12 @@ struct WebServer::State {
   }
 
   void accept() {
-    acceptor.async_accept(
-        asio::make_strand(context), [this](beast::error_code error, tcp::socket socket) {
-          if (error) return wait_to_accept();
-          Counted counted(shared->connections);
-          if (counted.before() < shared->options.max_connections + most_refused)
-            std::make_shared<Connection>(std::move(socket), *shared, std::move(counted))->run();
-          accept();
-        });
+    acceptor.async_accept(asio::make_strand(context),
+                          [this](beast::error_code error, tcp::socket socket) {
+                            if (error) return wait_to_accept();
+                            std::make_shared<Connection>(std::move(socket), *shared)->run();
+                            accept();
+                          });
   }
 
   /// Where the system has no descriptors left, for one.

@@ -16,8 +16,11 @@ struct WebOptions {
   std::uint16_t port = 0;             ///< 0: any that is free
   int threads = 2;
 
-  /// Beyond these connections the answer is 503.
+  /// Connections that have shown the token (or asked for something, where none is wanted). For more
+  /// of them the one that was idle for longest is closed.
   std::size_t max_connections = 256;
+  /// Connections that have not. For more of them the oldest is closed.
+  std::size_t max_strangers = 64;
   /// Bytes of answers that wait for their clients, all together; for more of them the oldest is
   /// given up, and its connection closed.
   std::size_t max_waiting_bytes = std::size_t{256} << 20U;

@@ -100,10 +100,12 @@ class DisjointSets {
     return i;
   }
 
-  void join(std::uint32_t a, std::uint32_t b) {
+  /// Returns whether they were apart.
+  bool join(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
   }
 
  private:

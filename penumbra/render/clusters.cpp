@@ -1,13 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <numeric>
 
 #include <meshoptimizer.h>
 
+#include <penumbra/base/mesh_edges-inl.hpp>
 #include <penumbra/base/mesh_topology.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/shells.hpp>
 
 namespace penumbra {
+namespace {
+
+/// Whether meshopt_buildMeshlets takes time in proportion to the triangles: it looks through all
+/// triangles of a vertex for each of them, and through all triangles for each separate piece.
+bool has_neighbourhoods(const TriangleMesh& welded, const std::vector<std::uint32_t>& indices) {
+  constexpr std::size_t most = 1000;  // looks for each triangle; separate pieces
+  std::vector<std::size_t> uses(welded.vertices.size(), 0);
+  DisjointSets pieces(welded.vertices.size());
+  std::size_t joined = 0;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    ++uses[indices[i]];
+    joined += pieces.join(indices[i - i % 3], indices[i]) ? 1 : 0;
+  }
+  const auto used =
+      uses.size() - static_cast<std::size_t>(std::count(uses.begin(), uses.end(), 0U));
+  const std::size_t looks =
+      std::inner_product(uses.begin(), uses.end(), uses.begin(), std::size_t{0});
+  return looks <= most * indices.size() / 3 && used - joined <= most;
+}
+
+}  // namespace
 
 ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
@@ -35,9 +58,14 @@ void ClusteredScene::add_shell(const TriangleMesh& welded,
   std::vector<std::uint32_t> vertices(bound * max_vertices);
   std::vector<unsigned char> local(bound * max_triangles * 3);
   constexpr float cone_weight = 0.25F;  // some weight for clusters that face one way as a whole
-  meshlets.resize(meshopt_buildMeshlets(
-      meshlets.data(), vertices.data(), local.data(), indices.data(), indices.size(), positions,
-      welded.vertices.size(), sizeof(Eigen::Vector3f), max_vertices, max_triangles, cone_weight));
+  meshlets.resize(
+      has_neighbourhoods(welded, indices)
+          ? meshopt_buildMeshlets(meshlets.data(), vertices.data(), local.data(), indices.data(),
+                                  indices.size(), positions, welded.vertices.size(),
+                                  sizeof(Eigen::Vector3f), max_vertices, max_triangles, cone_weight)
+          : meshopt_buildMeshletsScan(meshlets.data(), vertices.data(), local.data(),
+                                      indices.data(), indices.size(), welded.vertices.size(),
+                                      max_vertices, max_triangles));
   shell.first_cluster = static_cast<std::uint32_t>(clusters.size());
   shell.cluster_count = static_cast<std::uint32_t>(meshlets.size());
   for (const std::uint32_t i : indices) shell.bounds.extend(welded.vertices[i].cast<double>());

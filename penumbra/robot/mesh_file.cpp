@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_file.hpp>
 #include <penumbra/robot/mesh_formats-inl.hpp>
 
@@ -23,26 +22,6 @@ std::string lower_ending(const std::filesystem::path& file) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return ending;
-}
-
-std::string read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw FormatError("no such file; check the path and the package's folder");
-  if (!std::filesystem::is_regular_file(status))
-    throw FormatError(std::filesystem::is_directory(status)
-                          ? "it is a folder; name the mesh file inside it"
-                          : "it is no regular file; name a mesh file");
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes;
-  const auto size = std::filesystem::file_size(file, error);
-  if (!stream || error) throw FormatError("it cannot be opened; check its permissions");
-  bytes.resize(size);
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(stream.gcount()) != size)
-    throw FormatError("it cannot be read to its end; check the disk");
-  return bytes;
 }
 
 void check_is_mesh(const std::string& bytes) {
@@ -65,7 +44,7 @@ TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& byt
 
 TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   const std::string ending = lower_ending(file);
-  std::string bytes = read_bytes(file);
+  std::string bytes = read_whole_file(file, FileLimit::data);
   check_is_mesh(bytes);
   if (ending == "stl") return mesh_formats::read_stl(bytes);
   if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending);

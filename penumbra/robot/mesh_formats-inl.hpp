@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,15 @@ class FormatError : public std::runtime_error {
 /// Throws FormatError of a file that was cut off or altered.
 [[noreturn]] inline void damaged(const std::string& what) {
   throw FormatError(what + "; it is truncated or damaged; export or copy it again");
+}
+
+/// Throws FormatError for a polygon of more corners than are cut into triangles: the time that it
+/// takes grows with their square.
+inline void check_corners(std::uint64_t corners) {
+  constexpr std::uint64_t most = 4000;
+  if (corners > most)
+    throw FormatError("a polygon has " + std::to_string(corners) + " corners, more than " +
+                      std::to_string(most) + "; export the mesh as triangles");
 }
 
 /// Of all instances: a file that unfolds to more is an attack or a mistake.

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/mesh_formats-inl.hpp>
 
 namespace penumbra::mesh_formats {
@@ -111,14 +112,15 @@ void check_transforms(const Json& root) {
   }
 }
 
-constexpr std::uint64_t largest_size = std::uint64_t{1} << 32;  // products of two do not overflow
+constexpr std::uint64_t largest_size = FileLimit::data;  // products of two do not overflow
 
 /// A count, size or offset in bytes.
 std::uint64_t size_in(const Json& object, const char* name, std::uint64_t otherwise) {
   if (!object.contains(name)) return otherwise;
   const Json& value = object.at(name);
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= largest_size)
-    damaged("glTF: " + std::string(name) + " " + value.dump() + " is no size");
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest_size)
+    damaged("glTF: " + std::string(name) + " " + value.dump() + " is no size up to " +
+            std::to_string(largest_size));
   return value.get<std::uint64_t>();
 }
 
@@ -223,6 +225,7 @@ std::size_t check_gltf(std::string_view bytes, bool binary) {
     check_nodes(root);
     check_rigid(root);
     check_transforms(root);
+    for (const Json& buffer : array_of(root, "buffers")) size_in(buffer, "byteLength", 0);
     for (const Json& accessor : array_of(root, "accessors")) check_accessor(root, accessor);
     std::size_t triangles = 0;
     for (const Json& mesh : array_of(root, "meshes"))

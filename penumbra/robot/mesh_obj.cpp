@@ -25,7 +25,7 @@ class ObjCheck {
     ++line_;
     const std::string_view keyword = take_word(line);
     if (keyword == "v") vertex(line);
-    if (keyword == "f" && corners(line) < 3) fail("", "a face's third corner");
+    if (keyword == "f") face(line);
     if (keyword == "l" || keyword == "p") corners(line);
   }
 
@@ -60,8 +60,14 @@ class ObjCheck {
                         ": a vertex has a fourth coordinate, which is not 1; export it with three");
   }
 
-  int corners(std::string_view line) {
-    int count = 0;
+  void face(std::string_view line) {
+    const std::size_t count = corners(line);
+    if (count < 3) fail("", "a face's third corner");
+    check_corners(count);
+  }
+
+  std::size_t corners(std::string_view line) {
+    std::size_t count = 0;
     for (std::string_view word = take_item(line); !word.empty(); word = take_item(line), ++count) {
       const auto index = parse_number<std::int64_t>(word.substr(0, word.find('/')));
       if (!index || *index == 0 || *index < -vertices_) fail(word, "a vertex's number");

@@ -151,6 +151,7 @@ void check_list(Body& body, const Property& property, std::uint64_t vertices) {
   const std::int64_t count = body.integer(property.count_type);
   const bool names_vertices = property.name == "vertex_indices" || property.name == "vertex_index";
   if (count < 0) damaged("PLY: a list has a negative count");
+  if (names_vertices) check_corners(static_cast<std::uint64_t>(count));
   for (std::int64_t i = 0; i < count; ++i) {
     if (!names_vertices) {
       body.skip(property.type);

@@ -13,7 +13,6 @@
 namespace penumbra::mesh_formats {
 namespace {
 
-constexpr std::size_t most_corners = 4000;
 constexpr double overlap_of_rounding = 1e-5;  // of the square of a polygon's length
 constexpr double most_fold = 10.0;            // surface for each area that is seen from its front
 
@@ -118,9 +117,7 @@ void append_polygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh) 
     mesh.triangles.push_back({corners[0], corners[1], corners[2]});
     return;
   }
-  if (corners.size() > most_corners)
-    throw FormatError("a polygon has " + std::to_string(corners.size()) + " corners, more than " +
-                      std::to_string(most_corners) + "; export the mesh as triangles");
+  check_corners(corners.size());
   Polygon(corners, mesh).cut(mesh);
 }
 

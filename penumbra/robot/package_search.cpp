@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/package_search-inl.hpp>
 #include <penumbra/robot/xml_document-inl.hpp>
 
@@ -77,9 +76,8 @@ std::optional<std::string> package_name(const fs::path& folder) {
   const fs::path file = folder / "package.xml";
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   try {
+    const std::string text = read_whole_file(file, FileLimit::text);
     for (const XmlElement& child : read_xml(text, file.string()).children)
       if (child.name == "name" && !child.text.empty()) return child.text;
   } catch (const InputError&) {

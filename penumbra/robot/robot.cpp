@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
-#include <iterator>
 #include <utility>
 
-#include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/robot_model-inl.hpp>
@@ -13,17 +11,6 @@ namespace penumbra {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) throw InputError(file.string() + ": no such file");
-  if (!fs::is_regular_file(file, error))
-    throw InputError(file.string() + ": is not a file; a URDF is expected");
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() && !in.eof()) throw InputError(file.string() + ": cannot be read");
-  return text;
-}
 
 std::optional<std::size_t> find(const std::map<std::string, std::size_t, std::less<>>& index,
                                 std::string_view name) {
@@ -80,7 +67,8 @@ std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, cons
 }
 
 Robot Robot::load(const fs::path& urdf, const RobotOptions& options) {
-  return Robot(make_model(read_file(urdf), urdf.string(), urdf.parent_path(), options));
+  return Robot(make_model(read_whole_file(urdf, FileLimit::text), urdf.string(), urdf.parent_path(),
+                          options));
 }
 
 Robot Robot::parse(std::string_view xml, const fs::path& folder, const RobotOptions& options) {

@@ -14,6 +14,8 @@
 namespace penumbra::detail {
 namespace {
 
+constexpr std::ptrdiff_t most_parts = 2'000'000;  // some 500 MB of memory
+
 [[noreturn]] void fail(const std::string& file, int line, const std::string& what) {
   throw InputError(file + ":" + std::to_string(line) + ": " + what);
 }
@@ -66,6 +68,11 @@ void check_start(std::string_view xml, const std::string& file) {
     throw InputError(file +
                      ": is not text in UTF-8 (it holds zero bytes, as UTF-16 does); a URDF " +
                      "in UTF-8 is expected");
+  const auto parts =
+      std::count_if(xml.begin(), xml.end(), [](char c) { return c == '<' || c == '='; });
+  if (parts > most_parts)
+    throw InputError(file + ": has more than " + std::to_string(most_parts) +
+                     " tags and attributes; check that it is the right file");
   const bool marked = xml.starts_with("\xEF\xBB\xBF");
   if (!trimmed(xml.substr(marked ? 3 : 0)).starts_with('<'))
     throw InputError(file + ": is not XML (it does not start with '<'); a URDF is expected");

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <io/file_lock.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -19,8 +21,8 @@ class BadOutputTest : public testing::Test {
   BadOutputTest() { write_tiny_recording(folder_.path()); }
 
   void expect_refused(const fs::path& output, const std::string& word) {
-    const Outcome outcome =
-        penumbra({"run", folder_.path(), "-o", output, "--save", "vdi,labels,links,overlay"});
+    const Outcome outcome = penumbra(
+        {"run", folder_.path(), "-o", output, "--force", "--save", "vdi,labels,links,overlay"});
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
     EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
@@ -43,8 +45,8 @@ TEST_F(BadOutputTest, LiesInAFile) {
 TEST_F(BadOutputTest, LiesWhereNobodyMayWrite) { expect_refused("/proc/penumbra", "/proc"); }
 
 TEST_F(BadOutputTest, DiskIsFull) {
-  for (const char* file : {"report.json.part", "vdi/000000.npy", "labels/000001.png",
-                           "links/000002.png", "overlay/000000.png"}) {
+  for (const char* file :
+       {"vdi/000000.npy", "labels/000001.png", "links/000002.png", "overlay/000000.png"}) {
     const fs::path output = folder_.path() / "out";
     fs::create_directories((output / file).parent_path());
     fs::create_symlink("/dev/full", output / file);
@@ -87,9 +89,10 @@ TEST_F(BadOutputTest, AFormerRunStaysUntilAllOfTheNextsInputIsRead) {
   fs::rename(folder_.path() / "board.away", folder_.path() / "board.stl");
 
   write_file(output / "labels/notes.txt", "the user's own");
-  write_file(output / "report.json.part", "");  // a run that was killed early
+  const fs::path part = output / "report.json.penumbra.part";
+  fs::rename(output / "report.json", part);  // as of a run that was killed
   EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
-  EXPECT_FALSE(fs::exists(output / "report.json.part"));
+  EXPECT_FALSE(fs::exists(part));
   EXPECT_TRUE(fs::is_empty(output / "vdi")) << "the former run's";
   EXPECT_EQ(read_file(output / "labels/notes.txt"), "the user's own");
 }
@@ -103,41 +106,52 @@ TEST_F(BadOutputTest, ARecordingIsNoOutputFolder) {
   EXPECT_TRUE(fs::exists(other / "labels/000000.png"));
 }
 
-TEST_F(BadOutputTest, ImagesOfNoRunStayAndAreRefused) {
+TEST_F(BadOutputTest, AFolderOfAnotherIsRefusedAndLeftAsItIs) {
   const fs::path output = folder_.path() / "out";
-  for (const char* file :
-       {"vdi/0000001.npy", "labels/000000.png", "links/000123.png", "overlay/20261120.png"}) {
-    fs::create_directories((output / file).parent_path());
-    write_file(output / file, "the user's own");
-    for (const char* save : {"", "vdi,labels,links,overlay"}) {
-      std::vector<std::string> line = {"run", folder_.path(), "-o", output};
-      if (*save != '\0') line.insert(line.end(), {"--save", save});
-      const Outcome outcome = penumbra(line);
-      EXPECT_EQ(outcome.status, 2) << outcome.err;
-      EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-      EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
-      EXPECT_FALSE(fs::exists(output / "report.json"));
-      EXPECT_EQ(read_file(output / file), "the user's own");
-    }
-    fs::remove_all(output);
-  }
-}
-
-TEST_F(BadOutputTest, AnotherProgramsReportStaysAndIsRefused) {
-  const fs::path output = folder_.path() / "out";
-  for (const char* file : {"report.json", "report.json.part"}) {
-    fs::create_directories(output / "labels");
+  fs::create_directories(output / "labels");
+  for (const char* file : {"notes.txt", "report.json", "labels/000000.png", "labels/mine.png"}) {
     write_file(output / file, "{\"lighthouse\": 11}");
-    write_file(output / "labels/000000.png", "the user's own");
-    const Outcome outcome = penumbra({"run", folder_.path(), "-o", output});
+    const Outcome outcome =
+        penumbra({"run", folder_.path(), "-o", output, "--save", "vdi,labels,links,overlay"});
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find(std::string(file) + ": is no report of penumbra"), std::string::npos)
-        << outcome.err;
+    EXPECT_NE(outcome.err.find("--force"), std::string::npos) << outcome.err;
     EXPECT_EQ(read_file(output / file), "{\"lighthouse\": 11}");
-    EXPECT_EQ(read_file(output / "labels/000000.png"), "the user's own");
-    fs::remove_all(output);
+    EXPECT_FALSE(fs::exists(output / "vdi"));
   }
+  EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--force", "--save", "vdi"}).status, 0);
+  for (const char* file : {"notes.txt", "labels/000000.png", "labels/mine.png"})
+    EXPECT_EQ(read_file(output / file), "{\"lighthouse\": 11}") << file;
+}
+
+TEST_F(BadOutputTest, IsWrittenByAnotherRun) {
+  const fs::path output = folder_.path() / "out";
+  const std::vector<std::string> line = {"run", folder_.path(), "-o", output, "--save", "labels"};
+  ASSERT_EQ(penumbra(line).status, 0);
+  {
+    const io::FileLock lock(output);
+    const Outcome outcome = penumbra(line);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    EXPECT_NE(outcome.err.find("out: another program is writing it"), std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(fs::exists(output / "report.json"));
+    EXPECT_TRUE(fs::exists(output / "labels/000000.png"));
+  }
+  EXPECT_EQ(penumbra(line).status, 0);
+}
+
+TEST_F(BadOutputTest, WhatFailsBehindTheReportSaysThatItIsNew) {
+  const fs::path output = folder_.path() / "out";
+  ASSERT_EQ(penumbra({"run", folder_.path(), "-o", output}).status, 0);
+  fs::create_symlink("/dev/full", output / "report.html");
+  const Outcome outcome =
+      penumbra({"run", folder_.path(), "-o", output, "--report", "--force", "--save", "labels"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("report.html: cannot be written"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("report.json is new and whole"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(fs::exists(output / "labels/000000.png"));
 }
 
 TEST_F(BadOutputTest, ImagesBehindALinkStayAndAreRefused) {
@@ -149,7 +163,8 @@ TEST_F(BadOutputTest, ImagesBehindALinkStayAndAreRefused) {
   fs::create_directory_symlink(photos, output / "labels");
   const Outcome outcome = penumbra({"run", folder_.path(), "-o", output});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_NE(outcome.err.find("labels: leads to a folder with 000000.png"), std::string::npos)
+  EXPECT_NE(outcome.err.find("labels: cannot be used as output folder (it is a link"),
+            std::string::npos)
       << outcome.err;
   EXPECT_EQ(read_file(photos / "000000.png"), "the user's own");
 
@@ -160,14 +175,17 @@ TEST_F(BadOutputTest, ImagesBehindALinkStayAndAreRefused) {
   EXPECT_EQ(read_file(photos / "000000.png"), "the user's own") << "the link alone is replaced";
 }
 
-TEST_F(BadOutputTest, AFailedRunsImagesAreGoneSoThatTheNextIsTaken) {
+TEST_F(BadOutputTest, AFailedRunRemovesWhatItWroteAndNothingElse) {
   const fs::path output = folder_.path() / "out";
   fs::create_directories(output / "labels");
+  write_file(output / "labels/000100.png", "the user's own");
   fs::create_symlink("/dev/full", output / "labels/000001.png");
   expect_refused(output, "000001.png");
   EXPECT_FALSE(fs::exists(output / "labels/000000.png")) << "no report says whose it is";
   EXPECT_FALSE(fs::exists(output / "vdi/000000.npy"));
-  fs::remove(output / "labels/000001.png");
+  EXPECT_FALSE(fs::exists(output / "report.json.penumbra.part"));
+  EXPECT_EQ(read_file(output / "labels/000100.png"), "the user's own");
+  fs::remove(output / "labels/000100.png");
   EXPECT_EQ(penumbra({"run", folder_.path(), "-o", output, "--save", "labels"}).status, 0);
 }
 
@@ -176,7 +194,7 @@ TEST_F(BadOutputTest, TheReportsNameIsTakenByAFolder) {
   const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("report.json: is a folder"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("report.json: cannot be written"), std::string::npos) << outcome.err;
   EXPECT_TRUE(fs::is_directory(folder_.path() / "out/report.json"));
 }
 

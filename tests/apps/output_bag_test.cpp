@@ -22,6 +22,7 @@
 #include <io/bag/bag_reader.hpp>
 #include <io/mcap/crc32.hpp>
 #include <io/npy.hpp>
+#include <io/pending_file.hpp>
 #include <io/png.hpp>
 #include <io/ros/image_codec.hpp>
 
@@ -259,7 +260,7 @@ TEST_F(OutputBagTest, WithoutALinkNothingIsTrusted) {
 
 TEST_F(OutputBagTest, RefusesWhatABagCannotHold) {
   for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"--save", "labels"}, {"--image", "rectified"}}) {
+       {std::vector<std::string>{"--save", "labels"}, {"--image", "rectified"}, {"--force"}}) {
     const Outcome outcome = run("results.mcap", options);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
@@ -297,6 +298,21 @@ TEST_F(OutputBagTest, AFormerBagStaysUntilTheNextIsWhole) {
   EXPECT_EQ(run("results.mcap", {"--frames", "0:1"}).status, 0);
   EXPECT_LT(fs::file_size(results), former.size());
   EXPECT_EQ(names_with("results.mcap"), 1U);
+}
+
+TEST_F(OutputBagTest, ABagHasOneWriter) {
+  const fs::path results = folder_.path() / "results.mcap";
+  ASSERT_EQ(run("results.mcap").status, 0);
+  const std::string former = read_file(results);
+  const io::PendingFile other(results);
+  write_file(other.part(), "another run's");
+  const Outcome outcome = run("results.mcap");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  EXPECT_NE(outcome.err.find("results.mcap: another program is writing it"), std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(read_file(results) == former);
+  EXPECT_EQ(read_file(other.part()), "another run's");
 }
 
 TEST_F(OutputBagTest, OnlyABagOfResultsIsReplaced) {

@@ -31,7 +31,6 @@ class PendingFileTest : public testing::Test {
 
 TEST_F(PendingFileTest, TakesThePlaceOnlyWhenItIsFinished) {
   PendingFile pending(file_);
-  EXPECT_EQ(files(), 1U) << "nothing is made yet";
   write(pending);
   EXPECT_EQ(test::read_bytes(file_), "old") << "as SIGKILL would leave it";
   pending.finish();
@@ -68,7 +67,7 @@ TEST_F(PendingFileTest, ReplacesWhatALinkLeadsTo) {
 
 TEST_F(PendingFileTest, APartThatIsALinkIsNotFollowed) {
   const fs::path other = folder_.write("other", "the user's own");
-  const fs::path part = PendingFile(file_).part();
+  const fs::path part = PendingFile::part_of(file_);
   fs::create_symlink(other, part);
   PendingFile pending(file_);
   write(pending);
@@ -138,10 +137,41 @@ TEST_F(PendingFileTest, SaysWhereThePlaceCannotBeTaken) {
   EXPECT_HAS(test::input_error([&] { pending.finish(); }), "late: cannot be replaced: ");
 }
 
-TEST_F(PendingFileTest, TellsWhatIsLeft) {
-  EXPECT_EQ(left_as_it_was(file_), "; " + file_.string() + " is left as it was");
-  EXPECT_EQ(left_as_it_was(folder_.path() / "none"), "");
-  EXPECT_EQ(left_as_it_was("/dev/null"), "");
+TEST_F(PendingFileTest, HasOneWriter) {
+  PendingFile first(file_);
+  write(first);
+  EXPECT_HAS(test::input_error([&] { PendingFile second(file_); }),
+             file_.string() + ": another program is writing it");
+  EXPECT_EQ(test::read_bytes(first.part()), "new") << "untouched";
+  first.finish();
+  PendingFile second(file_);
+  std::ofstream(second.part()) << "newer";
+  EXPECT_EQ(test::read_bytes(file_), "new");
+  second.finish();
+  EXPECT_EQ(test::read_bytes(file_), "newer");
+}
+
+TEST_F(PendingFileTest, TakesOverThePartOfAKilledProgram) {
+  const fs::path part = folder_.write(PendingFile::part_of("a.npy"), "half");
+  {
+    const PendingFile pending(file_);
+    EXPECT_EQ(pending.part(), part);
+  }
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(PendingFileTest, AFolderHasOneWriter) {
+  const FileLock lock(folder_.path());
+  EXPECT_HAS(test::input_error([&] { FileLock second(folder_.path()); }),
+             folder_.path().string() + ": another program is writing it");
+}
+
+TEST_F(PendingFileTest, SaysWhatBecameOfFiles) {
+  const FormerFiles former({file_, folder_.path() / "none", "/dev/null", folder_.path() / "b"});
+  EXPECT_EQ(former.state(), "; " + file_.string() + " is left as it was");
+  fs::remove(file_);
+  const fs::path made = folder_.write("b", "new");
+  EXPECT_EQ(former.state(), "; " + made.string() + " is new and whole");
   EXPECT_HAS(test::input_error([&] { check_is_no_folder("-o", folder_.path()); }), " is a folder");
 }
 

@@ -161,7 +161,7 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
       {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1e30, 1, 1]\n", "edge of the box is 1e+30"},
       {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1, 1, 1]\n  thresholds: {min_inside: 0.5}\n",
        ":5: targets[0].thresholds.min_inside: is not possible"},
-      {head + "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: nope.stl\n", ":4: targets[0].file: mesh "},
+      {head + "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: nope.stl\n", ":4: targets[0].file: "},
       {head + "keypoint: [1, 1]\n  handling: point\n  estimate: {point: [1e308, 0, 0]}\n",
        ":5: targets[0].estimate.point: position is not finite, or more than"},
       {"targets:\n- name: \"a\\nb\"\n  box: [1, 2, 3, 4]\n", ":2: targets[0].name: has a control"},

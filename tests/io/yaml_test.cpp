@@ -115,9 +115,14 @@ TEST(Yaml, BoundsItsWork) {
   const test::TemporaryFolder folder;
   EXPECT_HAS(
       input_error([&] {
-        static_cast<void>(YamlNode::read(folder.write("big.yaml", std::string(2000000, '#'))));
+        static_cast<void>(YamlNode::read(folder.write("big.yaml", std::string(20000000, '#'))));
       }),
-      "has 2000000 bytes, more than the 1048576");
+      "big.yaml: has 20000000 bytes");
+  for (const char* part : {"[", "[],", "{a: 1},", "- ", "? ", "a:\n"}) {
+    std::string many;
+    for (int i = 0; i < 1'000'001; ++i) many += part;
+    EXPECT_HAS(fault(many), "f.yaml: has more than 1000000 lines");
+  }
   EXPECT_HAS(input_error([&] { static_cast<void>(YamlNode::read(folder.path() / "none.yaml")); }),
              "none.yaml: cannot be read: No such file or directory");
 }

@@ -237,3 +237,42 @@ def test_metres_without_the_robot_are_nan(shipped):
     assert len(report.points()) == np.count_nonzero(filtered > 0)
     nothing = shipped.pipeline.process(frame.frame.replace(depth=None))
     assert not nothing.filtered_depth().any() and len(nothing.points()) == 0
+
+
+def test_a_camera_comes_from_opencvs_matrix():
+    K = [[600, 0, 320], [0, 610, 240], [0, 0, 1]]
+    camera = penumbra.Camera.from_matrix(K, (640, 480), [0.1, -0.2, 0, 0, 0.05])
+    k = camera.intrinsics
+    assert (k.width, k.height, k.fx, k.fy, k.cx, k.cy) == (640, 480, 600, 610, 320, 240)
+    assert camera.distortion.model.name == "plumb_bob"
+    assert penumbra.Camera.from_matrix(np.array(K), (640, 480)).distortion.is_none
+    with pytest.raises(ValueError, match="K"):
+        penumbra.Camera.from_matrix([[600, 1, 320], [0, 610, 240], [0, 0, 1]], (640, 480))
+
+
+def test_joints_may_be_named(shipped):
+    frame = shipped.frames[4]
+    robot = shipped.pipeline.robot
+    by_order = shipped.pipeline.process(frame.frame).labels.copy()
+    named = dict(zip(robot.variables, frame.frame.joints))
+    assert np.array_equal(by_order, shipped.pipeline.process(frame.frame.replace(joints=named)).labels)
+    with pytest.raises(KeyError, match="tail"):
+        shipped.pipeline.process(frame.frame.replace(joints=named | {"tail": 1.0}))
+    named.popitem()
+    with pytest.raises(KeyError, match="missing"):
+        shipped.pipeline.process(frame.frame.replace(joints=named))
+
+
+def test_an_unknown_variable_is_a_key_error(shipped):
+    robot = shipped.pipeline.robot
+    assert robot.find_variable(robot.variables[2]) == 2
+    with pytest.raises(KeyError, match="tail"):
+        robot.find_variable("tail")
+
+
+def test_an_inputs_frames_have_numbers():
+    given = penumbra.open_input(SHIPPED)
+    assert len(given) == 12
+    assert given[3].index == 3
+    with pytest.raises(IndexError, match="frame 12"):
+        given[12]

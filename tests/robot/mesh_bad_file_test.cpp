@@ -43,9 +43,34 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST_F(MeshBadFile, NoFile) {
-  EXPECT_NE(refusal(folder_.path() / "none.stl").find("no such file"), std::string::npos);
-  EXPECT_NE(refusal(folder_.path()).find("it is a folder"), std::string::npos);
-  EXPECT_NE(refusal("/dev/zero").find("no regular file"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path() / "none.stl").find("none.stl: "), std::string::npos);
+  EXPECT_NE(refusal(folder_.path()).find("is a folder"), std::string::npos);
+  EXPECT_NE(refusal("/dev/zero").find("not a regular file"), std::string::npos);
+}
+
+TEST_F(MeshBadFile, TooLargeIsRefusedUnread) {
+  const auto file = folder_.write("sparse.dae", "");
+  std::filesystem::resize_file(file, std::uintmax_t{6} << 30U);
+  EXPECT_NE(refusal(file).find("sparse.dae: has 6442450944 bytes"), std::string::npos);
+}
+
+TEST_F(MeshBadFile, PolygonsOfTooManyCorners) {
+  std::string vertices, face = "f", corners = "5000";
+  for (int i = 0; i < 5000; ++i) {
+    vertices += std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0\n";
+    face += " " + std::to_string(i + 1);
+    corners += " " + std::to_string(i);
+  }
+  std::string obj;
+  for (std::size_t at = 0; at < vertices.size(); at = vertices.find('\n', at) + 1)
+    obj += "v " + vertices.substr(at, vertices.find('\n', at) + 1 - at);
+  expect_refused("many.obj", obj + face + "\n", "a polygon has 5000 corners");
+  expect_refused("many.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 5000\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 1\n"
+                 "property list uint uint vertex_indices\nend_header\n" +
+                     vertices + corners + "\n",
+                 "a polygon has 5000 corners");
 }
 
 TEST_F(MeshBadFile, NoMesh) {
@@ -202,6 +227,7 @@ TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
   expect("\"count\":4", "\"count\":4,\"sparse\":{\"count\":1}", "sparse");
   expect("\"count\":4", "\"count\":4,\"byteOffset\":4", "beyond its bufferView");
   expect("\"count\":12", "\"count\":18446744073709551615", "is no size");
+  expect("\"byteLength\":72", "\"byteLength\":5000000000", "is no size");
   expect("\"byteLength\":48", "\"byteStride\":16,\"byteLength\":48", "beyond its bufferView");
   expect("\"byteLength\":48", "\"byteStride\":8,\"byteLength\":48", "into the next");
   expect("\"byteOffset\":48", "\"byteOffset\":49", "beyond its buffer");

@@ -381,12 +381,24 @@ TEST(UrdfFile, NamesMayBeOfAnyLanguageAndCommentsOfAnyBytes) {
 }
 
 TEST(UrdfFile, MissingIsSaid) {
-  EXPECT_TRUE(holds(message_of([] { (void)Robot::load("/nowhere/x.urdf"); }),
-                    "/nowhere/x.urdf: no such file"));
+  EXPECT_TRUE(holds(message_of([] { (void)Robot::load("/nowhere/x.urdf"); }), "/nowhere/x.urdf: "));
+}
+
+TEST(UrdfFile, TooLargeIsRefusedUnread) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("sparse.urdf", "");
+  std::filesystem::resize_file(file, std::uintmax_t{50} << 30U);
+  EXPECT_TRUE(holds(message_of([&] { (void)Robot::load(file); }), "sparse.urdf: has 53687091200"));
+}
+
+TEST(UrdfFile, TooManyElementsAreRefusedUnread) {
+  std::string xml = "<robot name=\"r\">";
+  for (int i = 0; i < 2'000'000; ++i) xml += "<a/>";
+  EXPECT_TRUE(holds(message_of([&] { (void)parse(xml + "</robot>"); }), "tags"));
 }
 
 TEST(UrdfFile, FolderIsNoFile) {
-  EXPECT_TRUE(holds(message_of([] { (void)Robot::load("/"); }), "is not a file"));
+  EXPECT_TRUE(holds(message_of([] { (void)Robot::load("/"); }), "is a folder"));
 }
 
 TEST(UrdfFile, MessagesNameFileAndLine) {

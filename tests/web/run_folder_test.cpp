@@ -147,6 +147,26 @@ TEST_F(ViewRunTest, ADeviceThatFailsIsToldAsWhatItIs) {
 }
 #endif
 
+TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {
+  run({"--save", "labels,overlay"});
+  const TemporaryFolder elsewhere;
+  fs::copy_file(out() / "overlay/000000.png", elsewhere.path() / "secret.png");
+  fs::remove(out() / "overlay/000000.png");
+  fs::create_symlink(elsewhere.path() / "secret.png", out() / "overlay/000000.png");
+  fs::rename(out() / "labels", elsewhere.path() / "labels");
+  fs::create_directory_symlink(elsewhere.path() / "labels", out() / "labels");
+  const ViewerProcess viewer({out()});
+  EXPECT_EQ(viewer.complete_session()["frames"], tiny_frames);
+  const auto status_of = [&](const std::string& what) {
+    const HttpReply reply = viewer.client().get("/api/frames/" + what);
+    EXPECT_EQ(reply.body.find("PNG"), std::string::npos) << what;
+    return reply.status;
+  };
+  EXPECT_EQ(status_of("0/packet?with=overlay"), 404);
+  EXPECT_EQ(status_of("1/packet?with=labels"), 404);
+  EXPECT_EQ(viewer.client().get("/api/frames/1/packet?with=overlay").status, 200);
+}
+
 TEST_F(ViewRunTest, ChoicesOfItsOwnAreRefused) {
   run();
   for (const std::vector<std::string>& choice : {std::vector<std::string>{"--labels", "paper"},

@@ -33,7 +33,7 @@ async function get<T>(
 
 async function reasonOf(response: Response): Promise<string> {
   try {
-    const body = (await response.json()) as { error?: unknown };
+    const body = parseJson<{ error?: unknown }>(await response.text());
     if (typeof body.error === 'string') return body.error;
   } catch {
     // no JSON: the status says what there is to say

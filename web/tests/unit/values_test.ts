@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { parseJson } from '../../src/api/json';
 import { pointBytes, type Packet } from '../../src/api/packet';
 import { depthColors, depthRange } from '../../src/model/depth_colors';
 import { count, metres, milliseconds, percent, stamp } from '../../src/model/format';
@@ -26,6 +27,14 @@ const packet: Packet = {
   vdi: { width: 2, height: 1, values: Float32Array.of(1.5, 0) },
   depth: { width: 2, height: 1, values: Float32Array.of(1.25, 0) },
 };
+
+test('names come without marks that turn the direction of text', () => {
+  const text = '{"name": "a\u202ecod.exe\u2066\u200f", "other": "\u05d0 \u8155 caf\u00e9"}';
+  assert.deepEqual(parseJson(text), {
+    name: 'a\ufffdcod.exe\ufffd\ufffd',
+    other: '\u05d0 \u8155 caf\u00e9',
+  });
+});
 
 test('what is not known is a dash, never a zero', () => {
   assert.equal(percent(null), '–');

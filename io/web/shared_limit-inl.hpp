@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace penumbra::io {
+
+/// What clients may use all together: bytes that wait for them, or connections. When they use more,
+/// the oldest use is given up, so that one client cannot take it from the others.
+class SharedLimit {
+ public:
+  explicit SharedLimit(std::size_t most) : most_(most) {}
+
+  struct Use {
+    std::size_t size;
+    std::function<void()> give_up;  // may be called by any thread
+  };
+  using Place = std::list<Use>::iterator;
+
+  Place add(Use use) {
+    std::vector<std::function<void()>> given_up;
+    const Place place = add(std::move(use), given_up);
+    for (const auto& give_up : given_up) give_up();
+    return place;
+  }
+
+  void remove(Place place) {
+    const std::lock_guard lock(mutex_);
+    size_ -= place->size;
+    uses_.erase(place);
+  }
+
+ private:
+  /// What gives up is called without the mutex: the client may be destroyed by it, and remove its
+  /// use.
+  Place add(Use use, std::vector<std::function<void()>>& given_up) {
+    const std::lock_guard lock(mutex_);
+    size_ += use.size;
+    for (auto old = uses_.begin(); size_ > most_ && old != uses_.end(); ++old) {
+      if (old->size == 0) continue;
+      size_ -= std::exchange(old->size, 0);
+      given_up.push_back(old->give_up);
+    }
+    return uses_.insert(uses_.end(), std::move(use));
+  }
+
+  std::mutex mutex_;
+  std::list<Use> uses_;  // oldest first
+  std::size_t size_ = 0;
+  std::size_t most_;
+};
+
+/// A connection's use of a limit.
+class Seat {
+ public:
+  Seat() = default;
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
+  ~Seat() { leave(); }
+
+  /// Takes the newest place of a limit, and leaves the former one.
+  void take(SharedLimit& limit, std::function<void()> give_up) {
+    leave();
+    place_ = limit.add({1, std::move(give_up)});
+    limit_ = &limit;
+  }
+  void leave() {
+    if (limit_ != nullptr) std::exchange(limit_, nullptr)->remove(place_);
+  }
+
+ private:
+  SharedLimit* limit_ = nullptr;
+  SharedLimit::Place place_;
+};
+
+}  // namespace penumbra::io
