@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+
 #include <io/recording_source.hpp>
 
 namespace penumbra::io {
@@ -19,6 +24,10 @@ Frame frame_of(const FrameData& data) {
 bool RecordingSource::next(FrameData& data, Frame& frame) {
   if (next_ == selected_.size()) return false;
   reader_.read(selected_[next_++], with_color_, data);
+  if (fps_ && data.stamp)
+    throw InputError("frame " + std::to_string(data.index) +
+                     " has a stamp of its own: leave --fps out");
+  if (fps_) data.stamp = std::llround(1e9 * static_cast<double>(data.index) / *fps_);
   frame = frame_of(data);
   return true;
 }

@@ -45,6 +45,14 @@ double to_time_offset(const std::string& text) {
   return *seconds;
 }
 
+double to_fps(const std::string& text) {
+  constexpr double least = 1e-3, most = 1e3;
+  const auto fps = io::parse_number<double>(text);
+  if (!fps || !(*fps >= least && *fps <= most))
+    refuse_option("--fps", text, "a number of frames per second from 0.001 to 1000");
+  return *fps;
+}
+
 bool to_paper(const std::string& name) {
   if (name == "paper") return true;
   if (name == "full") return false;

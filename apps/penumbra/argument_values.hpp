@@ -19,6 +19,7 @@ namespace penumbra::app {
 [[nodiscard]] Geometry to_geometry(const std::string& name);
 [[nodiscard]] ImageSpace to_image(const std::string& name);
 [[nodiscard]] PoseSource to_poses(const std::string& name);
+[[nodiscard]] double to_fps(const std::string& text);          ///< 1/s
 [[nodiscard]] double to_time_offset(const std::string& text);  ///< seconds
 [[nodiscard]] bool to_paper(const std::string& name);
 [[nodiscard]] Tolerance to_tolerance(const std::string& text);

@@ -77,6 +77,7 @@ struct RunArguments {
   bool paper_labels = false;
   ImageSpace image = ImageSpace::raw;
   FrameRange frames;
+  std::optional<double> fps;  ///< of a recording without stamps, 1/s
   Saves saves;
   std::string points_frame;  ///< link that points are given in; empty: the optical frame
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's

@@ -52,10 +52,10 @@ void OutputBag::write(io::Result result, std::int64_t stamp, std::span<const std
 
 void OutputBag::save(const FrameReport& report, const io::FrameData& frame,
                      const io::ShownTargets& targets) {
-  if (!report.stamp) {
-    ++without_stamp_;
-    return;
-  }
+  if (!report.stamp)
+    throw InputError(
+        "frame " + std::to_string(report.index) +
+        " has no stamp, and a bag's messages need one: give --fps N, of the recording");
   if (!report.missing_links.empty()) missing_link_ = report.missing_links.front();
   encoder_.encode(report, {frame.depth_view(), frame.color.view()}, targets, *this);
 }
@@ -67,9 +67,6 @@ void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::st
 
 std::vector<std::string> OutputBag::notes() const {
   std::vector<std::string> lines;
-  if (without_stamp_ > 0)
-    lines.push_back(file_.string() + ": " + std::to_string(without_stamp_) +
-                    " frames have no stamp and are not in it");
   if (!missing_link_.empty())
     lines.push_back(file_.string() + ": its mask trusts nothing, and it holds no points: link '" +
                     missing_link_ + "' is not drawn and may stand anywhere");

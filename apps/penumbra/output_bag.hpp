@@ -45,7 +45,6 @@ class OutputBag final : public RunOutput, private io::ResultSink {
   io::mcap::Writer writer_;
   io::ResultEncoder encoder_;
   std::array<Channel, io::result_topics.size()> channels_;  // by Result
-  std::size_t without_stamp_ = 0;
   std::string missing_link_;
 };
 

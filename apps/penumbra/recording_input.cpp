@@ -90,13 +90,15 @@ RunInput open_recording_input(const RunArguments& arguments) {
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
           .bag = {},
-          .frames = [reader = std::move(reader), selected = std::move(selected),
-                     with_color](const Robot&) -> std::unique_ptr<io::FrameSource> {
-            return std::make_unique<io::RecordingSource>(reader, selected, with_color);
+          .frames = [reader = std::move(reader), selected = std::move(selected), with_color,
+                     fps = arguments.fps](const Robot&) -> std::unique_ptr<io::FrameSource> {
+            return std::make_unique<io::RecordingSource>(reader, selected, with_color, fps);
           }};
 }
 
 RunInput open_input(const RunArguments& arguments, std::ostream& told) {
+  if (arguments.fps && is_bag(arguments.input))
+    throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
   return is_bag(arguments.input) ? open_bag_input(arguments, told)
                                  : open_recording_input(arguments);
 }

@@ -184,6 +184,9 @@ void add_run(CLI::App& app, RunArguments& run) {
       ->required();
   add_judging(app, run);
   add_sequence(app, run);
+  add_option(app, "--fps",
+             "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",
+             [&](const std::string& text) { run.fps = to_fps(text); });
   add_option(app, "--save",
              "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
              "filtered (depth) and points (PCD and PLY)",

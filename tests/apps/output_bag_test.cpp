@@ -366,11 +366,26 @@ TEST_F(OutputBagTest, ADeviceIsWrittenToAsItIs) {
   EXPECT_TRUE(fs::is_symlink(folder_.path() / "results.mcap"));
 }
 
-/// Frames of a folder without stamps have no place in time.
-TEST_F(OutputBagTest, TellsOfFramesWithoutStamps) {
-  const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "results.mcap"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("3 frames have no stamp"), std::string::npos) << outcome.err;
+/// Frames of a folder without stamps have no place in time, unless it is said how fast they came.
+TEST_F(OutputBagTest, FramesWithoutStampsNeedARate) {
+  const fs::path results = folder_.path() / "results.mcap";
+  const auto write = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"run", folder_.path(), "-o", results};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return penumbra(arguments);
+  };
+  const Outcome outcome = write({});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("--fps"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(results));
+  EXPECT_EQ(write({"--fps", "0"}).status, 2);
+  EXPECT_EQ(write({"--fps", "4"}).status, 0);
+  std::vector<std::int64_t> stamps;
+  const auto bag = io::open_bag(results);
+  for (io::BagMessage message; bag->next(message);)
+    if (bag->topics()[message.topic].name == "/penumbra/labels") stamps.push_back(message.log_time);
+  EXPECT_EQ(stamps, (std::vector<std::int64_t>{0, 250'000'000, 500'000'000}));
+  EXPECT_EQ(run("other.mcap", {"--fps", "4"}).status, 2) << "a bag has stamps";
 }
 
 }  // namespace
