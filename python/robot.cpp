@@ -121,7 +121,7 @@ void bind_robot_parts(py::module_& m) {
       Field{"reason", &L::reason, "Why it is not drawn, or what was chosen."},
       Field{"sources", &L::sources, "Each element's file or primitive."},
       Field{"triangles", &L::triangles, "How many."},
-      Field{"watertight", &L::watertight, "Every mesh of the link is closed."},
+      Field{"watertight", &L::watertight, "Every mesh of the link is closed, before margins."},
       Field{"margin", &L::margin, "Metres."}, Field{"load_ms", &L::load_ms, "Milliseconds."});
   using J = Joint;
   py::class_<J> joint(m, "Joint",

@@ -17,6 +17,7 @@ namespace penumbra::detail {
 struct LinkGeometry {
   std::vector<TriangleMesh> meshes;
   LinkReport report;
+  Eigen::AlignedBox3d without_margin;  ///< bounds
 };
 
 /// Makes the triangles of links. Each mesh file is read once.
@@ -37,16 +38,15 @@ class GeometryLoader {
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  void add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out,
-                    Eigen::AlignedBox3d& without_margin);
-  void add(const UrdfElement& element, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
-  void add(const ExtraMesh& extra, LinkGeometry& out, Eigen::AlignedBox3d& without_margin);
+  void add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out);
+  void add(const UrdfElement& element, LinkGeometry& out);
+  void add(const ExtraMesh& extra, LinkGeometry& out);
   /// Notes that the link lacks some of its geometry.
   static void lack(const std::string& where, const std::string& what, LinkReport& link);
   /// Where a fault is, for messages.
   [[nodiscard]] std::string at(const UrdfElement& element, const std::string& link) const;
-  void note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin);
-  TriangleMesh make_mesh(const UrdfElement& element, std::string& source);
+  void note_size(const LinkGeometry& geometry);
+  TriangleMesh make_mesh(const UrdfElement& element, double margin, std::string& source);
   TriangleMesh read_mesh(const UrdfMesh& mesh, std::string& source);
   const TriangleMesh& read_file(const std::filesystem::path& file);
 

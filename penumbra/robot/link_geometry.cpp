@@ -22,32 +22,44 @@ constexpr double kFarthestVertex = 1e6;  // metres from the link's origin
 // is up to 2 m large and drawn a thousand times too small is not.
 constexpr double kSmallestLink = 0.002;
 
+std::string nothing_left(const std::string& source, double margin) {
+  return source + ": nothing is left of it with a margin of " + printed(margin) +
+         " m; take a margin nearer to 0";
+}
+
 std::string round_name(const char* kind, double radius, double length) {
   return std::string(kind) + " radius " + printed(radius) + " length " + printed(length);
 }
 
-/// A primitive's triangles, and its description in `source`.
+/// Makes a primitive's triangles, with a margin by which its surface lies farther out; its
+/// description, without the margin, comes into `source`.
 struct PrimitiveMaker {
   std::string& source;
+  double margin;
 
   TriangleMesh operator()(const UrdfBox& box) const {
     source = "box " + printed(box.size.x()) + " x " + printed(box.size.y()) + " x " +
              printed(box.size.z());
-    return make_box(box.size);
+    return make_box({padded(box.size.x()), padded(box.size.y()), padded(box.size.z())});
   }
   TriangleMesh operator()(const UrdfCylinder& cylinder) const {
     source = round_name("cylinder", cylinder.radius, cylinder.length);
-    return make_cylinder(cylinder.radius, cylinder.length);
+    return make_cylinder(padded(2.0 * cylinder.radius) / 2.0, padded(cylinder.length));
   }
   TriangleMesh operator()(const UrdfSphere& sphere) const {
     source = "sphere radius " + printed(sphere.radius);
-    return make_sphere(sphere.radius);
+    return make_sphere(padded(2.0 * sphere.radius) / 2.0);
   }
   TriangleMesh operator()(const UrdfCapsule& capsule) const {
     source = round_name("capsule", capsule.radius, capsule.length);
-    return make_capsule(capsule.radius, capsule.length);
+    return make_capsule(padded(2.0 * capsule.radius) / 2.0, capsule.length);
   }
   TriangleMesh operator()(const UrdfMesh&) const { return {}; }  // comes from a file instead
+
+  [[nodiscard]] double padded(double size) const {
+    if (margin < 0.0 && size + 2.0 * margin <= 0.0) throw InputError(nothing_left(source, margin));
+    return size + 2.0 * margin;
+  }
 };
 
 // Scaled, then placed, in double. A mirrored mesh keeps its outside outside.
@@ -74,22 +86,20 @@ Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
   return bounds;
 }
 
-/// Adds a mesh, with the link's margin, whose source is the last of the report's.
-void keep(TriangleMesh mesh, LinkGeometry& out, Eigen::AlignedBox3d& without_margin) {
-  without_margin.extend(bounds_of(mesh));
-  if (out.report.margin != 0.0) mesh = weld(offset_surface(mesh, out.report.margin));
-  if (mesh.triangles.empty())
-    throw InputError(out.report.sources.back() + ": nothing is left of it with a margin of " +
-                     printed(out.report.margin) + " m");
-  out.meshes.push_back(std::move(mesh));
+/// Keeps a mesh, whose source is the last of the report's, as it is with the margin.
+void keep(const TriangleMesh& mesh, TriangleMesh with_margin, LinkGeometry& out) {
+  LinkReport& report = out.report;
+  if (with_margin.triangles.empty())
+    throw InputError(nothing_left(report.sources.back(), report.margin));
+  report.watertight = (out.meshes.empty() || report.watertight) && is_watertight(mesh);
+  out.without_margin.extend(bounds_of(mesh));
+  out.meshes.push_back(std::move(with_margin));
 }
 
 // The report's figures of the meshes as they are drawn.
 void measure(LinkGeometry& link) {
   LinkReport& report = link.report;
   report.drawn = !link.meshes.empty();
-  report.watertight =
-      report.drawn && std::all_of(link.meshes.begin(), link.meshes.end(), is_watertight);
   for (const TriangleMesh& mesh : link.meshes) {
     report.triangles += mesh.triangles.size();
     report.bounds.extend(bounds_of(mesh));
@@ -107,18 +117,16 @@ LinkGeometry GeometryLoader::load(const UrdfLink& link, const LinkChoice& choice
   const auto is_its = [&](const ExtraMesh& extra) { return extra.link == link.name; };
   if (!choice.draw && std::none_of(extra_.begin(), extra_.end(), is_its)) return out;
   out.report.margin = choice.margin;
-  Eigen::AlignedBox3d without_margin;
-  if (choice.draw) add_elements(link, choice.geometry, out, without_margin);
+  if (choice.draw) add_elements(link, choice.geometry, out);
   for (const ExtraMesh& extra : extra_)
-    if (is_its(extra)) add(extra, out, without_margin);
+    if (is_its(extra)) add(extra, out);
   measure(out);
-  note_size(out.report, without_margin);
+  note_size(out);
   out.report.load_ms = milliseconds_since(start);
   return out;
 }
 
-void GeometryLoader::add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out,
-                                  Eigen::AlignedBox3d& without_margin) {
+void GeometryLoader::add_elements(const UrdfLink& link, Geometry geometry, LinkGeometry& out) {
   for (const UrdfElement& element : link.elements(geometry)) {
     if (!element.fault.empty()) {
       if (!allow_missing_) throw InputError(element.fault);
@@ -126,7 +134,7 @@ void GeometryLoader::add_elements(const UrdfLink& link, Geometry geometry, LinkG
       continue;
     }
     try {
-      add(element, out, without_margin);
+      add(element, out);
     } catch (const InputError& error) {
       throw InputError(at(element, link.name) + error.what());
     }
@@ -143,9 +151,10 @@ std::string GeometryLoader::at(const UrdfElement& element, const std::string& li
   return file_ + ":" + std::to_string(element.line) + ": link " + in_quotes(link) + ": ";
 }
 
-void GeometryLoader::note_size(const LinkReport& link, const Eigen::AlignedBox3d& without_margin) {
+void GeometryLoader::note_size(const LinkGeometry& geometry) {
+  const LinkReport& link = geometry.report;
   if (!link.drawn || link.missing) return;
-  const double size = without_margin.sizes().maxCoeff();
+  const double size = geometry.without_margin.sizes().maxCoeff();
   if (size >= kSmallestLink) return;
   std::array<char, 32> millimetres{};
   std::snprintf(millimetres.data(), millimetres.size(), "%.2g", 1e3 * size);
@@ -153,27 +162,29 @@ void GeometryLoader::note_size(const LinkReport& link, const Eigen::AlignedBox3d
                         " mm large; is the unit right?");
 }
 
-void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out,
-                         Eigen::AlignedBox3d& without_margin) {
+void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
   std::string& source = out.report.sources.emplace_back();
   TriangleMesh mesh;
   try {
-    mesh = make_mesh(element, source);
+    mesh = make_mesh(element, 0.0, source);
   } catch (const InputError& error) {
     if (!allow_missing_) throw;
     return lack(at(element, out.report.link), error.what(), out.report);
   }
-  keep(std::move(mesh), out, without_margin);
+  const double margin = out.report.margin;
+  if (margin != 0.0 && !std::holds_alternative<UrdfMesh>(element.shape))
+    keep(mesh, make_mesh(element, margin, source), out);
+  else
+    keep(mesh, offset_surface(mesh, margin), out);
 }
 
-void GeometryLoader::add(const ExtraMesh& extra, LinkGeometry& out,
-                         Eigen::AlignedBox3d& without_margin) {
+void GeometryLoader::add(const ExtraMesh& extra, LinkGeometry& out) {
   out.report.sources.push_back(extra.mesh.string());
   out.report.reason += "; with an extra mesh";
   try {
     TriangleMesh mesh = read_file(extra.mesh);
     place(Eigen::Vector3d::Ones(), Eigen::Isometry3d::Identity(), mesh);
-    keep(std::move(mesh), out, without_margin);
+    keep(mesh, offset_surface(mesh, out.report.margin), out);
   } catch (const InputError& error) {
     throw InputError("extra of link " + in_quotes(extra.link) + ": " + error.what());
   }
@@ -186,10 +197,11 @@ std::vector<std::string> GeometryLoader::notes() const {
   return all;
 }
 
-TriangleMesh GeometryLoader::make_mesh(const UrdfElement& element, std::string& source) {
+TriangleMesh GeometryLoader::make_mesh(const UrdfElement& element, double margin,
+                                       std::string& source) {
   const auto* file = std::get_if<UrdfMesh>(&element.shape);
   TriangleMesh mesh = file != nullptr ? read_mesh(*file, source)
-                                      : std::visit(PrimitiveMaker{source}, element.shape);
+                                      : std::visit(PrimitiveMaker{source, margin}, element.shape);
   place(file != nullptr ? file->scale : Eigen::Vector3d::Ones(), element.origin, mesh);
   TriangleMesh welded = weld(mesh);
   if (welded.triangles.empty())

@@ -52,7 +52,7 @@ struct LinkReport {
   std::string reason;    ///< why it is not drawn, or what was chosen; one line
   std::vector<std::string> sources;  ///< each element's file or primitive
   std::size_t triangles = 0;
-  bool watertight = false;     ///< every mesh of the link is closed
+  bool watertight = false;     ///< every mesh of the link is closed, before margins
   double margin = 0.0;         ///< metres
   Eigen::AlignedBox3d bounds;  ///< in the link's frame, metres; empty if not drawn
   double load_ms = 0.0;

@@ -7,6 +7,4 @@ penumbra_test(test_mesh_collada SOURCES assimp_leaks.cpp
               ${CMAKE_CURRENT_LIST_DIR}/mesh_polygon_test.cpp LIBS assimp::assimp)
 penumbra_test(test_mesh_fuzz SOURCES assimp_leaks.cpp ${CMAKE_CURRENT_LIST_DIR}/mesh_fuzz_test.cpp)
 penumbra_test(test_mesh_primitives RECKONS SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_primitives_test.cpp)
-penumbra_test(test_offset RECKONS SOURCES ${CMAKE_CURRENT_LIST_DIR}/offset_grid_test.cpp
-              ${CMAKE_CURRENT_LIST_DIR}/offset_grow_test.cpp
-              ${CMAKE_CURRENT_LIST_DIR}/offset_shrink_test.cpp)
+penumbra_test(test_offset RECKONS SOURCES ${CMAKE_CURRENT_LIST_DIR}/surface_offset_test.cpp)

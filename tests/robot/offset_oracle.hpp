@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -47,42 +47,46 @@ inline double distance(const TriangleMesh& mesh, const Vector3d& p) {
   return nearest;
 }
 
-/// First hit of a ray with either side, or with fronts only.
-inline std::optional<Vector3d> cast(const TriangleMesh& mesh, const Vector3d& eye,
-                                    const Vector3d& ray, bool cull_backs) {
-  std::optional<Vector3d> hit;
-  double nearest = std::numeric_limits<double>::infinity();
+/// Where p + t * ray meets each triangle, at t > 0, and whether the ray leaves by its front.
+struct Crossing {
+  double t;
+  bool leaves;
+};
+inline std::vector<Crossing> crossings(const TriangleMesh& mesh, const Vector3d& p,
+                                       const Vector3d& ray) {
+  std::vector<Crossing> all;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto [a, b, c] = corners(mesh, i);
-    // Edge functions of the corners seen from the eye: exact signs on shared edges do not matter
-    // to a few thousand random rays.
-    const Vector3d p = a - eye;
-    const Vector3d q = b - eye;
-    const Vector3d r = c - eye;
-    const double u = ray.dot(q.cross(r));
-    const double v = ray.dot(r.cross(p));
-    const double w = ray.dot(p.cross(q));
-    const bool front = u <= 0.0 && v <= 0.0 && w <= 0.0;
-    const bool back = u >= 0.0 && v >= 0.0 && w >= 0.0;
-    const double sum = u + v + w;
-    if ((!front && (cull_backs || !back)) || sum == 0.0) continue;
-    const double t = (u * p + v * q + w * r).dot(ray) / sum;
-    if (t <= 0.0 || t >= nearest) continue;
-    nearest = t;
-    hit = eye + t * ray;
+    auto [a, b, c] = corners(mesh, i);
+    a -= p;
+    b -= p;
+    c -= p;
+    // Signs on shared edges do not matter to random rays.
+    const double u = ray.dot(b.cross(c));
+    const double v = ray.dot(c.cross(a));
+    const double w = ray.dot(a.cross(b));
+    const bool leaves = u > 0.0 && v > 0.0 && w > 0.0;
+    if (!leaves && !(u < 0.0 && v < 0.0 && w < 0.0)) continue;
+    const double t = (u * a + v * b + w * c).dot(ray) / ((u + v + w) * ray.squaredNorm());
+    if (t > 0.0) all.push_back({t, leaves});
   }
-  return hit;
+  return all;
 }
 
-/// Whether a ray comes within `reach` of the mesh, by steps that cannot jump over it.
-inline bool comes_within(const TriangleMesh& mesh, const Vector3d& eye, const Vector3d& ray,
-                         double reach, double length) {
-  for (double t = 0.0; t < length;) {
-    const double gap = distance(mesh, eye + t * ray) - reach;
-    if (gap < 0.0) return true;
-    t += std::max(gap, 1e-7);
-  }
-  return false;
+/// How often a mesh surrounds p.
+inline int windings(const TriangleMesh& mesh, const Vector3d& p) {
+  int sum = 0;
+  for (const Crossing& crossing : crossings(mesh, p, {0.5412, 0.3127, 0.7806}))
+    sum += crossing.leaves ? 1 : -1;
+  return sum;
+}
+
+/// A point of the mesh, with equal chances for every triangle.
+inline Vector3d random_point(const TriangleMesh& mesh, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto [a, b, c] = corners(mesh, random() % mesh.triangles.size());
+  const double u = std::sqrt(share(random));
+  const double v = share(random);
+  return (1 - u) * a + u * (1 - v) * b + u * v * c;
 }
 
 inline Vector3d random_direction(std::mt19937_64& random) {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/robot/surface_offset.hpp>
+#include <penumbra/robot/primitives.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -334,7 +334,39 @@ TEST_F(MeshFiles, UnusedGeometryIsNotRead) {
 TEST_F(MeshFiles, MarginMovesTheSurface) {
   const Robot robot = load("filename=\"meshes/t.stl\"", {.margins = {{"a", 0.1}}});
   EXPECT_EQ(robot.report()[0].margin, 0.1);
-  EXPECT_NEAR(robot.report()[0].bounds.min().x(), -0.1, 0.1 * offset_error);
+  EXPECT_NEAR(robot.report()[0].bounds.min().x(), -0.1, 0.002);
+}
+
+TEST(Geometry, MarginsOfPrimitivesAreTheirDimensions) {
+  constexpr double rounding = 4 * primitive_error;
+  for (const std::string shape :
+       {"<box size=\"0.1 0.2 0.3\"/>", "<cylinder radius=\"0.1\" length=\"0.6\"/>",
+        "<sphere radius=\"0.2\"/>", "<capsule radius=\"0.1\" length=\"0.8\"/>"}) {
+    const std::string xml = robot_xml(link_xml("a", collision_xml(shape)));
+    const LinkReport plain = parse(xml).report()[0];
+    for (const double margin : {0.01, -0.04}) {
+      const LinkReport report = parse(xml, {.margins = {{"a", margin}}}).report()[0];
+      const Vector3d growth = report.bounds.sizes() - plain.bounds.sizes();
+      EXPECT_LT((growth.array() - 2.0 * margin).abs().maxCoeff(), rounding) << shape;
+      EXPECT_EQ(report.sources, plain.sources);
+    }
+  }
+}
+
+TEST_F(MeshFiles, NothingLeftOfAGeometryIsAnErrorOfTheLink) {
+  const auto said = [](const std::string& shape) {
+    return message_of([&] {
+      (void)parse(robot_xml(link_xml("a", collision_xml(shape))), {.margins = {{"a", -0.2}}});
+    });
+  };
+  const std::string mesh = (folder_.path() / "meshes/t.stl").string();
+  for (const std::string shape :
+       {"<box size=\"1 0.4 1\"/>", "<sphere radius=\"0.1\"/>",
+        "<cylinder radius=\"1\" length=\"0.3\"/>", "<capsule radius=\"0.2\" length=\"1\"/>"})
+    EXPECT_TRUE(holds(said(shape), "link \"a\": ") && holds(said(shape), "margin of -0.2 m"))
+        << shape;
+  EXPECT_TRUE(
+      holds(said("<mesh filename=\"" + mesh + "\" scale=\"0.5 0.5 0.5\"/>"), "nothing is left"));
 }
 
 TEST_F(MeshFiles, NegativeMarginOfAnOpenMeshIsAnErrorOfTheLink) {
