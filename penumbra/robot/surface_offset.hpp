@@ -6,12 +6,12 @@
 namespace penumbra {
 
 /// Returns a new mesh whose surface lies `margin` metres outside of the given one, or inside of it
-/// if the margin is negative. It is sampled on a grid of 3 to 8 mm and then simplified.
+/// if the margin is negative. It is sampled on a grid of 3 to 6 mm and then simplified.
 ///
-/// A grown mesh covers all points within the margin, but for up to 0.5 mm at sharp edges if the
-/// margin is below 5 mm; it is larger by at most 1.5 mm, in creases by a few millimetres more. Open
-/// meshes grow on both sides and come out closed. A shrunk mesh is at most 1 mm too large, and
-/// misses what is left thinner than the grid.
+/// A grown mesh covers the true one but for less than 1 mm at sharp edges. It is larger by at most
+/// 2 mm, in creases 4 mm. Open meshes grow on both sides. A shrunk mesh is too large by at most 2
+/// mm, in creases, and may miss what is left thinner than the grid; it has no triangles if nothing
+/// is.
 ///
 /// Throws InputError if the margin is not finite, if a mesh to shrink is open, and if the mesh is
 /// so large that the grid would take millions of cells.

@@ -178,6 +178,14 @@ TEST(Offset, SolidsShrinkAndDetailsVanish) {
       expect_shrunk(mesh, offset_surface(mesh, -depth), depth, 300);
 }
 
+TEST(Offset, HolesSmallerThanTheMarginAreClosed) {
+  const TriangleMesh ball = make_sphere(0.1);
+  TriangleMesh pierced = ball;
+  pierced.triangles.resize(pierced.triangles.size() - 1);
+  expect_shrunk(ball, offset_surface(pierced, -0.01), 0.01, 300);
+  EXPECT_EQ(connected_components(offset_surface(pierced, 0.01)).size(), 1U) << "no inner side";
+}
+
 TEST(Offset, NothingIsLeftOfThinSolids) {
   EXPECT_TRUE(offset_surface(make_box({0.3, 0.2, 0.1}), -0.051).triangles.empty());
   EXPECT_TRUE(offset_surface(make_cylinder(0.05, 0.01), -0.006).triangles.empty());
