@@ -156,9 +156,6 @@ std::vector<BadInput> bad_recordings() {
        edit("tiny.urdf",
             "<collision><geometry><mesh filename=\"board.stl\"/></geometry></collision>", ""),
        {"no link is drawn"}},
-      {"CameraInsideOfALink",
-       edit("camera_pose.csv", "0,0,1,0", "0,0,1,1"),
-       {"'board'", "ignore_links"}},
   };
 }
 

@@ -43,6 +43,7 @@ const std::vector<Library>& libraries() {
   static const std::vector<Library> all{{"tinyxml2", "penumbra/robot", 1},
                                         {"assimp/", "penumbra/robot", 1},
                                         {"nlohmann/", "penumbra/robot", 1},
+                                        {"meshoptimizer.h", "penumbra/robot", 1},
                                         {"meshoptimizer.h", "penumbra/render", 1},
                                         {"hwy/", "penumbra/base", 2},
                                         {"hwy/", "penumbra/occlusion", 5},

@@ -23,6 +23,9 @@ VISIBLE = penumbra.Verdict.visible
 # By class, method and argument: what is right, and a call of it; `o` has a recording's parts.
 CASES = {
     "Intrinsics.project.point": (POINT, lambda o, x: o.camera.intrinsics.project(x)),
+    "Camera.from_matrix.K": (
+        np.array([[600.0, 0, 320], [0, 600, 240], [0, 0, 1]]),
+        lambda o, x: penumbra.Camera.from_matrix(x, (640, 480))),
     "Distortion.distort.undistorted": (PIXEL, lambda o, x: o.camera.distortion.distort(x)),
     "Distortion.undistort.distorted": (PIXEL, lambda o, x: o.camera.distortion.undistort(x)),
     "DepthRegistration.warp.depth": (
