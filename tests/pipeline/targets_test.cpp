@@ -280,12 +280,13 @@ TEST_F(TargetsTest, ANameOfNoObjectRemembersNone) {
   const PixelBox remnant{28, 47, 20, 20};  // what is left of the large one beside the slab
   std::int64_t stamp = 0;
   const auto verdicts = [&](bool has_identity, const PixelBox& first, const PixelBox& second) {
-    const Target targets[] = {{.name = "cup",
-                               .has_identity = has_identity,
-                               .shape = RegionTarget{first, Extent::modal, 2.0}},
-                              {.name = "cup 2",
-                               .has_identity = has_identity,
-                               .shape = RegionTarget{second, Extent::modal, 2.0}}};
+    Target targets[] = {{.name = "cup", .shape = RegionTarget{first, Extent::modal, 2.0}},
+                        {.name = "cup 2", .shape = RegionTarget{second, Extent::modal, 2.0}}};
+    for (Target& target : targets) {
+      target.has_identity = has_identity;
+      target.thresholds.past_limit = 1;  // the model alone says it
+      target.thresholds.min_measured = 0;
+    }
     const FrameReport& report = process(stamp += 33 * ms, targets);
     return std::pair(report.targets[0].verdict, report.targets[1].verdict);
   };
