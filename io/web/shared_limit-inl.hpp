@@ -69,11 +69,12 @@ class Seat {
     place_ = limit.add({1, std::move(give_up)});
     limit_ = &limit;
   }
+
+ private:
   void leave() {
     if (limit_ != nullptr) std::exchange(limit_, nullptr)->remove(place_);
   }
 
- private:
   SharedLimit* limit_ = nullptr;
   SharedLimit::Place place_;
 };

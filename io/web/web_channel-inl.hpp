@@ -58,13 +58,12 @@ struct Shared {
   std::list<std::weak_ptr<Channel>> channels;
 };
 
-/// Closes a client's connection on its strand; may be called by any thread.
+/// Has a client give its connection up, on its strand; may be called by any thread.
 template <typename Client>
-std::function<void()> close_of(Client& client) {
-  return [executor = client.socket().get_executor(), weak = client.weak_from_this()] {
-    asio::post(executor, [weak] {
-      if (const auto alive = weak.lock()) alive->socket().close();
-    });
+std::function<void()> close_of(std::weak_ptr<Client> weak) {
+  return [weak = std::move(weak)] {
+    if (const auto client = weak.lock())
+      asio::post(client->executor(), [client] { client->give_up(); });
   };
 }
 
@@ -98,14 +97,16 @@ class Channel : public std::enable_shared_from_this<Channel> {
     });
   }
 
-  [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
+  [[nodiscard]] asio::any_io_executor executor() { return stream_.get_executor(); }
+  void give_up() { socket().close(); }
 
   void wake() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] { self->send(); });
   }
 
  private:
-  void stay() { seat_.take(shared_.guests, close_of(*this)); }
+  [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
+  void stay() { seat_.take(shared_.guests, close_of(weak_from_this())); }
 
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -144,7 +145,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
     if (!message) return;
     message_ = std::move(*message);
     sending_ = true;
-    const auto place = shared_.waiting.add({size_of(message_), close_of(*this)});
+    const auto place = shared_.waiting.add({size_of(message_), close_of(weak_from_this())});
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : message_) buffers.emplace_back(part->data(), part->size());
     stream_.binary(true);

@@ -59,10 +59,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.socket().set_option(tcp::no_delay(true), ignored);
   }
 
-  [[nodiscard]] beast::tcp_stream& socket() { return stream_; }
+  [[nodiscard]] const asio::any_io_executor& executor() const { return executor_; }
+  void give_up() {
+    if (!is_upgraded_) stream_.close();
+  }
 
   void run() {
-    seat_.take(shared_.strangers, close_of(*this));
+    seat_.take(shared_.strangers, close_of(weak_from_this()));
     asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
   }
 
@@ -106,7 +109,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const bool brings_token = shared_.guard.brings_token(*target);
     if (!brings_token && !shared_.guard.knows_token(sender))
       return answer(web_error(401, "the token is missing; open the address that was printed"));
-    seat_.take(shared_.guests, close_of(*this));
+    seat_.take(shared_.guests, close_of(weak_from_this()));
     if (brings_token) return admit();
     if (websocket::is_upgrade(request)) return upgrade(request, *target);
     answer(made_answer(*target));
@@ -132,7 +135,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void upgrade(const Request& request, const WebRequest& target) {
     auto channel = shared_.handler.open_channel(target.path);
     if (!channel) return answer(web_error(404, "there is no WebSocket at " + target.path));
-    seat_.leave();
+    is_upgraded_ = true;
     std::make_shared<Channel>(std::move(stream_), shared_, std::move(channel))->run(request);
   }
 
@@ -161,7 +164,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!is_head_) body_.insert(body_.end(), answer.body.begin(), answer.body.end());
     std::vector<asio::const_buffer> buffers;
     for (const SharedBytes& part : body_) buffers.emplace_back(part->data(), part->size());
-    const auto place = shared_.waiting.add({size_of(body_), close_of(*this)});
+    const auto place = shared_.waiting.add({size_of(body_), close_of(weak_from_this())});
     stream_.expires_after(shared_.options.answer_time);
     asio::async_write(stream_, buffers,
                       [self = shared_from_this(), place](beast::error_code error, std::size_t) {
@@ -194,6 +197,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Shared& shared_;
   Seat seat_;
   beast::tcp_stream stream_;
+  asio::any_io_executor executor_ = stream_.get_executor();  // also once the stream is handed on
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::vector<SharedBytes> body_;  // on its way
@@ -201,6 +205,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t drained_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = true, is_head_ = false;
+  bool is_upgraded_ = false;  // the stream is the channel's
 };
 
 asio::ip::address address_of(const std::string& text) {
