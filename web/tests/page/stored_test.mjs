@@ -149,12 +149,14 @@ test('the list says how much is hidden, by robot and others, as the overlay does
         );
       frame.targets.forEach((target, i) => {
         // As io/target_overlay.cpp writes it at the target.
-        const isTold = target.verdict !== 'unknown' && target.inside > 0;
         const share = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
-        const text = isTold ? `${Math.round(100 * share)} %` : '–';
+        const percent = Math.round(100 * share);
+        const isKnown = target.verdict !== 'unknown';
+        const isSaid = target.inside > 0 && (isKnown || percent > 0);
+        const text = isSaid ? `${isKnown ? '' : '≥ '}${percent} %` : '–';
         assert.equal(shown[i][0], text, `frame ${frame.index}: ${target.name}`);
         assert.ok(shown[i][1].endsWith(`${text} hidden`), shown[i][1]);
-        others += isTold && target.hidden_by_other_fraction > 0.1 ? 1 : 0;
+        others += isKnown && target.hidden_by_other_fraction > 0.1 ? 1 : 0;
       });
       await page.keyboard.press('ArrowRight');
     }
