@@ -68,7 +68,7 @@ class OutputFolder final : public RunOutput {
   PointCloud cloud_;
   io::OverlayPainter painter_;
   io::KeyFrames key_frames_;
-  std::vector<std::size_t> saved_;  // frames of which images may be written
+  std::vector<std::size_t> saved_;  // frames whose images may be written
   bool finished_ = false;
   std::optional<io::ReportWriter> report_;
 };

@@ -51,9 +51,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::optional<std::string_view> meant(std::span<const std::string_view> read,
                                       std::string_view name) {
   constexpr std::size_t letters_per_mistake = 4;
-  for (const std::string_view known : read)
-    if (distance(name, known) <= std::max<std::size_t>(known.size() / letters_per_mistake, 1))
-      return known;
+  for (const std::string_view known : read) {
+    const std::size_t mistakes = std::max<std::size_t>(known.size() / letters_per_mistake, 1);
+    if (name.size() <= known.size() + mistakes && distance(name, known) <= mistakes) return known;
+  }
   return std::nullopt;
 }
 
@@ -75,7 +76,7 @@ void UrdfNode::expect(const ElementRule& rule) const {
   for (const XmlElement& c : xml_->children) {
     const UrdfNode child(c, *file_, where_);
     if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + kExpandXacro);
-    child.check_name("element <" + c.name + ">", c.name, rule.children, rule.ignored_children);
+    child.check_name("element " + in_quotes(c.name), c.name, rule.children, rule.ignored_children);
   }
   if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + kExpandXacro);
   if (!xml_->text.empty())

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <penumbra/tuning/missing_parts.hpp>
 #include <penumbra/tuning/nearest_pixel-inl.hpp>
 
@@ -23,19 +25,23 @@ void MissingParts::add(const FrameReport& report) {
   measure(report);
 }
 
+/// Looks at every fourth pixel of every fourth row: all of them would take sixteen times as long.
 void MissingParts::measure(const FrameReport& report) {
-  const auto& labels = report.labels;
-  Image<std::uint8_t> seen(labels.width, labels.height);
-  for (int v = 0; v < labels.height; ++v)
-    for (int u = 0; u < labels.width; ++u) seen(u, v) = labels(u, v) == occluded;
+  constexpr int step = 4;
+  const auto label = [&](int u, int v) { return report.labels(step * u, step * v); };
+  Image<std::uint8_t> seen((report.labels.width + step - 1) / step,
+                           (report.labels.height + step - 1) / step);
+  for (int v = 0; v < seen.height(); ++v)
+    for (int u = 0; u < seen.width(); ++u) seen(u, v) = label(u, v) == occluded;
   const tuning::NearestPixels robot(seen);
-  for (int v = 0; v < labels.height; ++v)
-    for (int u = 0; u < labels.width; ++u) {
-      if (labels(u, v) != fringe) continue;
+  for (int v = 0; v < seen.height(); ++v)
+    for (int u = 0; u < seen.width(); ++u) {
+      if (label(u, v) != fringe || std::isinf(robot.distance(u, v))) continue;
       const auto nearest = robot.at(u, v);
-      Link& link = links_[report.virtual_depth.links(nearest.u, nearest.v) - std::size_t{1}];
-      ++link.fringe;
-      if (robot.distance(u, v) > far_) ++link.far_fringe;
+      const int of = report.virtual_depth.links(step * nearest.u, step * nearest.v);
+      Link& link = links_[static_cast<std::size_t>(of - 1)];
+      link.fringe += step * step;
+      if (step * robot.distance(u, v) > far_) link.far_fringe += step * step;
     }
 }
 

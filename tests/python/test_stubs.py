@@ -14,7 +14,7 @@ from conftest import ROOT, only_in_full
 PACKAGE = pathlib.Path(penumbra.__file__).parent
 
 
-def test_the_stubs_beside_the_module_name_its_public_classes():
+def test_the_stubs_next_to_the_module_name_its_public_classes():
     stubs = ast.parse((PACKAGE / "__init__.pyi").read_text())
     named = {node.name for node in stubs.body if isinstance(node, ast.ClassDef)}
     public = {name for name, value in vars(penumbra).items()
