@@ -28,7 +28,7 @@ class MissingParts {
   /// `robot` must outlive this. `fringe_reach`: of the label rule, pixels.
   MissingParts(const Robot& robot, int fringe_reach);
 
-  /// Measures the first, second, fourth, eighth, ... frame that has fringe, a few milliseconds each.
+  /// Measures the first, second, fourth, eighth, ... frame with fringe, each in some milliseconds.
   void add(const FrameReport& report);
 
   /// One line for each such link.
