@@ -84,6 +84,7 @@ struct Classifier::State {
                                      : labelling::simd_kernels(simd_target(isa_name))),
         work(width, height, labelling::Rule(rule)),
         fringe(width, height, rule.fringe_reach),
+        label_fringe(labelling::fringe_kernel(simd_target(isa_name == "scalar" ? "" : isa_name))),
         everything(width, height) {
     everything.mark(0, 0, width - 1, height - 1);
     if (isa == "scalar") work.marks = Image<std::uint8_t>(width, height);
@@ -93,7 +94,8 @@ struct Classifier::State {
   std::string isa;
   labelling::Kernels kernels;
   labelling::Work work;
-  labelling::FringeFill fringe;
+  labelling::Fringe fringe;
+  labelling::LabelFringe label_fringe;
   TileMask everything;
 };
 
@@ -126,7 +128,7 @@ LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const Dept
         return state_->kernels.label(work, virtual_depth.depth, depth);
       },
       measured);
-  view.pixels[static_cast<std::size_t>(Label::fringe)] = state_->fringe.label(work, measured);
+  view.pixels[static_cast<std::size_t>(Label::fringe)] = state_->label_fringe(state_->fringe, work, measured);
   std::size_t labelled = 0;
   for (const std::size_t pixels : view.pixels) labelled += pixels;
   view.pixels[static_cast<std::size_t>(Label::clear)] = work.labels.size() - labelled;
