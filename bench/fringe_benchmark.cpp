@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of labels with and without fringe on the ten real frames of xarm7_realsense. The
-// virtual depth is rendered before every image, untimed. The fringe's flood is compiled for one
-// instruction set, whichever the other labels take.
+// virtual depth is rendered before every image, untimed.
 #include "scenes.hpp"
 #include "timing.hpp"
 

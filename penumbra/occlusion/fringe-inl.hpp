@@ -53,7 +53,6 @@ struct Fringe {
   std::vector<std::uint16_t> blocks;
   std::vector<Source> sources;
   std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood took
-  std::size_t queued = 0;
   TileMask reachable;
 };
 

@@ -148,43 +148,6 @@ HWY_INLINE void find_sources(Fringe& flood, const Work& work) {
   });
 }
 
-/// Breadth first, so that each block comes from a near part of the outline. Without branches: which
-/// neighbours are taken is hard to predict.
-HWY_INLINE void fill(Fringe& flood) {
-  struct Way {
-    std::uint64_t block;
-    std::ptrdiff_t offset;
-  };
-  const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
-  const std::array<Way, 4> ways = {
-      {{-std::uint64_t{0x10000}, -pitch}, {-std::uint64_t{1}, -1}, {1, 1}, {0x10000, pitch}}};
-  const int goes_on = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
-  Fringe::Block* const queue = flood.queue.get();
-  const Fringe::Source* const sources = flood.sources.data();
-  std::uint16_t* const origin = flood.block(0, 0);
-  std::size_t end = flood.sources.size();
-  for (std::size_t i = 0; i < end; ++i) {
-    const Fringe::Block from = queue[i];
-    const Fringe::Source source = sources[from.source()];
-    const int dx = from.x() - source.x, dy = from.y() - source.y;
-    if (dx * dx + dy * dy > goes_on) continue;
-    std::uint16_t* const here = origin + from.y() * pitch + from.x();
-    const int depth = *here;
-    const int least = std::max<int>(depth - source.step, source.nearest);
-    const int most = std::min<int>(depth + source.step, source.farthest);
-    const auto first = static_cast<std::uint32_t>(least | is_open);
-    const auto span = static_cast<std::uint32_t>(most - least);
-    for (const Way& way : ways) {
-      std::uint16_t& next = here[way.offset];
-      const bool is_taken = next - first <= span;
-      queue[end].bits = from.bits + way.block;
-      end += is_taken;
-      next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
-    }
-  }
-  flood.queued = end;
-}
-
 /// The pixels of a block.
 using Four = hn::FixedTag<std::uint16_t, 4>;
 
@@ -208,48 +171,77 @@ HWY_INLINE hn::VFromD<Four> four_millimetres(const float* above, const float* be
   return hn::LoadU(Four(), all.data());
 }
 
-/// Labels the clear pixels of the queued blocks whose depth is about the block's.
+/// Labels the clear pixels of a block that differ from its depth by at most `off`, millimetres.
+/// Returns how many.
 template <typename T>
-std::size_t paint(Fringe& flood, Work& work, ImageView<const T> measured) {
+HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
+                             ImageView<const T> measured, Fringe::Block block, int at, int off) {
   const hn::FixedTag<std::uint8_t, 4> bytes;
   const hn::FixedTag<std::uint32_t, 1> word;
-  const int tile_shift = std::countr_zero(static_cast<unsigned>(work.touched.tile_width));
+  const int u = std::min(2 * block.x(), labels.width - 2);
+  const int v = std::min(2 * block.y(), labels.height - 2);
+  const auto least = static_cast<std::uint16_t>(std::max(at - off, 0));
+  const auto most = static_cast<std::uint16_t>(std::min<int>(at + off, farthest));
+  std::uint8_t* const above = labels.row(v) + u;
+  std::uint8_t* const below = labels.row(v + 1) + u;
+  const std::uint32_t old =
+      load_two<std::uint16_t>(above) | std::uint32_t{load_two<std::uint16_t>(below)} << 16;
+  const auto label = hn::PromoteTo(Four(), hn::BitCast(bytes, hn::Set(word, old)));
+  const auto depth = four_millimetres(measured.row(v) + u, measured.row(v + 1) + u);
+  const auto is_near =
+      hn::Eq(hn::Min(hn::Max(depth, hn::Set(Four(), least)), hn::Set(Four(), most)), depth);
+  const auto is_fringe = hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear)));
+  const auto painted = hn::Or(label, hn::IfThenElseZero(is_fringe, hn::Set(Four(), fringe)));
+  const std::uint32_t now = hn::GetLane(hn::BitCast(word, hn::TruncateTo(bytes, painted)));
+  const std::uint32_t now_below = now >> 16;
+  std::memcpy(above, &now, 2);
+  std::memcpy(below, &now_below, 2);
+  const int tile_shift = std::countr_zero(static_cast<unsigned>(touched.tile_width));
+  touched.rows[static_cast<std::size_t>(v / TileMask::tile_height)] |= std::uint64_t{1}
+                                                                       << (u >> tile_shift);
+  const bool is_cut = u < 2 * block.x() || v < 2 * block.y();  // by the border of an odd image
+  if (is_cut) touched.mark(u, v, u + 1, v + 1);
+  return hn::CountTrue(Four(), is_fringe);
+}
+
+/// Takes blocks breadth first, so that each comes from a near part of the outline, and labels those
+/// clear pixels of each whose depth is about the block's. Returns the number of these pixels.
+template <typename T>
+std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
+  struct Way {
+    std::uint64_t block;
+    std::ptrdiff_t offset;
+  };
+  const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
+  const std::array<Way, 4> ways = {
+      {{-std::uint64_t{0x10000}, -pitch}, {-std::uint64_t{1}, -1}, {1, 1}, {0x10000, pitch}}};
+  const int goes_on = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
   // Copies: writes to labels, as bytes, may change any member for all the compiler knows.
   const ImageView<std::uint8_t> labels = work.labels.view();
-  std::uint64_t* const touched = work.touched.rows.data();
-  const Fringe::Block* const queue = flood.queue.get();
+  Fringe::Block* const queue = flood.queue.get();
   const Fringe::Source* const sources = flood.sources.data();
-  const std::uint16_t* const origin = flood.block(0, 0);
-  const std::size_t pitch = flood.pitch;
-  const std::size_t queued = flood.queued;
+  std::uint16_t* const origin = flood.block(0, 0);
+  std::size_t end = flood.sources.size();
   std::size_t count = 0;
-  for (std::size_t i = 0; i < queued; ++i) {
-    const Fringe::Block block = queue[i];
-    const int u = std::min(2 * block.x(), labels.width - 2);
-    const int v = std::min(2 * block.y(), labels.height - 2);
-    const int off = 2 * sources[block.source()].step;
-    const int at =
-        origin[static_cast<std::size_t>(block.y()) * pitch + static_cast<std::size_t>(block.x())];
-    const auto least = static_cast<std::uint16_t>(std::max(at - off, 0));
-    const auto most = static_cast<std::uint16_t>(std::min<int>(at + off, farthest));
-    std::uint8_t* const above = labels.row(v) + u;
-    std::uint8_t* const below = labels.row(v + 1) + u;
-    const std::uint32_t old =
-        load_two<std::uint16_t>(above) | std::uint32_t{load_two<std::uint16_t>(below)} << 16;
-    const auto label = hn::PromoteTo(Four(), hn::BitCast(bytes, hn::Set(word, old)));
-    const auto depth = four_millimetres(measured.row(v) + u, measured.row(v + 1) + u);
-    const auto is_near =
-        hn::Eq(hn::Min(hn::Max(depth, hn::Set(Four(), least)), hn::Set(Four(), most)), depth);
-    const auto is_fringe = hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear)));
-    count += hn::CountTrue(Four(), is_fringe);
-    const auto painted = hn::Or(label, hn::IfThenElseZero(is_fringe, hn::Set(Four(), fringe)));
-    const std::uint32_t now = hn::GetLane(hn::BitCast(word, hn::TruncateTo(bytes, painted)));
-    const std::uint32_t now_below = now >> 16;
-    std::memcpy(above, &now, 2);
-    std::memcpy(below, &now_below, 2);
-    touched[v / TileMask::tile_height] |= std::uint64_t{1} << (u >> tile_shift);
-    const bool is_cut = u < 2 * block.x() || v < 2 * block.y();  // by the border of an odd image
-    if (is_cut) work.touched.mark(u, v, u + 1, v + 1);
+  for (std::size_t i = 0; i < end; ++i) {
+    const Fringe::Block from = queue[i];
+    const Fringe::Source source = sources[from.source()];
+    std::uint16_t* const here = origin + from.y() * pitch + from.x();
+    const int depth = *here;
+    count += paint(work.touched, labels, measured, from, depth, 2 * source.step);
+    const int dx = from.x() - source.x, dy = from.y() - source.y;
+    if (dx * dx + dy * dy > goes_on) continue;
+    const int least = std::max<int>(depth - source.step, source.nearest);
+    const int most = std::min<int>(depth + source.step, source.farthest);
+    const auto first = static_cast<std::uint32_t>(least | is_open);
+    const auto span = static_cast<std::uint32_t>(most - least);
+    for (const Way& way : ways) {  // without branches: which are taken is hard to predict
+      std::uint16_t& next = here[way.offset];
+      const bool is_taken = next - first <= span;
+      queue[end].bits = from.bits + way.block;
+      end += is_taken;
+      next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
+    }
   }
   return count;
 }
@@ -260,8 +252,7 @@ std::size_t label_fringe(Fringe& flood, Work& work, const DepthView& measured) {
       [&](const auto& depth) {
         fill_blocks(flood, work, depth);
         find_sources(flood, work);
-        fill(flood);
-        return paint(flood, work, depth);
+        return fill(flood, work, depth);
       },
       measured);
 }
