@@ -8,164 +8,105 @@
 namespace penumbra {
 namespace {
 
-/// The tiles of `before` that are not of `now`.
-void find_left(const TileMask& before, const TileMask& now, TileMask& left) {
-  for (std::size_t j = 0; j < left.rows.size(); ++j) left.rows[j] = before.rows[j] & ~now.rows[j];
-}
-
-/// Makes `image` show `source` inside `now` and zeros outside, given that it is zero outside of
-/// `now` and `left`.
 template <typename T>
-void copy_tiles(ImageView<const T> source, const TileMask& left, const TileMask& now,
-                Image<T>& image) {
-  left.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (int v = v0; v < v1; ++v) std::fill(&image(u0, v), &image(u0, v) + (u1 - u0), T{0});
-  });
-  now.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (int v = v0; v < v1; ++v) std::copy(source.row(v) + u0, source.row(v) + u1, &image(u0, v));
-  });
-}
-
-template <typename T>
-void fit(ImageView<const T> source, Image<T>& image) {
+ImageView<const T> copy(ImageView<const T> source, Image<T>& image) {
   if (image.width() != source.width || image.height() != source.height)
     image = Image<T>(source.width, source.height);
-}
-
-template <typename T>
-ImageView<const T> copy_all(ImageView<const T> source, Image<T>& image) {
-  fit(source, image);
   for (int v = 0; v < source.height; ++v)
     std::copy(source.row(v), source.row(v) + source.width, &image(0, v));
   return std::as_const(image).view();
 }
 
+std::size_t bytes_of(const DepthView& depth) {
+  return std::visit(
+      [](const auto& view) {
+        return static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) *
+               sizeof(*view.data);
+      },
+      depth);
+}
+
 }  // namespace
 
-RecentPoses::RecentPoses(std::size_t links) : links_(links), T_root_link_(links * frames) {}
-
-void RecentPoses::keep(std::int64_t stamp, const FramePoses& poses) {
-  const auto same = std::find_if(entries_.begin(), entries_.end(),
-                                 [&](const Entry& entry) { return entry.stamp == stamp; });
-  std::size_t at = next_;
-  if (same != entries_.end())
-    at = static_cast<std::size_t>(same - entries_.begin());
-  else
-    next_ = (next_ + 1) % frames;
-  entries_[at].stamp = stamp;
-  entries_[at].T_root_camera = poses.T_root_camera;
-  entries_[at].doubts.keep(poses.doubts);
-  std::copy(poses.T_root_link.begin(), poses.T_root_link.end(),
-            T_root_link_.begin() + static_cast<std::ptrdiff_t>(at * links_));
-}
-
-std::optional<FramePoses> RecentPoses::find(std::int64_t stamp) const {
-  for (std::size_t i = 0; i < frames; ++i)
-    if (entries_[i].stamp == stamp)
-      return FramePoses{links_of(i), entries_[i].T_root_camera, entries_[i].doubts.view()};
-  return std::nullopt;
-}
-
-std::span<const Eigen::Isometry3d> RecentPoses::links_of(std::size_t entry) const {
-  return std::span(T_root_link_).subspan(entry * links_, links_);
-}
-
-void RecentPoses::clear() {
-  for (Entry& entry : entries_) entry.stamp.reset();
+RecentFrames::RecentFrames(std::size_t links, std::int64_t span)
+    : span_(span), frames_(max_frames) {
+  for (Kept& kept : frames_) {
+    kept.T_root_link.reserve(links);
+    kept.T_camera_link.reserve(links);
+  }
 }
 
 void RecentFrames::keep(const JudgedFrame& frame) {
-  if (!any() || !frame.stamp) return;
-  const ImageView<const std::uint8_t>& labels = frame.images.labels.labels;
-  pixels_ = std::max(
-      pixels_, static_cast<std::size_t>(labels.width) * static_cast<std::size_t>(labels.height));
-  Copy& copy = place_for(*frame.stamp);
-  copy.frame = {frame.stamp, frame.status, {}, {}, {}};
-  copy.message = frame.message;
-  copy.frame.message = copy.message;
-  copy.frame.poses.T_root_camera = frame.poses.T_root_camera;
-  if (frame.poses.known()) {
-    copy.T_root_link.assign(frame.poses.T_root_link.begin(), frame.poses.T_root_link.end());
-    copy.frame.poses.T_root_link = copy.T_root_link;
-  }
-  copy.doubts.keep(frame.poses.doubts);
-  copy.frame.poses.doubts = copy.doubts.view();
-  if (!frame.images.labels.labels.empty()) copy_images(frame.images, copy);
+  if (!frame.stamp) return;
+  Kept& kept = place_for(*frame.stamp);
+  const FramePoses& poses = frame.poses;
+  kept.stamp = frame.stamp;
+  kept.status = frame.status;
+  kept.message = frame.message;
+  kept.T_root_link.assign(poses.T_root_link.begin(), poses.T_root_link.end());
+  kept.T_camera_link.assign(poses.T_camera_link.begin(), poses.T_camera_link.end());
+  kept.T_root_camera = poses.T_root_camera;
+  kept.doubted_links.assign(poses.doubts.links.begin(), poses.doubts.links.end());
+  kept.why_doubted = poses.doubts.why;
+  if (!keeps_depth()) return;
+  KeptDepth& depth = depth_place_for(*frame.stamp, bytes_of(frame.depth));
+  depth.stamp = frame.stamp;
+  if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&frame.depth))
+    depth.view = copy(*millimetres, depth.millimetres);
+  else
+    depth.view = copy(std::get<ImageView<const float>>(frame.depth), depth.metres);
 }
 
-/// The copy of the same stamp, else the oldest of those that are out of the span, else a new one.
-RecentFrames::Copy& RecentFrames::place_for(std::int64_t stamp) {
-  Copy* farthest = nullptr;
+RecentFrames::Kept& RecentFrames::place_for(std::int64_t stamp) {
+  for (Kept& kept : frames_)
+    if (kept.stamp == stamp) return kept;
+  next_ = (next_ + 1) % max_frames;
+  return frames_[next_];
+}
+
+/// The place of the same stamp, else of the farthest one that is out of the span, else a new one.
+RecentFrames::KeptDepth& RecentFrames::depth_place_for(std::int64_t stamp, std::size_t bytes) {
+  KeptDepth* farthest = nullptr;
   std::uint64_t most = 0;
-  for (Copy& copy : copies_) {
-    const std::uint64_t far =
-        copy.frame.stamp ? stamp_distance(*copy.frame.stamp, stamp) : ~std::uint64_t{0};
-    if (far == 0) return copy;
+  for (KeptDepth& depth : depths_) {
+    const std::uint64_t far = depth.stamp ? stamp_distance(*depth.stamp, stamp) : ~std::uint64_t{0};
+    if (far == 0) return depth;
     if (far > most) {
       most = far;
-      farthest = &copy;
+      farthest = &depth;
     }
   }
-  const std::size_t bytes = 11 * pixels_;  // labels, depth, links, measured
-  const std::size_t places = std::clamp<std::size_t>(max_bytes / bytes, 1, max_frames);
-  const bool is_over = most > static_cast<std::uint64_t>(span_) || copies_.size() >= places;
+  const std::size_t places =
+      std::clamp<std::size_t>(max_bytes / std::max<std::size_t>(bytes, 1), 1, max_frames);
+  const bool is_over = most > static_cast<std::uint64_t>(span_) || depths_.size() >= places;
   if (farthest != nullptr && is_over) return *farthest;
-  return copies_.emplace_back();
+  return depths_.emplace_back();
 }
 
-void RecentFrames::copy_images(const JudgedImages& from, Copy& to) {
-  const int width = from.labels.labels.width, height = from.labels.labels.height;
-  if (everything_.width != width || everything_.height != height) {
-    everything_ = TileMask(width, height);
-    everything_.mark(0, 0, width - 1, height - 1);
-    left_ = TileMask(width, height);
+std::optional<JudgedFrame> RecentFrames::find(std::int64_t stamp) const {
+  for (const Kept& kept : frames_) {
+    if (kept.stamp != stamp) continue;
+    const FramePoses poses{kept.T_root_link,
+                           kept.T_camera_link,
+                           kept.T_root_camera,
+                           {kept.doubted_links, kept.why_doubted}};
+    return JudgedFrame{kept.stamp, kept.status, kept.message, poses, {}, {}};
   }
-  if (to.labels.width() != width || to.labels.height() != height) {
-    to.labels = Image<std::uint8_t>(width, height);
-    to.labels_touched = TileMask(width, height);
-  }
-  const TileMask& labelled = from.labels.touched ? *from.labels.touched : everything_;
-  find_left(to.labels_touched, labelled, left_);
-  copy_tiles(from.labels.labels, left_, labelled, to.labels);
-  to.labels_touched.rows = labelled.rows;
-
-  JudgedImages& images = to.frame.images;
-  images = {};
-  images.labels = {std::as_const(to.labels).view(), from.labels.pixels,
-                   from.labels.touched ? &to.labels_touched : nullptr};
-  copy_virtual_depth(from.virtual_depth, to);
-  images.is_blind = from.is_blind;
-  if (from.is_blind) return;
-  if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&from.measured))
-    images.measured = copy_all(*millimetres, to.millimetres);
-  else
-    images.measured = copy_all(std::get<ImageView<const float>>(from.measured), to.metres);
+  return std::nullopt;
 }
 
-void RecentFrames::copy_virtual_depth(const VirtualDepthView& from, Copy& to) {
-  const int width = from.depth.width, height = from.depth.height;
-  if (to.depth.width() != width || to.depth.height() != height) {
-    to.depth = Image<float>(width, height);
-    to.links = Image<std::uint16_t>(width, height);
-    to.touched = TileMask(width, height);
-  }
-  const TileMask& touched = from.touched ? *from.touched : everything_;
-  find_left(to.touched, touched, left_);
-  copy_tiles(from.depth, left_, touched, to.depth);
-  copy_tiles(from.links, left_, touched, to.links);
-  to.touched.rows = touched.rows;
-  to.frame.images.virtual_depth = {std::as_const(to.depth).view(), std::as_const(to.links).view(),
-                                   &to.touched};
-}
-
-const JudgedFrame* RecentFrames::find(std::int64_t stamp) const {
-  for (const Copy& copy : copies_)
-    if (copy.frame.stamp == stamp) return &copy.frame;
-  return nullptr;
+std::optional<JudgedFrame> RecentFrames::find_with_depth(std::int64_t stamp) const {
+  const auto depth = std::find_if(depths_.begin(), depths_.end(),
+                                  [&](const KeptDepth& kept) { return kept.stamp == stamp; });
+  if (depth == depths_.end()) return std::nullopt;
+  auto frame = find(stamp);
+  if (frame) frame->depth = depth->view;
+  return frame;
 }
 
 void RecentFrames::clear() {
-  for (Copy& copy : copies_) copy.frame.stamp.reset();
+  for (Kept& kept : frames_) kept.stamp.reset();
+  for (KeptDepth& depth : depths_) depth.stamp.reset();
 }
 
 }  // namespace penumbra

@@ -14,6 +14,7 @@
 
 #include <penumbra/occlusion/labels.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/recent_frames-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/pipeline/target_record-inl.hpp>
@@ -36,12 +37,13 @@ class TargetStage {
     Intrinsics render_intrinsics;
     const Rectification* rectification = nullptr;  ///< as ObjectRenderers takes it
     ImageView<const std::uint8_t> unseen = {};     ///< as TargetJudge takes it
-    double history = 0;                            ///< seconds
+    double history = 0;                            ///< seconds that frames are kept
+    FrameLabeller* late_labeller = nullptr;        ///< not null if history > 0
   };
 
   explicit TargetStage(const Setup& setup);
 
-  /// Judges the targets; the reports are valid until the next call. Keeps the frame for later ones.
+  /// Judges the targets; the reports are valid until the next call. Keeps the frame for late ones.
   std::span<const TargetReport> process(std::span<const Target> targets, const JudgedFrame& frame);
 
   void forget(std::string_view name);
@@ -69,7 +71,8 @@ class TargetStage {
   void forget_unused(std::size_t given);
 
   void judge(const Target& target, const JudgedFrame& frame, Slot& slot, TargetReport& report);
-  const JudgedFrame& frame_of(const Target& target, const JudgedFrame& frame) const;
+  const JudgedFrame& frame_of(const Target& target, const JudgedFrame& frame);
+  const JudgedFrame& late_frame(std::int64_t stamp);
   void check(const Target& target, TargetRecord& memory) const;
   static void doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report);
   Judgement judge_on(const JudgedFrame& frame, const Target& target, Slot& slot);
@@ -86,8 +89,9 @@ class TargetStage {
   TargetJudge judge_;
   ObjectRenderers renderers_;
   TargetViews views_;
-  RecentPoses recent_poses_;
   RecentFrames recent_frames_;
+  FrameLabeller* late_labeller_;
+  JudgedFrame late_;  // the late frame that was labelled last in this call
   Memories memories_;
   std::deque<std::string> without_identity_;  // names in memories_ of the last call
   std::size_t calls_ = 0;

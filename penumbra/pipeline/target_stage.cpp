@@ -98,8 +98,8 @@ TargetStage::TargetStage(const Setup& setup)
       judge_(setup.camera, setup.rule, setup.robot.links().size(), setup.unseen),
       renderers_(setup.render_intrinsics, setup.backend, setup.renderer, setup.rectification),
       views_(robot_, camera_, renderers_, setup.rule, setup.rectification),
-      recent_poses_(robot_.links().size()),
-      recent_frames_(nanoseconds(setup.history)) {}
+      recent_frames_(robot_.links().size(), nanoseconds(setup.history)),
+      late_labeller_(setup.late_labeller) {}
 
 std::span<const TargetReport> TargetStage::process(std::span<const Target> targets,
                                                    const JudgedFrame& frame) {
@@ -109,17 +109,17 @@ std::span<const TargetReport> TargetStage::process(std::span<const Target> targe
     handle(targets[i], frame, slots_[i], reports_[i]);
   }
   forget_unused(targets.size());
-  recent_frames_.keep(frame);
   return std::span(reports_).first(targets.size());
 }
 
 void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& frame) {
   ++calls_;
   judged_ = nullptr;
+  late_ = {};
   if (frame.stamp) {
     if (newest_stamp_ && is_clock_jump(*frame.stamp, *newest_stamp_)) forget_all();
     newest_stamp_ = std::max(newest_stamp_.value_or(*frame.stamp), *frame.stamp);
-    if (frame.poses.known()) recent_poses_.keep(*frame.stamp, frame.poses);
+    recent_frames_.keep(frame);
   }
   for (const std::string& name : without_identity_) forget(name);
   without_identity_.clear();
@@ -211,17 +211,27 @@ void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& repo
   slot.reason = frame.message;
 }
 
-const JudgedFrame& TargetStage::frame_of(const Target& target, const JudgedFrame& frame) const {
-  const JudgedFrame* seen = &frame;
-  if (target.stamp && target.stamp != frame.stamp) {
-    if (!recent_frames_.any())
-      throw InputError("its stamp is not the frame's, and no frames are kept (target_history)");
-    seen = recent_frames_.find(*target.stamp);
-    if (seen == nullptr) throw InputError("no frame of its stamp is kept");
-  }
-  const bool is_blind = seen->images.is_blind && !is_expected(target);
-  if (seen->images.labels.labels.empty() || is_blind) throw InputError(fault_of(*seen));
-  return *seen;
+const JudgedFrame& TargetStage::frame_of(const Target& target, const JudgedFrame& frame) {
+  const bool is_late = target.stamp && target.stamp != frame.stamp;
+  const JudgedFrame& seen = is_late ? late_frame(*target.stamp) : frame;
+  const bool is_blind = seen.images.is_blind && !is_expected(target);
+  if (seen.images.labels.labels.empty() || is_blind) throw InputError(fault_of(seen));
+  return seen;
+}
+
+/// A kept frame, labelled again.
+const JudgedFrame& TargetStage::late_frame(std::int64_t stamp) {
+  if (!recent_frames_.keeps_depth())
+    throw InputError("its stamp is not the frame's, and no frames are kept (target_history)");
+  if (late_.stamp == stamp) return late_;
+  const auto kept = recent_frames_.find_with_depth(stamp);
+  if (!kept) throw InputError("no frame of its stamp is kept");
+  late_ = *kept;
+  judged_ = nullptr;
+  StageTimes untold;
+  if (late_.poses.known())
+    late_.images = late_labeller_->label(late_.poses.T_camera_link, late_.depth, untold);
+  return late_;
 }
 
 Judgement TargetStage::judge_on(const JudgedFrame& frame, const Target& target, Slot& slot) {
@@ -287,12 +297,13 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
                           TargetRecord& memory) const {
   const auto verdict = memory.log.find(stamp);
   if (!verdict || !verdict->was_judged) return Outcome::refused_verdict;
-  const auto poses = recent_poses_.find(stamp);
-  if (!poses) return Outcome::refused_verdict;
-  if (!is_known(estimate.frame, robot_) || is_doubted(estimate.frame, *poses, robot_))
+  const auto frame = recent_frames_.find(stamp);
+  if (!frame || !frame->poses.known()) return Outcome::refused_verdict;
+  const FramePoses& poses = frame->poses;
+  if (!is_known(estimate.frame, robot_) || is_doubted(estimate.frame, poses, robot_))
     return Outcome::refused_invalid;
-  const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, *poses, robot_);
-  if (is_in_camera(estimate, poses->T_root_camera.inverse() * T_root_frame))
+  const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, poses, robot_);
+  if (is_in_camera(estimate, poses.T_root_camera.inverse() * T_root_frame))
     return Outcome::refused_invalid;
   return memory.track->update(estimate, stamp, T_root_frame, verdict->verdict);
 }
@@ -306,7 +317,6 @@ void TargetStage::forget(std::string_view name) {
 void TargetStage::forget_all() {
   for (const auto& [name, memory] : memories_) judge_.forget(name);
   memories_.clear();
-  recent_poses_.clear();
   recent_frames_.clear();
   newest_stamp_.reset();
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/image_space-inl.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// Draws the robot and labels the depth image beside it, in the image that the configuration asks
+/// for. Holds its buffers.
+class FrameLabeller {
+ public:
+  /// Robot and rectification (null without lens distortion) must outlive this.
+  FrameLabeller(const Robot& robot, const Camera& camera, const Rectification* rectification,
+                const PipelineConfig& config);
+
+  /// `depth`: of the camera's size; empty: every robot pixel is unknown. Writes how long its stages
+  /// took. Valid until the next call, `measured` as long as the depth at most.
+  JudgedImages label(std::span<const Eigen::Isometry3d> T_camera_link, const DepthView& depth,
+                     StageTimes& timing);
+
+  [[nodiscard]] const DepthRenderer& renderer() const { return *renderer_; }
+  [[nodiscard]] const LabelRule& rule() const { return classifier_.rule(); }
+  [[nodiscard]] const std::optional<UncoveredPixels>& uncovered() const { return uncovered_; }
+
+  /// Whether it brings the depth image to the pinhole image.
+  [[nodiscard]] bool rectifies() const { return rectified_depth_.has_value(); }
+
+  /// Pinhole projection that the robot is drawn by; and that of the labels' image.
+  [[nodiscard]] const Intrinsics& render_intrinsics() const { return render_intrinsics_; }
+  [[nodiscard]] const Intrinsics& intrinsics() const { return intrinsics_; }
+
+ private:
+  VirtualDepthView draw(std::span<const Eigen::Isometry3d> T_camera_link);
+  LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
+
+  Intrinsics render_intrinsics_;
+  Intrinsics intrinsics_;
+  std::unique_ptr<DepthRenderer> renderer_;
+  std::optional<RawImages> raw_images_;            // with distortion, ImageSpace::raw
+  std::optional<RectifiedDepth> rectified_depth_;  // with distortion, ImageSpace::rectified
+  std::optional<UncoveredPixels> uncovered_;       // with distortion
+  Classifier classifier_;
+  std::vector<std::uint16_t> no_depth_row_;  // stands for every row of an image (stride 0)
+};
+
+/// The links' names and meshes; they refer to the robot.
+[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
+
+/// The configuration's, its range cut to the camera's.
+[[nodiscard]] LabelRule rule_of(const Camera& camera, const PipelineConfig& config);
+
+}  // namespace penumbra
