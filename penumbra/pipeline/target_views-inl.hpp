@@ -13,7 +13,6 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/camera/uncovered_view.hpp>
 #include <penumbra/occlusion/label_work-inl.hpp>
 #include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
@@ -84,6 +83,7 @@ class TargetViews {
  private:
   struct Builder;
 
+  void check_is_drawn(const Eigen::Vector3d& middle, double radius) const;
   [[nodiscard]] Eigen::Matrix2d pixels_per_metre(const Eigen::Vector2d& ray, double depth) const;
   [[nodiscard]] PixelEllipse ellipse_of(const Eigen::Vector3d& p, double radius) const;
 
@@ -91,7 +91,9 @@ class TargetViews {
   const Camera& camera_;
   ObjectRenderers& renderers_;
   labelling::Rule rule_;
-  std::optional<UncoveredView> uncovered_;  // of raw images with lens distortion
+  /// Of a cone about the optical axis: rays beyond it are of the raw image, but not of the pinhole
+  /// image by which it is drawn. Nothing where the pinhole image covers the raw one.
+  std::optional<double> drawn_half_angle_;
 };
 
 }  // namespace penumbra

@@ -39,8 +39,22 @@ bool shows_target(const ImageView<const std::uint8_t>& labels, const Eigen::Vect
   return is_trusted(static_cast<Label>(labels(static_cast<int>(u), static_cast<int>(v))));
 }
 
+/// Of the angle that a pinhole image covers: the outermost rays of pixels that it does cover.
+constexpr double outermost_rays = 1e-3;
+
 constexpr const char* uncovered =
     "reaches beyond what the lens model or the pinhole image covers: cannot be drawn there";
+
+std::optional<double> drawn_half_angle(const Camera& camera, const Rectification& rectification) {
+  const auto drawn = rectification.raw_to_pinhole();
+  bool is_whole = true;
+  for (int v = 0; v < drawn.height; ++v)
+    is_whole = is_whole && std::find(drawn.row(v), drawn.row(v) + drawn.width,
+                                     Rectification::no_pixel) == drawn.row(v) + drawn.width;
+  if (is_whole) return std::nullopt;
+  return (1.0 - outermost_rays) *
+         std::min(rectification.half_angle(), std::atan(camera.distortion.max_radius()));
+}
 
 bool shows_anything(const VirtualDepthView& view) {
   bool found = false;
@@ -68,7 +82,7 @@ Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const
 TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
                          const LabelRule& rule, const Rectification* rectification)
     : robot_(robot), camera_(camera), renderers_(renderers), rule_(rule) {
-  if (rectification != nullptr) uncovered_.emplace(camera, *rectification);
+  if (rectification != nullptr) drawn_half_angle_ = drawn_half_angle(camera, *rectification);
 }
 
 /// Makes a view of each kind of shape.
@@ -119,7 +133,7 @@ struct TargetViews::Builder {
 
   bool operator()(const PointTarget& target) {
     const Eigen::Vector3d p = T_camera(target.frame) * target.position;
-    if (views.uncovered_ && views.uncovered_->holds(p)) throw InputError(uncovered);
+    views.check_is_drawn(p, target.radius);
     const auto pixel = views.project(p);
     if (!pixel) return false;
     view.region = views.ellipse_of(p, target.radius);
@@ -131,7 +145,7 @@ struct TargetViews::Builder {
 
   bool operator()(const BoxTarget& target) {
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
-    check_is_covered({-0.5 * target.size, 0.5 * target.size}, T);
+    views.check_is_drawn(T.translation(), 0.5 * target.size.norm());
     return rendered(views.renderers_.box(target.size, T)) ||
            nearest_pixel(T.translation(), 0.5 * target.size.norm());
   }
@@ -139,16 +153,14 @@ struct TargetViews::Builder {
   bool operator()(const MeshTarget& target) {
     const Eigen::Isometry3d T = T_camera(target.frame) * target.pose;
     const bool is_shown = rendered(views.renderers_.mesh(target.mesh, T));
-    if (is_shown && !views.uncovered_) return true;
+    if (is_shown && !views.drawn_half_angle_) return true;
     Eigen::AlignedBox3d bounds;
     for (const Eigen::Vector3f& vertex : target.mesh->vertices)
       bounds.extend(vertex.cast<double>());
-    check_is_covered(bounds, T);
-    return is_shown || nearest_pixel(T * bounds.center(), 0.5 * bounds.diagonal().norm());
-  }
-
-  void check_is_covered(const Eigen::AlignedBox3d& bounds, const Eigen::Isometry3d& T) const {
-    if (views.uncovered_ && views.uncovered_->holds_part_of(bounds, T)) throw InputError(uncovered);
+    const Eigen::Vector3d middle = T * bounds.center();
+    const double radius = 0.5 * bounds.diagonal().norm();
+    views.check_is_drawn(middle, radius);
+    return is_shown || nearest_pixel(middle, radius);
   }
 
   bool rendered(const VirtualDepthView& object) {
@@ -191,6 +203,14 @@ std::optional<TargetView> TargetViews::view(const Target& target, const JudgedFr
   builder.view.depth_margin = target.depth_margin;
   if (!std::visit(builder, target.shape)) return std::nullopt;
   return builder.view;
+}
+
+/// Throws InputError where a ball may be seen beyond the cone that is drawn.
+void TargetViews::check_is_drawn(const Eigen::Vector3d& middle, double radius) const {
+  if (!drawn_half_angle_) return;
+  const double depth_in_cone = middle.z() * std::sin(*drawn_half_angle_) -
+                               middle.head<2>().norm() * std::cos(*drawn_half_angle_);
+  if (!(depth_in_cone >= radius)) throw InputError(uncovered);
 }
 
 std::optional<Eigen::Vector2d> TargetViews::project(const Eigen::Vector3d& p) const {
