@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,7 +62,7 @@ Answer wrist_at(const Cell& cell, const View& view, const std::optional<double>&
 }
 
 /// What is measured well in front of where the hand can be is not the hand (after Wuethrich 2013).
-Answer look_by_own_model(const Cell& cell, const View& view, const Follower& follower) {
+Answer look_by_hand_model(const Cell& cell, const View& view, const Follower& follower) {
   const TrackedPose held = follower.at(view.observed.stamp);
   double nearest = 0;
   if (held.source != Source::lost)
@@ -93,7 +94,7 @@ std::vector<double> second_depths_on_ray(const Cell& cell, const View& view) {
 
 /// Returns the surface near the held position that the first camera sees or, if there is none, the
 /// second camera from behind (after Fetzner 2014).
-Answer look_by_two_cameras(const Cell& cell, const View& view, const Follower& follower) {
+Answer look_by_second_camera(const Cell& cell, const View& view, const Follower& follower) {
   const TrackedPose held = follower.at(view.observed.stamp);
   const bool known = held.source != Source::lost;
   const double expected = (cell.T_base_camera.inverse() * held.pose.translation()).z();
@@ -151,13 +152,9 @@ std::vector<Method> make_point_methods(const Cell& cell) {
     methods.push_back({key, name + " + tracker", make_follower(tracker), filtered});
   }
   methods.push_back({"own_model", "Hand's own model + tracker", make_follower(tracker),
-                     [&cell](const View& view, const Follower& follower) {
-                       return look_by_own_model(cell, view, follower);
-                     }});
+                     std::bind_front(look_by_hand_model, std::cref(cell))});
   methods.push_back({"two_cameras", "Second camera + tracker", make_follower(tracker),
-                     [&cell](const View& view, const Follower& follower) {
-                       return look_by_two_cameras(cell, view, follower);
-                     }});
+                     std::bind_front(look_by_second_camera, std::cref(cell))});
   for (const bool partial : {true, false}) {
     const auto judge = std::make_shared<TargetJudge>(cell.camera, cell.rule, cell.links);
     methods.push_back({partial ? "penumbra_partial" : "penumbra",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <research/method.hpp>
@@ -41,7 +41,8 @@ struct Estimation {
 
 /// The object hides what is measured well in front of its own predicted surface (Wuethrich 2013):
 /// these pixels are removed.
-Answer look_by_own_model(const Estimation& estimate, const View& view, const Follower& follower) {
+Answer look_by_object_model(const Estimation& estimate, const View& view,
+                            const Follower& follower) {
   constexpr double tolerance = 0.02;  // metres
   const TrackedPose predicted = follower.at(view.observed.stamp);
   if (predicted.source == Source::lost) return {estimate(view)};
@@ -58,7 +59,7 @@ Answer look_by_own_model(const Estimation& estimate, const View& view, const Fol
 
 /// Points of both depth cameras are fitted near the predicted pose (after Fetzner 2014). The fit
 /// replaces estimates that it contradicts.
-Answer look_by_two_cameras(const Estimation& estimate, const View& view, const Follower& follower) {
+Answer look_by_two_clouds(const Estimation& estimate, const View& view, const Follower& follower) {
   constexpr double most_apart = 0.02;  // metres
   const auto color = estimate(view);
   const TrackedPose predicted = follower.at(view.observed.stamp);
@@ -141,13 +142,9 @@ std::vector<Method> make_pose_methods(const Cell& cell, const PoseEstimator& est
     methods.push_back({key, name + " + tracker", make_follower(tracker), filtered});
   }
   methods.push_back({"own_model", "Object's own model + tracker", make_follower(tracker),
-                     [=](const View& view, const Follower& follower) {
-                       return look_by_own_model(estimate, view, follower);
-                     }});
+                     std::bind_front(look_by_object_model, estimate)});
   methods.push_back({"two_cameras", "Second camera + tracker", make_follower(tracker),
-                     [=](const View& view, const Follower& follower) {
-                       return look_by_two_cameras(estimate, view, follower);
-                     }});
+                     std::bind_front(look_by_two_clouds, estimate)});
   for (const bool partial : {true, false}) {
     const auto judge = std::make_shared<RegionJudge>(cell);
     methods.push_back({partial ? "penumbra_partial" : "penumbra",
