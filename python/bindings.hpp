@@ -60,7 +60,6 @@ void bind_report(py::module_& m);
 void bind_pipeline(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_input(py::module_& m);
-void bind_experiments(py::module_& m);
 
 }  // namespace penumbra::python
 

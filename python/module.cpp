@@ -60,6 +60,5 @@ PYBIND11_MODULE(_core, m) {
   bind_pipeline(m);
   bind_recording(m);
   bind_input(m);
-  bind_experiments(m);
   seal(m);
 }

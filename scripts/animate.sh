@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Makes docs/images/conveyor.png and handover.png, animated (APNG), from the experiments' first seed.
-#   scripts/animate.sh [PENUMBRA]     PENUMBRA: the program; default build/dev/apps/penumbra/penumbra
+#   scripts/animate.sh [PROGRAM]     PROGRAM: default build/release/research/penumbra_research
 # Needs python3-pil.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-penumbra=${1:-$root/build/dev/apps/penumbra/penumbra}
+program=${1:-$root/build/release/research/penumbra_research}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 for experiment in conveyor handover; do
-  "$penumbra" experiment "$experiment" --seeds 0:1 --frames -o "$work/$experiment" >/dev/null
+  "$program" "$experiment" --seeds 0:1 --frames -o "$work/$experiment" >/dev/null
   "${PYTHON:-/usr/bin/python3}" - "$work/$experiment/frames" "$root/docs/images/$experiment.png" <<'PYTHON'
 import pathlib
 import sys

@@ -1,8 +1,8 @@
 #!/usr/bin/env -S python3 -B
 # SPDX-License-Identifier: Apache-2.0
-"""The experiments' tables of docs/experiments.md, from what `penumbra experiment` measured.
+"""The experiments' tables of docs/experiments.md, from what `penumbra_research` measured.
 
-experiment_tables.py METRICS.json...: prints them, and the figures that README.md tells.
+experiment_tables.py METRICS.json...: prints them, and the figures in README.md.
 experiment_tables.py --into docs/experiments.md METRICS.json...: replaces what stands between
 "<!-- begin NAME -->" and "<!-- end NAME -->" there.
 """

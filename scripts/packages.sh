@@ -4,8 +4,8 @@
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
-# matplotlib for its examples), sim (simulation, experiments), test, web (the page's tests), docs (the
-# site), bench, lint.
+# matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
+# page's tests), docs (the site), bench, lint.
 # OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
 # serves as well.
 set -euo pipefail
@@ -16,8 +16,8 @@ build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libassimp-
 ros=(cyclonedds-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
         python3-matplotlib)
-sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri
-     libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
+sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
+research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev zlib1g-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
       clang libclang-rt-14-dev python3-catkin-pkg python3-pytest python3-mypy python3-yaml python3-pil)
@@ -39,12 +39,12 @@ fi
 packages=()
 for group in "$@"; do
   case $group in
-    build | ros | python | sim | test | web | docs | bench | lint)
+    build | ros | python | sim | research | test | web | docs | bench | lint)
       declare -n of_group=$group
       packages+=("${of_group[@]}")
       ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, ros, python, sim, test, web, docs, bench, lint)" >&2
+      echo "packages.sh: unknown group '$group' (build, ros, python, sim, research, test, web, docs, bench, lint)" >&2
       exit 2
       ;;
   esac

@@ -108,7 +108,7 @@ check_tidy() {
   return "$status"
 }
 
-groups=(build ros python sim test web lint)
+groups=(build ros python sim research test web lint)
 ! $full || groups+=(bench docs)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
@@ -119,10 +119,11 @@ export PENUMBRA_REQUIRE=${PENUMBRA_REQUIRE-$require}
 # Every option is given, so that no earlier choice in a build tree leaves anything out.
 tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
 everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON
-            -DPENUMBRA_WITH_PYTHON=ON -DPENUMBRA_WITH_AVX512=ON)
+            -DPENUMBRA_BUILD_RESEARCH=ON -DPENUMBRA_WITH_PYTHON=ON -DPENUMBRA_WITH_AVX512=ON)
 # The sanitizers see AVX2 and less: the release's tests run every SIMD target.
 avx512=-DPENUMBRA_WITH_AVX512=OFF
-sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF "$avx512")
+sanitizer_scope=("${tests[@]}" -DPENUMBRA_BUILD_APPS=OFF -DPENUMBRA_BUILD_RESEARCH=OFF
+                 -DPENUMBRA_BUILD_EXAMPLES=OFF "$avx512")
 benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=OFF
 # UBSan's checks of every pointer take a third of the compilation; most of what they find ASan finds.
 undefined=bool,bounds,builtin,enum,float-cast-overflow,integer-divide-by-zero
@@ -145,7 +146,7 @@ if $full; then
   undefined=undefined
   unity=OFF
   benchmarks=-DPENUMBRA_BUILD_BENCHMARKS=ON
-  tidy_scope+='|apps|sim|tests|examples|bench'
+  tidy_scope+='|apps|sim|research|tests|examples|bench'
 fi
 
 check format check_format

@@ -84,7 +84,6 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   RenderArguments render;
   InspectArguments inspect;
   DoctorArguments doctor;
-  ExperimentArguments experiment;
   SimulateArguments simulate;
   TopicsArguments topics;
   PlayArguments play;
@@ -106,7 +105,6 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add("render", "render one virtual depth image", render, add_render);
   add("inspect", "tell what of a URDF is drawn", inspect, add_inspect);
   add("doctor", "tell what this machine offers", doctor, add_doctor);
-  add("experiment", "compare methods in simulation, as the paper does", experiment, add_experiment);
   add("simulate", "record a simulated scene with its truth", simulate, add_simulate);
   add("topics", "list the live topics of ROS 2's graph", topics, add_topics);
   add("play", "publish a bag on ROS 2's graph", play, add_play);
@@ -128,8 +126,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   for (const auto& [command, made] : commands)
     if (command->parsed()) return made();
   throw InputError(
-      "a command is needed: run, tune, render, inspect, doctor, simulate, experiment, topics, "
-      "play, "
+      "a command is needed: run, tune, render, inspect, doctor, simulate, topics, play, "
       "live or view (penumbra --help tells more)");
 }
 

@@ -17,7 +17,6 @@
 
 #include <io/dds/participant.hpp>
 #include <io/web/web_server.hpp>
-#include <sim/experiments/experiment.hpp>
 #include <sim/simulation.hpp>
 
 namespace penumbra::app {
@@ -141,8 +140,6 @@ struct DoctorArguments {
   bool json = false;
 };
 
-using ExperimentArguments = sim::ExperimentOptions;
-
 struct SimulateArguments {
   std::string scene;
   std::filesystem::path output;
@@ -177,8 +174,8 @@ struct ViewArguments {
 };
 
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                             SimulateArguments, ExperimentArguments, TopicsArguments, PlayArguments,
-                             LiveArguments, ViewArguments, TuneArguments>;
+                             SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
+                             ViewArguments, TuneArguments>;
 
 /// Reads the command line. Prints what --help and --version ask for and then answers nothing.
 /// Throws InputError that names the argument.

@@ -10,7 +10,6 @@ namespace penumbra::app {
 [[nodiscard]] int execute(const RenderArguments& arguments);
 [[nodiscard]] int execute(const InspectArguments& arguments);
 [[nodiscard]] int execute(const DoctorArguments& arguments);
-[[nodiscard]] int execute(const ExperimentArguments& arguments);
 [[nodiscard]] int execute(const SimulateArguments& arguments);
 [[nodiscard]] int execute(const TopicsArguments& arguments);
 [[nodiscard]] int execute(const PlayArguments& arguments);

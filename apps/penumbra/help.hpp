@@ -15,7 +15,6 @@ Examples:
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
   penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
-  penumbra experiment conveyor -o out        Penumbra beside other methods, in simulation
   penumbra simulate conveyor -o belt         record a simulated scene with its truth
   penumbra topics                            list the live topics of ROS 2's graph
   penumbra live                              label live topics, publish masks and targets
@@ -101,14 +100,6 @@ machine, and whether the kernel gives sockets enough for live images. The exit s
 Examples:
   penumbra doctor
   penumbra doctor --json)";
-
-inline constexpr const char* experiment_examples = R"(
-OUT gets metrics.json and report.html, one file with tables, plots and pictures; with --frames also
-frames/000000.png of the first seed. The same seeds give the same results on any number of threads.
-
-Examples:
-  penumbra experiment conveyor -o out
-  penumbra experiment handover --seeds 0:2 -o out)";
 
 inline constexpr const char* simulate_examples = R"(
 Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and grasps it), handover (a

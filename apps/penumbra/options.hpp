@@ -70,7 +70,6 @@ void check_renderer(const RendererArguments& renderer);
 // The commands with options of many kinds.
 void add_run(CLI::App& app, RunArguments& run);
 void add_tune(CLI::App& app, TuneArguments& tune);
-void add_experiment(CLI::App& app, ExperimentArguments& experiment);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_simulate(CLI::App& app, SimulateArguments& simulate);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
+#include <io/base64.hpp>
+#include <io/ros/jpeg.hpp>
 #include <io/web/key_frames.hpp>
-#include <io/web/picture_uri.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -15,6 +17,14 @@ std::vector<std::string> state_of(const FrameReport& report) {
     state.emplace_back(to_string(target.verdict));
   }
   return state;
+}
+
+/// Returns a picture for a page that is one file: "data:image/jpeg;base64,...".
+std::string picture_uri(ImageView<const Rgb8> image) {
+  constexpr int quality = 80;
+  std::vector<std::byte> jpeg;
+  encode_jpeg(image, quality, jpeg);
+  return "data:image/jpeg;base64," + base64(jpeg);
 }
 
 void append_frame(std::string& json, std::size_t frame, const std::string& picture) {

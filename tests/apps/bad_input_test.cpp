@@ -261,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(Option, BadInputTest, testing::ValuesIn(bad_options()),
 
 TEST(BadCommandLine, IsOneLineAndStatus2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines = {
-      {{}, "run, tune, render, inspect, doctor, simulate, experiment, topics, play, live or view"},
+      {{}, "run, tune, render, inspect, doctor, simulate, topics, play, live or view"},
       {{"walk"}, "walk"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},

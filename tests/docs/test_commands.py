@@ -12,7 +12,6 @@ import urllib.request
 
 import pytest
 
-import penumbra
 from blocks import DOCUMENTS, ROOT, blocks_of, commands_of, inline_code
 from conftest import PROGRAM, in_folder, is_full
 
@@ -27,6 +26,7 @@ NOT_RUN = {
     r"python3 -m venv|~/penumbra-python/bin/pip": "a wheel: tests/python/test_wheel.py",
     r"build/dev/bench/": "a benchmark on real recordings",
     r"ros2 ": "ROS 2's own",
+    r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",
     r"sudo sysctl|echo net\.core": "the machine's settings",
 }
 
@@ -74,19 +74,12 @@ def look_at(words, work, environment):
             process.kill()
 
 
-def simulates(words):
-    return words[1] in ("simulate", "experiment")
-
-
 def can_simulate():
-    """Minutes; and a build may be without."""
-    required = "simulation" in os.environ.get("PENUMBRA_REQUIRE", "")
-    return is_full() and (required or bool(penumbra.experiments()))
+    """It takes minutes, and a build may be without it."""
+    return is_full() and "simulation" in os.environ.get("PENUMBRA_REQUIRE", "")
 
 
 def run_penumbra(words, work, environment):
-    if words[1] == "experiment" and "--seeds" not in words:
-        words = [*words, "--seeds", "0:1"]
     if words[1] == "view":
         look_at(words, work, environment)
     elif words[1] == "live" or "--loop" in words:
@@ -117,7 +110,7 @@ def test_commands_run(document, work, environment):
                 assert reason_not_to_run(command.text), f"{place}: nobody knows how to test this"
                 if words[0].startswith("scripts/"):
                     assert (ROOT / words[0]).is_file(), place
-            elif simulates(words) and not can_simulate():
+            elif words[1] == "simulate" and not can_simulate():
                 continue
             else:
                 run_penumbra(words, work, environment)

@@ -28,7 +28,8 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"io", core},
       {"sim", core},
       {"apps", core},
-      {"python", core}};
+      {"python", core},
+      {"research", core}};
   return rooms;
 }
 
@@ -62,11 +63,12 @@ const std::vector<Library>& libraries() {
                                         {"boost/", "io/web", 2},
                                         {"dds/", "io/dds", 8},
                                         {"mujoco/", "sim", 1},
-                                        {"nlohmann/", "sim", 2},
-                                        {"opencv2/", "sim", 1},
                                         {"epoxy/egl.h", "sim", 1},
                                         {"CLI/", "apps", 8},
-                                        {"pybind11/", "python", 6}};
+                                        {"pybind11/", "python", 6},
+                                        {"CLI/", "research", 1},
+                                        {"nlohmann/", "research", 1},
+                                        {"opencv2/", "research", 1}};
   return all;
 }
 
@@ -87,7 +89,7 @@ bool stands_beside(const SourceFile& file, const std::string& include) {
 }
 
 std::vector<SourceFile> shipped() {
-  return source_files({"penumbra", "io", "sim", "apps", "python"}, {".cpp", ".hpp"});
+  return source_files({"penumbra", "io", "sim", "apps", "python", "research"}, {".cpp", ".hpp"});
 }
 
 TEST(Layers, IncludesPointDown) {
@@ -106,15 +108,19 @@ TEST(Layers, IncludesPointDown) {
       }
       if (include.starts_with("sim/")) {
         const bool may = file.path.starts_with("sim/") || file.path.starts_with("apps/") ||
-                         file.path.starts_with("python/");
+                         file.path.starts_with("research/");
         EXPECT_TRUE(may) << file.path << " includes " << include;
       }
       if (include.starts_with("apps/")) {
-        const bool may = file.path.starts_with("apps/") || file.path.starts_with("python/");
+        const bool may = file.path.starts_with("apps/") || file.path.starts_with("python/") ||
+                         file.path.starts_with("research/");
         EXPECT_TRUE(may) << file.path << " includes " << include;
       }
       if (include.starts_with("python/")) {
         EXPECT_TRUE(file.path.starts_with("python/")) << file.path << " includes " << include;
+      }
+      if (include.starts_with("research/")) {
+        EXPECT_TRUE(file.path.starts_with("research/")) << file.path << " includes " << include;
       }
     }
   }
@@ -137,7 +143,8 @@ TEST(Layers, LibrariesStayInTheirFolders) {
     for (const auto& include : includes(file)) {
       const bool ours = include.starts_with("penumbra/") || include.starts_with("io/") ||
                         include.starts_with("sim/") || include.starts_with("apps/") ||
-                        include.starts_with("python/") || stands_beside(file, include);
+                        include.starts_with("python/") || include.starts_with("research/") ||
+                        stands_beside(file, include);
       const bool system = is_standard(include) || include.starts_with("Eigen/") ||
                           include.starts_with("sys/") || include == "unistd.h" ||
                           include == "fcntl.h";

@@ -202,7 +202,6 @@ BAD_CALLS = [
     (lambda o: penumbra.open_input("nowhere"), ValueError, "nowhere"),
     (lambda o: penumbra.open_input(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
     (lambda o: penumbra.open_input(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
-    (lambda o: penumbra.run_experiment("nothing", "/nowhere"), ValueError, ""),
     (lambda o: penumbra.Pipeline.__new__(penumbra.Pipeline).process(o.frames[0].frame), TypeError,
      "__new__"),
     (lambda o: penumbra.Frame.__new__(penumbra.Frame).depth, TypeError, "__new__"),

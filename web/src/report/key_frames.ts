@@ -6,8 +6,6 @@ export interface KeyFrame {
   readonly index: number;
   /** A data: address. */
   readonly image: string;
-  /** What happens in it; a run's pictures have none. */
-  readonly title?: string;
 }
 
 /** The pictures; each opens its frame in the timeline. */

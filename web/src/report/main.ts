@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One file that tells a run or an experiment: summary, targets over time, key frames. Opens from the
-// disk, prints.
+// The report of a run in one file: summary, targets over time, key frames. It opens from the disk and
+// prints.
 import '../styles/base.css';
 import '../styles/targets.css';
 import '../styles/timeline.css';
 import '../styles/report.css';
-import '../styles/experiment.css';
 import { parseJson } from '../api/json';
 import type { Report } from '../api/types';
-import { ExperimentPage } from '../experiment/experiment_page';
-import type { Experiment, Metrics } from '../experiment/types';
 import { byId } from '../view/dom';
 import type { KeyFrame } from './key_frames';
 import { ReportPage } from './report_page';
@@ -27,11 +24,6 @@ applyTheme();
 
 const host = byId('report');
 const pictures = embedded<readonly KeyFrame[]>('penumbra-frames');
-const experiment = embedded<Experiment | null>('penumbra-experiment');
-if (experiment) {
-  new ExperimentPage(host, embedded<Metrics>('penumbra-report'), experiment, pictures);
-} else {
-  const report = embedded<Report | null>('penumbra-report');
-  if (report) new ReportPage(host, report, pictures);
-  else host.textContent = 'There is no report in this file.';
-}
+const report = embedded<Report | null>('penumbra-report');
+if (report) new ReportPage(host, report, pictures);
+else host.textContent = 'There is no report in this file.';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of runs and of experiments are put together from.
+// The parts of a report's page.
 import { timelineLegend } from '../timeline/legend';
 import { element } from '../view/dom';
 
@@ -18,11 +18,11 @@ export function tile(name: string, value: string, more: string, fault = false): 
 export const row = (tag: 'th' | 'td', cells: readonly string[]): HTMLTableRowElement =>
   element('tr', '', ...cells.map((cell) => element(tag, '', cell)));
 
-/** Where a timeline is drawn, and the panel that holds it below its legend. */
-export function timelinePanel(...legends: readonly HTMLElement[]): [HTMLElement, HTMLElement] {
+/** Returns the element that a timeline is drawn in, and the panel that holds it below its legend. */
+export function timelinePanel(): [HTMLElement, HTMLElement] {
   const chart = element('div', '');
   chart.id = 'timeline';
-  const legend = element('div', '', ...timelineLegend(), ...legends);
+  const legend = element('div', '', ...timelineLegend());
   legend.id = 'timeline-legend';
   return [chart, element('div', 'panel', legend, chart)];
 }

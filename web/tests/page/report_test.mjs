@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports of runs in which something did not take place.
+// Reports of runs, with targets and without.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { example, launch, openFile, program } from './browser.mjs';
+import { desktop, example, launch, openFile, phone, program } from './browser.mjs';
 
 let browser, folder;
 
@@ -62,6 +62,34 @@ test('the playhead of a report goes to its ends', async () => {
   assert.equal(await playhead.getAttribute('aria-valuenow'), '1', 'elsewhere the page scrolls');
   assert.deepEqual(faults, []);
   await close();
+});
+
+test('a picture opens its frame, and names are text', async () => {
+  const out = path.join(folder, 'judged');
+  execFileSync(program, ['run', example, '-o', out, '--report'], { stdio: 'ignore' });
+  const html = await readFile(path.join(out, 'report.html'), 'utf8');
+  const { frames } = JSON.parse(await readFile(path.join(out, 'report.json'), 'utf8'));
+  const { name } = frames[0].targets[0];
+  const hostile = '<img src=x onerror=alert(1)>\\u003c/script>';
+  const file = path.join(out, 'hostile.html');
+  const escaped = JSON.stringify(hostile).replaceAll('<', '\\u003c');
+  await writeFile(file, html.replaceAll(JSON.stringify(name), escaped));
+  for (const options of [desktop, phone]) {
+    const { page, faults, close } = await openFile(browser, file, options);
+    assert.ok((await page.getByText(hostile).count()) > 1);
+    assert.equal(await page.locator('img:not([src^="data:image/jpeg"])').count(), 0);
+    const pictures = page.locator('button.picture');
+    await pictures.last().click();
+    const at = await page.locator('.playhead').getAttribute('aria-valuenow');
+    assert.equal(at, String(frames.length - 1));
+    const [scroll, width] = await page.evaluate(() => {
+      const { scrollWidth, clientWidth } = document.documentElement;
+      return [scrollWidth, clientWidth];
+    });
+    assert.ok(scroll <= width, `${scroll} > ${width}`);
+    assert.deepEqual(faults, []);
+    await close();
+  }
 });
 
 test('pixels and times that no frame told are dashes, not zeros', async () => {
