@@ -23,7 +23,7 @@ Examples:
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault,
-or a graphics device that failed.)";
+or a graphics device that failed; 130 stopped by Ctrl-C.)";
 
 inline constexpr const char* run_examples = R"(
 OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot, or where the lens

@@ -83,13 +83,15 @@ io::ReportHead Judging::head() const {
 
 bool Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
   judge_frames(output, go_on);
-  if (stopped_) return false;
   late_notes_ = source_->notes();
   late_notes_.insert(late_notes_.end(), sequence_notes_.begin(), sequence_notes_.end());
   if (!lost_.empty()) late_notes_.push_back(lost_);
   for (std::string& note : output.notes()) late_notes_.push_back(std::move(note));
+  if (stopped_)
+    late_notes_.push_back("stopped after " + std::to_string(statistics_.frames()) +
+                          " frames: later ones are not judged");
   output.finish(statistics_, late_notes_);
-  return true;
+  return !stopped_;
 }
 
 void Judging::judge_frames(RunOutput& output, const std::function<bool()>& go_on) {

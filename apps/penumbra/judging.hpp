@@ -35,8 +35,8 @@ class Judging {
   [[nodiscard]] io::ReportHead head() const;
 
   /// Judges the frames into `output`, which has begun, and finishes it. `go_on` is asked after each
-  /// frame; where it says no, nothing is finished and false is answered. Throws InputError where
-  /// the first usable frame shows a fault of the input, and what `output` throws.
+  /// frame; where it says no, later ones are not judged, and the answer is false. Throws InputError
+  /// where the first usable frame shows a fault of the input, and what `output` throws.
   bool run(RunOutput& output, const std::function<bool()>& go_on);
 
   /// Prints faults, notes, counts and times. To be called after run().

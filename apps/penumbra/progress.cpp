@@ -42,9 +42,12 @@ void Progress::draw(Clock::time_point now) const {
     const std::size_t filled = bar_width * std::min(done_, total_) / total_;
     std::cerr << '[' << std::string(filled, '#') << std::string(bar_width - filled, '.') << "] ";
   }
+  const double rate = seconds > 0.0 ? static_cast<double>(done_) / seconds : 0.0;
   std::cerr << done_ << (total_ > 0 ? "/" + std::to_string(total_) : "") << " frames, "
-            << fixed(seconds > 0.0 ? static_cast<double>(done_) / seconds : 0.0, 1) << "/s\033[K"
-            << std::flush;
+            << fixed(rate, 1) << "/s";
+  if (total_ > done_ && rate > 0.0)
+    std::cerr << ", " << fixed(static_cast<double>(total_ - done_) / rate, 0) << " s left";
+  std::cerr << "\033[K" << std::flush;
 }
 
 }  // namespace penumbra::app

@@ -6,7 +6,7 @@
 
 namespace penumbra::app {
 
-/// A bar on stderr with frames done and rate; nothing where stderr is no terminal.
+/// A bar on stderr with frames done, rate and time left; nothing where stderr is no terminal.
 class Progress {
  public:
   explicit Progress(std::size_t total);  ///< 0: not known

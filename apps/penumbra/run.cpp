@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -51,19 +52,32 @@ std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunI
   return std::make_unique<OutputFolder>(arguments.output, arguments, pipeline.rectification());
 }
 
+volatile std::sig_atomic_t interrupted_by = 0;  // a signal's number
+
+/// From now on the first Ctrl-C or SIGTERM only sets interrupted_by; a second one ends the program.
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { interrupted_by = signal; };
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
 int judge_all(const RunArguments& arguments) {
   Judging judging(arguments);
   const auto output = open_output(arguments, judging.input(), judging.pipeline());
+  catch_interrupts();
   output->begin(judging.head());
+  bool is_whole = false;
   {
     Progress progress(judging.size().value_or(0));
-    judging.run(*output, [&] {
+    is_whole = judging.run(*output, [&] {
       progress.step();
-      return true;
+      return interrupted_by == 0;
     });
   }
   judging.tell(output->where());
-  return judging.status();
+  return is_whole ? judging.status() : 128 + interrupted_by;
 }
 
 }  // namespace
