@@ -259,8 +259,7 @@ TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
       {{example, "--port", "70000"}, "--port"},
       {{example, "--address", "nowhere"}, "--address"},
       {{example, "--frames", "50:60"}, "--frames"},
-      {{example, "--input", example}, "--input"},
-      {{"live", "--input", example}, "--input"}};
+      {{example, "--input", example}, "--input"}};
   for (const auto& [arguments, word] : faults) {
     std::vector<std::string> all{"view"};
     all.insert(all.end(), arguments.begin(), arguments.end());
