@@ -178,8 +178,7 @@ struct LiveArguments {
 };
 
 struct ViewArguments {
-  RunArguments judging;         ///< its input: what is shown
-  std::filesystem::path input;  ///< of a run whose results are shown, in place of its report's
+  RunArguments judging;  ///< its input: what is shown
   ServerArguments server;
 };
 

@@ -62,9 +62,8 @@ inline constexpr const char* view_examples = R"(
 Judges a recording or a bag as run does and serves a page that shows it while that goes on: robot, camera and points
 in 3-D, images with their labels, targets along the time. The address to open is printed. Images are
 kept compressed in a temporary file in TMPDIR, else /var/tmp, which is gone with the program. Of a
-folder that run wrote its report and images are shown; what was not saved is judged again from the
-run's input, and shown where that gives what the report says. penumbra live --port serves the same
-page. Ctrl-C ends it.
+folder that run wrote its report and the images of --save are shown, and the page says how to get
+the rest. penumbra live --port serves the same page. Ctrl-C ends it.
 
 Examples:
   penumbra view recording/

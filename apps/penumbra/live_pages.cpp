@@ -38,6 +38,7 @@ class LivePages::Page final : public io::FrameWatcher {
   /// `statuses`: the robot's, if there is one, and the camera's.
   void tell(const std::vector<const Status*>& statuses) {
     std::vector<io::LiveView::Diagnostic> diagnostics;
+    diagnostics.reserve(statuses.size());
     for (const Status* status : statuses)
       diagnostics.push_back({level_of(*status), status->name + ": " + status->message});
     std::vector<std::string> missing;

@@ -11,8 +11,6 @@ void add_view(CLI::App& app, ViewArguments& view) {
            "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
            "", run.input)
       ->required();
-  add_path(app, "--input", "the input of a run, in place of the one that its report names", "PATH",
-           view.input);
   add_server(app, view.server, "where the page is served; 0: any that is free; default 8470");
   add_judging(app, run);
   add_sequence(app, run);

@@ -75,7 +75,7 @@ class ViewLive : public testing::Test {
  protected:
   /// `penumbra live` with a page.
   [[nodiscard]] ViewerProcess start() const {
-    return ViewerProcess({"--domain", std::to_string(domain_.id())}, {}, "live");
+    return ViewerProcess({"--domain", std::to_string(domain_.id())}, "live");
   }
   static void open(WebClient& browser, const std::string& with) {
     ASSERT_EQ(browser.upgrade("/api/live").status, 101);

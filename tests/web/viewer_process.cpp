@@ -17,9 +17,7 @@ namespace {
 
 constexpr int patience_ms = 30'000;
 
-[[noreturn]] void become_viewer(std::vector<std::string>& arguments,
-                                const std::vector<std::string>& environment, int out) {
-  for (const std::string& variable : environment) ::putenv(const_cast<char*>(variable.c_str()));
+[[noreturn]] void become_viewer(std::vector<std::string>& arguments, int out) {
   ::dup2(out, STDOUT_FILENO);
   ::signal(SIGINT, SIG_DFL);
   std::vector<char*> texts;
@@ -48,15 +46,13 @@ std::string line_from(int descriptor, const std::string& start) {
 
 }  // namespace
 
-ViewerProcess::ViewerProcess(std::vector<std::string> arguments,
-                             const std::vector<std::string>& environment,
-                             const std::string& command) {
+ViewerProcess::ViewerProcess(std::vector<std::string> arguments, const std::string& command) {
   arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, command});
   arguments.insert(arguments.end(), {"--port", "0"});
   std::array<int, 2> pipe{};
   EXPECT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
   pid_ = ::fork();
-  if (pid_ == 0) become_viewer(arguments, environment, pipe[1]);
+  if (pid_ == 0) become_viewer(arguments, pipe[1]);
   ::close(pipe[1]);
   out_ = pipe[0];
   url_ = line_from(out_, "http://");

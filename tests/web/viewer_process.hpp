@@ -17,9 +17,7 @@ namespace penumbra::test {
 class ViewerProcess {
  public:
   /// Waits up to 30 s until it prints its address. `--port 0` is added.
-  explicit ViewerProcess(std::vector<std::string> arguments,
-                         const std::vector<std::string>& environment = {},
-                         const std::string& command = "view");
+  explicit ViewerProcess(std::vector<std::string> arguments, const std::string& command = "view");
   ~ViewerProcess();
   ViewerProcess(const ViewerProcess&) = delete;
   ViewerProcess& operator=(const ViewerProcess&) = delete;
