@@ -13,4 +13,4 @@ cmake --build build/demo --target penumbra_app
 build/demo/apps/penumbra/penumbra run examples/arm_over_table -o "$out" \
   --save overlay,labels,links,vdi
 echo "pictures: $out/overlay/*.png   labels: $out/labels/*.png   report: $out/report.json"
-printf 'in the browser: build/demo/apps/penumbra/penumbra view %q\n' "$out"
+echo 'in the browser: build/demo/apps/penumbra/penumbra view examples/arm_over_table'

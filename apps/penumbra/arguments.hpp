@@ -147,6 +147,14 @@ struct SimulateArguments {
   sim::SimulationOptions options;
 };
 
+/// Where the viewer's page is served.
+struct ServerArguments {
+  std::optional<std::uint16_t> port;
+  std::optional<std::string> address;
+};
+
+[[nodiscard]] io::WebOptions web_options(const ServerArguments& server);
+
 struct LiveArguments {
   /// A camera that is named on the command line.
   struct NamedCamera {
@@ -163,14 +171,12 @@ struct LiveArguments {
   std::optional<std::string> publish;  ///< names of results; nothing: all
   std::optional<double> duration;      ///< seconds
   std::optional<std::filesystem::path> summary;
+  ServerArguments server;  ///< without a port no page is served
 };
 
 struct ViewArguments {
-  RunArguments judging;         ///< its input: what is shown
-  bool is_live = false;         ///< "live" in place of an input
-  LiveArguments live;           ///< its topics
-  std::filesystem::path input;  ///< of a run whose results are shown, in place of its report's
-  io::WebOptions server{.port = 8470};
+  RunArguments judging;  ///< its input: what is shown
+  ServerArguments server;
 };
 
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,

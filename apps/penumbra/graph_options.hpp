@@ -23,9 +23,6 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);
-/// Cameras, and how names and messages are found on the graph: of `live` and `view live`.
-void add_cameras(CLI::App& app, LiveArguments& live);
-void add_graph(CLI::App& app, LiveArguments& live);
 
 /// Refuses what does not go together.
 void check_live(const LiveArguments& live);

@@ -61,17 +61,14 @@ inline constexpr const char* view_examples = R"(
 Judges a recording or a bag as run does and serves a page that shows it while that goes on: robot, camera and points
 in 3-D, images with their labels, targets along the time. The address to open is printed. Images are
 kept compressed in a temporary file in TMPDIR, else /var/tmp, which is gone with the program. Of a
-folder that run wrote its report and images are shown; what was not saved is judged again from the
-run's input, and shown where that gives what the report says. view live
-follows penumbra live, which runs beside it, with the same options of topics; a folder of that name
-is ./live. Ctrl-C ends it.
+folder that run wrote its report and the images of --save are shown, and the page says how to get
+the rest. penumbra live --port serves the same page. Ctrl-C ends it.
 
 Examples:
   penumbra view recording/
   penumbra view bag.mcap --package ur_description=/opt/ur_description --port 0
   penumbra view recording/ --labels paper
   penumbra view out                          what penumbra run ... -o out wrote
-  penumbra view live --domain 7
   penumbra view recording/ --address 0.0.0.0)";
 
 inline constexpr const char* render_examples = R"(
@@ -121,12 +118,13 @@ Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2
 image with the robot's pose at its own stamp, and publishes what a bag of results holds below
 /penumbra (with --camera below /penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets,
 overlay/compressed, each only while somebody listens; and /diagnostics, once a second, which says why
-nothing is published. What is not known is published as unknown. Ctrl-C and SIGTERM end it; after
+nothing is published. What is not known is published as unknown. --port serves the viewer's page of
+each camera, with the values as they were judged. Ctrl-C and SIGTERM end it; after
 --duration its exit status is 2 if it judged nothing.
 ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
 
 Examples:
-  penumbra live --package ur_description=/opt/ur_description
+  penumbra live --package ur_description=/opt/ur_description --port 8470
   penumbra live --depth-topic /camera/camera/depth/image_rect_raw --target-topic /detections
   penumbra live --camera left=/left/depth/image_rect_raw --camera right=/right/depth/image_rect_raw
   penumbra live --namespace cell --remap /tf:=/cell/tf --publish mask,targets --summary live.json)";

@@ -41,8 +41,6 @@ class Judging {
 
   /// Prints faults, notes, counts and times. To be called after run().
   void tell(const std::string& where) const;
-  /// Why later frames are not judged, as a device failed; empty: all are. After run().
-  [[nodiscard]] const std::string& lost() const { return lost_; }
   /// Of `run`.
   [[nodiscard]] int status() const;
 

@@ -20,6 +20,7 @@
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
+#include <apps/penumbra/live_pages.hpp>
 #include <apps/penumbra/live_setup.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
@@ -65,20 +66,22 @@ std::string words_of(const std::exception_ptr& fault) {
   }
 }
 
-/// Publishes what is said of how it goes.
+/// Publishes statuses, shows them on the pages and prints new faults.
 class Diagnostics {
  public:
-  Diagnostics(io::Participant& graph, const io::NameResolver& names)
+  Diagnostics(io::Participant& graph, const io::NameResolver& names, LivePages& pages)
       : publication_(graph.advertise(names.resolve(diagnostics_topic),
                                      "diagnostic_msgs/msg/DiagnosticArray",
                                      {.reliable = true, .depth = 10})),
-        speaker_(live_speaker(names)) {}
+        speaker_(live_speaker(names)),
+        pages_(pages) {}
 
   [[nodiscard]] const io::LiveSpeaker& speaker() const { return speaker_; }
 
   void tell(const io::DiagnosticArrayMessage& message) {
     io::encode(message, payload_);
     static_cast<void>(publication_->write(payload_));
+    pages_.tell(message);
     for (const std::string& line : news_.look(message)) std::cerr << line << '\n';
   }
 
@@ -97,6 +100,7 @@ class Diagnostics {
   std::vector<std::byte> payload_;
   io::TroubleNews news_;
   io::LiveSpeaker speaker_;
+  LivePages& pages_;
 };
 
 /// Waits for the graph's one camera. Nothing: it was stopped before. Throws InputError where there
@@ -146,8 +150,8 @@ PipelineConfig config_of(const LiveArguments& arguments) {
 class Live {
  public:
   Live(const LiveArguments& arguments, const io::NameResolver& names, io::Participant& graph,
-       const io::LiveOptions& options)
-      : arguments_(arguments) {
+       const io::LiveOptions& options, LivePages& pages)
+      : arguments_(arguments), pages_(pages) {
     std::vector<io::ResultSink*> sinks;
     for (const io::LiveCameraOptions& camera : options.cameras) {
       results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
@@ -157,6 +161,7 @@ class Live {
       sinks.push_back(results_.back().get());
     }
     runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
+    pages.watch(*runner_, options.cameras);
     subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
   }
 
@@ -216,7 +221,7 @@ class Live {
       const bool pictures = std::any_of(results_.begin(), results_.end(), [](const auto& results) {
         return results->wants(io::Result::overlay);
       });
-      subscriptions_->follow(pictures);
+      subscriptions_->follow(pictures || pages_.need_color());
       const auto links = subscriptions_->links();
       diagnostics.tell(runner_->with_inbox([&](const io::LiveInbox& inbox) {
         return words.report(inbox, links,
@@ -233,6 +238,7 @@ class Live {
   }
 
   const LiveArguments& arguments_;
+  LivePages& pages_;
   Clock::time_point begin_ = Clock::now();
   double cpu_at_start_ = cpu_seconds();
   std::vector<std::unique_ptr<GraphResults>> results_;
@@ -313,7 +319,9 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
       !advice.empty())
     tell_notes(std::vector{advice});
-  Diagnostics diagnostics(*graph, names);
+  LivePages pages(arguments, graph->domain());
+  pages.print();
+  Diagnostics diagnostics(*graph, names, pages);
   if (options.cameras.empty()) {
     CameraSearch search(*graph, wishes);
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
@@ -324,7 +332,7 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
     options.cameras.push_back(std::move(*camera));
   }
   tell_topics(options, graph->domain());
-  Live live(arguments, names, *graph, options);
+  Live live(arguments, names, *graph, options, pages);
   const bool stopped = live.run(*graph, diagnostics, stop);
   tell_notes(graph->take_complaints());
   fault = live.fault();

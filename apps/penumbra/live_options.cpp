@@ -41,8 +41,6 @@ void check_camera_name(const std::string& name) {
   }
 }
 
-}  // namespace
-
 void add_graph(CLI::App& app, LiveArguments& live) {
   add_domain(app, live.graph);
   add_option(app, "--namespace", "of the names below that have no / before them", "NS",
@@ -68,6 +66,8 @@ void add_cameras(CLI::App& app, LiveArguments& live) {
            });
 }
 
+}  // namespace
+
 void add_live(CLI::App& app, LiveArguments& live) {
   app.footer(live_examples);
   add_cameras(app, live);
@@ -87,6 +87,9 @@ void add_live(CLI::App& app, LiveArguments& live) {
                if (text.empty()) refuse_option("--summary", text, "a path");
                live.summary = text;
              });
+  add_server(app, live.server,
+             "serve the viewer's page of this camera there; of several cameras each next one's at "
+             "the next port; 0: any that is free; default: no page");
   add_graph(app, live);
   live.judging.geometry_default = "collision";
   add_judging(app, live.judging);
@@ -98,6 +101,8 @@ void add_live(CLI::App& app, LiveArguments& live) {
 
 void check_live(const LiveArguments& live) {
   check_renderer(live.judging.renderer);
+  if (live.server.address && !live.server.port)
+    throw InputError("--address: is of the page that --port serves; give --port, too");
   const BagArguments& topics = live.judging.bag;
   if (live.cameras.empty()) return;
   if (topics.depth_topic)

@@ -7,6 +7,8 @@ namespace penumbra::app {
 namespace {
 
 constexpr int most_gl_devices = 1000;
+constexpr int most_port = 65535;
+constexpr std::uint16_t default_port = 8470;
 
 }  // namespace
 
@@ -16,6 +18,25 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
     if (text.empty()) refuse_option(names, text, "a path");
     to = text;
   });
+}
+
+io::WebOptions web_options(const ServerArguments& server) {
+  io::WebOptions options{.port = server.port.value_or(default_port)};
+  if (server.address) options.address = *server.address;
+  return options;
+}
+
+void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help) {
+  add_option(app, "--port", port_help, "N", [&](const std::string& text) {
+    server.port = static_cast<std::uint16_t>(to_count("--port", text, 0, most_port));
+  });
+  add_option(app, "--address",
+             "IP address to serve on; default 127.0.0.1, this machine alone; another wants the "
+             "token that is printed",
+             "IP", [&](const std::string& text) {
+               if (text.empty()) refuse_option("--address", text, "an IP address");
+               server.address = text;
+             });
 }
 
 void add_renderer(CLI::App& app, RendererArguments& renderer) {

@@ -57,6 +57,9 @@ void add_renderer(CLI::App& app, RendererArguments& renderer);
 void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 
+/// --port and --address. `port_help`: what --port means.
+void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help);
+
 /// By what frames are judged: renderer, geometry, tolerance, labels.
 void add_judging(CLI::App& app, RunArguments& run);
 /// Which frames and targets are judged, in which image.

@@ -4,7 +4,6 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/stop_signal.hpp>
-#include <apps/penumbra/view_live.hpp>
 #include <apps/penumbra/view_source.hpp>
 #include <io/web/web_server.hpp>
 
@@ -28,10 +27,9 @@ void wait_for_end(StopSignal& stop, ViewSource& source) {
 }  // namespace
 
 int execute(const ViewArguments& arguments) {
-  if (arguments.is_live) return view_live(arguments);
   StopSignal stop;
   ViewSource source(arguments);
-  const io::WebServer server(arguments.server, source.view());
+  const io::WebServer server(web_options(arguments.server), source.view());
   std::cout << server.url() << std::endl;
   source.start();
   wait_for_end(stop, source);

@@ -3,11 +3,7 @@
 
 #include <atomic>
 #include <exception>
-#include <filesystem>
-#include <functional>
-#include <memory>
 #include <optional>
-#include <string>
 #include <thread>
 
 #include <apps/penumbra/arguments.hpp>
@@ -17,9 +13,6 @@
 #include <io/web/stored_view.hpp>
 
 namespace penumbra::app {
-
-/// Whether a run wrote this folder, or it is its report.json.
-[[nodiscard]] bool is_run_folder(const std::filesystem::path& input);
 
 /// What the viewer shows of files: an input, which is judged meanwhile, or the results of a run.
 class ViewSource {
@@ -35,15 +28,13 @@ class ViewSource {
   /// Begins to judge, in a thread of its own.
   void start();
   [[nodiscard]] bool is_over() const { return over_; }
-  /// Prints what came of it, to be called when it is over. Throws what judging threw; of a run's
-  /// results, which are shown all the same, nothing.
+  /// Prints what came of it, to be called when it is over. Throws what judging threw.
   void tell();
 
  private:
   void open_input(const RunArguments& arguments);
-  void open_run(const ViewArguments& arguments);
+  void open_run(const RunArguments& arguments);
   void judge();
-  [[nodiscard]] std::string what_went_wrong() const;
 
   RunArguments judged_;  // the judging refers to it
   std::optional<Judging> judging_;

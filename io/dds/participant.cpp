@@ -66,8 +66,7 @@ class DdsSubscription final : public Subscription {
       std::shared_ptr<const void> owner = own_taken(data);
       if (!info.valid_data) continue;  // tells of a publisher's end, not a message
       ++taken_;
-      sample = {cdr_bytes(data), std::move(owner), info.source_timestamp, info.publication_handle,
-                participant_of(info.publication_handle)};
+      sample = {cdr_bytes(data), std::move(owner), info.source_timestamp, info.publication_handle};
       return true;
     }
   }
@@ -91,20 +90,6 @@ class DdsSubscription final : public Subscription {
   }
 
  private:
-  std::uint64_t participant_of(dds_instance_handle_t publication) {
-    if (const auto known = participants_.find(publication); known != participants_.end())
-      return known->second;
-    dds_builtintopic_endpoint_t* const found =
-        dds_get_matched_publication_data(reader_, publication);
-    if (found == nullptr) return 0;  // it went while its message was on its way
-    if (participants_.size() >= most_publications) participants_.clear();
-    const std::uint64_t participant = found->participant_instance_handle;
-    dds_builtintopic_free_endpoint(found);
-    return participants_[publication] = participant;
-  }
-
-  static constexpr std::size_t most_publications = 1000;         // that come and go
-  std::map<dds_instance_handle_t, std::uint64_t> participants_;  // by publication
   std::shared_ptr<ArrivalCounts> counts_ = std::make_shared<ArrivalCounts>();
   DdsTopic topic_;
   dds_entity_t reader_ = 0;

@@ -33,8 +33,6 @@ struct Sample {
   std::shared_ptr<const void> owner;  ///< keeps `data` alive, without a copy, as long as it lives
   std::int64_t source_time = 0;       ///< nanoseconds since 1970: when it was written, by DDS
   std::uint64_t publisher = 0;        ///< whose it is: a number that no other one ever has here
-  /// The publisher's participant: one program's publications have the same; 0: not known any more.
-  std::uint64_t participant = 0;
 };
 
 /// What a subscription has seen since it was made. received = taken + overwritten + waiting.

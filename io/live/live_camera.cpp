@@ -183,7 +183,7 @@ void LiveCamera::admit(std::int64_t now) {
   }
 }
 
-bool LiveCamera::next(std::int64_t now, bool with_overlay, LiveJob& job) {
+bool LiveCamera::next(std::int64_t now, bool with_color, LiveJob& job) {
   admit(now);
   if (!setup_ || !setup_->queue.next(now, job.pose)) return false;
   Waiting waiting = std::move(queued_.extract(job.pose.key).mapped());
@@ -194,8 +194,7 @@ bool LiveCamera::next(std::int64_t now, bool with_overlay, LiveJob& job) {
   if (setup_->cameras.depth && has_pose(job.pose.pose.status))
     setup_->posed->history.transforms().at(job.pose.pose_stamp, setup_->cameras.judged.frame_id,
                                            depth_frame_, job.T_judged_depth);
-  const KeptImage* const color = with_overlay ? colors_.find(job.pose.stamp) : nullptr;
-  job.with_overlay = with_overlay;
+  const KeptImage* const color = with_color ? colors_.find(job.pose.stamp) : nullptr;
   job.color.reset();
   if (color != nullptr) job.color = *color;
   colors_.forget_before(job.pose.stamp);

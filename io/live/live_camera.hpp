@@ -102,8 +102,8 @@ class LiveCamera {
   /// To be called when the robot may have changed.
   void follow_robot() { refresh(); }
 
-  /// The next image to be judged; false: none yet. `with_overlay`: one may be drawn of it.
-  bool next(std::int64_t now, bool with_overlay, LiveJob& job);
+  /// The next image to be judged; false: none yet. `with_color`: with its colour image.
+  bool next(std::int64_t now, bool with_color, LiveJob& job);
   /// To be called once for each job.
   void done(const LiveOutcome& outcome);
   /// When next() has something even if nothing comes.

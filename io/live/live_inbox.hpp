@@ -94,8 +94,8 @@ class LiveInbox {
   void retry_robot() { robot_.retry(); }
 
   /// As LiveCamera has it.
-  bool next(std::size_t camera, std::int64_t now, bool with_overlay, LiveJob& job) {
-    return cameras_[camera]->next(now, with_overlay, job);
+  bool next(std::size_t camera, std::int64_t now, bool with_color, LiveJob& job) {
+    return cameras_[camera]->next(now, with_color, job);
   }
   /// To be called once for each job; `system_now`: nanoseconds since 1970.
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,

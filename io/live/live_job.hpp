@@ -49,8 +49,8 @@ struct LiveJob {
   QueuedFrame pose;
   TransformAnswer T_judged_depth;   ///< if the setup has a depth camera of its own
   std::span<const Target> targets;  ///< valid until the setup's next job
-  bool with_overlay = false;        ///< one is to be drawn, if it is wanted
-  std::optional<KeptImage> color;   ///< for the overlay
+  bool with_overlay = true;         ///< false: none is drawn even if it is wanted
+  std::optional<KeptImage> color;   ///< if it was asked for and has come
 };
 
 /// What became of it.

@@ -109,15 +109,17 @@ void LiveRunner::work(std::size_t camera) {
       lock.unlock();
       const bool with_overlay =
           steady_now() >= self.next_overlay && self.sink->wants(Result::overlay);
+      const bool with_color = with_overlay || (self.watcher && self.watcher->wants_color());
       lock.lock();
       if (stopping_) break;
-      if (!inbox_.next(camera, steady_now(), with_overlay, job)) {
+      if (!inbox_.next(camera, steady_now(), with_color, job)) {
         wait(camera, lock);
         continue;
       }
+      job.with_overlay = with_overlay;
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       lock.unlock();
-      const LiveOutcome outcome = self.worker->judge(job, *self.sink);
+      const LiveOutcome outcome = self.worker->judge(job, *self.sink, self.watcher);
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
       job.color.reset();

@@ -42,6 +42,10 @@ class LiveRunner {
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
 
+  /// Hands the camera's frames to `watcher`, which must outlive the threads. Call it before
+  /// start().
+  void watch(std::size_t camera, FrameWatcher& watcher) { cameras_[camera].watcher = &watcher; }
+
   void start();
   /// Ends the threads once they have done what they are at: reading a robot's meshes, too. What
   /// waits is left.
@@ -68,6 +72,7 @@ class LiveRunner {
  private:
   struct CameraThread {
     ResultSink* sink = nullptr;
+    FrameWatcher* watcher = nullptr;
     std::unique_ptr<LiveWorker> worker;
     std::int64_t next_overlay = 0;  // not before; the thread's own
     std::thread thread;

@@ -51,7 +51,7 @@ bool LiveWorker::follow(const std::shared_ptr<LiveSetup>& setup) {
   return tools_ != nullptr;
 }
 
-LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
+LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink, FrameWatcher* watcher) {
   LiveOutcome outcome;
   outcome.stamp = job.pose.stamp;
   outcome.arrived = job.arrived;
@@ -62,6 +62,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   }
   Frame frame = job.pose.frame();
   frame.targets = job.targets;
+  frame.index = judged_++;
   message_ = frame.source_message;
   if (const std::string fault = read_depth(job, frame.depth); !fault.empty()) {
     message_ += (message_.empty() ? "" : "; ") + fault;
@@ -76,6 +77,7 @@ LiveOutcome LiveWorker::judge(LiveJob& job, ResultSink& sink) {
   tools_->encoder.encode(report, {frame.depth, std::as_const(color_).view()},
                          {frame.targets, tools_->pipeline.robot(), job.setup->cameras.judged},
                          taken);
+  if (watcher != nullptr) watcher->take(job, frame.depth, report);
   outcome.is_published = true;
   outcome.status = report.status;
   outcome.message = report.message;

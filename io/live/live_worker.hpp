@@ -7,6 +7,7 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
+#include <io/live/frame_watcher.hpp>
 #include <io/live/live_job.hpp>
 #include <io/ros_frames/depth_input.hpp>
 #include <io/ros_frames/result_encoder.hpp>
@@ -20,9 +21,10 @@ class LiveWorker {
   /// `config`: its camera's pose and parent are the setups' own.
   explicit LiveWorker(PipelineConfig config) : config_(std::move(config)) {}
 
-  /// Writes an image's results to the sink. What is not known is written as unknown. For another
-  /// setup than before renderer and all are made anew. Throws DeviceError as Pipeline does.
-  LiveOutcome judge(LiveJob& job, ResultSink& sink);
+  /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
+  /// What is not known is written as unknown. For another setup than before renderer and all are
+  /// made anew. Throws DeviceError as Pipeline does.
+  LiveOutcome judge(LiveJob& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
 
  private:
   /// What is made for a setup.
@@ -42,7 +44,8 @@ class LiveWorker {
   std::unique_ptr<Tools> tools_;
   std::string fault_;    // why there are no tools
   std::string message_;  // of the frame
-  DepthView no_depth_;   // of the images' kind
+  std::size_t judged_ = 0;
+  DepthView no_depth_;  // of the images' kind
   Image<Rgb8> color_;
 };
 

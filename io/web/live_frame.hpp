@@ -1,89 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <io/live/live_job.hpp>
-#include <io/ros/messages.hpp>
-#include <io/ros_frames/color_images.hpp>
-#include <io/ros_frames/depth_input.hpp>
 #include <io/web/packet.hpp>
+#include <io/web/scene.hpp>
 
 namespace penumbra::io {
 
-/// What is needed of a camera to show its frames; another one for each setup. For several threads.
+/// A set of parts, by Part.
+using PartSet = std::bitset<part_count>;
+
+/// The robot and the camera of a LiveSetup, as pages show them. For several threads.
 class LiveScene {
  public:
-  LiveScene(const LiveSetup& setup, std::uint64_t scene_version)
-      : version(scene_version),
-        cameras(setup.cameras),
-        cloud(setup.cameras.judged),
-        depth_(setup.cameras.judged, setup.cameras.depth) {}
+  LiveScene(const LiveSetup& setup, std::uint64_t number)
+      : version(number), camera(setup.cameras.judged), posed_(setup.posed) {}
 
-  /// Depth in metres as it was judged; nothing where it cannot be read, or brought to the judged
-  /// camera.
-  [[nodiscard]] std::optional<PartBytes> depth(const LiveJob& job);
+  [[nodiscard]] const Robot& robot() const { return posed_->robot; }
+  /// Returns the robot's triangles, collected at the first call.
+  [[nodiscard]] const Scene& drawn() const;
+  /// Returns the camera's rays, computed at the first call.
+  [[nodiscard]] const CloudMaker& cloud() const;
 
   const std::uint64_t version;
-  const JudgedCameras cameras;
-  const CloudMaker cloud;
+  const Camera camera;
 
  private:
-  std::mutex mutex_;
-  DepthInput depth_;
+  std::shared_ptr<const PosedRobot> posed_;
+  mutable std::once_flag drawn_once_, cloud_once_;
+  mutable std::optional<Scene> drawn_;
+  mutable std::optional<CloudMaker> cloud_;
 };
 
-/// What `penumbra live` publishes of an image.
-struct LiveResults {
-  std::optional<TargetsMessage> targets;
-  std::optional<KeptImage> labels, virtual_depth, overlay;
-};
-
-/// A judged image of live topics. Its parts are decoded when they are asked for, once.
+/// Keeps what pages need of a judged frame. Colour is decoded, and depth converted to metres, when
+/// they are asked for.
 class LiveFrame final : public PacketFrame {
  public:
-  /// `results` with targets and labels; `number`: counted by who makes frames.
-  LiveFrame(std::shared_ptr<LiveScene> scene, LiveJob job, LiveResults results,
-            std::uint64_t number);
+  /// Copies the parts in `kept`.
+  LiveFrame(std::shared_ptr<const LiveScene> scene, const LiveJob& job, const DepthView& depth,
+            const FrameReport& report, const PartSet& kept);
 
-  [[nodiscard]] std::string report() const override;
+  [[nodiscard]] std::string report() const override { return report_; }
   [[nodiscard]] std::string poses() const override;
   [[nodiscard]] std::optional<PartBytes> part(Part part) const override;
   [[nodiscard]] std::shared_ptr<const Image<Rgb8>> color_pixels() const override;
 
-  [[nodiscard]] const Robot& robot() const { return job_.setup->posed->robot; }
+  /// Returns whether these parts were kept.
+  [[nodiscard]] bool has_kept(const PartSet& parts) const { return (parts & ~kept_).none(); }
   [[nodiscard]] const LiveScene& scene() const { return *scene_; }
-  [[nodiscard]] std::uint64_t number() const { return number_; }
-  [[nodiscard]] std::int64_t stamp() const { return job_.pose.stamp; }
+  [[nodiscard]] std::uint64_t index() const { return index_; }  ///< the report's
+  [[nodiscard]] std::int64_t stamp() const { return stamp_; }
 
  private:
-  [[nodiscard]] std::optional<PartBytes> decode(Part part) const;
-  [[nodiscard]] std::optional<PartBytes> color() const;
+  void decode_color() const;
+  void convert_depth() const;
 
-  std::shared_ptr<LiveScene> scene_;
-  LiveJob job_;
-  LiveResults results_;
-  std::uint64_t number_;
-  mutable std::mutex mutex_;
-  mutable std::array<std::optional<std::optional<PartBytes>>, part_count> decoded_;
-  mutable std::shared_ptr<const Image<Rgb8>> pixels_;  // once color is decoded
+  const std::shared_ptr<const LiveScene> scene_;
+  const PartSet kept_;
+  const std::uint64_t index_;
+  const std::int64_t stamp_;
+  const std::string report_;
+  const std::optional<Eigen::Isometry3d> T_root_camera_;
+  const std::vector<Eigen::Isometry3d> T_root_link_;
+  std::optional<PartBytes> labels_, links_, virtual_depth_;
+  std::variant<Image<std::uint16_t>, Image<float>> raw_depth_;
+  std::optional<KeptImage> raw_color_;
+
+  mutable std::once_flag color_once_, depth_once_;
+  mutable std::optional<PartBytes> color_, depth_;
+  mutable std::shared_ptr<const Image<Rgb8>> pixels_;
 };
-
-/// The frame's object of report.json, by what was published: what nobody publishes is null. So are
-/// the counts of pixels where `labels` is empty: they could not be read.
-[[nodiscard]] std::string live_report(const TargetsMessage& message, std::uint64_t number,
-                                      std::optional<std::int64_t> joint_age,
-                                      const std::string& labels);
-
-/// Whether the robot's pose was known in a frame of this status.
-[[nodiscard]] bool has_live_pose(const std::string& status);
 
 }  // namespace penumbra::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <utility>
 
 #include <io/json-inl.hpp>
@@ -38,9 +39,27 @@ std::optional<Wanted> wanted_of(const Json& message) {
   return parse_wanted(with, step == message.end() ? "" : step->dump());
 }
 
+/// Returns what a frame must hold for a client that wants these.
+PartSet needed_for(const std::vector<Part>& wanted) {
+  PartSet needed;
+  for (const Part part : wanted) needed.set(static_cast<std::size_t>(part));
+  if (needed[static_cast<std::size_t>(Part::cloud)])
+    for (const Part part : {Part::depth, Part::labels, Part::color})
+      needed.set(static_cast<std::size_t>(part));
+  return needed;
+}
+
+std::vector<std::string> missing_links(const Robot& robot) {
+  std::vector<std::string> lines;
+  for (const LinkReport& link : robot.report())
+    if (link.missing)
+      lines.push_back("link " + link.link + " is drawn without its geometry: " + link.reason);
+  return lines;
+}
+
 }  // namespace
 
-/// One browser. Sent the newest frame when it says that it has drawn the last one.
+/// One browser. It is sent the newest frame when it says that it has drawn the last one.
 class LiveView::Client final : public WebChannel {
  public:
   explicit Client(LiveView& view) : view_(view) {
@@ -48,9 +67,10 @@ class LiveView::Client final : public WebChannel {
     ++view_.clients_;
   }
   ~Client() override {
+    std::shared_ptr<const LiveFrame> last;  // destroyed without the lock
     const std::lock_guard lock(view_.mutex_);
-    --view_.clients_;
-    count_wanted(-1);
+    count_needed(-1);
+    if (--view_.clients_ == 0) last = std::move(view_.frame_);
   }
 
   bool take(std::string_view text) override {
@@ -64,62 +84,74 @@ class LiveView::Client final : public WebChannel {
     auto wanted = *type == "want" ? wanted_of(message) : std::nullopt;
     if (!wanted) return false;
     const std::lock_guard lock(view_.mutex_);
-    count_wanted(-1);
+    count_needed(-1);
     wanted_ = *std::move(wanted);
-    count_wanted(1);
+    needed_ = needed_for(wanted_.parts);
+    count_needed(1);
     return true;
   }
 
   std::optional<std::vector<SharedBytes>> next() override {
     if (!is_ready_) return std::nullopt;
-    const Moment moment = view_.newest();
-    if (!moment.frame || moment.frame == sent_.lock()) return std::nullopt;
-    const std::uint64_t number = moment.frame->number();
-    const std::uint64_t dropped = last_ && number > *last_ ? number - *last_ - 1 : 0;
+    const Moment moment = view_.now();
+    const auto& frame = moment.frame;
+    // A frame of before the client's last wish may lack a part: the next one has it.
+    if (!frame || frame == sent_.lock() || !frame->has_kept(needed_)) return std::nullopt;
+    const std::uint64_t dropped =
+        last_ && frame->index() > *last_ ? frame->index() - *last_ - 1 : 0;
     is_ready_ = false;
-    sent_ = moment.frame;
-    last_ = number;
-    const Json live{{"age_ms", 1e-6 * static_cast<double>(system_now() - moment.frame->stamp())},
+    sent_ = frame;
+    last_ = frame->index();
+    const Json live{{"age_ms", 1e-6 * static_cast<double>(system_now() - frame->stamp())},
                     {"dropped", dropped},
                     {"rate_hz", moment.rate},
                     {"missing", moment.missing},
                     {"diagnostics", json_of(moment.diagnostics)}};
-    const std::string more = ", \"live\": " + json_text(live);
-    const LiveScene& scene = moment.frame->scene();
-    return make_packet(*moment.frame, wanted_, &scene.cloud, scene.version, more);
+    const LiveScene& scene = frame->scene();
+    const bool has_cloud = needed_[static_cast<std::size_t>(Part::cloud)];
+    return make_packet(*frame, wanted_, has_cloud ? &scene.cloud() : nullptr, scene.version,
+                       ", \"live\": " + json_text(live));
   }
 
  private:
-  void count_wanted(int sign) {
-    for (const Part part : wanted_.parts)
-      view_.wanted_[static_cast<std::size_t>(part)] += static_cast<std::size_t>(sign);
+  void count_needed(int sign) {
+    for (std::size_t part = 0; part < part_count; ++part)
+      if (needed_[part]) view_.needed_[part] += static_cast<std::size_t>(sign);
   }
 
   LiveView& view_;
   Wanted wanted_;
+  PartSet needed_;
   bool is_ready_ = false;
   std::weak_ptr<const LiveFrame> sent_;
-  std::optional<std::uint64_t> last_;  // the number of the frame that was sent last
+  std::optional<std::uint64_t> last_;  // index of the frame that was sent last
 };
 
 LiveView::LiveView(std::string input) : input_(std::move(input)) {}
 
-void LiveView::publish(std::shared_ptr<const LiveFrame> frame, const Robot& robot,
-                       std::int64_t now) {
-  const std::uint64_t version = frame->scene().version;
-  std::optional<Scene> made;
+bool LiveView::show(const LiveJob& job, const DepthView& depth, const FrameReport& report,
+                    std::int64_t now) {
+  PartSet kept;
+  std::shared_ptr<const LiveScene> scene;
   {
     const std::lock_guard lock(mutex_);
-    if (scene_ && scene_->version == version) made = scene_;
+    judged_at_.push_back(now);
+    // The last interval stays, however long: a slow camera has a rate, too.
+    while (judged_at_.size() > 2 && now - judged_at_.front() > rate_window) judged_at_.pop_front();
+    if (setup_.lock() != job.setup) {
+      scene_ = std::make_shared<LiveScene>(*job.setup, scene_ ? scene_->version + 1 : 1);
+      setup_ = job.setup;
+    }
+    if (clients_ == 0) return false;
+    scene = scene_;
+    for (std::size_t part = 0; part < part_count; ++part) kept[part] = needed_[part] > 0;
   }
-  if (!made) made = make_scene(robot, version);
+  std::shared_ptr<const LiveFrame> frame =
+      std::make_shared<LiveFrame>(std::move(scene), job, depth, report, kept);
   const std::lock_guard lock(mutex_);
-  scene_ = std::move(made);
-  links_.assign(robot.links().begin(), robot.links().end());
-  frame_ = std::move(frame);
-  published_.push_back(now);
-  // The last interval stays, however long: a slow camera has a rate, too.
-  while (published_.size() > 2 && now - published_.front() > rate_window) published_.pop_front();
+  if (clients_ == 0) return false;
+  std::swap(frame_, frame);
+  return true;
 }
 
 void LiveView::tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing) {
@@ -128,39 +160,48 @@ void LiveView::tell(std::vector<Diagnostic> diagnostics, std::vector<std::string
   missing_ = std::move(missing);
 }
 
-std::size_t LiveView::clients() const {
+bool LiveView::needs(Part part) const {
   const std::lock_guard lock(mutex_);
-  return clients_;
+  return needed_[static_cast<std::size_t>(part)] > 0;
 }
 
-bool LiveView::is_wanted(Part part) const {
-  const std::lock_guard lock(mutex_);
-  return wanted_[static_cast<std::size_t>(part)] > 0;
-}
-
-LiveView::Moment LiveView::newest() const {
-  const std::lock_guard lock(mutex_);
-  double rate = 0;
-  if (published_.size() > 1)
-    rate = 1e9 * static_cast<double>(published_.size() - 1) /
-           static_cast<double>(std::max<std::int64_t>(published_.back() - published_.front(), 1));
-  return {frame_, rate, diagnostics_, missing_};
+LiveView::Moment LiveView::now() const {
+  Moment moment;
+  {
+    const std::lock_guard lock(mutex_);
+    if (judged_at_.size() > 1)
+      moment.rate =
+          1e9 * static_cast<double>(judged_at_.size() - 1) /
+          static_cast<double>(std::max<std::int64_t>(judged_at_.back() - judged_at_.front(), 1));
+    moment.scene = scene_;
+    moment.frame = frame_;
+    moment.diagnostics = diagnostics_;
+    moment.missing = missing_;
+  }
+  if (moment.scene)
+    for (std::string& line : missing_links(moment.scene->robot()))
+      moment.missing.push_back(std::move(line));
+  return moment;
 }
 
 std::string LiveView::session() const {
-  const std::lock_guard lock(mutex_);
-  SessionInfo info{.mode = "live", .input = input_, .links = links_};
-  info.parts = {Part::color, Part::overlay, Part::labels, Part::vdi, Part::depth, Part::cloud};
-  if (frame_) info.camera = frame_->scene().cameras.judged;
-  std::string session =
-      session_json(info, 0, std::nullopt, false, scene_ ? scene_->version : 0, missing_);
+  const Moment moment = now();
+  SessionInfo info{.mode = "live", .input = input_, .links = {}};
+  info.parts = {Part::color, Part::labels, Part::links, Part::vdi, Part::depth, Part::cloud};
+  if (moment.scene) {
+    info.camera = moment.scene->camera;
+    const auto links = moment.scene->robot().links();
+    info.links.assign(links.begin(), links.end());
+  }
+  std::string session = session_json(info, 0, std::nullopt, false,
+                                     moment.scene ? moment.scene->version : 0, moment.missing);
   session.pop_back();
-  return session + ", \"diagnostics\": " + json_text(json_of(diagnostics_)) + "}";
+  return session + ", \"diagnostics\": " + json_text(json_of(moment.diagnostics)) + "}";
 }
 
 Scene LiveView::scene() const {
-  const std::lock_guard lock(mutex_);
-  return scene_ ? *scene_ : make_scene(links_);
+  const auto scene = now().scene;
+  return scene ? scene->drawn() : make_scene(std::span<const std::string>());
 }
 
 WebAnswer LiveView::answer(const WebRequest& request) {

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include <io/web/live_frame.hpp>
-#include <io/web/live_matcher.hpp>
 #include <io/web/stored_view.hpp>
 
 namespace penumbra::io {
 
-/// Serves the page and what is judged live: to each client the newest frame, when it is ready for
-/// one. All by any thread.
+/// Serves the page and the frames of a camera that is judged live. Each client gets the newest
+/// frame when it is ready for one. Any thread may call all members. The mutex is held only while
+/// pointers and texts are copied, so the thread that judges never waits for a client.
 class LiveView final : public WebHandler {
  public:
   struct Diagnostic {
@@ -28,41 +28,44 @@ class LiveView final : public WebHandler {
   /// `input`: what the page is told that it shows.
   explicit LiveView(std::string input);
 
-  /// The newest frame; `now`: nanoseconds of a steady clock. Then the server is to be woken.
-  void publish(std::shared_ptr<const LiveFrame> frame, const Robot& robot, std::int64_t now);
-  /// What penumbra live says of itself, and what is amiss here.
+  /// Takes the newest frame, as FrameWatcher::take. Copies only the parts that clients want, and
+  /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
+  /// steady clock.
+  bool show(const LiveJob& job, const DepthView& depth, const FrameReport& report,
+            std::int64_t now);
+  /// Sets the statuses of `penumbra live` and what is missing.
   void tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
-  [[nodiscard]] std::size_t clients() const;
-  /// What the clients want, all together.
-  [[nodiscard]] bool is_wanted(Part part) const;
+  /// Returns whether a client needs this part.
+  [[nodiscard]] bool needs(Part part) const;
 
   [[nodiscard]] WebAnswer answer(const WebRequest& request) override;
   [[nodiscard]] std::unique_ptr<WebChannel> open_channel(const std::string& path) override;
 
  private:
   class Client;
-  /// What a client is sent of the moment.
+  /// All that a client is sent, as it is now.
   struct Moment {
+    std::shared_ptr<const LiveScene> scene;  // null: no frame was judged yet
     std::shared_ptr<const LiveFrame> frame;
-    double rate = 0;  // frames in a second
+    double rate = 0;  // frames per second
     std::vector<Diagnostic> diagnostics;
     std::vector<std::string> missing;
   };
-  [[nodiscard]] Moment newest() const;
+  [[nodiscard]] Moment now() const;
   [[nodiscard]] std::string session() const;
   [[nodiscard]] Scene scene() const;
 
   const std::string input_;
   mutable std::mutex mutex_;
-  std::shared_ptr<const LiveFrame> frame_;
-  std::deque<std::int64_t> published_;  // when, of the last two seconds; the last two in any case
-  std::optional<Scene> scene_;
-  std::vector<std::string> links_;
+  std::shared_ptr<const LiveFrame> frame_;  // null without a client
+  std::deque<std::int64_t> judged_at_;      // in the last two seconds; the last two in any case
+  std::weak_ptr<const LiveSetup> setup_;    // scene_'s
+  std::shared_ptr<const LiveScene> scene_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::string> missing_;
   std::size_t clients_ = 0;
-  std::array<std::size_t, part_count> wanted_{};  // by how many clients
+  std::array<std::size_t, part_count> needed_{};  // by how many clients
 };
 
 }  // namespace penumbra::io

@@ -36,6 +36,8 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--remap", "/a=/b"}, "FROM:=TO"},
       {{"--namespace", "a b"}, "--namespace"},
       {{"--duration", "-1"}, "--duration"},
+      {{"--port", "70000"}, "--port"},
+      {{"--address", "0.0.0.0"}, "give --port, too"},
       {{"--summary", "/nonexistent/live.json"}, "/nonexistent/live.json"},
       {{"--robot", "/nonexistent.urdf", "--depth-topic", "/depth"}, "nonexistent.urdf"},
       {{"--pose", "/nonexistent.csv", "--depth-topic", "/depth"}, "nonexistent.csv"},

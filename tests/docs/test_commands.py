@@ -55,7 +55,10 @@ def let_run(words, work, environment):
 
 
 def look_at(words, work, environment):
-    """penumbra view: its page and its first answer are fetched."""
+    """A command that serves a page, which is fetched, and its first answer."""
+    if "--port" in words:
+        at = words.index("--port")
+        words = [*words[:at], *words[at + 2:]]
     process = subprocess.Popen([*words, "--port", "0"], cwd=work, env=environment,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
@@ -80,7 +83,7 @@ def can_simulate():
 
 
 def run_penumbra(words, work, environment):
-    if words[1] == "view":
+    if words[1] == "view" or "--port" in words:
         look_at(words, work, environment)
     elif words[1] == "live" or "--loop" in words:
         let_run(words, work, environment)

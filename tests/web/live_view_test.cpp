@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penumbra view live` beside `penumbra live`: each packet is the truth of its image's stamp.
+// The page of `penumbra live --port`: each packet is the truth of its image's stamp.
+#include "../apps/program.hpp"
 #include "../fast_dds/lone_domain.hpp"
 #include "../io/live_scene.hpp"
-#include "../support/temporary_folder.hpp"
 #include "viewer_process.hpp"
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <io/dds/participant.hpp>
-
-extern char** environ;  // NOLINT(readability-redundant-declaration)
 
 namespace penumbra::test {
 namespace {
@@ -28,37 +23,12 @@ using nlohmann::json;
 
 constexpr auto patience = 30s;
 
-/// A command of penumbra's that runs as long as this lives.
-class Running {
- public:
-  explicit Running(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), PENUMBRA_PROGRAM);
-    std::vector<char*> words;
-    words.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
-    EXPECT_EQ(posix_spawn(&pid_, PENUMBRA_PROGRAM, nullptr, nullptr, words.data(), environ), 0);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-  ~Running() {
-    ::kill(pid_, SIGTERM);
-    ::waitpid(pid_, nullptr, 0);
-  }
-
- private:
-  pid_t pid_ = -1;
-};
-
 /// The scene's robot and camera on the graph, as long as this lives: joint states at 100 Hz, images
-/// at 20 Hz or as often as wanted, by the system's clock.
+/// at 20 Hz, by the system's clock.
 class ScenePublisher {
  public:
-  /// @param interval from one image to the next, in 10 ms
-  explicit ScenePublisher(int domain, int interval = 5)
-      : graph_(io::join_graph({.domain = domain})),
-        interval_(interval),
-        thread_([this] { run(); }) {}
+  explicit ScenePublisher(int domain)
+      : graph_(io::join_graph({.domain = domain})), thread_([this] { run(); }) {}
   ~ScenePublisher() {
     ends_ = true;
     thread_.join();
@@ -68,6 +38,7 @@ class ScenePublisher {
 
  private:
   using Bytes = std::vector<std::byte>;
+  static constexpr int ticks_per_image = 5;
 
   void run() {
     const io::TopicQos latched{.reliable = true, .latched = true, .depth = 1};
@@ -89,23 +60,22 @@ class ScenePublisher {
                                    std::chrono::system_clock::now().time_since_epoch())
                                    .count();
       write(joints, live_joints(now));
-      if (tick % interval_ != 0) continue;
+      if (tick % ticks_per_image != 0) continue;
       write(info, encoded(live_info(now)));
       write(depth, live_depth(now));
     }
   }
 
   std::unique_ptr<io::Participant> graph_;
-  const int interval_;
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
 
 class ViewLive : public testing::Test {
  protected:
-  [[nodiscard]] std::vector<std::string> on_domain(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"--domain", std::to_string(domain_.id())});
-    return arguments;
+  /// `penumbra live` with a page.
+  [[nodiscard]] ViewerProcess start() const {
+    return ViewerProcess({"--domain", std::to_string(domain_.id())}, "live");
   }
   static void open(WebClient& browser, const std::string& with) {
     ASSERT_EQ(browser.upgrade("/api/live").status, 101);
@@ -152,9 +122,8 @@ std::size_t expect_truth(const Packet& packet, LiveTruth& truth) {
 
 TEST_F(ViewLive, PacketsAreTheTruthOfTheirStamps) {
   const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"}));
-  WebClient browser = viewer.client();
+  const ViewerProcess live = start();
+  WebClient browser = live.client();
   open(browser, R"(["labels", "depth", "vdi", "cloud"])");
   LiveTruth truth;
   std::size_t known = 0;
@@ -171,11 +140,11 @@ TEST_F(ViewLive, PacketsAreTheTruthOfTheirStamps) {
   }
   EXPECT_GT(known, 20U);
 
-  const json session = viewer.get_json("/api/session");
+  const json session = live.get_json("/api/session");
   EXPECT_EQ(session["mode"], "live");
   EXPECT_EQ(session["links"], json({"base", "board"}));
   EXPECT_EQ(session["camera"]["width"], 64);
-  const json scene_json = viewer.get_json("/api/scene");
+  const json scene_json = live.get_json("/api/scene");
   EXPECT_EQ(scene_json["version"], session["scene_version"]);
   EXPECT_EQ(scene_json["links"][1]["meshes"].size(), 1U);
 }
@@ -184,11 +153,10 @@ TEST_F(ViewLive, PacketsAreTheTruthOfTheirStamps) {
 // was sent meanwhile.
 TEST_F(ViewLive, ASlowBrowserMissesFramesAndLagsNot) {
   const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"}));
-  WebClient slow = viewer.client();
+  const ViewerProcess live = start();
+  WebClient slow = live.client();
   open(slow, R"(["labels"])");
-  WebClient fast = viewer.client();
+  WebClient fast = live.client();
   open(fast, R"(["labels"])");
   const auto index_of = [](const Packet& packet) {
     return packet.json["frame"]["index"].get<std::int64_t>();
@@ -201,127 +169,64 @@ TEST_F(ViewLive, ASlowBrowserMissesFramesAndLagsNot) {
   EXPECT_EQ(after.json["live"]["dropped"], index_of(after) - before - 1);
 }
 
-// Slower than the window that rates are counted in: the last interval tells.
-TEST_F(ViewLive, ASlowCameraHasARate) {
-  constexpr double seconds = 2.5;
-  const ScenePublisher scene(domain_.id(), 250);
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"}));
-  WebClient browser = viewer.client();
-  open(browser, R"(["labels"])");
-  EXPECT_EQ(next(browser).json["live"]["rate_hz"], 0.0);  // one frame has none
-  const double rate = next(browser).json["live"]["rate_hz"];
-  EXPECT_LT(rate, 1 / (0.9 * seconds));
-  EXPECT_GT(rate, 1 / (2 * seconds));  // the publisher sleeps longer where others work
-}
-
-// Which process serves is told everywhere: the next one on this port counts its scenes anew.
-TEST_F(ViewLive, ASceneIsAskedForByServerAndVersion) {
-  const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"}));
-  WebClient browser = viewer.client();
-  open(browser, R"(["labels"])");
-  const Packet packet = next(browser);
-  const std::string server = packet.json["server"];
-  const int version = packet.json["scene_version"];
-  EXPECT_EQ(viewer.get_json("/api/session")["server"], server);
-  const std::string query = "?server=" + server + "&version=" + std::to_string(version);
-  EXPECT_EQ(viewer.get_json("/api/scene" + query)["server"], server);
-  EXPECT_EQ(viewer.client().get("/api/scene.bin" + query).status, 200);
-  for (const std::string& other :
-       {"?version=" + std::to_string(version + 1), "?server=x" + server}) {
-    EXPECT_EQ(viewer.client().get("/api/scene" + other).status, 409) << other;
-    EXPECT_EQ(viewer.client().get("/api/scene.bin" + other).status, 409) << other;
-  }
-}
-
-// The viewer reads the robot itself: what it cannot draw is told even where penumbra live can.
-TEST_F(ViewLive, LinksWithoutTheirGeometryAreTold) {
-  std::string urdf = live_urdf;
-  urdf.insert(urdf.rfind("</robot>"), R"(
-  <link name="cover"><collision><geometry><mesh filename="gone.stl"/></geometry></collision></link>
-  <joint name="fixed" type="fixed"><parent link="base"/><child link="cover"/></joint>
-)");
-  const TemporaryFolder folder;
-  const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(
-      on_domain({"live", "--robot", folder.write("robot.urdf", urdf), "--allow-missing-meshes"}));
-  std::string missing;
-  for (const auto end = Clock::now() + patience;
-       missing.find("link cover") == std::string::npos && Clock::now() < end;
-       std::this_thread::sleep_for(100ms))
-    missing = viewer.get_json("/api/session")["missing"].dump();
-  EXPECT_NE(missing.find("link cover is drawn without its geometry"), std::string::npos) << missing;
-  EXPECT_NE(missing.find("gone.stl"), std::string::npos) << missing;
-}
-
-// By two programs that judge by different rules: labels of one must not come with targets of the
-// other. Which one it is can be seen of neither, so that there are two is told.
-TEST_F(ViewLive, TwoThatPublishAreToldApartAndTold) {
-  const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"})), rival(on_domain({"live"}));
-  WebClient browser = viewer.client();
-  open(browser, R"(["labels"])");
-  std::string told;
-  for (const auto end = Clock::now() + patience;
-       told.find("2 programs publish /penumbra/labels") == std::string::npos && Clock::now() < end;)
-    told = next(browser).json["live"]["diagnostics"].dump();
-  EXPECT_NE(told.find("2 programs publish /penumbra/labels"), std::string::npos) << told;
-  EXPECT_NE(told.find("error"), std::string::npos) << told;
-}
-
 // A page whose frames stop asks the session why.
 TEST_F(ViewLive, ACameraThatEndsIsToldBySession) {
   auto scene = std::make_unique<ScenePublisher>(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  const Running live(on_domain({"live"}));
-  WebClient browser = viewer.client();
+  const ViewerProcess live = start();
+  WebClient browser = live.client();
   open(browser, R"(["labels"])");
   static_cast<void>(next(browser));
   scene.reset();
   std::string missing;
   for (const auto end = Clock::now() + patience;
-       missing.find("depth: nobody publishes") == std::string::npos && Clock::now() < end;
+       missing.find("no publisher of") == std::string::npos && Clock::now() < end;
        std::this_thread::sleep_for(100ms))
-    missing = viewer.get_json("/api/session")["missing"].dump();
-  EXPECT_NE(missing.find("depth: nobody publishes /camera/depth/image_rect_raw"), std::string::npos)
+    missing = live.get_json("/api/session")["missing"].dump();
+  EXPECT_NE(missing.find("no publisher of /camera/depth/image_rect_raw"), std::string::npos)
       << missing;
-  EXPECT_TRUE(viewer.get_json("/api/session")["diagnostics"].is_array());
+  EXPECT_TRUE(live.get_json("/api/session")["diagnostics"].is_array());
 }
 
-TEST_F(ViewLive, WithoutPenumbraLiveItIsSaidWhatIsMissing) {
-  const ScenePublisher scene(domain_.id());
-  const ViewerProcess viewer(on_domain({"live"}));
-  WebClient browser = viewer.client();
-  open(browser, R"(["labels"])");
-  browser.send_text(R"({"type": "ready"})");
+TEST_F(ViewLive, WithoutACameraThePageSaysWhatIsMissing) {
+  const ViewerProcess live = start();
   std::string missing;
   for (const auto end = Clock::now() + patience;
-       missing.find("penumbra live") == std::string::npos && Clock::now() < end;
+       missing.find("depth images") == std::string::npos && Clock::now() < end;
        std::this_thread::sleep_for(100ms))
-    missing = viewer.get_json("/api/session")["missing"].dump();
-  EXPECT_NE(missing.find("nobody publishes /penumbra/labels"), std::string::npos) << missing;
+    missing = live.get_json("/api/session")["missing"].dump();
+  EXPECT_NE(missing.find("depth images are needed"), std::string::npos) << missing;
+}
+
+TEST_F(ViewLive, EachCameraHasAPage) {
+  const Outcome live =
+      penumbra({"live", "--camera", "left=/left/depth", "--camera", "right=/right/depth", "--port",
+                "0", "--duration", "0.5", "--domain", std::to_string(domain_.id())});
+  EXPECT_EQ(live.status, 2) << live.err;  // nothing was judged
+  const std::size_t first = live.out.find("page: http://127.0.0.1:");
+  const std::size_t second = live.out.find("page: http://127.0.0.1:", first + 1);
+  ASSERT_NE(second, std::string::npos) << live.out;
+  const auto line_at = [&](std::size_t at) {
+    return live.out.substr(at, live.out.find('\n', at) - at);
+  };
+  EXPECT_NE(line_at(first), line_at(second));
 }
 
 TEST_F(ViewLive, BadWantsCloseTheConnection) {
-  const ViewerProcess viewer(on_domain({"live"}));
+  ViewerProcess live = start();
   for (const char* const text :
        {"", "ready", "{}", R"({"type": "x"})", R"({"type": "want"})",
         R"({"type": "want", "with": "labels"})", R"({"type": "want", "with": ["secrets"]})",
         R"({"type": "want", "with": [1]})", R"({"type": "want", "with": [], "step": 0})",
         R"({"type": "want", "with": [], "step": -4})",
         R"({"type": "want", "with": [], "step": "4"})", "[[[[[[[[[["}) {
-    WebClient browser = viewer.client();
+    WebClient browser = live.client();
     ASSERT_EQ(browser.upgrade("/api/live").status, 101);
     browser.send_text(text);
     const auto message = browser.message();
     ASSERT_TRUE(message) << text;
     EXPECT_EQ(message->opcode, 8) << text;
   }
-  ViewerProcess other(on_domain({"live"}));
-  EXPECT_EQ(other.end(), 0);
+  EXPECT_EQ(live.end(), 0);
 }
 
 }  // namespace

@@ -258,9 +258,7 @@ TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
       {{folder.write("some.txt", "text")}, "some.txt"},
       {{example, "--port", "70000"}, "--port"},
       {{example, "--address", "nowhere"}, "--address"},
-      {{example, "--frames", "50:60"}, "--frames"},
-      {{example, "--input", example}, "--input"},
-      {{"live", "--input", example}, "--input"}};
+      {{example, "--frames", "50:60"}, "--frames"}};
   for (const auto& [arguments, word] : faults) {
     std::vector<std::string> all{"view"};
     all.insert(all.end(), arguments.begin(), arguments.end());

@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <thread>
 
 #include <fcntl.h>
@@ -18,9 +17,7 @@ namespace {
 
 constexpr int patience_ms = 30'000;
 
-[[noreturn]] void become_viewer(std::vector<std::string>& arguments,
-                                const std::vector<std::string>& environment, int out) {
-  for (const std::string& variable : environment) ::putenv(const_cast<char*>(variable.c_str()));
+[[noreturn]] void become_viewer(std::vector<std::string>& arguments, int out) {
   ::dup2(out, STDOUT_FILENO);
   ::signal(SIGINT, SIG_DFL);
   std::vector<char*> texts;
@@ -31,14 +28,14 @@ constexpr int patience_ms = 30'000;
   ::_exit(127);
 }
 
-/// The first line that starts so; empty: none came.
-std::string line_of(int descriptor, const std::string& start) {
+/// Returns what comes from `start` to the end of its line, or nothing if no line has it.
+std::string line_from(int descriptor, const std::string& start) {
   std::string text;
   std::array<char, 4096> buffer{};
   while (true) {
-    for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos;
-         at = end + 1)
-      if (text.compare(at, start.size(), start) == 0) return text.substr(at, end - at);
+    const std::size_t at = text.find(start);
+    const std::size_t end = text.find('\n', at);
+    if (at != std::string::npos && end != std::string::npos) return text.substr(at, end - at);
     pollfd ready{descriptor, POLLIN, 0};
     if (::poll(&ready, 1, patience_ms) <= 0) return {};
     const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
@@ -49,17 +46,16 @@ std::string line_of(int descriptor, const std::string& start) {
 
 }  // namespace
 
-ViewerProcess::ViewerProcess(std::vector<std::string> arguments,
-                             const std::vector<std::string>& environment) {
-  arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, "view"});
+ViewerProcess::ViewerProcess(std::vector<std::string> arguments, const std::string& command) {
+  arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, command});
   arguments.insert(arguments.end(), {"--port", "0"});
   std::array<int, 2> pipe{};
   EXPECT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
   pid_ = ::fork();
-  if (pid_ == 0) become_viewer(arguments, environment, pipe[1]);
+  if (pid_ == 0) become_viewer(arguments, pipe[1]);
   ::close(pipe[1]);
   out_ = pipe[0];
-  url_ = line_of(out_, "http://");
+  url_ = line_from(out_, "http://");
   const auto colon = url_.rfind(':');
   if (colon != std::string::npos)
     port_ = static_cast<std::uint16_t>(std::stoi(url_.substr(colon + 1)));
@@ -93,24 +89,6 @@ nlohmann::json ViewerProcess::complete_session() const {
   }
   EXPECT_EQ(session["complete"], true);
   return session;
-}
-
-Packet::Packet(const std::string& bytes) {
-  std::uint32_t length = 0;
-  if (bytes.size() < sizeof length) {
-    ADD_FAILURE() << "no packet: " << bytes;
-    return;
-  }
-  std::memcpy(&length, bytes.data(), sizeof length);
-  json = nlohmann::json::parse(bytes.substr(sizeof length, length));
-  std::size_t at = sizeof length + length;
-  for (const auto& part : json["parts"]) {
-    const std::size_t size = part["size"];
-    EXPECT_LE(at + size, bytes.size());
-    parts[part["name"]] = bytes.substr(at, size);
-    at += size;
-  }
-  EXPECT_EQ(at, bytes.size());
 }
 
 }  // namespace penumbra::test

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "packet.hpp"
 #include "web_client.hpp"
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -13,12 +13,11 @@
 
 namespace penumbra::test {
 
-/// A running `penumbra view`. It ends with this.
+/// A running `penumbra view`, or another command that serves its page. It ends with this.
 class ViewerProcess {
  public:
   /// Waits up to 30 s until it prints its address. `--port 0` is added.
-  explicit ViewerProcess(std::vector<std::string> arguments,
-                         const std::vector<std::string>& environment = {});
+  explicit ViewerProcess(std::vector<std::string> arguments, const std::string& command = "view");
   ~ViewerProcess();
   ViewerProcess(const ViewerProcess&) = delete;
   ViewerProcess& operator=(const ViewerProcess&) = delete;
@@ -40,15 +39,6 @@ class ViewerProcess {
   int out_ = -1;
   std::string url_;
   std::uint16_t port_ = 0;
-};
-
-/// A frame's packet, taken apart.
-struct Packet {
-  nlohmann::json json;
-  std::map<std::string, std::string> parts;
-
-  /// Fails the test where the bytes are not what the JSON says.
-  explicit Packet(const std::string& bytes);
 };
 
 }  // namespace penumbra::test

@@ -218,7 +218,7 @@ test('keys of what a live page does not have do nothing, and are not told', () =
     const layer = () => page.locator('#layers [aria-checked=true]').getAttribute('data-layer');
     for (const [key, name] of [
       ['2', 'labels'],
-      ['3', 'labels'], // links are not published
+      ['3', 'links'],
       ['4', 'vdi'],
       ['5', 'depth'],
       ['1', 'overlay'],
@@ -228,8 +228,8 @@ test('keys of what a live page does not have do nothing, and are not told', () =
     }
     await page.keyboard.press('?');
     const help = await page.locator('#help').textContent();
-    assert.match(help, /1245overlay, labels, virtual depth, measured depth/);
-    assert.doesNotMatch(help, /occlusion|links|slower/);
+    assert.match(help, /12345overlay, labels, links, virtual depth, measured depth/);
+    assert.doesNotMatch(help, /occlusion|slower/);
   }));
 
 test('without the robot, live too', () =>

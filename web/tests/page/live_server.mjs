@@ -20,7 +20,7 @@ function packetOf(head, parts) {
  * @param url of a server of a recording, whose robot and frame 3 are shown
  */
 export async function playLive(page, url) {
-  const query = '/api/frames/3/packet?with=color,labels,cloud,vdi,depth&step=6';
+  const query = '/api/frames/3/packet?with=color,labels,links,cloud,vdi,depth&step=6';
   const stored = Buffer.from(await (await fetch(new URL(query, url))).arrayBuffer());
   const { head, parts } = headOf(stored);
   const session = await (await fetch(new URL('/api/session', url))).json();
@@ -40,7 +40,7 @@ export async function playLive(page, url) {
         ...session,
         mode: 'live',
         complete: false,
-        parts: session.parts.filter((part) => !['links', 'overlay'].includes(part)),
+        parts: session.parts.filter((part) => part !== 'overlay'),
         missing: state.missing,
         diagnostics: [],
       },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page beside penumbra live, on a real recording played as if it were live.
+// The page of penumbra live, on a real recording played as if it were live.
 // PENUMBRA_FULL=1: five minutes of 1280x720 at 30 Hz, on a machine that does nothing else: lag and
 // rates are asserted then. PENUMBRA_LIVE_SECONDS and PENUMBRA_LIVE_RATE change length and rate.
 import assert from 'node:assert/strict';
@@ -51,10 +51,11 @@ async function stop(child) {
   await once(child, 'exit');
 }
 
-async function viewLive(port = '0') {
-  const child = start('view', 'live', '--package', meshes, '--port', port);
-  const [url] = await once(createInterface({ input: child.stdout }), 'line');
-  return { child, url };
+/** penumbra live, once it serves its page. */
+async function serveLive(port = '0') {
+  const child = start('live', '--package', meshes, '--port', port);
+  const [line] = await once(createInterface({ input: child.stdout }), 'line');
+  return { child, url: line.match(/http:.*/)[0] };
 }
 
 before(async () => {
@@ -133,8 +134,7 @@ async function residentOf({ pid }) {
 }
 
 test('frames flow, memory stays, pause holds, a lost server is found again', { skip }, async () => {
-  start('live', '--package', meshes);
-  const view = await viewLive();
+  const view = await serveLive();
   const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   const faults = [];
@@ -190,7 +190,7 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
   await page.locator('#mode', { hasText: /no new frame for \d+ s/ }).waitFor();
   await page.locator('#missing-button.fault').waitFor();
   await page
-    .locator('#missing', { hasText: 'nobody publishes' })
+    .locator('#missing', { hasText: 'no publisher of' })
     .waitFor({ state: 'attached', timeout: patience });
   await page.locator('html.stale').waitFor(); // frames that were on their way came, too
   playing();
@@ -199,7 +199,7 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
 
   await stop(view.child);
   await page.locator('#mode', { hasText: 'no connection: trying again' }).waitFor();
-  await viewLive(new URL(view.url).port);
+  await serveLive(new URL(view.url).port);
   await showsLive(page);
   assert.equal(scenes, 2, 'the new program’s robot is fetched, though its version is the same');
   assert.deepEqual(faults, []);

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a live page is sent: the values that were judged, and no more than it asks for.
+#include "../io/live_scene.hpp"
+#include "packet.hpp"
+
+#include <memory>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <io/report_json.hpp>
+#include <io/web/live_view.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* color_topic = "/camera/color/image_raw";
+
+template <typename T>
+std::string bytes_of(ImageView<const T> image) {
+  std::string bytes;
+  for (int v = 0; v < image.height; ++v)
+    bytes.append(reinterpret_cast<const char*>(image.row(v)),
+                 sizeof(T) * static_cast<std::size_t>(image.width));
+  return bytes;
+}
+
+io::LiveOptions with_color() {
+  io::LiveOptions options = LiveBench::one_camera();
+  options.cameras.front().color_topic = color_topic;
+  return options;
+}
+
+/// A camera that is judged by hand, and its page. Keeps what was judged.
+class LivePage : public testing::Test, public io::FrameWatcher {
+ protected:
+  explicit LivePage(const io::LiveOptions& options = with_color()) : bench_(options) {}
+
+  void judge(std::int64_t stamp) {
+    bench_.tell_joints(stamp - 10 * milliseconds);
+    bench_.tell_joints(stamp + 10 * milliseconds);
+    const Image<io::Rgb8> red(64, 48, {200, 0, 0});
+    bench_.tell(color_topic, encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "rgb8",
+                                                       red.view())));
+    bench_.tell_depth(stamp);
+    ASSERT_TRUE(bench_.inbox.next(0, bench_.now, wants_color(), bench_.job));
+    const auto outcome = bench_.worker.judge(bench_.job, bench_.results, this);
+    bench_.inbox.done(0, outcome, bench_.now, bench_.now);
+  }
+
+  [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
+  void take(const io::LiveJob& job, const DepthView& depth, const FrameReport& report) override {
+    report_ = io::report_frame(report);
+    parts_ = {{"labels", bytes_of(report.labels)},
+              {"links", bytes_of(report.virtual_depth.links)},
+              {"vdi", bytes_of(report.virtual_depth.depth)}};
+    wakes_ = view_.show(job, depth, report, job.pose.stamp);
+  }
+
+  std::unique_ptr<io::WebChannel> client(const std::string& with) {
+    auto channel = view_.open_channel("/api/live");
+    EXPECT_TRUE(channel->take(R"({"type": "want", "with": )" + with + "}"));
+    return channel;
+  }
+  /// What a client that is ready is sent; nothing: it waits.
+  static std::optional<Packet> next(io::WebChannel& client) {
+    EXPECT_TRUE(client.take(R"({"type": "ready"})"));
+    const auto message = client.next();
+    if (!message) return std::nullopt;
+    std::string bytes;
+    for (const io::SharedBytes& part : *message) bytes += *part;
+    return Packet(bytes);
+  }
+  [[nodiscard]] json answer(const std::string& path) {
+    return json::parse(*view_.answer({path, {}}).body.front());
+  }
+
+  LiveBench bench_;
+  io::LiveView view_{"live"};
+  std::string report_;  // of the last frame
+  std::map<std::string, std::string> parts_;
+  bool wakes_ = false;
+};
+
+TEST_F(LivePage, ShowsTheValuesThatWereJudged) {
+  const auto browser = client(R"(["color", "labels", "links", "vdi", "depth", "cloud"])");
+  bench_.tell_all();
+  judge(start);
+  EXPECT_TRUE(wakes_);
+  const auto packet = next(*browser);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->json["frame"], json::parse(report_));
+  EXPECT_EQ(packet->json["frame"]["status"], "ok");
+  for (const auto& [name, bytes] : parts_) EXPECT_TRUE(packet->parts.at(name) == bytes) << name;
+  float z = 0;
+  std::memcpy(&z, packet->parts.at("depth").data(), sizeof z);
+  EXPECT_FLOAT_EQ(z, 3.0F);                                       // the wall
+  EXPECT_EQ(packet->parts.at("color").substr(0, 2), "\xFF\xD8");  // a JPEG
+  ASSERT_GE(packet->parts.at("cloud").size(), 16U);
+  EXPECT_NEAR(static_cast<unsigned char>(packet->parts.at("cloud")[13]), 200, 5);  // its red
+  EXPECT_EQ(packet->json["link_poses"][1][2], 1.0);
+  EXPECT_EQ(packet->json["live"]["dropped"], 0);
+  const json session = answer("/api/session");
+  EXPECT_EQ(session["parts"], json({"color", "labels", "links", "vdi", "depth", "cloud"}));
+  EXPECT_EQ(session["camera"]["width"], 64);
+  EXPECT_EQ(session["links"], json({"base", "board"}));
+}
+
+TEST_F(LivePage, AFrameWithoutAPoseHasItsStatusAndItsDepth) {
+  const auto browser = client(R"(["labels", "vdi", "depth"])");
+  bench_.tell_all();
+  bench_.tell_depth(start);
+  bench_.now += seconds;  // no joint states came
+  ASSERT_TRUE(bench_.inbox.next(0, bench_.now, false, bench_.job));
+  static_cast<void>(bench_.worker.judge(bench_.job, bench_.results, this));
+  const auto packet = next(*browser);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->json["frame"], json::parse(report_));
+  EXPECT_EQ(packet->json["camera_pose"], nullptr);
+  EXPECT_EQ(packet->parts.at("labels"), std::string(64 * 48, '\x03'));
+  EXPECT_TRUE(packet->parts.contains("depth"));
+  EXPECT_FALSE(packet->parts.contains("vdi"));
+}
+
+TEST_F(LivePage, WithoutAClientNothingIsKept) {
+  bench_.tell_all();
+  judge(start);
+  EXPECT_FALSE(wakes_);
+  auto first = client(R"(["color"])");
+  EXPECT_FALSE(next(*first));
+  judge(start + 33 * milliseconds);
+  EXPECT_TRUE(wakes_);
+  EXPECT_TRUE(next(*first));
+  EXPECT_TRUE(wants_color());
+  first.reset();
+  EXPECT_FALSE(wants_color());
+  const auto second = client(R"(["labels"])");
+  EXPECT_FALSE(next(*second)) << "a frame of before the first client left";
+}
+
+// Layers that a page turns on are in each frame that it is sent from then on.
+TEST_F(LivePage, AFrameOfBeforeAWishIsNotSent) {
+  const auto browser = client(R"(["labels"])");
+  bench_.tell_all();
+  judge(start);
+  EXPECT_TRUE(browser->take(R"({"type": "want", "with": ["labels", "links"]})"));
+  EXPECT_FALSE(next(*browser));
+  judge(start + 33 * milliseconds);
+  const auto packet = next(*browser);
+  ASSERT_TRUE(packet);
+  EXPECT_TRUE(packet->parts.contains("links"));
+  EXPECT_FALSE(packet->parts.contains("vdi"));
+}
+
+TEST_F(LivePage, ASlowClientIsToldWhatItMissed) {
+  const auto browser = client(R"(["labels"])");
+  bench_.tell_all();
+  judge(start);
+  ASSERT_TRUE(next(*browser));
+  for (int i = 1; i <= 3; ++i) judge(start + i * 33 * milliseconds);
+  const auto packet = next(*browser);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->json["live"]["dropped"], 2);
+  EXPECT_EQ(packet->json["frame"], json::parse(report_));
+  EXPECT_FALSE(next(*browser)) << "it has the newest";
+}
+
+// Slower than the window that rates are counted in: the last interval tells.
+TEST_F(LivePage, ASlowCameraHasARate) {
+  const auto browser = client(R"(["labels"])");
+  bench_.tell_all();
+  judge(start);
+  EXPECT_EQ(next(*browser)->json["live"]["rate_hz"], 0.0);  // one frame has none
+  judge(start + 2500 * milliseconds);
+  EXPECT_NEAR(next(*browser)->json["live"]["rate_hz"], 0.4, 1e-9);
+}
+
+// Which process serves is told everywhere: the next one on this port counts its scenes anew.
+TEST_F(LivePage, ASceneIsAskedForByServerAndVersion) {
+  const auto browser = client(R"(["labels"])");
+  bench_.tell_all();
+  judge(start);
+  const json packet = next(*browser)->json;
+  const std::string server = packet["server"];
+  const int version = packet["scene_version"];
+  EXPECT_EQ(answer("/api/session")["server"], server);
+  const auto status = [&](const std::string& path, const std::string& of, int number) {
+    return view_.answer({path, {{"server", of}, {"version", std::to_string(number)}}}).status;
+  };
+  for (const char* const path : {"/api/scene", "/api/scene.bin"}) {
+    EXPECT_EQ(status(path, server, version), 200);
+    EXPECT_EQ(status(path, server, version + 1), 409);
+    EXPECT_EQ(status(path, "x" + server, version), 409);
+  }
+  EXPECT_EQ(answer("/api/scene")["links"][1]["meshes"].size(), 1U);
+  bench_.tell_info(start + 33 * milliseconds, 70.0);  // another camera
+  judge(start + 33 * milliseconds);
+  EXPECT_EQ(next(*browser)->json["scene_version"], version + 1);
+}
+
+TEST_F(LivePage, StatusesAndWhatIsMissingAreTold) {
+  view_.tell({{"error", "camera: none"}}, {"camera: none"});
+  const json session = answer("/api/session");
+  EXPECT_EQ(session["missing"], json({"camera: none"}));
+  EXPECT_EQ(session["diagnostics"], json({{{"level", "error"}, {"message", "camera: none"}}}));
+  EXPECT_EQ(session["camera"], nullptr);
+}
+
+io::LiveOptions lenient() {
+  io::LiveOptions options = with_color();
+  options.robot.robot.allow_missing_meshes = true;
+  return options;
+}
+
+class LivePageOfAPartialRobot : public LivePage {
+ protected:
+  LivePageOfAPartialRobot() : LivePage(lenient()) {}
+};
+
+TEST_F(LivePageOfAPartialRobot, LinksWithoutTheirGeometryAreTold) {
+  std::string urdf = live_urdf;
+  urdf.insert(urdf.rfind("</robot>"), R"(
+  <link name="cover"><collision><geometry><mesh filename="gone.stl"/></geometry></collision></link>
+  <joint name="fixed" type="fixed"><parent link="base"/><child link="cover"/></joint>
+)");
+  bench_.tell_robot(urdf);
+  bench_.tell_mount();
+  bench_.tell_info(0);
+  judge(start);
+  const std::string missing = answer("/api/session")["missing"].dump();
+  EXPECT_NE(missing.find("link cover is drawn without its geometry"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("gone.stl"), std::string::npos) << missing;
+}
+
+}  // namespace
+}  // namespace penumbra::test
