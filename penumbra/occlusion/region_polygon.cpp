@@ -76,7 +76,7 @@ void RegionSpans::take(const PixelPolygon& polygon) {
   add_edges(corners);
   Eigen::AlignedBox2d box;
   double area =
-      0;  // twice that of the triangles from the first corner to each edge: none overlooked
+      0;  // twice the sum of the triangles over the first corner: not less than the polygon
   for (std::size_t i = 0; i < corners.size(); ++i) {
     box.extend(corners[i]);
     const Eigen::Vector2d a = corners[i] - corners[0];
