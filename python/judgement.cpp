@@ -56,7 +56,7 @@ void bind_judgements(py::module_& m) {
           "blame", [](const OwnedJudgement& j) { return Frozen<OwnedBlame>{j.blame}; },
           "Links that hide it, largest first.")
       .def_property_readonly("point_pixels", &of_judgement<&J::point_pixels>,
-                             "Trusted depths behind the point.")
+                             "Trusted pixels, as far as they were asked.")
       .def_property_readonly("point_spread", &of_judgement<&J::point_spread>,
                              "Metres: 1.4826 * median absolute deviation.")
       .def("__repr__", [](const Self<OwnedJudgement>& self) {

@@ -88,8 +88,8 @@ void bind_outlines(py::module_& m) {
               Field{"height", &PixelBox::height, "Pixels."});
   py::class_<Polygon>(
       m, "PixelPolygon",
-      "The pixels whose centres lie inside a simple polygon. Its edges may touch, not "
-      "cross.")
+      "The pixels whose centres the outline winds around, in either direction. It may cross "
+      "itself.")
       .def(py::init([](const CornerSource& corners) { return Polygon{corners_of(corners)}; }),
            py::arg("corners"), "(u, v) each, pixels, in either order.");
   py::class_<PixelEllipse> ellipse(m, "PixelEllipse",

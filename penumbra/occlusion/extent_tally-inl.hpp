@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the pixels of an extent are seen in a frame.
+// Counts how the pixels of an extent are seen in a frame, and gathers their depths.
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -21,8 +19,8 @@
 namespace penumbra {
 
 /// What TargetJudge says of a pixel.
-enum class Seen : std::uint8_t { clear, front, occluded, unknown, other };
-inline constexpr std::size_t seen_count = 5;
+enum class PixelState : std::uint8_t { clear, front, occluded, unknown, other };
+inline constexpr std::size_t state_count = 5;
 
 /// Measured depths nearer than `near` are of something that hides the target, robot pixels nearer
 /// than that hide it too, those farther than `far` do not. Metres.
@@ -112,22 +110,6 @@ struct LabelledFrame {
   bool is_outside_undrawn;
 };
 
-/// Where the run of equal values ends that begins at p.
-template <typename T>
-const T* end_of_run(const T* p, const T* end) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr std::ptrdiff_t step = sizeof(std::uint64_t) / sizeof(T);
-  const std::uint64_t same = *p * (~std::uint64_t{0} / std::numeric_limits<T>::max());
-  for (; end - p >= step; p += step) {
-    std::uint64_t word;
-    std::memcpy(&word, p, sizeof word);
-    if (word != same) return p + std::countr_zero(word ^ same) / std::numeric_limits<T>::digits;
-  }
-  const T value = static_cast<T>(same);
-  while (p < end && *p == value) ++p;
-  return p;
-}
-
 /// How many pixels of an extent are hidden by each link.
 class LinkCounts {
  public:
@@ -149,30 +131,40 @@ class LinkCounts {
 };
 
 /// Pixels by how they are seen.
-struct SeenCounts {
-  [[nodiscard]] std::size_t& operator[](Seen seen) {
-    return counts[static_cast<std::size_t>(seen)];
+struct StateCounts {
+  [[nodiscard]] std::size_t& operator[](PixelState state) {
+    return counts[static_cast<std::size_t>(state)];
   }
-  [[nodiscard]] std::size_t operator[](Seen seen) const {
-    return counts[static_cast<std::size_t>(seen)];
+  [[nodiscard]] std::size_t operator[](PixelState state) const {
+    return counts[static_cast<std::size_t>(state)];
   }
 
-  std::array<std::size_t, seen_count> counts{};
+  std::array<std::size_t, state_count> counts{};
 };
 
+/// About how many pixels of an extent are asked for their depth: the median of 1,000 depths is off
+/// by 4 % of their spread.
+inline constexpr std::size_t max_depth_samples = 1000;
+
+/// What the pixels of an extent show, counted.
 struct ExtentTally {
-  explicit ExtentTally(std::size_t link_count) : links(link_count) {}
+  explicit ExtentTally(std::size_t link_count) : links(link_count) {
+    depths.reserve(2 * max_depth_samples);  // whatever the extent's outline
+  }
 
   void clear() {
     pixels = {};
     measured = past = 0;
     links.clear();
+    depths.clear();
   }
 
-  SeenCounts pixels;
-  std::size_t measured = 0;  ///< of the clear and front ones: measured at all
-  std::size_t past = 0;      ///< of these: past the expected depth
-  LinkCounts links;          ///< those that hide
+  StateCounts pixels;
+  std::size_t measured = 0;   ///< of the clear and front ones: measured at all
+  std::size_t past = 0;       ///< of these: past the expected depth
+  LinkCounts links;           ///< those that hide
+  std::vector<float> depths;  ///< metres: trusted ones, of one pixel in `step`
+  int step = 1;
 };
 
 /// A target's expected depth, checked.
@@ -184,24 +176,13 @@ struct ExpectedDepth {
   [[nodiscard]] bool known() const { return constant || image; }
 };
 
-/// Calls f(limits): limits(v)(u) are those of a pixel, without bounds where no depth is expected.
-template <typename F>
-void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expected, F&& f) {
-  const LimitRule rule(label_rule, expected.margin);
-  if (expected.image) {
-    f([&expected, rule](int v) {
-      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
-    });
-  } else {
-    const DepthLimits limits = expected.constant
-                                   ? rule.at(*expected.constant)
-                                   : DepthLimits{0.0f, std::numeric_limits<float>::infinity()};
-    f([limits](int) { return [limits](int) { return limits; }; });
-  }
-}
+class RobotSurroundings;
 
-/// Fills a tally with the pixels of an extent on a frame whose pose is known.
+/// Counts the pixels of an extent on a frame whose pose is known. `robot`, if not null: also
+/// gathers measured depths that are labelled clear or front, lie within the limits of the expected
+/// depth and cannot be of the robot.
 void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
-                  const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally);
+                  const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
+                  ExtentTally& tally);
 
 }  // namespace penumbra

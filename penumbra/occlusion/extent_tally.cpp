@@ -3,6 +3,7 @@
 #include <bit>
 
 #include <penumbra/occlusion/extent_tally-inl.hpp>
+#include <penumbra/occlusion/trusted_depth-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -10,38 +11,39 @@ namespace {
 /// Fringe hides nothing, and its depth measures nothing.
 bool is_fringe(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::fringe); }
 
-bool is_seen(Seen seen) { return seen == Seen::clear || seen == Seen::front; }
+bool is_seen(PixelState state) { return state == PixelState::clear || state == PixelState::front; }
 
-Seen seen_without_depth(std::uint8_t label, bool beyond_hides) {
+PixelState state_without_depth(std::uint8_t label, bool beyond_hides) {
   switch (static_cast<Label>(label)) {
     case Label::clear:
     case Label::fringe:
-      return Seen::clear;
+      return PixelState::clear;
     case Label::front:
-      return Seen::front;
+      return PixelState::front;
     case Label::occluded:
-      return Seen::occluded;
+      return PixelState::occluded;
     case Label::beyond:
-      return beyond_hides ? Seen::occluded : Seen::clear;
+      return beyond_hides ? PixelState::occluded : PixelState::clear;
     case Label::unknown:
       break;
   }
-  return Seen::unknown;
+  return PixelState::unknown;
 }
 
 /// The table of docs/targets-judging.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
 /// it is not on the ray.
-Seen seen_at_depth(std::uint8_t value, float z, float d, DepthLimits target, bool beyond_hides) {
+PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits target,
+                          bool beyond_hides) {
   const auto label = static_cast<Label>(value);
   const bool before = d > 0.0f && d < target.near;
-  if (is_fringe(value)) return Seen::clear;
+  if (is_fringe(value)) return PixelState::clear;
   if (label == Label::clear || (label == Label::beyond && !beyond_hides))
-    return before ? Seen::other : Seen::clear;
-  if (!(z > 0.0f)) return Seen::unknown;  // where the lens model does not reach
-  if (z < target.near) return Seen::occluded;
-  if (before) return label == Label::front ? Seen::other : Seen::occluded;
-  if (label == Label::front) return Seen::front;
-  return z > target.far ? Seen::clear : Seen::unknown;
+    return before ? PixelState::other : PixelState::clear;
+  if (!(z > 0.0f)) return PixelState::unknown;  // where the lens model does not reach
+  if (z < target.near) return PixelState::occluded;
+  if (before) return label == Label::front ? PixelState::other : PixelState::occluded;
+  if (label == Label::front) return PixelState::front;
+  return z > target.far ? PixelState::clear : PixelState::unknown;
 }
 
 /// Calls f(u0, u1, touched) for the parts of a span inside and outside of some tiles.
@@ -61,146 +63,171 @@ void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
   }
 }
 
-/// Goes by labels alone. `measured(v)` gives a row's depths.
-template <typename Depths>
-class LabelTally {
- public:
-  LabelTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally,
-             const Depths& measured)
-      : images_(frame.images), beyond_hides_(beyond_hides), tally_(tally), measured_(measured) {}
+template <typename T>
+int end_of_run(const T* row, int u, int end) {
+  const T value = row[u];
+  while (u < end && row[u] == value) ++u;
+  return u;
+}
 
-  void add(const RowSpan& span) {
-    for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
-      if (touched)
-        add_runs(span.v, u0, u1);
-      else
-        add_seen(Seen::clear, span.v, u0, u1);
-    });
-  }
+constexpr double golden_ratio = 0.6180339887498949;
 
- private:
-  void add_seen(Seen seen, int v, int u0, int u1) {
-    const auto measured = measured_(v);
-    std::int32_t count = 0;  // as wide as a depth: so the compiler takes vectors
-    for (int u = u0; u < u1; ++u) count += measured.is_measured(u) ? 1 : 0;
-    tally_.measured += static_cast<std::size_t>(count);
-    tally_.pixels[seen] += static_cast<std::size_t>(u1 - u0);
-  }
+int next_multiple(int number, int step) { return (number + step - 1) / step * step; }
 
-  void add_runs(int v, int u0, int u1) {
-    const std::uint8_t* const row = images_.labels.labels.row(v);
-    for (const std::uint8_t *p = row + u0, *end = row + u1; p < end;) {
-      const std::uint8_t* const next = end_of_run(p, end);
-      const Seen seen = seen_without_depth(*p, beyond_hides_);
-      const int u0_run = static_cast<int>(p - row), u1_run = static_cast<int>(next - row);
-      if (is_seen(seen) && !is_fringe(*p))
-        add_seen(seen, v, u0_run, u1_run);
-      else
-        tally_.pixels[seen] += static_cast<std::size_t>(next - p);
-      if (seen == Seen::occluded) blame(v, u0_run, u1_run);
-      p = next;
-    }
-  }
-
-  void blame(int v, int u0, int u1) {
-    const ImageView<const std::uint16_t>& links = images_.virtual_depth.links;
-    if (links.empty()) return;
-    for (const std::uint16_t *p = links.row(v) + u0, *end = links.row(v) + u1; p < end;) {
-      const std::uint16_t* const next = end_of_run(p, end);
-      tally_.links.add(*p, static_cast<std::size_t>(next - p));
-      p = next;
-    }
-  }
-
-  const JudgedImages& images_;
-  bool beyond_hides_;
-  ExtentTally& tally_;
-  const Depths& measured_;
-};
-
-/// As LabelTally, where the target's depth is known: `limits(v)` gives, by u, a row's limits and
-/// `measured(v)` its depths.
+/// Counts pixels and gathers depths. `limits_of(v)` gives, by u, the limits of a row's pixels and
+/// `depths_of(v)` what is measured there.
 template <typename Limits, typename Depths>
-class DepthTally {
+class ExtentReader {
  public:
-  DepthTally(const LabelledFrame& frame, bool beyond_hides, ExtentTally& tally,
-             const Limits& limits, const Depths& measured)
+  ExtentReader(const LabelledFrame& frame, bool has_depth, bool beyond_hides,
+               const Limits& limits_of, const Depths& depths_of, ExtentTally& tally)
       : images_(frame.images),
+        has_depth_(has_depth),
         beyond_hides_(beyond_hides),
-        tally_(tally),
-        limits_(limits),
-        measured_(measured) {}
+        limits_of_(limits_of),
+        depths_of_(depths_of),
+        tally_(tally) {}
 
-  void add(const RowSpan& span) {
+  void count(const RowSpan& span) {
     for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
-      if (touched)
-        add_pixels(span.v, u0, u1);
+      if (!touched)
+        count_seen(PixelState::clear, span.v, u0, u1);
+      else if (has_depth_)
+        count_pixels(span.v, u0, u1);
       else
-        add_clear(span.v, u0, u1);
+        count_labels(span.v, u0, u1);
     });
   }
 
- private:
-  void add_clear(int v, int u0, int u1) {
-    const auto limits = limits_(v);
-    const auto measured = measured_(v);
-    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth: for vectors
-    for (int u = u0; u < u1; ++u) {
-      all += measured.is_measured(u) ? 1 : 0;
-      nearer += measured.is_before(u, limits(u).near) ? 1 : 0;
-      farther += measured.is_past(u, limits(u).far) ? 1 : 0;
-    }
-    const auto before = static_cast<std::size_t>(nearer);
-    tally_.measured += static_cast<std::size_t>(all - nearer);
-    tally_.past += static_cast<std::size_t>(farther);
-    tally_.pixels[Seen::other] += before;
-    tally_.pixels[Seen::clear] += static_cast<std::size_t>(u1 - u0) - before;
-  }
-
-  void add_pixels(int v, int u0, int u1) {
-    const auto limits = limits_(v);
-    const auto measured = measured_(v);
-    const std::uint8_t* const labels = images_.labels.labels.row(v);
-    const float* const robot = images_.virtual_depth.depth.row(v);
-    const bool has_links = !images_.virtual_depth.links.empty();
-    const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
-    std::size_t measured_count = 0, past = 0;
-    Run run;  // of pixels seen alike: counting them one by one in memory costs more
-    for (int u = u0; u < u1; ++u) {
-      const DepthLimits target = limits(u);
-      const Seen seen = seen_at_depth(labels[u], robot[u], measured[u], target, beyond_hides_);
-      const bool is_measured = is_seen(seen) && !is_fringe(labels[u]);
-      measured_count += is_measured && measured.is_measured(u);
-      past += is_measured && measured.is_past(u, target.far);
-      const std::uint16_t link = seen == Seen::occluded && has_links ? links[u] : 0;
-      if (seen != run.seen || link != run.link) {
-        add(run);
-        run = {seen, link, 0};
+  /// Gathers depths of about one pixel in `step`, in a lattice that no width of a span lines up
+  /// with. `robot`: null where none is near.
+  void sample(const RowSpan& span, int step, RobotSurroundings* robot) {
+    const auto limits = limits_of_(span.v);
+    const auto depths = depths_of_(span.v);
+    const std::uint8_t* const labels = images_.labels.labels.row(span.v);
+    const int shift = static_cast<int>(golden_ratio * step * span.v) % step;
+    RobotSurroundings::Depths of_robot;
+    int cell = -1;  // that of_robot is of
+    for (int u = next_multiple(span.u0 + shift, step) - shift; u < span.u1; u += step) {
+      const float d = depths[u];
+      const DepthLimits within = limits(u);
+      const bool is_of_target = d > 0.0f && within.near <= d && d <= within.far;
+      if (!is_of_target || !is_trusted(static_cast<Label>(labels[u]))) continue;
+      if (robot != nullptr && u / LabelRule::cell != cell) {
+        cell = u / LabelRule::cell;
+        of_robot = robot->around(cell, span.v / LabelRule::cell);
       }
-      ++run.pixels;
+      if (!of_robot.hold(d)) tally_.depths.push_back(d);
     }
-    add(run);
-    tally_.measured += measured_count;
-    tally_.past += past;
   }
 
+ private:
   struct Run {
-    Seen seen = Seen::clear;
+    PixelState state = PixelState::clear;
     std::uint16_t link = 0;  // of a link image
     std::size_t pixels = 0;
   };
 
+  /// Counts pixels of one state, except where something is measured before the target.
+  void count_seen(PixelState state, int v, int u0, int u1) {
+    const auto limits = limits_of_(v);
+    const auto depths = depths_of_(v);
+    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth: for vectors
+    for (int u = u0; u < u1; ++u) all += depths.is_measured(u) ? 1 : 0;
+    for (int u = u0; u < u1 && has_depth_; ++u) {
+      nearer += depths.is_before(u, limits(u).near) ? 1 : 0;
+      farther += depths.is_past(u, limits(u).far) ? 1 : 0;
+    }
+    const auto before = static_cast<std::size_t>(nearer);
+    tally_.measured += static_cast<std::size_t>(all - nearer);
+    tally_.past += static_cast<std::size_t>(farther);
+    tally_.pixels[PixelState::other] += before;
+    tally_.pixels[state] += static_cast<std::size_t>(u1 - u0) - before;
+  }
+
+  /// By labels alone, run by run.
+  void count_labels(int v, int u0, int u1) {
+    const std::uint8_t* const labels = images_.labels.labels.row(v);
+    for (int u = u0; u < u1;) {
+      const int end = end_of_run(labels, u, u1);
+      const PixelState state = state_without_depth(labels[u], beyond_hides_);
+      if (is_seen(state) && !is_fringe(labels[u])) {
+        count_seen(state, v, u, end);
+      } else {
+        tally_.pixels[state] += static_cast<std::size_t>(end - u);
+        if (state == PixelState::occluded) count_links(v, u, end);
+      }
+      u = end;
+    }
+  }
+
+  void count_links(int v, int u0, int u1) {
+    if (images_.virtual_depth.links.empty()) return;
+    const std::uint16_t* const links = images_.virtual_depth.links.row(v);
+    for (int u = u0; u < u1;) {
+      const int end = end_of_run(links, u, u1);
+      tally_.links.add(links[u], static_cast<std::size_t>(end - u));
+      u = end;
+    }
+  }
+
+  void count_pixels(int v, int u0, int u1) {
+    const auto limits = limits_of_(v);
+    const auto depths = depths_of_(v);
+    const std::uint8_t* const labels = images_.labels.labels.row(v);
+    const float* const robot = images_.virtual_depth.depth.row(v);
+    const bool has_links = !images_.virtual_depth.links.empty();
+    const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
+    std::size_t measured = 0, past = 0;
+    Run run;  // of pixels state alike: counting them one by one in memory costs more
+    for (int u = u0; u < u1; ++u) {
+      const DepthLimits target = limits(u);
+      const PixelState state =
+          state_at_depth(labels[u], robot[u], depths[u], target, beyond_hides_);
+      const bool counts = is_seen(state) && !is_fringe(labels[u]);
+      measured += counts && depths.is_measured(u);
+      past += counts && depths.is_past(u, target.far);
+      const std::uint16_t link = state == PixelState::occluded && has_links ? links[u] : 0;
+      if (state != run.state || link != run.link) {
+        add(run);
+        run = {state, link, 0};
+      }
+      ++run.pixels;
+    }
+    add(run);
+    tally_.measured += measured;
+    tally_.past += past;
+  }
+
   void add(const Run& run) {
-    tally_.pixels[run.seen] += run.pixels;
+    tally_.pixels[run.state] += run.pixels;
     if (run.pixels > 0) tally_.links.add(run.link, run.pixels);
   }
 
   const JudgedImages& images_;
+  bool has_depth_;
   bool beyond_hides_;
+  const Limits& limits_of_;
+  const Depths& depths_of_;
   ExtentTally& tally_;
-  const Limits& limits_;
-  const Depths& measured_;
 };
+
+/// Calls f(limits_of): limits_of(v)(u) are those of a pixel, without bounds where no depth is
+/// expected.
+template <typename F>
+void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expected, F&& f) {
+  const LimitRule rule(label_rule, expected.margin);
+  if (expected.image) {
+    f([&expected, rule](int v) {
+      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
+    });
+  } else {
+    const DepthLimits limits = expected.constant
+                                   ? rule.at(*expected.constant)
+                                   : DepthLimits{0.0f, std::numeric_limits<float>::infinity()};
+    f([limits](int) { return [limits](int) { return limits; }; });
+  }
+}
 
 struct NoDepths {
   float operator[](int /*u*/) const { return 0.0f; }
@@ -209,7 +236,7 @@ struct NoDepths {
   [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
 };
 
-/// Calls f(measured): `measured(v)` gives, by u, a row's depths.
+/// Calls f(depths_of): depths_of(v) gives, by u, what is measured in a row.
 template <typename F>
 void with_depths(const LabelledFrame& frame, F&& f) {
   if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
@@ -269,18 +296,36 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
   return blame;
 }
 
+namespace {
+
+/// Returns null if no robot is so near to the spans that it matters to their depths.
+RobotSurroundings* robot_near(const LabelledFrame& frame, std::span<const RowSpan> spans,
+                              RobotSurroundings& robot) {
+  const SpanBox box = box_of_spans(spans);
+  const int reach = robot.reach();
+  const bool is_near =
+      frame.robot_may_lie_in(box.u0 - reach, box.u1 + reach, box.v0 - reach, box.v1 + reach);
+  return is_near ? &robot : nullptr;
+}
+
+}  // namespace
+
 void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
-                  const ExpectedDepth& expected, bool beyond_hides, ExtentTally& tally) {
+                  const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
+                  ExtentTally& tally) {
   tally.clear();
-  with_depths(frame, [&](const auto& measured) {
-    if (!expected.known()) {
-      LabelTally adder(frame, beyond_hides, tally, measured);
-      for (const RowSpan& span : spans) adder.add(span);
-      return;
-    }
-    with_limits(*frame.rule, expected, [&](const auto& limits) {
-      DepthTally adder(frame, beyond_hides, tally, limits, measured);
-      for (const RowSpan& span : spans) adder.add(span);
+  if (spans.empty()) return;
+  std::size_t pixels = 0;
+  for (const RowSpan& span : spans) pixels += static_cast<std::size_t>(span.u1 - span.u0);
+  tally.step = static_cast<int>((pixels + max_depth_samples - 1) / max_depth_samples);
+  RobotSurroundings* const near = robot != nullptr ? robot_near(frame, spans, *robot) : nullptr;
+  with_depths(frame, [&](const auto& depths_of) {
+    with_limits(*frame.rule, expected, [&](const auto& limits_of) {
+      ExtentReader reader(frame, expected.known(), beyond_hides, limits_of, depths_of, tally);
+      for (const RowSpan& span : spans) {
+        reader.count(span);
+        if (robot != nullptr) reader.sample(span, tally.step, near);
+      }
     });
   });
 }

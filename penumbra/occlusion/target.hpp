@@ -15,8 +15,9 @@
 
 namespace penumbra {
 
-// Regions: which pixels a target covers. They may reach past the image, or lie beside it. A box, a
-// polygon or an ellipse too small to hold a pixel's centre covers the pixel next to its middle.
+// Regions: which pixels a target covers. They may lie outside the image, in part or whole. A box or
+// polygon that holds no pixel's centre covers the pixel next to its middle, and so does an ellipse
+// that holds none of the image.
 
 /// Largest coordinate or length of a region, pixels.
 inline constexpr double max_coordinate = 1e9;
@@ -26,9 +27,9 @@ struct PixelBox {
   double u = 0, v = 0, width = 0, height = 0;
 };
 
-/// The pixels whose centres lie inside a simple polygon, corners in either order. Its edges may
-/// touch, not cross. A centre on the outline counts where the inside lies to its right or, on a
-/// level edge, below.
+/// The pixels whose centres the outline winds around, once or more, in either direction (non-zero
+/// winding). The outline may touch and cross itself. A centre on the outline counts where the
+/// inside lies to its right or, on a level edge, below.
 struct PixelPolygon {
   static constexpr std::size_t max_corners = 10000;
   std::span<const Eigen::Vector2d> corners;

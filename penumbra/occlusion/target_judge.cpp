@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include <penumbra/occlusion/target_judge.hpp>
-#include <penumbra/occlusion/target_sight-inl.hpp>
+#include <penumbra/occlusion/target_visibility-inl.hpp>
 #include <penumbra/occlusion/trusted_depth-inl.hpp>
 
 namespace penumbra {
@@ -70,28 +71,28 @@ bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
   return 2 * uncovered > unknown;
 }
 
-std::string_view reason_for_unknown(const Sight& sight, const TargetThresholds& thresholds,
-                                    bool is_uncovered) {
-  if (!sight.has_pose) return "the robot's pose is not known in this frame";
-  switch (sight.size_doubt) {
-    case SizeDoubt::none:
+std::string_view reason_for_unknown(const Visibility& visibility,
+                                    const TargetThresholds& thresholds, bool is_uncovered) {
+  if (!visibility.has_pose) return "the robot's pose is not known in this frame";
+  switch (visibility.size_unknown) {
+    case SizeUnknown::none:
       break;
-    case SizeDoubt::cut:
+    case SizeUnknown::cut:
       return "the image's border cuts it: how much of it the robot next to it hides is not known";
-    case SizeDoubt::first_near_robot:
+    case SizeUnknown::first_near_robot:
       return "first seen next to the robot: how much of it the robot hides is not known";
-    case SizeDoubt::moved:
+    case SizeUnknown::moved:
       return "it moved next to the robot, and how large it is there is not known without an "
              "expected depth";
   }
-  if (sight.is_missing)
+  if (visibility.is_missing)
     return "its mask is smaller than the whole target, and the robot is next to it";
-  if (sight.is_expected && sight.is_passed(thresholds.past_limit))
+  if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
     return "the sensor looks past where most of it is expected";
-  if (sight.is_expected && sight.is_unmeasured(thresholds.min_measured))
+  if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
     return "hardly anything is measured where it is expected";
   if (is_uncovered) return "too much of it lies where the lens model does not reach";
-  if (sight.is_expected)
+  if (visibility.is_expected)
     return "too much of it is robot without measurement, or at the robot's own depth";
   return "too much of it is robot without measurement";
 }
@@ -104,15 +105,14 @@ struct TargetJudge::State {
 
   Judgement judge(const TargetView& target);
   TargetMemory& memory_of(std::string_view name);
-  void add_point(const TargetView& target, const ExpectedDepth& expected, Judgement& judgement);
+  void add_point(const TargetView& target, Judgement& judgement);
 
   Camera camera;
   labelling::Rule rule;
   LabelledFrame frame;
   std::uint64_t number = 0;  // of the frame
   RobotSurroundings robot;
-  Sights sights;
-  TrustedDepths depths;
+  ExtentObserver observer;
   std::vector<Blame> blame;
   TargetMemories memories;
 };
@@ -123,7 +123,7 @@ TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, st
       rule(checked_rule(label_rule)),
       frame({}, rule, !unseen.empty()),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
-      sights(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
+      observer(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
   blame.reserve(links);
 }
 
@@ -170,56 +170,59 @@ TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
 Judgement TargetJudge::State::judge(const TargetView& target) {
   check_target(target);
   const ExpectedDepth expected = expected_of(target);
-  sights.fill(target.region);
+  observer.fill(target.region);
   TargetMemory& memory = memory_of(target.name);
   if (memory.frame == number) region_fault("its name is used twice in a frame");
   memory.frame = number;
 
-  const Sight sight = sights.look({frame, target, expected, robot.reach()}, memory);
+  const bool wants_depths = target.wants_point && frame.is_measured();
+  const Visibility visibility =
+      observer.observe({frame, target, expected, robot, wants_depths}, memory);
   Judgement judgement;
-  judgement.verdict = decide(sight, target.thresholds, memory);
-  judgement.covered = sight.covered;
-  judgement.inside = sight.inside;
-  judgement.occluded = sight.fraction(Seen::occluded);
-  judgement.front = sight.fraction(Seen::front);
-  judgement.unknown = sight.fraction(Seen::unknown);
-  judgement.clear = sight.fraction(Seen::clear);
-  if (frame.is_measured() && sight.has_pose) {
-    judgement.measured = sight.share(sight.measured);
-    if (expected.known()) judgement.hidden_by_other = sight.fraction(Seen::other);
-    if (expected.known()) judgement.seen_past = sight.share(sight.past);
+  judgement.verdict = decide(visibility, target.thresholds, memory);
+  judgement.covered = visibility.covered;
+  judgement.inside = visibility.inside;
+  judgement.occluded = visibility.fraction(PixelState::occluded);
+  judgement.front = visibility.fraction(PixelState::front);
+  judgement.unknown = visibility.fraction(PixelState::unknown);
+  judgement.clear = visibility.fraction(PixelState::clear);
+  if (frame.is_measured() && visibility.has_pose) {
+    judgement.measured = visibility.share(visibility.measured);
+    if (expected.known()) judgement.hidden_by_other = visibility.fraction(PixelState::other);
+    if (expected.known()) judgement.seen_past = visibility.share(visibility.past);
   }
-  judgement.blame = sight.links->write(sight.inside, blame);
+  judgement.blame = visibility.links->write(visibility.inside, blame);
   if (judgement.verdict == Verdict::unknown) {
     const bool has_lens = !camera.distortion.is_none();
-    judgement.reason = reason_for_unknown(
-        sight, target.thresholds,
-        has_lens && is_uncovered(frame, sights.seen().spans(), sight.pixels[Seen::unknown]));
+    judgement.reason =
+        reason_for_unknown(visibility, target.thresholds,
+                           has_lens && is_uncovered(frame, observer.seen().spans(),
+                                                    visibility.pixels[PixelState::unknown]));
   }
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
-    sights.remember(target, memory);
-  add_point(target, expected, judgement);
+    observer.remember(target, memory);
+  if (wants_depths) add_point(target, judgement);
   return judgement;
 }
 
-void TargetJudge::State::add_point(const TargetView& target, const ExpectedDepth& expected,
-                                   Judgement& judgement) {
+void TargetJudge::State::add_point(const TargetView& target, Judgement& judgement) {
   if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
-  const RegionSpans& seen = sights.seen();
-  if (!target.wants_point || !frame.is_measured() || seen.inside() == 0) return;
-  const Eigen::Vector2d pixel = target.point_pixel.value_or(seen.middle());
+  ExtentTally& tally = observer.tally();
+  const std::size_t inside = observer.seen().inside();
+  const std::size_t trusted =
+      std::min(inside, tally.depths.size() * static_cast<std::size_t>(tally.step));
+  const double least = target.thresholds.point_min_fraction * static_cast<double>(inside);
+  if (trusted == 0 || trusted < target.thresholds.point_min_pixels ||
+      static_cast<double>(trusted) < least)
+    return;
+  const Eigen::Vector2d pixel = target.point_pixel.value_or(observer.seen().middle());
   const Intrinsics& pinhole = camera.intrinsics;
   const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();
   const auto ray = camera.distortion.undistort(distorted);
   if (!ray) return;
-  depths.take(frame, seen.spans(), expected, robot);
-  const auto least = target.thresholds.point_min_fraction * static_cast<double>(seen.inside());
-  if (depths.count() == 0 || depths.count() < target.thresholds.point_min_pixels ||
-      static_cast<double>(depths.count()) < least)
-    return;
-  const RobustDepth depth = depths.robust();
+  const RobustDepth depth = robust_depth(tally.depths);
   judgement.point = depth.median * Eigen::Vector3d(ray->x(), ray->y(), 1.0);
-  judgement.point_pixels = depth.count;
+  judgement.point_pixels = trusted;
   judgement.point_spread = depth.spread;
 }
 

@@ -74,7 +74,7 @@ struct Judgement {
   std::optional<double> seen_past;
   std::span<const Blame> blame;          ///< largest first; valid until the judge's next call
   std::optional<Eigen::Vector3d> point;  ///< optical frame, metres: of trusted depths only
-  std::size_t point_pixels = 0;          ///< depths behind the point
+  std::size_t point_pixels = 0;          ///< trusted pixels, as far as they were asked
   double point_spread = 0;               ///< metres: 1.4826 * median absolute deviation
   std::string_view reason;               ///< one line, a constant, for verdict unknown; else empty
 };
@@ -122,7 +122,8 @@ struct Judgement {
 ///   the robot without expected depths, and is at another place than expected or larger, as it may
 ///   have come nearer. Pixels that a lens's pinhole image does not cover count as robot here.
 ///
-/// A point is the median of the trusted depths: measured, labelled clear or front, within m of the
+/// A point is the median of the trusted depths, of an extent of more than 1,000 pixels those of one
+/// pixel in n, so that some 1,000 are asked: measured, labelled clear or front, within m of the
 /// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
 /// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f);
 /// near pixels that the lens model does not reach, none at all.
@@ -144,7 +145,7 @@ class TargetJudge {
 
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
   /// InputError, which says what is wrong and not of which target, for a region that is none (not
-  /// finite, of zero area, a polygon that crosses itself, a mask of another size), for numbers out
+  /// finite, of zero area, a mask of another size), for numbers out
   /// of bounds and for a name that was judged in this frame already.
   [[nodiscard]] Judgement judge(const TargetView& target);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depth of a target from the measurements inside it that cannot be of the robot.
+// Which depths may be of the robot, and the median of the others.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include <penumbra/occlusion/extent_tally-inl.hpp>
 
@@ -19,7 +18,7 @@ class RobotSurroundings {
  public:
   RobotSurroundings(int width, int height, const LabelRule& rule);
 
-  /// Forgets the last frame. `frame` is looked at until the next call.
+  /// Forgets the last frame. `frame` is read until the next call.
   void begin(const LabelledFrame& frame);
 
   /// Depths that may be of the robot within edge_margin pixels of a cell; none: from > to.
@@ -54,27 +53,11 @@ class RobotSurroundings {
 
 /// The median of some depths.
 struct RobustDepth {
-  std::size_t count = 0;
   double median = 0;  ///< metres
   double spread = 0;  ///< metres: 1.4826 * median absolute deviation
 };
 
-class TrustedDepths {
- public:
-  /// Takes the depths of an extent that are labelled clear or front, that may not be of the robot
-  /// and that lie within the limits of the expected depth. The extent has one pixel at least.
-  void take(const LabelledFrame& frame, std::span<const RowSpan> spans,
-            const ExpectedDepth& expected, RobotSurroundings& robot);
-
-  [[nodiscard]] std::size_t count() const { return count_; }
-
-  /// Of the depths taken, of which there are some; may be called once.
-  [[nodiscard]] RobustDepth robust();
-
- private:
-  std::vector<std::int32_t> bits_;  // of floats
-  std::vector<std::int32_t> scratch_;
-  std::size_t count_ = 0;
-};
+/// Returns the median of one or more depths; changes them.
+[[nodiscard]] RobustDepth robust_depth(std::span<float> depths);
 
 }  // namespace penumbra

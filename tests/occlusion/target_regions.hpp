@@ -28,7 +28,7 @@ inline double distance_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return (p - a - t * (b - a)).norm();
 }
 
-/// By the sum of the angles under which the edges are seen.
+/// By the sum of the angles under which the edges are seen, full turns of either sign.
 inline Place place_in_polygon(const Corners& corners, const Eigen::Vector2d& p) {
   double angle = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

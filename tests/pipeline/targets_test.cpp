@@ -170,7 +170,7 @@ TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Eigen::Isometry3d bent = Eigen::Isometry3d::Identity();
   bent.linear() *= 1.1;
-  const std::vector<Eigen::Vector2d> bow{{10, 10}, {50, 50}, {50, 10}, {10, 50}};
+  const std::vector<Eigen::Vector2d> line{{10, 10}, {50, 50}, {30, 30}};
   const Image<std::uint8_t> small(7, 7, 1);
   TargetThresholds wrong, inside;
   wrong.partial_enter = 2.0;
@@ -186,7 +186,7 @@ TEST_F(TargetsTest, FaultsOfATargetAreItsReason) {
       {region("", beside_slab), "no name"},
       {region("b", PixelBox{nan, 0, 5, 5}), ""},
       {region("c", PixelBox{5, 5, 0, 5}), ""},
-      {region("d", PixelPolygon{bow}), "cross"},
+      {region("d", PixelPolygon{line}), "area"},
       {region("e", PixelMask{small.view()}), ""},
       {{.name = "f", .shape = RegionTarget{beside_slab, Extent::amodal, -1.0}}, "expected depth"},
       {{.name = "g", .shape = RegionTarget{beside_slab}, .frame_id = "other"}, "image frame"},

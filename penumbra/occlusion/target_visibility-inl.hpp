@@ -17,6 +17,7 @@
 #include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/occlusion/region_spans-inl.hpp>
 #include <penumbra/occlusion/target.hpp>
+#include <penumbra/occlusion/trusted_depth-inl.hpp>
 
 namespace penumbra {
 
@@ -43,17 +44,19 @@ using TargetMemories =
     std::unordered_map<std::string, TargetMemory, TargetNameHash, std::equal_to<>>;
 
 /// Why the size of a modal target is not known.
-enum class SizeDoubt { none, first_near_robot, cut, moved };
+enum class SizeUnknown { none, first_near_robot, cut, moved };
 
-/// An extent as it is seen.
-struct Sight {
-  [[nodiscard]] double fraction(Seen seen) const;
+/// What is visible of an extent.
+struct Visibility {
+  [[nodiscard]] double fraction(PixelState state) const;
   /// Of the pixels inside, `count` of them.
   [[nodiscard]] double share(std::size_t count) const;
   [[nodiscard]] double hidden(bool others_hide) const {
-    return fraction(Seen::occluded) + (others_hide ? fraction(Seen::other) : 0.0);
+    return fraction(PixelState::occluded) + (others_hide ? fraction(PixelState::other) : 0.0);
   }
-  [[nodiscard]] std::size_t seen() const { return pixels[Seen::clear] + pixels[Seen::front]; }
+  [[nodiscard]] std::size_t seen() const {
+    return pixels[PixelState::clear] + pixels[PixelState::front];
+  }
   /// Whether the sensor looks past where `limit` or more of what is measured is expected.
   [[nodiscard]] bool is_passed(double limit) const {
     return past > 0 && limit < 1 &&
@@ -63,33 +66,37 @@ struct Sight {
   [[nodiscard]] bool is_unmeasured(double least) const {
     return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
-  /// Counts pixels that were seen so as unknown instead, as many as there are.
-  void doubt(Seen seen, std::size_t& count);
-  void doubt_all();  ///< what counts as seen is unknown
+  /// Counts up to `count` pixels of a state as unknown instead, and reduces `count` by these.
+  void mark_unknown(PixelState state, std::size_t& count);
+  void mark_all_unknown();  ///< all that is clear or front
 
   std::size_t covered = 0, inside = 0;
-  SeenCounts pixels{};                 ///< inside
+  StateCounts pixels{};                ///< inside
   std::size_t measured = 0, past = 0;  ///< as in ExtentTally
   std::size_t unmeasured = 0;          ///< clear or front, but not measured
   bool is_expected = false;            ///< its depth is
   const LinkCounts* links = nullptr;
   bool has_pose = true;
-  SizeDoubt size_doubt = SizeDoubt::none;
+  SizeUnknown size_unknown = SizeUnknown::none;
   bool is_missing = false;  ///< some of it is not in its mask, and near the robot
 };
 
-/// A target and the frame it is looked at on.
-struct Look {
+/// A target and the frame it is judged on.
+struct TargetInFrame {
   const LabelledFrame& frame;
   const TargetView& target;
   const ExpectedDepth& expected;
-  int reach;  ///< pixels: robot as near as this may hide more than it seems to
+  RobotSurroundings& robot;
+  bool wants_depths;  ///< of the extent as it is given
+
+  /// Robot as near as this, in pixels, may hide more than it seems to.
+  [[nodiscard]] int reach() const { return robot.reach(); }
 };
 
-/// Looks at extents, as they are given and as they are remembered.
-class Sights {
+/// Finds what is visible of extents, as they are given and as they are remembered.
+class ExtentObserver {
  public:
-  Sights(int width, int height, std::size_t links, SeenPixels seen_pixels)
+  ExtentObserver(int width, int height, std::size_t links, SeenPixels seen_pixels)
       : width_(width),
         height_(height),
         seen_pixels_(std::move(seen_pixels)),
@@ -105,31 +112,37 @@ class Sights {
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
   /// Of the region that fill() took: valid until the next call.
-  [[nodiscard]] Sight look(const Look& at, const TargetMemory& memory);
+  [[nodiscard]] Visibility observe(const TargetInFrame& at, const TargetMemory& memory);
 
-  /// Remembers the modal extent that was just looked at and is visible.
+  /// Returns what was counted on the region of the last call, with its depths if they were wanted.
+  [[nodiscard]] ExtentTally& tally() { return seen_tally_; }
+
+  /// Remembers the modal extent of the last call, which is visible.
   void remember(const TargetView& target, TargetMemory& memory) const;
 
  private:
-  [[nodiscard]] static Sight look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally);
-  [[nodiscard]] Sight look_modal(const Look& at, const TargetMemory& memory, const Sight& now);
-  [[nodiscard]] Sight compare(const Look& at, const TargetMemory& memory, const Sight& now,
-                              const SpanBox& box);
+  [[nodiscard]] static Visibility observe_extent(const TargetInFrame& at, const RegionSpans& extent,
+                                                 RobotSurroundings* robot, ExtentTally& tally);
+  [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, const TargetMemory& memory,
+                                         const Visibility& now);
+  [[nodiscard]] Visibility compare(const TargetInFrame& at, const TargetMemory& memory,
+                                   const Visibility& now, const SpanBox& box);
   [[nodiscard]] bool reaches_border() const;
-  [[nodiscard]] Sight look_last(const Look& at, std::size_t missing);
-  [[nodiscard]] bool place_last(const Look& at, const TargetMemory& memory, const SpanBox& box);
-  [[nodiscard]] bool may_hide_missing(const Look& at, const SpanBox& box,
+  [[nodiscard]] Visibility observe_last(const TargetInFrame& at, std::size_t missing);
+  [[nodiscard]] bool place_last(const TargetInFrame& at, const TargetMemory& memory,
+                                const SpanBox& box);
+  [[nodiscard]] bool may_hide_missing(const TargetInFrame& at, const SpanBox& box,
                                       const SpanBox& whole) const;
 
   int width_, height_;
   SeenPixels seen_pixels_;
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;
-  bool touches_robot_ = false;  // the modal extent that was looked at
+  bool touches_robot_ = false;  // the modal extent of the last call
 };
 
 /// The verdict, which `memory.level` follows.
-[[nodiscard]] Verdict decide(const Sight& sight, const TargetThresholds& thresholds,
+[[nodiscard]] Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
                              TargetMemory& memory);
 
 }  // namespace penumbra

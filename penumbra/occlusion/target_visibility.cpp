@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <penumbra/occlusion/target_sight-inl.hpp>
+#include <penumbra/occlusion/target_visibility-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -14,13 +14,13 @@ constexpr int mask_error = 4;
 /// Of how many frames the size of a modal target is the average.
 constexpr double averaged_frames = 100;
 
-double bad_share(const Sight& sight, bool others_hide) {
-  return sight.hidden(others_hide) + sight.fraction(Seen::unknown);
+double bad_share(const Visibility& visibility, bool others_hide) {
+  return visibility.hidden(others_hide) + visibility.fraction(PixelState::unknown);
 }
 
-bool is_out_of_view(const Sight& sight, const TargetThresholds& thresholds) {
-  return static_cast<double>(sight.inside) <=
-         thresholds.min_inside * static_cast<double>(sight.covered);
+bool is_out_of_view(const Visibility& visibility, const TargetThresholds& thresholds) {
+  return static_cast<double>(visibility.inside) <=
+         thresholds.min_inside * static_cast<double>(visibility.covered);
 }
 
 Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
@@ -34,12 +34,12 @@ int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
 int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
 
 /// Nothing that was not seen is called visible, and nothing partial of which no pixel was.
-bool is_seen_enough(const Sight& sight, Verdict level, const TargetThresholds& t) {
+bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThresholds& t) {
   if (level == Verdict::hidden) return true;
-  const std::size_t least = level == Verdict::visible ? sight.pixels[Seen::unknown] : 0;
-  if (sight.seen() <= least) return false;
-  return !sight.is_expected ||
-         !(sight.is_passed(t.past_limit) || sight.is_unmeasured(t.min_measured));
+  const std::size_t least = level == Verdict::visible ? visibility.pixels[PixelState::unknown] : 0;
+  if (visibility.seen() <= least) return false;
+  return !visibility.is_expected ||
+         !(visibility.is_passed(t.past_limit) || visibility.is_unmeasured(t.min_measured));
 }
 
 SpanBox grown(const SpanBox& box, int du, int dv) {
@@ -70,76 +70,80 @@ double area_scale(const TargetMemory& memory, const TargetView& target) {
 
 }  // namespace
 
-double Sight::share(std::size_t count) const {
+double Visibility::share(std::size_t count) const {
   return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
 }
 
-double Sight::fraction(Seen seen) const { return share(pixels[seen]); }
+double Visibility::fraction(PixelState state) const { return share(pixels[state]); }
 
-void Sight::doubt(Seen seen, std::size_t& count) {
-  const std::size_t some = std::min(count, pixels[seen]);
-  pixels[seen] -= some;
-  pixels[Seen::unknown] += some;
+void Visibility::mark_unknown(PixelState state, std::size_t& count) {
+  const std::size_t some = std::min(count, pixels[state]);
+  pixels[state] -= some;
+  pixels[PixelState::unknown] += some;
   count -= some;
 }
 
-void Sight::doubt_all() {
-  pixels[Seen::unknown] += seen();
-  pixels[Seen::clear] = pixels[Seen::front] = 0;
+void Visibility::mark_all_unknown() {
+  pixels[PixelState::unknown] += seen();
+  pixels[PixelState::clear] = pixels[PixelState::front] = 0;
   measured = past = 0;
 }
 
-Sight Sights::look_at(const Look& at, const RegionSpans& extent, ExtentTally& tally) {
-  tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, tally);
-  Sight sight{.covered = extent.covered(),
-              .inside = extent.inside(),
-              .pixels = tally.pixels,
-              .measured = tally.measured,
-              .past = tally.past,
-              .is_expected = at.expected.known(),
-              .links = &tally.links};
-  sight.unmeasured = sight.seen() - sight.measured;
-  if (at.frame.images.is_blind) sight.doubt_all();
-  return sight;
+Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionSpans& extent,
+                                          RobotSurroundings* robot, ExtentTally& tally) {
+  tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, robot,
+               tally);
+  Visibility visibility{.covered = extent.covered(),
+                        .inside = extent.inside(),
+                        .pixels = tally.pixels,
+                        .measured = tally.measured,
+                        .past = tally.past,
+                        .is_expected = at.expected.known(),
+                        .links = &tally.links};
+  visibility.unmeasured = visibility.seen() - visibility.measured;
+  if (at.frame.images.is_blind) visibility.mark_all_unknown();
+  return visibility;
 }
 
-Sight Sights::look(const Look& at, const TargetMemory& memory) {
+Visibility ExtentObserver::observe(const TargetInFrame& at, const TargetMemory& memory) {
   if (!at.frame.has_pose()) {
     seen_tally_.clear();
-    Sight none{.covered = seen_.covered(),
-               .inside = seen_.inside(),
-               .links = &seen_tally_.links,
-               .has_pose = false};
-    none.pixels[Seen::unknown] = seen_.inside();
+    Visibility none{.covered = seen_.covered(),
+                    .inside = seen_.inside(),
+                    .links = &seen_tally_.links,
+                    .has_pose = false};
+    none.pixels[PixelState::unknown] = seen_.inside();
     return none;
   }
-  const Sight now = look_at(at, seen_, seen_tally_);
-  return at.target.extent == Extent::modal ? look_modal(at, memory, now) : now;
+  const Visibility now =
+      observe_extent(at, seen_, at.wants_depths ? &at.robot : nullptr, seen_tally_);
+  return at.target.extent == Extent::modal ? observe_modal(at, memory, now) : now;
 }
 
-Sight Sights::look_modal(const Look& at, const TargetMemory& memory, const Sight& now) {
+Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMemory& memory,
+                                         const Visibility& now) {
   touches_robot_ = false;
   if (is_out_of_view(now, at.target.thresholds)) return now;
   const SpanBox box = box_of_spans(seen_.spans());
-  touches_robot_ = holds_robot(at.frame, grown(box, at.reach, at.reach));
+  touches_robot_ = holds_robot(at.frame, grown(box, at.reach(), at.reach()));
   if (memory.extent.empty()) {
-    Sight first = now;
-    if (touches_robot_) first.size_doubt = SizeDoubt::first_near_robot;
+    Visibility first = now;
+    if (touches_robot_) first.size_unknown = SizeUnknown::first_near_robot;
     return first;
   }
-  Sight sight = compare(at, memory, now, box);
+  Visibility visibility = compare(at, memory, now, box);
   if (memory.is_cut) {
     // There is more of it than was ever seen, perhaps as much again.
     const SpanBox last = box_of_spans(memory.extent);
     const int more =
-        at.reach + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
-    if (holds_robot(at.frame, grown(box, more, more))) sight.size_doubt = SizeDoubt::cut;
+        at.reach() + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
+    if (holds_robot(at.frame, grown(box, more, more))) visibility.size_unknown = SizeUnknown::cut;
   }
-  return sight;
+  return visibility;
 }
 
-Sight Sights::compare(const Look& at, const TargetMemory& memory, const Sight& now,
-                      const SpanBox& box) {
+Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& memory,
+                                   const Visibility& now, const SpanBox& box) {
   const TargetThresholds& thresholds = at.target.thresholds;
   const bool is_placed = place_last(at, memory, box);
   const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
@@ -150,19 +154,19 @@ Sight Sights::compare(const Look& at, const TargetMemory& memory, const Sight& n
                            : std::size_t{0};
   const double tolerance = thresholds.partial_enter * whole;
   const bool has_depths = memory.depth && at.target.expected_depth;
-  Sight moved = now;
+  Visibility moved = now;
   if (lacking <= tolerance && touches_robot_ && !has_depths &&
       (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
-    moved.size_doubt = SizeDoubt::moved;  // it may have come nearer, and be hidden in part
+    moved.size_unknown = SizeUnknown::moved;  // it may have come nearer, and be hidden in part
   } else if (is_placed) {
-    const Sight last = look_last(at, missing);
+    const Visibility last = observe_last(at, missing);
     const bool is_worse =
         bad_share(last, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
     return is_worse ? last : now;
   } else if (lacking > tolerance) {
     moved.covered += missing;
     moved.inside += missing;
-    moved.pixels[Seen::unknown] += missing;
+    moved.pixels[PixelState::unknown] += missing;
     moved.is_missing = missing > 0;
   }
   return moved;
@@ -170,7 +174,8 @@ Sight Sights::compare(const Look& at, const TargetMemory& memory, const Sight& n
 
 /// Puts the last whole extent where it is expected, and says whether what is seen now can be part
 /// of it: it has the same expected depth and nothing is seen outside of it.
-bool Sights::place_last(const Look& at, const TargetMemory& memory, const SpanBox& box) {
+bool ExtentObserver::place_last(const TargetInFrame& at, const TargetMemory& memory,
+                                const SpanBox& box) {
   last_.fill_moved(memory.extent,
                    memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero()));
   last_.keep(seen_pixels_);
@@ -182,26 +187,28 @@ bool Sights::place_last(const Look& at, const TargetMemory& memory, const SpanBo
 
 /// Whether the robot may hide what is missing in a mask: it lies near the last whole extent, or as
 /// near to the mask as what is missing can reach.
-bool Sights::may_hide_missing(const Look& at, const SpanBox& box, const SpanBox& whole) const {
+bool ExtentObserver::may_hide_missing(const TargetInFrame& at, const SpanBox& box,
+                                      const SpanBox& whole) const {
   const int du = std::max(width_of(whole) - width_of(box), 0);
   const int dv = std::max(height_of(whole) - height_of(box), 0);
-  if (holds_robot(at.frame, grown(box, at.reach + du, at.reach + dv))) return true;
+  if (holds_robot(at.frame, grown(box, at.reach() + du, at.reach() + dv))) return true;
   return last_.inside() > 0 &&
-         holds_robot(at.frame, grown(box_of_spans(last_.spans()), at.reach, at.reach));
+         holds_robot(at.frame, grown(box_of_spans(last_.spans()), at.reach(), at.reach()));
 }
 
-Sight Sights::look_last(const Look& at, std::size_t missing) {
-  Sight last = look_at(at, last_, last_tally_);
-  const SeenCounts& pixels = last.pixels;
-  const std::size_t known = pixels[Seen::occluded] + pixels[Seen::other] + pixels[Seen::unknown];
-  std::size_t doubted = missing - std::min(missing, known);
+Visibility ExtentObserver::observe_last(const TargetInFrame& at, std::size_t missing) {
+  Visibility last = observe_extent(at, last_, nullptr, last_tally_);
+  const StateCounts& pixels = last.pixels;
+  const std::size_t known =
+      pixels[PixelState::occluded] + pixels[PixelState::other] + pixels[PixelState::unknown];
+  std::size_t uncertain = missing - std::min(missing, known);
   last.is_missing = missing > 0;
-  last.doubt(Seen::clear, doubted);
-  last.doubt(Seen::front, doubted);
+  last.mark_unknown(PixelState::clear, uncertain);
+  last.mark_unknown(PixelState::front, uncertain);
   return last;
 }
 
-bool Sights::reaches_border() const {
+bool ExtentObserver::reaches_border() const {
   const std::span<const RowSpan> spans = seen_.spans();
   return std::any_of(spans.begin(), spans.end(), [&](const RowSpan& span) {
     for (const int dv : {-mask_error, 0, mask_error}) {
@@ -212,7 +219,7 @@ bool Sights::reaches_border() const {
   });
 }
 
-void Sights::remember(const TargetView& target, TargetMemory& memory) const {
+void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) const {
   const double size = static_cast<double>(seen_.inside()) * area_scale(memory, target);
   const double tolerance = target.thresholds.partial_enter * memory.size;
   const bool has_depths = memory.depth && target.expected_depth;
@@ -232,20 +239,21 @@ void Sights::remember(const TargetView& target, TargetMemory& memory) const {
   memory.moved.setZero();
 }
 
-Verdict decide(const Sight& sight, const TargetThresholds& thresholds, TargetMemory& memory) {
-  if (is_out_of_view(sight, thresholds)) return Verdict::out_of_view;
-  if (!sight.has_pose) return Verdict::unknown;
-  const double hidden = sight.hidden(thresholds.others_hide);
-  const bool has_size = sight.size_doubt == SizeDoubt::none;
-  const double unknown = has_size ? sight.fraction(Seen::unknown) : 1 - hidden;
+Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
+               TargetMemory& memory) {
+  if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
+  if (!visibility.has_pose) return Verdict::unknown;
+  const double hidden = visibility.hidden(thresholds.others_hide);
+  const bool has_size = visibility.size_unknown == SizeUnknown::none;
+  const double unknown = has_size ? visibility.fraction(PixelState::unknown) : 1 - hidden;
   // What its mask lacks is not seen: no limit passes over what else is unknown.
-  const bool is_doubtful = !has_size || sight.is_missing;
+  const bool is_uncertain = !has_size || visibility.is_missing;
   const double limit =
-      is_doubtful ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
+      is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
   const Verdict level = next_level(memory.level, hidden, thresholds);
   if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
     return Verdict::unknown;
-  if (!is_seen_enough(sight, level, thresholds)) return Verdict::unknown;
+  if (!is_seen_enough(visibility, level, thresholds)) return Verdict::unknown;
   memory.level = level;
   return level;
 }
