@@ -219,6 +219,13 @@ TEST(JointSources, ASilentOneComesBack) {
   EXPECT_EQ(answer_at(3001, {before, other, back}).status, JointStatus::disputed);
 }
 
+TEST(JointSources, ASuccessorIsComparedSinceItBegan) {
+  const Publisher driver{"driver", swing, 10, 0, 1200}, again{"driver 2", swing, 10, 1300};
+  const Publisher relayed{"relay", swing, 10, 3}, sliders{"sliders", rest(-0.9), 10, 3};
+  EXPECT_EQ(answer_at(1400, {driver, relayed, again}).status, JointStatus::ok);
+  EXPECT_EQ(answer_at(1400, {driver, sliders, again}).status, JointStatus::disputed);
+}
+
 TEST(JointSources, OnOneStampTheLastValueOfASourceCounts) {
   OneJoint joint;
   joint.add(10 * ms, 0.3, "driver");
