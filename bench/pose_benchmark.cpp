@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of what it costs to know where a robot was: one lookup of a transform along a
 // chain, and of all links by joint states, by TF and by both, in ten seconds of states at 125 Hz;
-// and to take a joint state, of one publisher or of two that tell the same joints.
+// and to take a joint state, of one publisher or of two of the same joints.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -39,11 +39,11 @@ std::vector<std::string> joint_names() {
   return names;
 }
 
-struct Told {
+struct Filled {
   Robot robot = arm();
   PoseHistory history{robot};
 
-  explicit Told(bool by_two = false) {
+  explicit Filled(bool by_two = false) {
     const std::vector<std::string> names = joint_names();
     std::vector<Eigen::Isometry3d> poses(robot.links().size());
     for (int s = 1; s <= states; ++s) {
@@ -63,24 +63,24 @@ struct Told {
 std::int64_t stamp_of(std::int64_t i) { return (i % (states - 2) + 1) * period + period / 3; }
 
 void chain(benchmark::State& state) {
-  const Told told;
+  const Filled filled;
   TransformAnswer answer;
   const std::string tool = link_name(joints);
   std::int64_t i = 0;
   for (auto _ : state) {
-    told.history.transforms().at(stamp_of(i++ * 37), "camera", tool, answer);
+    filled.history.transforms().at(stamp_of(i++ * 37), "camera", tool, answer);
     benchmark::DoNotOptimize(answer.T_target_source);
   }
 }
 BENCHMARK(chain)->Name("transform along 8 frames");
 
 void links(benchmark::State& state, PoseSource source, bool by_two) {
-  const Told told(by_two);
-  PoseLookup lookup(told.robot, {.source = source, .camera_frame = "camera"});
+  const Filled filled(by_two);
+  PoseLookup lookup(filled.robot, {.source = source, .camera_frame = "camera"});
   PoseAnswer answer;
   std::int64_t i = 0;
   for (auto _ : state) {
-    lookup.at(told.history, stamp_of(i++ * 37), answer);
+    lookup.at(filled.history, stamp_of(i++ * 37), answer);
     if (answer.status != FrameStatus::ok) state.SkipWithError(answer.message.c_str());
   }
 }

@@ -32,7 +32,7 @@ struct UsedBag {
   std::string camera_frame, camera_link;  ///< where the camera sits
   std::string camera_by;                  ///< who says so: "tf"
   double time_offset = 0.0;               ///< seconds
-  bool first_publisher = false;           ///< programs that tell the same are not compared
+  bool first_publisher = false;           ///< publishers of one joint are not compared
 };
 
 /// By which choices results were made.

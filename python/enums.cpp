@@ -75,7 +75,7 @@ void bind_robot_enums(py::module_& m) {
   bind_enum<JointStatus>(
       m, "JointStatus",
       "Whether joint positions are known at a stamp; missing: never seen, stale: "
-      "not near it, disputed: two programs tell different ones.",
+      "not near it, disputed: two publishers differ.",
       {{"ok", JointStatus::ok},
        {"missing", JointStatus::missing},
        {"stale", JointStatus::stale},

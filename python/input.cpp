@@ -102,7 +102,7 @@ void bind_bag_options(py::module_& m) {
       Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},
       Field{"first_publisher", &B::first_publisher,
-            "Programs that tell the same are not compared: the first is believed."},
+            "Publishers of one joint are not compared: the first one heard is believed."},
       Field{"time_offset", &B::time_offset, "Seconds added to an image's stamp."});
 }
 

@@ -17,7 +17,7 @@ void bind_joint_answers(py::module_& m) {
       Field{"history", &O::history, "Seconds of states that are kept behind the newest."},
       Field{"max_states", &O::max_states, "Of each variable; the oldest are dropped beyond."},
       Field{"compare_sources", &O::compare_sources,
-            "What several programs tell of one joint is compared; else the first is believed."});
+            "Several publishers of one joint are compared; else only the believed one counts."});
 
   py::class_<JointGap> gap(m, "JointGap",
                            "A variable that has no position at the stamp asked for.");
@@ -28,14 +28,15 @@ void bind_joint_answers(py::module_& m) {
               Field{"jump", &JointGap::jump,
                     "Rad or m between two states next to the stamp, more than the joint can move."},
               Field{"source", &JointGap::source,
-                    "Where several programs tell it: who is believed, and awaited."});
+                    "The publisher that is believed, where there are several."});
 
-  py::class_<JointDispute> dispute(
-      m, "JointDispute", "A variable of which two programs told different values near a stamp.");
+  py::class_<JointDispute> dispute(m, "JointDispute",
+                                   "A variable for which two publishers differ near a stamp.");
   show_fields(dispute, Field{"variable", &JointDispute::variable, "Index into Robot.variables."},
               Field{"stamp", &JointDispute::stamp, "Of the values, nanoseconds."},
-              Field{"sources", &JointDispute::sources, "The two, as insert() was told."},
-              Field{"values", &JointDispute::values, "What each of them told, rad and m."});
+              Field{"sources", &JointDispute::sources,
+                    "As given to insert(): the believed one, another one."},
+              Field{"values", &JointDispute::values, "What each of them published, rad and m."});
 
   py::class_<JointAnswer> answer(m, "JointAnswer", "Where the joints are at a stamp.");
   using A = JointAnswer;
@@ -69,7 +70,7 @@ void bind_joint_buffer(py::module_& m) {
           py::arg("stamp"), py::arg("names"), py::arg("positions"), py::arg("source") = "",
           "Adds one joint state; stamp in nanoseconds, positions in rad and m. Returns the number "
           "of values taken; names that are no variable are passed over. source: a name for the "
-          "program that tells them, the same for all of its states.")
+          "publisher, the same for all of its states.")
       .def(
           "at",
           [](const JointBuffer& self, std::int64_t stamp) {

@@ -51,7 +51,7 @@ struct BagArguments {
   std::optional<std::string> parent;          ///< link that the camera sits on
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
-  bool first_publisher = false;  ///< programs that tell the same are not compared
+  bool first_publisher = false;  ///< publishers of one joint are not compared
   double time_offset = 0.0;      ///< FrameQueueOptions::time_offset
   std::string given;             ///< one of the options that were given; empty: none
   // What --help says of these options.

@@ -112,10 +112,11 @@ void add_bag(CLI::App& app, BagArguments& bag) {
   add_bag_option(app, bag, "--time-offset",
                  "added to the images' stamps before poses are looked up; default 0", "S",
                  [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
-  add_bag_flag(app, bag, "--first-publisher",
-               "of a joint or transform that several programs tell, take the first one's word; "
-               "default: where they contradict each other, the pose is unknown",
-               bag.first_publisher);
+  add_bag_flag(
+      app, bag, "--first-publisher",
+      "do not compare several publishers of one joint or transform: use the first one heard; "
+      "default: where they disagree, the pose is unknown",
+      bag.first_publisher);
   add_bag_flag(app, bag, "--rectified",
                "the images are free of distortion already, as those called image_rect... are",
                bag.rectified);

@@ -12,9 +12,9 @@
 
 namespace penumbra::io {
 
-/// Names for the programs that tell where a robot is, as far as their messages show who they are:
-/// by the publisher, which the graph tells and a bag does not, and by what sets joint states of two
-/// programs apart: the frame, the joints in their order, whether there are velocities and efforts.
+/// Names for the publishers of joint states and transforms, as far as messages identify them: by
+/// the publisher's number, which a graph knows and a bag does not, and for joint states by the
+/// frame, the joints in their order, and whether there are velocities and efforts.
 class MessageSources {
  public:
   static constexpr std::size_t most = 1024;  ///< that are remembered

@@ -128,7 +128,8 @@ LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const Dept
         return state_->kernels.label(work, virtual_depth.depth, depth);
       },
       measured);
-  view.pixels[static_cast<std::size_t>(Label::fringe)] = state_->label_fringe(state_->fringe, work, measured);
+  view.pixels[static_cast<std::size_t>(Label::fringe)] =
+      state_->label_fringe(state_->fringe, work, measured);
   std::size_t labelled = 0;
   for (const std::size_t pixels : view.pixels) labelled += pixels;
   view.pixels[static_cast<std::size_t>(Label::clear)] = work.labels.size() - labelled;

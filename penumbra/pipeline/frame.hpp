@@ -33,7 +33,7 @@ enum class FrameStatus {
   missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
                       ///< a link, no rigid transform
   stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
-  poses_disagree,     ///< joint states and TF differ, or two that tell the same joint or transform:
+  poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
                       ///< the robot's pose is unknown
 };
 

@@ -43,7 +43,7 @@ bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
 
 /// The first dispute, and which other joints are disputed.
 std::string describe_disputes(const Robot& robot, std::span<const JointDispute> disputes) {
-  if (disputes.empty()) return "two programs tell different joint positions";
+  if (disputes.empty()) return "two programs publish different joint positions";
   const JointDispute& first = disputes.front();
   std::ostringstream text;
   text.precision(4);
@@ -215,7 +215,7 @@ std::string describe(const Robot& robot, const JointInput& joints) {
     text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
     if (!gap.last_seen) continue;
     text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";
-    if (!gap.source.empty()) text += " by " + gap.source + ", who is waited for";
+    if (!gap.source.empty()) text += " by " + gap.source + std::string(others_unused);
     text += ")";
   }
   return text;

@@ -20,8 +20,8 @@ struct PoseHistoryOptions {
   TransformBufferOptions transforms = {};
 };
 
-/// All that is told of where a robot and its cameras were: joint states and transforms, of all
-/// publishers. One serves the queues of several cameras. Knows no thread.
+/// Joint states and transforms of a robot and its cameras, from all publishers. One serves the
+/// queues of several cameras. Knows no thread.
 ///
 /// A clock that jumps back (a bag played in a loop, a simulation started again) shows as a joint, a
 /// frame or an image whose stamp is more than clock_jump before its own last one. States from

@@ -14,25 +14,24 @@ namespace {
 constexpr double kLargestValue = 1e9;    // as forward_kinematics has it
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
 
-double short_way(double from, double to) {
+double shorter_turn(double from, double to) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
 }
 
 }  // namespace
 
-double JointRule::way(double from, double to) const {
-  return kind == Kind::turning ? short_way(from, to) : to - from;
+double JointRule::difference(double from, double to) const {
+  return kind == Kind::turning ? shorter_turn(from, to) : to - from;
 }
 
-double JointRule::distance(double a, double b) const { return std::abs(way(a, b)); }
+double JointRule::distance(double a, double b) const { return std::abs(difference(a, b)); }
 
 double JointRule::noise() const { return kind == Kind::linear ? shift_noise : turn_noise; }
 
-double JointRule::longest_way(double seconds) const {
-  constexpr double jitter = 1e-9 * static_cast<double>(ToldTrack<double, JointRule>::jitter);
-  const double way = velocity * (seconds + jitter) + noise();
-  return kind == Kind::linear ? way : std::min(way, max_turn);
+double JointRule::largest_step(double seconds) const {
+  const double step = velocity * (seconds + 1e-9 * stamp_jitter) + noise();
+  return kind == Kind::linear ? step : std::min(step, max_turn);
 }
 
 JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
@@ -63,7 +62,6 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
 
 std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string> names,
                                 std::span<const double> positions, std::string_view source) {
-  const std::uint32_t teller = sources_.number_of(source);
   std::size_t taken = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto at = index_.find(names[i]);
@@ -75,14 +73,14 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
     const std::size_t variable = at->second;
     ++taken;
     if (!rotation_of_[variable]) {
-      tracks_[variable].put({stamp, positions[i]}, teller);
+      tracks_[variable].put({stamp, positions[i]}, source);
       continue;
     }
     Rotation& rotation = rotations_[*rotation_of_[variable]];
-    set_part(rotation, variable - rotation.first, stamp, teller, positions[i]);
+    set_part(rotation, variable - rotation.first, stamp, source, positions[i]);
   }
   if (taken == 0) return 0;
-  const std::size_t refused = take_rotations(stamp, teller);
+  const std::size_t refused = take_rotations(stamp, source);
   refused_values_ += refused;
   newest_ = std::max(newest_.value_or(stamp), stamp);
   prune();
@@ -90,15 +88,15 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
 }
 
 void JointBuffer::set_part(Rotation& rotation, std::size_t part, std::int64_t stamp,
-                           std::uint32_t teller, double value) {
-  if (rotation.stamp != stamp || rotation.teller != teller) rotation.known.fill(false);
+                           std::string_view source, double value) {
+  if (rotation.stamp != stamp || rotation.source != source) rotation.known.fill(false);
   rotation.stamp = stamp;
-  rotation.teller = teller;
+  rotation.source = source;
   rotation.known[part] = true;
   rotation.xyzw[static_cast<Eigen::Index>(part)] = value;
 }
 
-std::size_t JointBuffer::take_rotations(std::int64_t stamp, std::uint32_t teller) {
+std::size_t JointBuffer::take_rotations(std::int64_t stamp, std::string_view source) {
   std::size_t refused = 0;
   for (Rotation& rotation : rotations_) {
     const auto& known = rotation.known;
@@ -106,7 +104,7 @@ std::size_t JointBuffer::take_rotations(std::int64_t stamp, std::uint32_t teller
     rotation.known.fill(false);
     const Eigen::Quaterniond q(rotation.xyzw);
     if (std::abs(q.norm() - 1.0) <= kUnitTolerance)
-      rotation.track.put({stamp, q.normalized()}, teller);
+      rotation.track.put({stamp, q.normalized()}, source);
     else
       refused += known.size();
   }
@@ -151,8 +149,8 @@ bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAns
   if (a.stamp == stamp) return true;
   const JointRule& rule = rules_[variable];
   const double seconds = 1e-9 * static_cast<double>(around.gap());
-  if (rule.distance(a.value, b.value) > rule.longest_way(seconds)) return false;
-  answer.positions[variable] = rule.between(a.value, stamp_share(a.stamp, stamp, b.stamp), b.value);
+  if (rule.distance(a.value, b.value) > rule.largest_step(seconds)) return false;
+  answer.positions[variable] = tracks_[variable].interpolate(around, stamp);
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -162,11 +160,9 @@ bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
   const auto around = rotation.track.around(stamp);
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
-  Eigen::Quaterniond q = a.value;
   if (RotationRule().distance(a.value, b.value) > JointRule::max_turn) return false;
-  if (a.stamp != stamp)
-    q = RotationRule().between(q, stamp_share(a.stamp, stamp, b.stamp), b.value);
-  Eigen::Map<Eigen::Vector4d>(&answer.positions[rotation.first]) = q.coeffs();
+  Eigen::Map<Eigen::Vector4d>(&answer.positions[rotation.first]) =
+      rotation.track.interpolate(around, stamp).coeffs();
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -174,34 +170,36 @@ bool JointBuffer::interpolate(const Rotation& rotation, std::int64_t stamp,
 template <typename AnyTrack, typename Rule>
 JointGap JointBuffer::gap_of(const AnyTrack& track, const Rule& rule, std::int64_t stamp) const {
   JointGap gap;
-  if (!track.all().states().empty()) gap.why = JointStatus::stale;
-  if (const auto before = track.track_at(stamp).up_to(stamp); !before.empty())
-    gap.last_seen = before.back().stamp;
+  if (!track.newest()) return gap;
+  gap.why = JointStatus::stale;
   if (const auto around = track.around(stamp))
     gap.jump = rule.distance(around.before->value, around.after->value);
-  if (const auto teller = track.teller_at(stamp)) gap.source = sources_.name_of(*teller);
+  const auto* const believed = track.believed_at(stamp);
+  if (believed == nullptr) return gap;
+  if (const auto before = believed->track.up_to(stamp); !before.empty())
+    gap.last_seen = before.back().stamp;
+  if (track.has_several_sources()) gap.source = *believed->name;
   return gap;
 }
 
 template <typename Found>
 JointDispute JointBuffer::dispute_of(const Found& found) const {
-  const auto& sources = found.value.sources;
   JointDispute dispute;
   dispute.stamp = found.stamp;
-  dispute.sources = {sources_.name_of(sources[0]), sources_.name_of(sources[1])};
+  dispute.sources = {*found.value.sources[0], *found.value.sources[1]};
   return dispute;
 }
 
 void JointBuffer::add_disputes(std::int64_t stamp, JointAnswer& answer) const {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const auto* const found = tracks_[i].contradiction_near(stamp);
+    const auto* const found = tracks_[i].disagreement_near(stamp);
     if (found == nullptr) continue;
     JointDispute& dispute = answer.disputes.emplace_back(dispute_of(*found));
     dispute.variable = i;
     dispute.values = found->value.values;
   }
   for (const Rotation& rotation : rotations_) {
-    const auto* const found = rotation.track.contradiction_near(stamp);
+    const auto* const found = rotation.track.disagreement_near(stamp);
     if (found == nullptr) continue;
     const Eigen::Vector4d a = found->value.values[0].coeffs();
     Eigen::Vector4d b = found->value.values[1].coeffs();
@@ -218,9 +216,8 @@ std::optional<std::int64_t> JointBuffer::complete_until() const {
   if (tracks_.empty()) return std::nullopt;
   std::int64_t until = std::numeric_limits<std::int64_t>::max();
   const auto know = [&until](const auto& track) {
-    if (track.all().states().empty()) return false;
-    until = std::min(until, track.all().states().back().stamp);
-    return true;
+    until = std::min(until, track.newest().value_or(until));
+    return track.newest().has_value();
   };
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (!rotation_of_[i] && !know(tracks_[i])) return std::nullopt;
@@ -235,9 +232,7 @@ std::optional<std::int64_t> JointBuffer::newest_of(std::span<const std::string> 
     const auto at = index_.find(name);
     if (at == index_.end()) continue;
     const auto note = [&newest](const auto& track) {
-      const auto states = track.all().states();
-      if (!states.empty())
-        newest = std::max(newest.value_or(states.back().stamp), states.back().stamp);
+      if (const auto last = track.newest()) newest = std::max(newest.value_or(*last), *last);
     };
     if (const auto rotation = rotation_of_[at->second])
       note(rotations_[*rotation].track);

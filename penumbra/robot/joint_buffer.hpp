@@ -16,8 +16,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/robot/source_names.hpp>
-#include <penumbra/robot/told_track.hpp>
+#include <penumbra/robot/source_tracks.hpp>
 #include <penumbra/robot/transform_buffer.hpp>
 
 namespace penumbra {
@@ -26,7 +25,7 @@ struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
   std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
-  bool compare_sources = true;       ///< else the first source of a variable is believed
+  bool compare_sources = true;       ///< else what other sources publish is ignored
 };
 
 enum class JointStatus { ok, missing, stale, disputed };
@@ -37,14 +36,14 @@ struct JointGap {
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
   std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
   std::optional<double> jump;  ///< rad or m between the states next to the stamp, if too much
-  std::string source;          ///< where several tell it: whose word is taken, and awaited
+  std::string source;          ///< the source that is believed, where there are several
 };
 
-/// A variable of which two sources told different values near the stamp that was asked for.
+/// A variable for which two sources published different values near the stamp asked for.
 struct JointDispute {
   std::size_t variable = 0;            ///< index into Robot::variables()
   std::int64_t stamp = 0;              ///< of the values, nanoseconds
-  std::array<std::string, 2> sources;  ///< as insert() was told
+  std::array<std::string, 2> sources;  ///< as given to insert(): the believed one, another one
   std::array<double, 2> values{};
 };
 
@@ -64,8 +63,8 @@ struct JointRule {
 
   static constexpr double max_turn = TransformBuffer::max_turn;
 
-  /// What sources may differ by though nothing moves: encoders, backlash, digits. An arc of 5 mm at
-  /// half a metre, which joint states and TF may differ by, too.
+  /// What sources may differ by at rest: encoders, backlash, digits. An arc of 5 mm at half a
+  /// metre, which joint states and TF may differ by, too.
   static constexpr double turn_noise = 0.01;           ///< radians
   static constexpr double shift_noise = 0.005;         ///< metres
   static constexpr bool one_value_of_a_stamp = false;  ///< the last one counts
@@ -73,15 +72,15 @@ struct JointRule {
   Kind kind = Kind::linear;
   double velocity = std::numeric_limits<double>::infinity();  ///< limit, rad/s or m/s
 
-  /// The way from one value to another: of turning ones the short way.
-  [[nodiscard]] double way(double from, double to) const;
+  /// From one value to another; for turning joints by the shorter turn.
+  [[nodiscard]] double difference(double from, double to) const;
   [[nodiscard]] double distance(double a, double b) const;
-  [[nodiscard]] double between(double a, double share, double b) const {
-    return a + share * way(a, b);
+  [[nodiscard]] double interpolate(double a, double share, double b) const {
+    return a + share * difference(a, b);
   }
   [[nodiscard]] double noise() const;
-  /// The longest way that two states may be apart by `seconds`.
-  [[nodiscard]] double longest_way(double seconds) const;
+  /// The largest distance of two states that are `seconds` apart.
+  [[nodiscard]] double largest_step(double seconds) const;
 };
 
 /// Likewise of the rotation of a floating joint.
@@ -91,8 +90,8 @@ struct RotationRule {
   [[nodiscard]] double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) const {
     return a.angularDistance(b);
   }
-  [[nodiscard]] Eigen::Quaterniond between(const Eigen::Quaterniond& a, double share,
-                                           const Eigen::Quaterniond& b) const {
+  [[nodiscard]] Eigen::Quaterniond interpolate(const Eigen::Quaterniond& a, double share,
+                                               const Eigen::Quaterniond& b) const {
     return a.slerp(share, b);
   }
   [[nodiscard]] double noise() const { return JointRule::turn_noise; }
@@ -104,14 +103,12 @@ struct RotationRule {
 ///
 /// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
 /// round. The quaternion of a floating joint is interpolated on the sphere; its parts may come in
-/// several states of one stamp that a source tells one after another. A joint that jumps is
-/// "stale" between the two states: by more than a right angle, or than the velocity limit of the
-/// URDF allows in their time. Encoders wrap, and values come wrong.
+/// several consecutive states of one stamp and source. A joint that jumps is "stale" between the
+/// two states: by more than a right angle, or than the velocity limit of the URDF allows in their
+/// time. Encoders wrap, and values may be wrong.
 ///
-/// Where several sources tell a variable, its value is that of one of them, and what they say of
-/// the same time is compared: see ToldTrack. A variable of which two contradict each other near a
-/// stamp is "disputed" there; it is "stale" while one of them is waited for, or nobody knows which
-/// is right. Where one alone tells it, nothing is compared.
+/// Where several sources publish a variable, one of them is believed and the others are compared
+/// with it: see SourceTracks. Near a stamp where they disagree the variable is "disputed".
 class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
@@ -121,8 +118,7 @@ class JointBuffer {
   /// devices) are skipped; names without a position, values that are not finite or lie
   /// beyond +-1e9, and quaternions whose length is off 1 by more than 1 % are refused and counted.
   /// A second value of a source for one joint and stamp replaces the first. Returns the number of
-  /// values taken. `source`: a name for the program that tells them, the same for all of its
-  /// states.
+  /// values taken. `source`: a name of the publisher, the same for all of its states.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
                      std::span<const double> positions, std::string_view source = {});
 
@@ -143,8 +139,8 @@ class JointBuffer {
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
-  using Track = ToldTrack<double, JointRule>;
-  using RotationTrack = ToldTrack<Eigen::Quaterniond, RotationRule>;
+  using Track = SourceTracks<double, JointRule>;
+  using RotationTrack = SourceTracks<Eigen::Quaterniond, RotationRule>;
 
   /// The rotation of a floating joint.
   struct Rotation {
@@ -152,14 +148,14 @@ class JointBuffer {
     RotationTrack track;
     // What is known of the newest one:
     std::int64_t stamp = 0;
-    std::uint32_t teller = 0;
+    std::string source = {};
     std::array<bool, 4> known{};
     Eigen::Vector4d xyzw = Eigen::Vector4d::Zero();
   };
 
-  void set_part(Rotation& rotation, std::size_t part, std::int64_t stamp, std::uint32_t teller,
+  void set_part(Rotation& rotation, std::size_t part, std::int64_t stamp, std::string_view source,
                 double value);
-  [[nodiscard]] std::size_t take_rotations(std::int64_t stamp, std::uint32_t teller);
+  [[nodiscard]] std::size_t take_rotations(std::int64_t stamp, std::string_view source);
   [[nodiscard]] bool interpolate(std::size_t variable, std::int64_t stamp,
                                  JointAnswer& answer) const;
   [[nodiscard]] bool interpolate(const Rotation& rotation, std::int64_t stamp,
@@ -179,7 +175,6 @@ class JointBuffer {
   std::vector<JointRule> rules_;                           // of each variable
   std::vector<Rotation> rotations_;
   std::vector<std::optional<std::size_t>> rotation_of_;  // of each variable that is a part of one
-  SourceNames sources_;
   std::optional<std::int64_t> newest_;
   std::size_t refused_values_ = 0;
 };

@@ -88,13 +88,20 @@ class StampedTrack {
     return before.size() < 2 ? nullptr : &before[before.size() - 2];
   }
 
-  /// States from `nearness` nanoseconds before `stamp` to `nearness` after it.
-  [[nodiscard]] std::span<const State> within(std::int64_t stamp, std::uint64_t nearness) const {
+  /// The first state after `stamp`, null if there is none.
+  [[nodiscard]] const State* first_after(std::int64_t stamp) const {
     const auto all = states();
-    std::size_t first = up_to(stamp).size(), last = first;
-    while (first > 0 && stamp_distance(all[first - 1].stamp, stamp) <= nearness) --first;
-    while (last < all.size() && stamp_distance(all[last].stamp, stamp) <= nearness) ++last;
-    return all.subspan(first, last - first);
+    const std::size_t next = up_to(stamp).size();
+    return next < all.size() ? &all[next] : nullptr;
+  }
+
+  /// States from one stamp to another, both included.
+  [[nodiscard]] std::span<const State> between(std::int64_t from, std::int64_t to) const {
+    const auto until = up_to(to);
+    const auto first = std::lower_bound(
+        until.begin(), until.end(), from,
+        [](const State& state, std::int64_t wanted) { return state.stamp < wanted; });
+    return until.subspan(static_cast<std::size_t>(first - until.begin()));
   }
 
   /// The value of a state exactly there.

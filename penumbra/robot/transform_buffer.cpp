@@ -43,8 +43,8 @@ double TransformBuffer::PoseRule::distance(const Pose& a, const Pose& b) const {
                   lever * a.rotation.angularDistance(b.rotation));
 }
 
-TransformBuffer::Pose TransformBuffer::PoseRule::between(const Pose& a, double share,
-                                                         const Pose& b) const {
+TransformBuffer::Pose TransformBuffer::PoseRule::interpolate(const Pose& a, double share,
+                                                             const Pose& b) const {
   return {a.rotation.slerp(share, b.rotation),
           a.translation + share * (b.translation - a.translation)};
 }
@@ -65,9 +65,8 @@ TransformInsert TransformBuffer::insert(std::int64_t stamp, std::string_view par
   TransformInsert outcome;
   FrameNode* const frame = place(stamp, parent, child, T_parent_child, outcome);
   if (frame == nullptr) return outcome;
-  frame->states.put({stamp, pose_of(T_parent_child)}, sources_.number_of(source));
-  frame->states.prune(stamp_after(frame->states.all().states().back().stamp, -history_),
-                      options_.max_states);
+  frame->states.put({stamp, pose_of(T_parent_child)}, source);
+  frame->states.prune(stamp_after(*frame->states.newest(), -history_), options_.max_states);
   return outcome;
 }
 
@@ -171,12 +170,12 @@ std::size_t TransformBuffer::depth_of(std::size_t frame) const {
   return depth;
 }
 
-std::optional<TransformBuffer::Way> TransformBuffer::way(std::string_view target,
-                                                         std::string_view source) const {
+std::optional<TransformBuffer::Chain> TransformBuffer::find_chain(std::string_view target,
+                                                                  std::string_view source) const {
   const auto to = find(target);
   const auto from = find(source);
   if (!to || !from) return std::nullopt;
-  Way way{*to, *from, *from, 0, 0};
+  Chain chain{*to, *from, *from, 0, 0};
   std::size_t other = *to;
   const std::size_t from_depth = depth_of(*from);
   const std::size_t to_depth = depth_of(*to);
@@ -184,18 +183,18 @@ std::optional<TransformBuffer::Way> TransformBuffer::way(std::string_view target
     frame = frames_[frame].parent;
     ++steps;
   };
-  while (way.source_depth + to_depth < from_depth) up(way.meeting, way.source_depth);
-  while (way.target_depth + from_depth < to_depth) up(other, way.target_depth);
-  while (way.meeting != other) {
-    up(way.meeting, way.source_depth);
-    up(other, way.target_depth);
-    if (way.meeting == none || other == none) return std::nullopt;
+  while (chain.source_depth + to_depth < from_depth) up(chain.meeting, chain.source_depth);
+  while (chain.target_depth + from_depth < to_depth) up(other, chain.target_depth);
+  while (chain.meeting != other) {
+    up(chain.meeting, chain.source_depth);
+    up(other, chain.target_depth);
+    if (chain.meeting == none || other == none) return std::nullopt;
   }
-  if (way.source_depth + way.target_depth > options_.max_depth) return std::nullopt;
-  return way;
+  if (chain.source_depth + chain.target_depth > options_.max_depth) return std::nullopt;
+  return chain;
 }
 
-std::string TransformBuffer::no_way(std::string_view target, std::string_view source) const {
+std::string TransformBuffer::no_chain(std::string_view target, std::string_view source) const {
   const std::string which =
       "no transform from frame " + frame_quoted(source) + " to " + frame_quoted(target) + ": ";
   const auto root_of = [&](std::string_view name) -> const FrameNode& {
@@ -221,9 +220,9 @@ void TransformBuffer::at(std::int64_t stamp, std::string_view target, std::strin
   answer.age = 0;
   answer.is_static = true;
   answer.message.clear();
-  const auto found = way(target, source);
+  const auto found = find_chain(target, source);
   if (!found) {
-    answer.message = no_way(target, source);
+    answer.message = no_chain(target, source);
     return;
   }
   Pose from_source, from_target;  // to the frame where they meet
@@ -244,7 +243,7 @@ bool TransformBuffer::climb(std::size_t from, std::size_t to, std::int64_t stamp
       say_stale(frames_[from], stamp, answer);
       return false;
     }
-    if (frames_[from].states.contradiction_near(stamp) != nullptr) {
+    if (frames_[from].states.disagreement_near(stamp) != nullptr) {
       say_disputed(frames_[from], stamp, answer);
       return false;
     }
@@ -264,12 +263,8 @@ bool TransformBuffer::interpolate(const FrameNode& frame, std::int64_t stamp, Po
   const auto around = frame.states.around(stamp);
   if (!around) return false;
   const auto &a = *around.before, &b = *around.after;
-  if (a.stamp == stamp) {
-    pose = a.value;
-    return true;
-  }
   if (a.value.rotation.angularDistance(b.value.rotation) > max_turn) return false;
-  pose = PoseRule().between(a.value, stamp_share(a.stamp, stamp, b.stamp), b.value);
+  pose = frame.states.interpolate(around, stamp);
   answer.age = std::max({answer.age, stamp - a.stamp, b.stamp - stamp});
   return true;
 }
@@ -279,8 +274,13 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
   answer.message = "transform of frame " + frame_quoted(frame.name) + " in " +
                    frame_quoted(frames_[frame.parent].name) + " is not known at " +
                    stamp_text(stamp) + ": ";
-  const auto all = frame.states.track_at(stamp).states();
-  const auto before = frame.states.track_at(stamp).up_to(stamp);
+  const auto* const believed = frame.states.believed_at(stamp);
+  if (believed == nullptr) {
+    answer.message += "its publisher is not known there any more";
+    return;
+  }
+  const auto all = believed->track.states();
+  const auto before = believed->track.up_to(stamp);
   if (before.empty())
     answer.message += "its first state is " + gap_text(stamp, all.front().stamp) + " later";
   else if (before.size() == all.size())
@@ -291,35 +291,35 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
         "the states around it are " + gap_text(before.back().stamp, next.stamp) + " apart";
   else
     answer.message += "it turns by more than a right angle between two states";
-  if (const auto teller = frame.states.teller_at(stamp))
-    answer.message += ", by " + sources_.name_of(*teller) + ", who is waited for";
+  if (frame.states.has_several_sources())
+    answer.message += ", by " + *believed->name + std::string(others_unused);
 }
 
 void TransformBuffer::say_disputed(const FrameNode& frame, std::int64_t stamp,
                                    TransformAnswer& answer) const {
-  const auto& found = *frame.states.contradiction_near(stamp);
+  const auto& found = *frame.states.disagreement_near(stamp);
   const auto& sources = found.value.sources;
   const auto& values = found.value.values;
   answer.status = TransformStatus::disputed;
   std::ostringstream text;
   text.precision(3);
   text << "transform of frame " << frame_quoted(frame.name) << " in "
-       << frame_quoted(frames_[frame.parent].name) << " is told twice, "
+       << frame_quoted(frames_[frame.parent].name) << " is published twice, "
        << 1e3 * PoseRule().distance(values[0], values[1]) << " mm apart, at "
-       << stamp_text(found.stamp) << " by " << sources_.name_of(sources[0]);
-  if (sources[0] != sources[1]) text << " and by " << sources_.name_of(sources[1]);
+       << stamp_text(found.stamp) << " by " << *sources[0];
+  if (sources[0] != sources[1]) text << " and by " << *sources[1];
   answer.message = text.str();
 }
 
 std::optional<std::int64_t> TransformBuffer::complete_until(std::string_view target,
                                                             std::string_view source) const {
-  const auto found = way(without_slash(target), without_slash(source));
+  const auto found = find_chain(without_slash(target), without_slash(source));
   if (!found) return std::nullopt;
   std::int64_t until = std::numeric_limits<std::int64_t>::max();
   for (std::size_t frame : {found->source, found->target})
     for (; frame != found->meeting; frame = frames_[frame].parent)
       if (!frames_[frame].is_static)
-        until = std::min(until, frames_[frame].states.all().states().back().stamp);
+        until = std::min(until, frames_[frame].states.newest().value_or(until));
   return until;
 }
 
@@ -329,8 +329,7 @@ bool TransformBuffer::knows(std::string_view frame) const {
 
 std::optional<std::int64_t> TransformBuffer::newest_of(std::string_view child) const {
   const auto frame = find(without_slash(child));
-  if (!frame || frames_[*frame].states.all().states().empty()) return std::nullopt;
-  return frames_[*frame].states.all().states().back().stamp;
+  return frame ? frames_[*frame].states.newest() : std::nullopt;
 }
 
 void TransformBuffer::clear() {

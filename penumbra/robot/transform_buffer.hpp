@@ -13,8 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/robot/source_names.hpp>
-#include <penumbra/robot/told_track.hpp>
+#include <penumbra/robot/source_tracks.hpp>
 
 namespace penumbra {
 
@@ -24,7 +23,7 @@ struct TransformBufferOptions {
   std::size_t max_states = 100'000;  ///< of each frame; the oldest are dropped beyond
   std::size_t max_frames = 4096;     ///< frames beyond are refused
   std::size_t max_depth = 128;       ///< transforms of a chain; longer ones are "missing"
-  bool compare_sources = true;       ///< else what the first source of a frame tells is taken
+  bool compare_sources = true;       ///< else what other sources publish is ignored
 };
 
 /// What became of a transform that was inserted.
@@ -50,18 +49,17 @@ struct TransformAnswer {
   std::string message;     ///< one line that names the frames; empty if ok
 };
 
-/// Poses of frames in their parents over time, as TF tells them, and the way between any two of
-/// them at a stamp. Never extrapolates: a stamp that is not between two states of a moving frame no
+/// Poses of frames in their parents over time, as in TF, and the transform between any two of them
+/// at a stamp. Never extrapolates: a stamp that is not between two states of a moving frame no
 /// more than max_gap apart (or on one) is answered "stale", and so is a turn of more than a right
-/// angle between them, as nobody knows which way it went.
+/// angle between them, whose direction is not known.
 ///
 /// Between two states origins move straight and rotations turn at constant speed the short way.
 /// That is exact for a frame that a joint moves, and what JointBuffer does for a floating joint.
 ///
-/// Where several sources tell a moving frame, its pose is that of one of them, and what they say of
-/// the same time is compared: see ToldTrack. So are two poses of one source and stamp: a bag does
-/// not tell who sent them. A frame of which two contradict each other near a stamp is "disputed"
-/// there; it is "stale" while one of them is waited for, or nobody knows which is right.
+/// Where several sources publish a moving frame, one of them is believed and the others are
+/// compared with it: see SourceTracks. Two poses of one source and stamp are compared, too: a bag
+/// does not say who sent them. Near a stamp where they disagree the frame is "disputed".
 ///
 /// Frame names lose one leading "/". Each frame has one parent, the first that was given, until
 /// clear().
@@ -75,7 +73,7 @@ class TransformBuffer {
   explicit TransformBuffer(const TransformBufferOptions& options = {});
 
   /// Adds one pose of `child`. A second one of the same stamp and source replaces the first. What
-  /// is refused is counted and changes nothing. `source`: a name for the program that tells it.
+  /// is refused is counted and changes nothing. `source`: a name of the publisher.
   TransformInsert insert(std::int64_t stamp, std::string_view parent, std::string_view child,
                          const Eigen::Isometry3d& T_parent_child, std::string_view source = {});
 
@@ -100,7 +98,7 @@ class TransformBuffer {
   /// Stamp of the newest state of a moving frame.
   [[nodiscard]] std::optional<std::int64_t> newest_of(std::string_view child) const;
 
-  /// Forgets moving frames, as after a jump of the clock. Static ones, which are told only once,
+  /// Forgets moving frames, as after a jump of the clock. Static ones, which are published once,
   /// and the counts stay.
   void clear();
 
@@ -118,16 +116,16 @@ class TransformBuffer {
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   };
   struct PoseRule {
-    /// Metres: what sources may differ by though nothing moves, as joint states and TF may.
+    /// Metres that sources may differ by at rest, as joint states and TF may.
     static constexpr double noise_of_poses = 0.005;
     static constexpr double lever = 0.5;  ///< metres: a turn counts by its arc there
     static constexpr bool one_value_of_a_stamp = true;
 
     [[nodiscard]] double distance(const Pose& a, const Pose& b) const;
-    [[nodiscard]] Pose between(const Pose& a, double share, const Pose& b) const;
+    [[nodiscard]] Pose interpolate(const Pose& a, double share, const Pose& b) const;
     [[nodiscard]] double noise() const { return noise_of_poses; }
   };
-  using Track = ToldTrack<Pose, PoseRule>;
+  using Track = SourceTracks<Pose, PoseRule>;
   struct FrameNode {
     std::string name;
     std::size_t parent = none;
@@ -136,7 +134,7 @@ class TransformBuffer {
     Track states;  // if not
   };
   /// Two frames and the nearest frame that both hang below.
-  struct Way {
+  struct Chain {
     std::size_t target = none, source = none, meeting = none;
     std::size_t target_depth = 0, source_depth = 0;  // below the meeting frame
   };
@@ -155,8 +153,9 @@ class TransformBuffer {
   std::size_t find_or_add(std::string_view name);
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
   [[nodiscard]] std::size_t depth_of(std::size_t frame) const;
-  [[nodiscard]] std::optional<Way> way(std::string_view target, std::string_view source) const;
-  [[nodiscard]] std::string no_way(std::string_view target, std::string_view source) const;
+  [[nodiscard]] std::optional<Chain> find_chain(std::string_view target,
+                                                std::string_view source) const;
+  [[nodiscard]] std::string no_chain(std::string_view target, std::string_view source) const;
   bool climb(std::size_t from, std::size_t to, std::int64_t stamp, Pose& T_to_from,
              TransformAnswer& answer) const;
   bool interpolate(const FrameNode& frame, std::int64_t stamp, Pose& pose,
@@ -169,7 +168,6 @@ class TransformBuffer {
   TransformBufferOptions options_;
   std::map<std::string, std::size_t, std::less<>> index_;  // of each name, in frames_
   std::vector<FrameNode> frames_;
-  SourceNames sources_;
   std::array<std::size_t, transform_inserts> counts_{};
   std::string last_refusal_;
 };

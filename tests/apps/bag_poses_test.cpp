@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penumbra run` of bags whose joints are told by transforms, or by several programs.
+// `penumbra run` of bags whose joints come from transforms, or from several publishers.
 #include "bag_fixture.hpp"
 
 #include <cstdint>
@@ -34,7 +34,7 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
   EXPECT_NE(run().out.find("poses: from tf"), std::string::npos);
 }
 
-TEST_F(BagTest, JointStatesOfTwoProgramsThatContradictEachOtherAreToldAndNotUsed) {
+TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {
   // joint_state_publisher beside the driver: all joints of its own order, no sliders moved.
   for (std::int64_t stamp = tiny_stamp(0) - 190'000'000; stamp < tiny_stamp(3);
        stamp += 100'000'000)

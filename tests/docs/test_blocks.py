@@ -77,7 +77,7 @@ def test_cpp_compiles(tmp_path):
     assert len(units) >= 4
     includes = sorted({line for of_block, _ in units for line in of_block})
     source = tmp_path / "blocks.cpp"
-    source.write_text("\n".join([*includes, "#include <tests/docs/told_before.hpp>",
+    source.write_text("\n".join([*includes, "#include <tests/docs/block_context.hpp>",
                                  *[text for _, text in units]]))
     done = subprocess.run([*os.environ["PENUMBRA_COMPILE"].split(), "-fsyntax-only", source],
                           capture_output=True, text=True)

@@ -77,10 +77,8 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   answer.status = JointStatus::stale;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::stale, .last_seen = 42, .jump = {}, .source = "driver"}};
-  expect_pose_unknown(
-      with_joints(answer), FrameStatus::stale_joints,
-      "'slide' has no position near the stamp (last seen at 42 ns by driver, who is "
-      "waited for)");
+  expect_pose_unknown(with_joints(answer), FrameStatus::stale_joints,
+                      "'slide' has no position near the stamp (last seen at 42 ns by driver");
   answer.status = JointStatus::missing;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::missing, .last_seen = {}, .jump = {}, .source = {}}};

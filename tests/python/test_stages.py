@@ -146,7 +146,7 @@ def test_an_extra_mesh_is_drawn_with_its_link(tmp_path):
         penumbra.Robot.parse(urdf, tmp_path, lost)
 
 
-def test_two_programs_that_tell_one_joint_are_told_apart(shipped):
+def test_two_publishers_of_one_joint_are_compared(shipped):
     robot = shipped.robot
     buffer = penumbra.JointBuffer(robot)
     names, zeros = list(robot.variables), [0.0] * len(robot.variables)

@@ -223,7 +223,7 @@ TEST(TransformOptions, AreChecked) {
     EXPECT_TRUE(holds(message_of([&] { TransformBuffer buffer(options); }), "transform buffer"));
 }
 
-TEST_F(Transforms, TwoThatTellOneFrameDifferentlyAreDisputed) {
+TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
   for (std::int64_t t = 100; t < 500; t += 10) {
     buffer_.insert(t * kMs, "base", "arm", shift(0.5), "publisher 1 of /tf");
     buffer_.insert((t + 3) * kMs, "base", "arm", turn_z(0.03), "publisher 2 of /tf");
@@ -236,7 +236,7 @@ TEST_F(Transforms, TwoThatTellOneFrameDifferentlyAreDisputed) {
   EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not on this way";
 }
 
-TEST_F(Transforms, TwoThatAgreeAreTakenFromOne) {
+TEST_F(Transforms, OfTwoThatAgreeTheFirstIsTaken) {
   for (std::int64_t t = 100; t < 500; t += 10) {
     const double x = 1e-3 * static_cast<double>(t);
     buffer_.insert(t * kMs, "base", "arm", shift(x), "a");
@@ -246,13 +246,13 @@ TEST_F(Transforms, TwoThatAgreeAreTakenFromOne) {
   EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.305), kTolerance));
 }
 
-TEST_F(Transforms, TwoPosesOfOneStampAreDisputedAsABagDoesNotTellWhose) {
+TEST_F(Transforms, TwoPosesOfOneStampAreDisputedAsABagDoesNotSayWhose) {
   for (std::int64_t t = 100; t < 500; t += 10) {
     buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
     if (t < 250 || t > 350) buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
     if (t >= 250 && t <= 350) buffer_.insert(t * kMs, "base", "arm", shift(0.6), "/tf");
   }
-  EXPECT_EQ(at(145 * kMs, "base", "arm").status, TransformStatus::ok) << "a frame told twice";
+  EXPECT_EQ(at(145 * kMs, "base", "arm").status, TransformStatus::ok) << "a frame published twice";
   EXPECT_EQ(at(303 * kMs, "base", "arm").status, TransformStatus::disputed);
   EXPECT_TRUE(holds(answer_.message, "100 mm apart, at 300000000 ns by /tf"));
 }

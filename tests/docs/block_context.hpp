@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a reader of the documents' parts of programs has already.
+// Declarations that the code blocks of the documents use.
 #pragma once
 
 #include <penumbra/camera/registration.hpp>
