@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <penumbra/robot/mesh_formats-inl.hpp>
@@ -40,7 +39,7 @@ void append_faces(const aiMesh& part, bool mirrored, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices < 3) continue;  // points and lines have no surface
+    if (face.mNumIndices != 3) continue;  // points and lines have no surface
     std::array<std::uint32_t, 3> t{};
     for (unsigned k = 0; k < 3; ++k) t[k] = first + face.mIndices[k];
     if (mirrored) std::swap(t[1], t[2]);
@@ -80,37 +79,30 @@ TriangleMesh flatten(const aiScene& scene) {
   return mesh;
 }
 
-/// Triangles of all parts, which are checked; `polygons` is set where a part has faces of more
-/// corners.
-std::size_t count_triangles(const aiScene& scene, bool& polygons) {
+/// Triangles of all parts, which are checked.
+std::size_t count_triangles(const aiScene& scene) {
   std::size_t count = 0;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    check_faces(*scene.mMeshes[i]);
-    for (unsigned j = 0; j < scene.mMeshes[i]->mNumFaces; ++j) {
-      const unsigned corners = scene.mMeshes[i]->mFaces[j].mNumIndices;
-      count += corners == 3 ? 1 : 0;
-      polygons |= corners > 3;
-    }
+  for (const aiMesh* const part : std::span(scene.mMeshes, scene.mNumMeshes)) {
+    check_faces(*part);
+    for (const aiFace& face : std::span(part->mFaces, part->mNumFaces))
+      count += face.mNumIndices == 3 ? 1 : 0;
   }
   return count;
 }
 
 }  // namespace
 
-Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes,
-                       const std::string& ending) {
+Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes, bool binary) {
   Assimp::Importer importer;
   // No post-processing: our weld joins vertices faster, and nothing else of it is needed.
-  const aiScene* scene =
-      ending == "gltf" ? importer.ReadFile(file.string(), 0)
-                       : importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
-  bool polygons = false;
-  const std::size_t stored = scene == nullptr ? 0 : count_triangles(*scene, polygons);
-  if (polygons) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  const aiScene* const scene =
+      binary ? importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "glb")
+             : importer.ReadFile(file.string(), 0);
   if (scene == nullptr)
     throw FormatError(std::string(importer.GetErrorString()).substr(0, 300) +
                       "; export the file again");
   if (scene->mRootNode == nullptr) throw FormatError("it holds no scene; export the file again");
+  const std::size_t stored = count_triangles(*scene);
   return {flatten(*scene), stored};
 }
 

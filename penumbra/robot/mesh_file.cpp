@@ -30,10 +30,9 @@ void check_is_mesh(const std::string& bytes) {
     throw FormatError("it is a Git LFS pointer, not the mesh; run 'git lfs pull' in its folder");
 }
 
-TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& bytes,
-                       const std::string& ending) {
-  const std::size_t counted = mesh_formats::check_gltf(bytes, ending == "glb");
-  mesh_formats::Scene scene = mesh_formats::read_with_assimp(file, bytes, ending);
+TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& bytes, bool binary) {
+  const std::size_t counted = mesh_formats::check_gltf(bytes, binary);
+  mesh_formats::Scene scene = mesh_formats::read_with_assimp(file, bytes, binary);
   // Assimp drops triangles whose vertices do not exist, and data in encodings that it lacks.
   if (scene.triangles_stored != counted)
     throw FormatError("glTF: " + std::to_string(scene.triangles_stored) + " of " +
@@ -44,21 +43,15 @@ TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& byt
 
 TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   const std::string ending = lower_ending(file);
-  std::string bytes = read_whole_file(file, FileLimit::data);
+  const std::string bytes = read_whole_file(file, FileLimit::data);
   check_is_mesh(bytes);
   if (ending == "stl") return mesh_formats::read_stl(bytes);
-  if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending);
   if (ending == "dae") return mesh_formats::read_collada(bytes);
-  if (ending == "obj") {
-    oddity = mesh_formats::check_obj(bytes);
-    bytes = mesh_formats::surface_of_obj(bytes);
-  } else if (ending == "ply") {
-    mesh_formats::check_ply(bytes);
-  } else {
-    throw FormatError("'" + ending +
-                      "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
-  }
-  return mesh_formats::read_with_assimp(file, bytes, ending).mesh;
+  if (ending == "obj") return mesh_formats::read_obj(bytes, oddity);
+  if (ending == "ply") return mesh_formats::read_ply(bytes);
+  if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending == "glb");
+  throw FormatError("'" + ending +
+                    "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
 }
 
 void check_vertices(const TriangleMesh& mesh) {

@@ -1,20 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <sstream>
+#include <type_traits>
 #include <vector>
 
 #include <penumbra/robot/mesh_formats-inl.hpp>
+#include <penumbra/robot/mesh_polygon-inl.hpp>
 #include <penumbra/robot/mesh_text-inl.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {
 
+/// A type of numbers; a double holds each of their values.
+struct Type {
+  std::size_t size;
+  bool is_real;
+  double (*read)(const char* bytes);
+};
+
+template <typename T>
+constexpr Type type_of{sizeof(T), std::is_floating_point_v<T>, [](const char* bytes) {
+                         T value;
+                         std::memcpy(&value, bytes, sizeof value);
+                         return static_cast<double>(value);
+                       }};
+
+Type find_type(std::string_view name) {
+  if (name == "char" || name == "int8") return type_of<std::int8_t>;
+  if (name == "uchar" || name == "uint8") return type_of<std::uint8_t>;
+  if (name == "short" || name == "int16") return type_of<std::int16_t>;
+  if (name == "ushort" || name == "uint16") return type_of<std::uint16_t>;
+  if (name == "int" || name == "int32") return type_of<std::int32_t>;
+  if (name == "uint" || name == "uint32") return type_of<std::uint32_t>;
+  if (name == "float" || name == "float32") return type_of<float>;
+  if (name == "double" || name == "float64") return type_of<double>;
+  damaged("PLY: unknown type '" + std::string(name.substr(0, 40)) + "'");
+}
+
 struct Property {
   bool is_list = false;
-  std::string count_type;  // of a list
-  std::string type;
+  bool has_corners = false;  // a list of the vertices of a face
+  Type count_type{};         // of a list
+  Type type{};
   std::string name;
 };
 
@@ -29,34 +60,22 @@ struct Header {
   std::vector<Element> elements;
 };
 
-std::size_t size_of(const std::string& type) {
-  if (type == "char" || type == "uchar" || type == "int8" || type == "uint8") return 1;
-  if (type == "short" || type == "ushort" || type == "int16" || type == "uint16") return 2;
-  if (type == "double" || type == "float64") return 8;
-  if (type == "int" || type == "uint" || type == "int32" || type == "uint32") return 4;
-  if (type == "float" || type == "float32") return 4;
-  damaged("PLY: unknown type '" + type.substr(0, 40) + "'");
-}
-
-bool is_real(const std::string& type) { return type.starts_with("float") || type == "double"; }
-
-bool is_signed(const std::string& type) { return type.front() != 'u'; }
-
 Property parse_property(std::string_view line) {
   Property property;
-  property.type = take_word(line);
-  if (property.type == "list") {
-    property.is_list = true;
-    property.count_type = take_word(line);
-    property.type = take_word(line);
-    if (is_real(property.count_type))
-      damaged("PLY: a list is counted in '" + property.count_type + "'");
-    size_of(property.count_type);
+  std::string_view type = take_word(line);
+  property.is_list = type == "list";
+  if (property.is_list) {
+    property.count_type = find_type(take_word(line));
+    type = take_word(line);
   }
-  size_of(property.type);
+  property.type = find_type(type);
   property.name = take_word(line);
   if (property.name.empty() || !take_word(line).empty())
     damaged("PLY: a property line is not of a type and a name");
+  property.has_corners =
+      property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+  if (property.count_type.is_real || (property.has_corners && property.type.is_real))
+    damaged("PLY: counts or indices of '" + property.name.substr(0, 40) + "' are no integers");
   return property;
 }
 
@@ -85,122 +104,120 @@ Header take_header(std::string_view& rest) {
   }
 }
 
-/// Values of the body, one after the other, text or binary.
-class Body {
+/// Returns which property of a vertex is x, y or z.
+std::size_t find_coordinate(const Element& vertex, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i)
+    if (vertex.properties[i].name == name && !vertex.properties[i].is_list) found.push_back(i);
+  if (found.size() != 1)
+    throw FormatError("PLY: its vertices have " + std::to_string(found.size()) + " properties '" +
+                      name + "'; x, y and z are wanted, once each: export it again");
+  return found.front();
+}
+
+/// Reads the body's elements, one after the other, text or binary.
+class PlyReader {
  public:
-  Body(std::string_view rest, const std::string& format)
-      : rest_(rest), text_(format == "ascii"), swap_(format == "binary_big_endian") {
+  PlyReader(std::string_view body, const std::string& format)
+      : rest_(body), text_(format == "ascii"), swap_(format == "binary_big_endian") {
     if (!text_ && !swap_ && format != "binary_little_endian")
       damaged("PLY: unknown format '" + format.substr(0, 40) + "'");
   }
 
-  std::int64_t integer(const std::string& type) {
-    if (text_) return static_cast<std::int64_t>(number());
-    if (is_real(type)) damaged("PLY: an index is of type '" + type + "'");
-    const std::size_t size = size_of(type);
-    const std::string_view raw = take(size);
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto byte = static_cast<unsigned char>(raw[swap_ ? i : size - 1 - i]);
-      value = value << 8 | byte;
-    }
-    const auto unused = static_cast<int>(64 - 8 * size);
-    return is_signed(type) ? static_cast<std::int64_t>(value << unused) >> unused
-                           : static_cast<std::int64_t>(value);
-  }
-
-  void skip(const std::string& type) {
-    if (text_)
-      number();
+  void read(const Element& element) {
+    const std::string name = "PLY: element '" + element.name.substr(0, 40) + "'";
+    if (element.properties.empty() && element.count > 0) damaged(name + " has no properties");
+    for (const Property& property : element.properties)
+      if (property.has_corners && element.name != "face")
+        throw FormatError(name + " has a surface that is not read; export the mesh as triangles");
+    if (element.name == "vertex")
+      read_vertices(element);
     else
-      take(size_of(type));
+      for (std::uint64_t i = 0; i < element.count; ++i) read_row(element);
   }
 
-  void finish() const {
-    std::string_view rest = rest_;
+  TriangleMesh finish() {
     // A last line without its end may lack digits: nothing else would show it.
-    if (text_ && rest.empty()) damaged("PLY: the last line has no end");
-    if (text_ ? !take_word(rest).empty() : !rest.empty())
+    if (text_ && rest_.empty()) damaged("PLY: the last line has no end");
+    if (text_ ? !take_word(rest_).empty() : !rest_.empty())
       damaged("PLY: data follow behind those that the header counts");
+    return std::move(mesh_);
   }
 
  private:
-  double number() {
-    const std::string_view word = take_word(rest_);
-    const auto value = parse_number<double>(word);
-    if (word.empty()) damaged("PLY: the data end before the counts of the header are reached");
-    if (!value) damaged("PLY: '" + std::string(word.substr(0, 40)) + "' is no number");
-    constexpr double within_int64 = 1e18;
-    return std::clamp(*value, -within_int64, within_int64);
+  void read_vertices(const Element& element) {
+    if (!mesh_.vertices.empty()) damaged("PLY: two elements are named 'vertex'");
+    const std::size_t x = find_coordinate(element, "x");
+    const std::size_t y = find_coordinate(element, "y");
+    const std::size_t z = find_coordinate(element, "z");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      read_row(element);
+      mesh_.vertices.push_back(Eigen::Vector3d(row_[x], row_[y], row_[z]).cast<float>());
+    }
   }
 
-  std::string_view take(std::size_t size) {
-    if (rest_.size() < size)
+  void read_row(const Element& element) {
+    row_.clear();
+    for (const Property& property : element.properties)
+      row_.push_back(property.is_list ? read_list(property) : number(property.type));
+  }
+
+  /// Returns the count.
+  double read_list(const Property& property) {
+    const double count = number(property.count_type);
+    if (!(count >= 0.0 && count == std::trunc(count)))
+      damaged("PLY: a list's count is negative or no whole number");
+    corners_.clear();
+    for (double i = 0.0; i < count; ++i) {
+      const double value = number(property.type);
+      if (property.has_corners) corners_.push_back(vertex(value));
+    }
+    append_polygon(corners_, mesh_);
+    return count;
+  }
+
+  [[nodiscard]] std::uint32_t vertex(double index) const {
+    const std::size_t count = mesh_.vertices.size();
+    if (index >= 0.0 && index < static_cast<double>(count) && index == std::trunc(index))
+      return static_cast<std::uint32_t>(index);
+    std::ostringstream message;
+    message << "PLY: a face names vertex " << index << " of " << count;
+    damaged(message.str());
+  }
+
+  double number(const Type& type) {
+    const std::string_view word = text_ ? take_word(rest_) : rest_.substr(0, type.size);
+    if (text_ ? word.empty() : word.size() < type.size)
       damaged("PLY: the data end before the counts of the header are reached");
-    const std::string_view raw = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return raw;
+    if (text_) return written_number(word);
+    rest_.remove_prefix(type.size);
+    std::array<char, 8> raw{};
+    std::copy(word.begin(), word.end(), raw.begin());
+    if (swap_) std::reverse(raw.data(), raw.data() + type.size);
+    return type.read(raw.data());
+  }
+
+  static double written_number(std::string_view word) {
+    const auto value = parse_number<double>(word);
+    if (!value) damaged("PLY: '" + std::string(word.substr(0, 40)) + "' is no number");
+    return *value;
   }
 
   std::string_view rest_;
   bool text_;
   bool swap_;
+  std::vector<double> row_;             // of an element
+  std::vector<std::uint32_t> corners_;  // of a face
+  TriangleMesh mesh_;
 };
-
-void check_list(Body& body, const Property& property, std::uint64_t vertices) {
-  const std::int64_t count = body.integer(property.count_type);
-  const bool names_vertices = property.name == "vertex_indices" || property.name == "vertex_index";
-  if (count < 0) damaged("PLY: a list has a negative count");
-  if (names_vertices) check_corners(static_cast<std::uint64_t>(count));
-  for (std::int64_t i = 0; i < count; ++i) {
-    if (!names_vertices) {
-      body.skip(property.type);
-      continue;
-    }
-    const std::int64_t index = body.integer(property.type);
-    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-      damaged("PLY: a face names vertex " + std::to_string(index) + " of " +
-              std::to_string(vertices));
-  }
-}
-
-/// Assimp takes 0 for a coordinate that is not there.
-void check_coordinates(const Element& vertex) {
-  for (const char* name : {"x", "y", "z"}) {
-    const auto count = std::count_if(
-        vertex.properties.begin(), vertex.properties.end(),
-        [&](const Property& property) { return property.name == name && !property.is_list; });
-    if (count != 1)
-      throw FormatError("PLY: its vertices have " + std::to_string(count) + " properties '" + name +
-                        "'; x, y and z are wanted, once each: export it again");
-  }
-}
 
 }  // namespace
 
-void check_ply(std::string_view bytes) {
+TriangleMesh read_ply(std::string_view bytes) {
   const Header header = take_header(bytes);
-  std::uint64_t vertices = 0;
-  for (const Element& element : header.elements) {
-    if (element.name != "vertex") continue;
-    check_coordinates(element);
-    vertices = element.count;
-  }
-
-  Body body(bytes, header.format);
-  for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.count > 0)
-      damaged("PLY: element '" + element.name.substr(0, 40) + "' has no properties");
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (const Property& property : element.properties) {
-        if (property.is_list)
-          check_list(body, property, vertices);
-        else
-          body.skip(property.type);
-      }
-    }
-  }
-  body.finish();
+  PlyReader reader(bytes, header.format);
+  for (const Element& element : header.elements) reader.read(element);
+  return reader.finish();
 }
 
 }  // namespace penumbra::mesh_formats

@@ -13,6 +13,7 @@
 namespace penumbra::mesh_formats {
 namespace {
 
+constexpr std::size_t most_corners = 4000;
 constexpr double overlap_of_rounding = 1e-5;  // of the square of a polygon's length
 constexpr double most_fold = 10.0;            // surface for each area that is seen from its front
 
@@ -55,9 +56,12 @@ class Polygon {
       ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(at));
     }
     emit(1, mesh);
+  }
+
+  /// Whether the triangles that were cut cover places twice.
+  [[nodiscard]] bool crosses_itself() const {
     const double rounding = overlap_of_rounding * squared_length_;
-    if (overlap_ > rounding || surface_ > most_fold * front_ + rounding)
-      throw FormatError("a polygon crosses itself; export the mesh as triangles");
+    return overlap_ > rounding || surface_ > most_fold * front_ + rounding;
   }
 
  private:
@@ -117,8 +121,14 @@ void append_polygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh) 
     mesh.triangles.push_back({corners[0], corners[1], corners[2]});
     return;
   }
-  check_corners(corners.size());
-  Polygon(corners, mesh).cut(mesh);
+  if (corners.size() > most_corners)
+    throw FormatError("a polygon has " + std::to_string(corners.size()) + " corners, more than " +
+                      std::to_string(most_corners) + "; export the mesh as triangles");
+  Polygon polygon(corners, mesh);
+  polygon.cut(mesh);
+  // Sculpted meshes have folded quads: either diagonal covers at least what the quad does.
+  if (corners.size() > 4 && polygon.crosses_itself())
+    throw FormatError("a polygon crosses itself; export the mesh as triangles");
 }
 
 }  // namespace penumbra::mesh_formats

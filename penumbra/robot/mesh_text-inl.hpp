@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -20,21 +21,13 @@ inline std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// Cuts the next line off `text`, without its end.
+/// Cuts the next line off `text`, without its end: LF, CR LF or CR alone.
 inline std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-/// The same where lines may end as on any system: with LF, CR LF or CR alone.
-inline std::string_view take_any_line(std::string_view& text) {
-  const std::size_t end = text.find_first_of("\r\n");
+  std::size_t end = 0;
+  while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
   const std::string_view line = text.substr(0, end);
-  const bool both = end != std::string_view::npos && text.substr(end).starts_with("\r\n");
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + (both ? 2 : 1));
+  text.remove_prefix(end);
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(text.size(), 1));
   return line;
 }
 

@@ -327,7 +327,17 @@ TEST_F(MeshBadFile, ObjThatIsCutWhereVerticesLackFacesNeverPassesUnseen) {
   }
 }
 
-/// Assimp alone takes the vertices for shorter than they are, and crashes on faces of no vertex.
+TEST_F(MeshBadFile, PlyThatReadersTakeForDifferentThings) {
+  const auto expect = [&](const std::string& what, const std::string& by, const std::string& why) {
+    expect_refused("a.ply", replaced(test::ascii_ply(), what, by), why);
+  };
+  expect("element face", "element tristrips", "'tristrips' has a surface that is not read");
+  expect("3 0 2 1", "3 0 2.5 1", "names vertex 2.5 of 4");
+  expect("3 0 2 1", "2.5 0 2 1", "count");
+  expect("uchar int", "uchar float", "no integers");
+  expect("element face", "element vertex 0\nelement face", "two elements");
+}
+
 TEST_F(MeshBadFile, PlyPropertyWithoutName) {
   for (const auto& [name, bytes] : test::samples())
     if (name.ends_with(".ply"))
@@ -335,7 +345,6 @@ TEST_F(MeshBadFile, PlyPropertyWithoutName) {
         expect_refused(name, replaced(bytes, "property float y", line), "a type and a name");
 }
 
-/// Assimp alone reads the OBJ as its own material file, and crashes on the anisotropy `a`.
 TEST_F(MeshBadFile, ObjWithoutItsMaterialFile) {
   const std::string whole = test::obj();
   ASSERT_NE(whole.find("mtllib nowhere.mtl"), std::string::npos);
@@ -352,6 +361,8 @@ TEST_F(MeshBadFile, ObjOddities) {
   const std::string open = notes_of(folder_.write("o.obj", whole + "# end"));
   EXPECT_NE(open.find("o.obj: its last line has no end"), std::string::npos) << open;
   EXPECT_TRUE(open.starts_with("note: "));
+  expect_refused("x.obj", "v 0 0 0\nv 2 1 0\nv 2 0 0\nv 0 1 0\nv -1 .5 0\nf 1 2 3 4 5\n",
+                 "crosses itself");
   expect_refused("b.obj", whole + "v 9 9 9", "1 of its 5 vertices are part of no face");
 }
 

@@ -115,6 +115,54 @@ TEST_F(MeshFile, ObjLinesMayEndAsOnAnySystem) {
   }
 }
 
+/// The tetrahedron with coordinates of type T and indices of type Index, among other data.
+template <typename T, typename Index>
+std::string ply_of(const std::string& type, const std::string& index_type, bool big_endian) {
+  std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
+                      "_endian 1.0\r\nelement camera 1\r\nproperty list uint double views\r\n" +
+                      "element vertex 4\r\nproperty " + type + " z\r\nproperty short quality\r\n" +
+                      "property " + type + " x\r\nproperty " + type + " y\r\nelement face 4\r\n" +
+                      "property list ushort float uv\r\nproperty list uchar " + index_type +
+                      " vertex_index\r\nproperty char flags\r\nend_header\r\n";
+  const auto put = [&](auto value) {
+    std::string raw;
+    test::put(raw, value);
+    if (big_endian) std::reverse(raw.begin(), raw.end());
+    bytes += raw;
+  };
+  const TriangleMesh mesh = test::tetrahedron();
+  put(std::uint32_t{2});
+  for (const double view : {0.5, 1.5}) put(view);
+  for (const auto& v : mesh.vertices) {
+    put(static_cast<T>(v.z()));
+    put(std::int16_t{-7});
+    for (int axis = 0; axis < 2; ++axis) put(static_cast<T>(v[axis]));
+  }
+  for (const auto& t : mesh.triangles) {
+    put(std::uint16_t{1});
+    put(0.25F);
+    put(std::uint8_t{3});
+    for (const std::uint32_t corner : t) put(static_cast<Index>(corner));
+    put(std::int8_t{-1});
+  }
+  return bytes;
+}
+
+TEST_F(MeshFile, PlyOfAnyTypeAndByteOrder) {
+  for (const bool big : {false, true}) {
+    SCOPED_TRACE(big);
+    expect_tetrahedron(load("a.ply", ply_of<float, std::int32_t>("float", "int", big)));
+    expect_tetrahedron(load("b.ply", ply_of<double, std::uint32_t>("double", "uint32", big)));
+    expect_tetrahedron(load("c.ply", ply_of<std::int16_t, std::int8_t>("int16", "char", big)));
+    expect_tetrahedron(load("d.ply", ply_of<std::uint8_t, std::uint16_t>("uint8", "ushort", big)));
+  }
+}
+
+TEST_F(MeshFile, FoldedQuadsAreRead) {
+  const std::string corners = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nv .5 2 0\n";
+  EXPECT_EQ(load("quad.obj", corners + "f 1 2 3 4\nf 1 2 5\n").triangles.size(), 3U);
+}
+
 TEST_F(MeshFile, ColladaUnitIsAppliedOnce) {
   expect_tetrahedron(load_collada("", test::collada_node()));
   expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>", test::collada_node()));

@@ -106,7 +106,7 @@ std::string mutated(const std::string& text, Random& random) {
   return random() % 4 == 0 && !result.empty() ? shuffled(std::move(result), random) : result;
 }
 
-/// The same scene with each kind of primitive.
+/// The same scene with each kind of primitive, and other formats.
 std::vector<test::Sample> fuzz_samples() {
   const std::string plain =
       test::collada("<unit name=\"meter\" meter=\"1\"/>",
@@ -127,6 +127,8 @@ std::vector<test::Sample> fuzz_samples() {
           {"p.dae", with("<polygons count=\"2\">", "<p>0 2 1</p><p>0 1 3 2</p>", "</polygons>")},
           {"s.dae", with("<tristrips count=\"1\">", "<p>0 1 2 3</p>", "</tristrips>")},
           {"f.dae", with("<trifans count=\"1\">", "<p>0 1 2 3</p>", "</trifans>")},
+          {"a.obj", test::obj()},
+          {"a.ply", test::ascii_ply()},
           {"a.gltf", test::gltf_json(",\"uri\":\"a.bin\"", ",\"scale\":[1,2,1]")}};
 }
 
