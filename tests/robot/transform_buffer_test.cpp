@@ -233,7 +233,7 @@ TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
   for (const char* const part :
        {"'arm' in 'base'", "500 mm apart", "publisher 1 of /tf and by", "publisher 2 of /tf"})
     EXPECT_TRUE(holds(answer_.message, part));
-  EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not on this way";
+  EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not in this chain";
 }
 
 TEST_F(Transforms, OfTwoThatAgreeTheFirstIsTaken) {
