@@ -7,8 +7,25 @@ install(TARGETS penumbra EXPORT PenumbraTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/penumbra DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE)
+# The public headers: the classes that docs/cpp.md names, and what these include. All other headers
+# are free to change.
+set(public_headers
+  base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp base/triangle_mesh.hpp
+  base/virtual_depth.hpp
+  robot/joint_buffer.hpp robot/mesh_file.hpp robot/robot.hpp robot/source_tracks.hpp
+  robot/stamped_track.hpp robot/transform_buffer.hpp
+  camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
+  camera/registration.hpp
+  render/depth_renderer.hpp
+  occlusion/labels.hpp occlusion/target.hpp occlusion/target_judge.hpp
+  tracking/point_tracker.hpp tracking/pose_tracker.hpp tracking/track.hpp
+  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/pose_history.hpp
+  pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp)
+foreach(header IN LISTS public_headers)
+  get_filename_component(room ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/${room})
+endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/penumbra/base/version.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/base)
 install(EXPORT PenumbraTargets NAMESPACE Penumbra:: DESTINATION ${package_dir})
