@@ -214,7 +214,7 @@ export class Viewer {
     if (frame.targets.length === 0)
       list.textContent = this.timeline.tracks.length
         ? 'None in this frame.'
-        : 'None were judged: a targets.yaml names them.';
+        : 'None were judged: targets.yaml or --target-topic names them.';
     else list.replaceChildren(targetList(frame, this.chosen, (name) => this.choose(name)));
     if (focused) list.querySelector<HTMLElement>('[aria-pressed=true]')?.focus();
     const target = frame.targets.find((one) => one.name === this.chosen);

@@ -7,10 +7,11 @@ import type { Packet } from '../api/packet';
  */
 export function reasonOfNoRobot(packet: Packet, missing: readonly string[]): string | null {
   const { frame, linkPoses, cameraPose } = packet;
-  const reasons = frame.status === 'ok' ? missing : [frame.message ?? frame.status];
-  const because = reasons.length ? `: ${reasons.join('; ')}` : '';
-  if (linkPoses.length > 0 && linkPoses.every((pose) => pose === null))
-    return `No robot in this frame, as its pose is not known${because}`;
+  const noPose = linkPoses.length > 0 && linkPoses.every((pose) => pose === null);
+  if (frame.status === 'ok' && missing.length > 0 && (noPose || cameraPose === null))
+    return missing.join('; ');
+  const because = frame.status === 'ok' ? '' : `: ${frame.message ?? frame.status}`;
+  if (noPose) return `No robot in this frame, as its pose is not known${because}`;
   const without = linkPoses.filter((pose) => pose === null).length;
   if (without > 0) return `${without} of ${linkPoses.length} links have no pose${because}`;
   if (cameraPose === null) return `The camera's pose is not known: no points${because}`;
