@@ -88,14 +88,15 @@ void bind_pose_tracker(py::module_& m) {
       .def(
           "update",
           [](PoseTracker& self, std::int64_t stamp, const Eigen::Isometry3d& pose, Verdict verdict,
-             const std::optional<Matrix6d>& covariance) {
-            return self.update({.stamp = stamp, .pose = pose, .covariance = covariance}, verdict);
+             const std::optional<Matrix6d>& covariance, const std::optional<double>& seen) {
+            return self.update(
+                {.stamp = stamp, .pose = pose, .covariance = covariance, .seen = seen}, verdict);
           },
           py::arg("stamp"), py::arg("pose"), py::arg("verdict"), py::kw_only(),
-          py::arg("covariance") = py::none(),
+          py::arg("covariance") = py::none(), py::arg("seen") = py::none(),
           "stamp: of the image it was found in, nanoseconds; pose: fixed frame, metres; verdict: "
-          "of "
-          "the target at that stamp; covariance: of position and rotation vector.")
+          "of the target at that stamp; covariance: of position and rotation vector; seen: share "
+          "of the target that was seen, 0 to 1.")
       .def("at", &PoseTracker::at, py::arg("stamp"), "The target at a stamp, nanoseconds.")
       .def("reset", method(&PoseTracker::reset), "Forgets all estimates.");
 }

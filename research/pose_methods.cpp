@@ -70,22 +70,22 @@ Answer look_by_two_clouds(const Estimation& estimate, const View& view, const Fo
   return {agree || !fitted ? color : fitted};
 }
 
-/// Penumbra's verdict on the detected region.
+/// Penumbra's judgement of the detected region.
 class RegionJudge {
  public:
   explicit RegionJudge(const Cell& cell)
       : cell_(cell), judge_(cell.camera, cell.rule, cell.links) {}
 
-  Verdict operator()(const View& view, const Follower& follower) {
+  Judgement operator()(const View& view, const Follower& follower) {
     TargetView target;
     target.name = "object";
     target.region = PixelMask{view.detection.mask.view()};
     target.extent = view.detection.extent;
     target.motion = motion_since_visible(view.observed.stamp, follower);
     judge_.begin(view.observed.robot);
-    const Verdict verdict = judge_.judge(target).verdict;
-    if (verdict == Verdict::visible) last_visible_ = view.observed.stamp;
-    return verdict;
+    const Judgement judgement = judge_.judge(target);
+    if (judgement.verdict == Verdict::visible) last_visible_ = view.observed.stamp;
+    return judgement;
   }
 
  private:
@@ -151,9 +151,12 @@ std::vector<Method> make_pose_methods(const Cell& cell, const PoseEstimator& est
                        partial ? "Penumbra, partial" : "Penumbra",
                        make_follower(partial ? takes_partial : tracker),
                        [=](const View& view, const Follower& follower) {
-                         const Verdict verdict = (*judge)(view, follower);
-                         if (!partial) return Answer{estimate(view), verdict};
-                         return Answer{estimate(view, trusted_mask(view).view()), verdict};
+                         const Judgement judged = (*judge)(view, follower);
+                         if (partial)
+                           return Answer{estimate(view, trusted_mask(view).view()), judged.verdict};
+                         Answer answer{estimate(view), judged.verdict};
+                         if (answer.estimate) answer.estimate->seen = judged.clear + judged.front;
+                         return answer;
                        }});
   }
   return methods;

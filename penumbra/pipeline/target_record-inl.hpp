@@ -21,6 +21,7 @@ struct StampedVerdict {
   std::int64_t stamp = 0;
   Verdict verdict = Verdict::unknown;
   bool was_judged = false;  ///< false: robot or depth were not wholly known, or the target refused
+  double seen = 0.0;        ///< share of the target
 };
 
 /// The last verdicts of a target.
@@ -44,9 +45,9 @@ class TargetTrack {
 
   [[nodiscard]] bool handles() const { return tracker_.index() != 0; }
 
-  /// An estimate of that stamp, in a frame whose pose is T_root_frame.
-  Outcome update(const TargetEstimate& estimate, std::int64_t stamp,
-                 const Eigen::Isometry3d& T_root_frame, Verdict verdict);
+  /// An estimate of a verdict's stamp, in a frame whose pose is T_root_frame.
+  Outcome update(const TargetEstimate& estimate, const StampedVerdict& verdict,
+                 const Eigen::Isometry3d& T_root_frame);
 
   /// Nothing where the target is not handled. `is_measured`: an estimate of this frame was taken;
   /// else nothing is `measured`, not even by another one of the same stamp.

@@ -81,8 +81,8 @@ TargetTrack::TargetTrack(const TargetHandling& handling) {
   if (stays) carried_ = Source::held;
 }
 
-Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
-                            const Eigen::Isometry3d& T_root_frame, Verdict verdict) {
+Outcome TargetTrack::update(const TargetEstimate& estimate, const StampedVerdict& verdict,
+                            const Eigen::Isometry3d& T_root_frame) {
   try {
     check_estimate(estimate);
   } catch (const InputError&) {
@@ -91,13 +91,15 @@ Outcome TargetTrack::update(const TargetEstimate& estimate, std::int64_t stamp,
   std::optional<Matrix6d> covariance;
   if (estimate.covariance) covariance = turned(*estimate.covariance, T_root_frame.linear());
   if (auto* points = std::get_if<PointTracker>(&tracker_)) {
-    PointEstimate point{stamp, T_root_frame * position_of(estimate), {}};
+    PointEstimate point{verdict.stamp, T_root_frame * position_of(estimate), {}};
     if (covariance) point.covariance = covariance->topLeftCorner<3, 3>();
-    return points->update(point, verdict);
+    return points->update(point, verdict.verdict);
   }
   const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value);
   if (pose == nullptr) return Outcome::refused_invalid;
-  return std::get<PoseTracker>(tracker_).update({stamp, T_root_frame * *pose, covariance}, verdict);
+  return std::get<PoseTracker>(tracker_).update(
+      {verdict.stamp, T_root_frame * *pose, covariance, std::min(verdict.seen, 1.0)},
+      verdict.verdict);
 }
 
 std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_measured) const {

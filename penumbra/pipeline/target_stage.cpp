@@ -78,6 +78,10 @@ bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
   return judged.measured.value_or(0.0) < thresholds.min_measured * (judged.clear + judged.front);
 }
 
+double seen_share(const std::optional<Judgement>& judgement) {
+  return judgement ? judgement->clear + judgement->front : 0.0;
+}
+
 /// What stands for an estimate that was not given, of the target's stamp.
 std::optional<TargetEstimate> own_estimate(const Target& target, const TargetReport& report) {
   if (const auto* point = std::get_if<PointTarget>(&target.shape))
@@ -180,7 +184,7 @@ void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& sl
   report.reason = report.verdict == Verdict::unknown ? std::string_view(slot.reason) : "";
   if (report.judgement) report.judgement->reason = report.reason;
   if (report.stamp && memory.track && memory.track->handles())
-    memory.log.add({*report.stamp, report.verdict, was_judged});
+    memory.log.add({*report.stamp, report.verdict, was_judged, seen_share(report.judgement)});
 }
 
 void TargetStage::check(const Target& target, TargetRecord& memory) const {
@@ -305,7 +309,7 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
   const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, poses, robot_);
   if (is_in_camera(estimate, poses.T_root_camera.inverse() * T_root_frame))
     return Outcome::refused_invalid;
-  return memory.track->update(estimate, stamp, T_root_frame, verdict->verdict);
+  return memory.track->update(estimate, *verdict, T_root_frame);
 }
 
 void TargetStage::forget(std::string_view name) {

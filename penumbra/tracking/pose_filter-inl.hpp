@@ -23,7 +23,8 @@ class PoseFilter {
   struct Measurement {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-    Matrix6d covariance = Matrix6d::Zero();
+    Matrix6d covariance = Matrix6d::Zero();  ///< as it was given
+    double weight = 1.0;                     ///< what it counts, in (0, 1]
   };
 
   explicit PoseFilter(const PoseTrackerConfig& config);

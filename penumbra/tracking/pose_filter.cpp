@@ -66,7 +66,7 @@ PoseFilter::State PoseFilter::begin(const Measurement& measurement) const {
   state.position = measurement.position;
   state.orientation = measurement.orientation;
   state.twist.head<3>() = velocity_;
-  state.covariance.topLeftCorner<6, 6>() = measurement.covariance;
+  state.covariance.topLeftCorner<6, 6>() = measurement.covariance / measurement.weight;
   state.covariance.block<3, 3>(6, 6) = velocity_variance_;
   state.covariance.block<3, 3>(9, 9).diagonal().setConstant(turn_variance_);
   return state;
@@ -111,13 +111,14 @@ void PoseFilter::add_noise(Matrix12d& covariance, const Eigen::Vector3d& turning
 double PoseFilter::distance(const State& state, const Measurement& measurement) const {
   const Innovation innovation = innovation_of(state, measurement);
   const Matrix6d total = state.covariance.topLeftCorner<6, 6>() + innovation.noise;
-  return squared_distance<6>(total, innovation.residual);
+  return squared_distance<6>(total, innovation.residual) / measurement.weight;
 }
 
 void PoseFilter::correct(State& state, const Measurement& measurement) const {
   const Innovation innovation = innovation_of(state, measurement);
+  const Matrix6d noise = innovation.noise / measurement.weight;
   const Eigen::Matrix<double, 12, 1> change =
-      kalman_correction<12, 6>(state.covariance, innovation.noise, innovation.residual);
+      kalman_correction<12, 6>(state.covariance, noise, innovation.residual);
   const Eigen::Vector3d turn = change.segment<3>(3);
   state.position += change.head<3>();
   state.orientation = (rotation_of(turn) * state.orientation).normalized();

@@ -18,6 +18,8 @@ namespace {
 using detail::PoseFilter;
 
 constexpr const char* pose_config_name = "PoseTrackerConfig";
+constexpr double weight_power = 5.0;  // of the share that was seen
+constexpr double least_seen = 0.01;   // less weighs nothing
 
 void check_direction(const PoseTrackerConfig& config) {
   std::ostringstream message;
@@ -100,11 +102,17 @@ Outcome PoseTracker::update(const PoseEstimate& estimate, Verdict verdict) {
   const Eigen::Vector3d position = estimate.pose.translation();
   const auto orientation = nearest_rotation(estimate.pose.linear());
   const Matrix6d covariance = estimate.covariance.value_or(state_->covariance);
-  if (!position.allFinite() || !orientation || !detail::is_covariance<6>(covariance)) {
+  const double seen = estimate.seen.value_or(1.0);
+  if (!position.allFinite() || !orientation || !detail::is_covariance<6>(covariance) ||
+      !(seen >= 0.0 && seen <= 1.0)) {
     return Outcome::refused_invalid;
   }
-  if (!detail::good_enough(verdict, state_->config.worst)) return Outcome::refused_verdict;
-  return state_->history.take(estimate.stamp, {position, *orientation, covariance});
+  const Verdict worst = state_->config.worst;
+  const bool is_weighed = estimate.seen && verdict == Verdict::partial;
+  if ((!is_weighed && !detail::good_enough(verdict, worst)) || seen < least_seen)
+    return Outcome::refused_verdict;
+  return state_->history.take(estimate.stamp,
+                              {position, *orientation, covariance, std::pow(seen, weight_power)});
 }
 
 TrackedPose PoseTracker::at(std::int64_t stamp) const {

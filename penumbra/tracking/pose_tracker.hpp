@@ -52,7 +52,8 @@ struct PoseTrackerConfig {
   double memory = 1.0;            ///< seconds back to which late estimates are taken in their order
   std::size_t max_estimates = 128;   ///< that are remembered, 3 kB each: the oldest go first
   Verdict worst = Verdict::visible;  ///< the worst verdict with which estimates are accepted, of
-                                     ///< visible < partial < hidden; the others never are
+                                     ///< visible < partial < hidden; the others never are. partial
+                                     ///< ones are, too, where PoseEstimate::seen is known
 
   /// Throws InputError, with the values it got. Sigmas are in 1e-9 to 1e9.
   void check() const;
@@ -64,6 +65,9 @@ struct PoseEstimate {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /// Of position and of the rotation vector, fixed frame: true rotation = Exp(vector) * estimated.
   std::optional<Matrix6d> covariance = std::nullopt;
+  /// Share of the target that was seen, in (0, 1]: the estimate counts less as it shrinks. Nothing:
+  /// not known.
+  std::optional<double> seen = std::nullopt;
 };
 
 /// Of a target of which nothing is known: lost, with infinite age and variances.
@@ -78,6 +82,10 @@ struct TrackedPose {
 
 /// Follows one target's pose: a Kalman filter on R^3 x SO(3) that takes an estimate only where its
 /// target was visible, and predicts it meanwhile.
+///
+/// An estimate of which only the share s was seen has the weight w = s^5: its covariance is divided
+/// by w, and the gate for it is multiplied by w. What is left to see tells less, and is more often
+/// wrong. The power is measured (docs/experiments.md).
 ///
 /// Estimates may come late and out of order: what is known at any stamp depends on which estimates
 /// came, not on when, as long as none was refused_late. A late one may therefore also change what

@@ -43,6 +43,50 @@ TEST(Verdicts, WorseOnesAreRefused) {
   }
 }
 
+PoseEstimate partly_seen(double seconds, double x, double share) {
+  PoseEstimate estimate = seen_at(seconds, x);
+  estimate.seen = share;
+  return estimate;
+}
+
+TEST(PartlySeen, CountsLessTheLessWasSeen) {
+  double last = 0.02;  // metres to an estimate that is off by 2 cm
+  for (const double share : {0.5, 0.8, 0.9, 1.0}) {
+    PoseTrackerConfig config;
+    config.gate = 1e6;
+    auto tracker = settled(config);
+    ASSERT_EQ(tracker.update(partly_seen(10 * frame, 0.02, share), Verdict::partial),
+              Outcome::accepted);
+    const double off = 0.02 - x_at(tracker, 10 * frame);
+    EXPECT_LT(off, last) << share;
+    last = off;
+  }
+  auto whole = settled();
+  whole.update(seen_at(10 * frame, 0.002), Verdict::visible);
+  auto same = settled();
+  same.update(partly_seen(10 * frame, 0.002, 1.0), Verdict::partial);
+  EXPECT_EQ(x_at(whole, 10 * frame), x_at(same, 10 * frame));
+}
+
+TEST(PartlySeen, MustAgreeTheMoreTheLessWasSeen) {
+  constexpr double off = 0.04;  // metres: within the gate of a whole target
+  auto whole = settled(), half = settled();
+  EXPECT_EQ(whole.update(partly_seen(10 * frame, off, 1.0), Verdict::partial), Outcome::accepted);
+  EXPECT_EQ(half.update(partly_seen(10 * frame, off, 0.5), Verdict::partial),
+            Outcome::refused_gate);
+}
+
+TEST(PartlySeen, IsRefusedHiddenOrByAShareThatIsNone) {
+  auto tracker = settled();
+  EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, 0.05), Verdict::hidden),
+            Outcome::refused_verdict);
+  EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, 0.0), Verdict::partial),
+            Outcome::refused_verdict);
+  for (const double share : {-0.1, 1.1, std::nan("")})
+    EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, share), Verdict::partial),
+              Outcome::refused_invalid);
+}
+
 TEST(Verdicts, RefusedOnesLeaveNoTrace) {
   auto tracker = settled();
   const auto with = settled();
