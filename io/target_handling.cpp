@@ -64,7 +64,10 @@ void read_track(const YamlNode& node, Config& config) {
   read_number(node, "memory", config.memory);
   read_count(node, "max_estimates", config.max_estimates);
   read_number(node, "speed_sigma", config.speed_sigma);
-  read_choice(node, "worst", verdicts, config.worst);
+  if (node.find("worst") == nullptr) return;
+  Verdict worst{};
+  read_choice(node, "worst", verdicts, worst);
+  config.worst = worst;
 }
 
 /// Settings that a motion does not use would be without effect.

@@ -35,7 +35,10 @@ void bind_pose_settings(py::module_& m) {
             "Consistent outliers in a row that make a new track."},
       Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
       Field{"max_estimates", &C::max_estimates, "That are remembered."},
-      Field{"worst", &C::worst, worst_doc});
+      Field{
+          "worst", &C::worst,
+          "The worst verdict with which estimates are accepted, of visible, partial, hidden; None: "
+          "visible, and partial where at least 0.4 was seen."});
   config.def("check", method(&C::check),
              "Raises InputError, with the values, for settings out of bounds.");
 }

@@ -22,8 +22,8 @@
 
 namespace penumbra {
 
-/// Draws the robot and labels the depth image beside it, in the image that the configuration asks
-/// for. Holds its buffers.
+/// Draws the robot and labels the depth image by it, in the image that the configuration asks for.
+/// Holds its buffers.
 class FrameLabeller {
  public:
   /// Robot and rectification (null without lens distortion) must outlive this.

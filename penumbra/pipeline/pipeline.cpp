@@ -138,7 +138,7 @@ const FrameReport& Pipeline::process(const Frame& frame) {
 void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }
 void Pipeline::forget_targets() { state_->targets.forget_all(); }
 
-/// Where the robot is at the image's stamp, and what the image shows beside it.
+/// Poses and draws the robot and labels the frame's depth image. Reports all but the targets.
 JudgedFrame Pipeline::State::label(const Frame& frame) {
   check(frame, report);
   if (has_pose(report.status)) {

@@ -232,9 +232,9 @@ const JudgedFrame& TargetStage::late_frame(std::int64_t stamp) {
   if (!kept) throw InputError("no frame of its stamp is kept");
   late_ = *kept;
   judged_ = nullptr;
-  StageTimes untold;
+  StageTimes unreported;
   if (late_.poses.known())
-    late_.images = late_labeller_->label(late_.poses.T_camera_link, late_.depth, untold);
+    late_.images = late_labeller_->label(late_.poses.T_camera_link, late_.depth, unreported);
   return late_;
 }
 

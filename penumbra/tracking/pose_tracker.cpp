@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -19,7 +20,7 @@ using detail::PoseFilter;
 
 constexpr const char* pose_config_name = "PoseTrackerConfig";
 constexpr double weight_power = 5.0;  // of the share that was seen
-constexpr double least_seen = 0.01;   // less weighs nothing
+constexpr double least_seen = 0.4;    // accepting less makes no error smaller (docs/experiments.md)
 
 void check_direction(const PoseTrackerConfig& config) {
   std::ostringstream message;
@@ -107,12 +108,12 @@ Outcome PoseTracker::update(const PoseEstimate& estimate, Verdict verdict) {
       !(seen >= 0.0 && seen <= 1.0)) {
     return Outcome::refused_invalid;
   }
-  const Verdict worst = state_->config.worst;
-  const bool is_weighed = estimate.seen && verdict == Verdict::partial;
-  if ((!is_weighed && !detail::good_enough(verdict, worst)) || seen < least_seen)
-    return Outcome::refused_verdict;
-  return state_->history.take(estimate.stamp,
-                              {position, *orientation, covariance, std::pow(seen, weight_power)});
+  const bool is_part_enough = estimate.seen && seen >= least_seen;
+  const Verdict worst =
+      state_->config.worst.value_or(is_part_enough ? Verdict::partial : Verdict::visible);
+  if (!detail::good_enough(verdict, worst)) return Outcome::refused_verdict;
+  const double weight = std::pow(std::max(seen, least_seen), weight_power);
+  return state_->history.take(estimate.stamp, {position, *orientation, covariance, weight});
 }
 
 TrackedPose PoseTracker::at(std::int64_t stamp) const {

@@ -50,10 +50,11 @@ struct PoseTrackerConfig {
   std::size_t gate_patience = 5;  ///< outliers in a row, consistent with each other by the same
                                   ///< gate, that make a new track
   double memory = 1.0;            ///< seconds back to which late estimates are taken in their order
-  std::size_t max_estimates = 128;   ///< that are remembered, 3 kB each: the oldest go first
-  Verdict worst = Verdict::visible;  ///< the worst verdict with which estimates are accepted, of
-                                     ///< visible < partial < hidden; the others never are. partial
-                                     ///< ones are, too, where PoseEstimate::seen is known
+  std::size_t max_estimates = 128;  ///< that are remembered, 3 kB each: the oldest go first
+  /// The worst verdict with which estimates are accepted, of visible < partial < hidden; the others
+  /// never are. Nothing: visible; and partial if PoseEstimate::seen says that at least 0.4 was
+  /// seen.
+  std::optional<Verdict> worst = std::nullopt;
 
   /// Throws InputError, with the values it got. Sigmas are in 1e-9 to 1e9.
   void check() const;
@@ -65,8 +66,8 @@ struct PoseEstimate {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /// Of position and of the rotation vector, fixed frame: true rotation = Exp(vector) * estimated.
   std::optional<Matrix6d> covariance = std::nullopt;
-  /// Share of the target that was seen, in (0, 1]: the estimate counts less as it shrinks. Nothing:
-  /// not known.
+  /// Share of the target that was seen, 0 to 1: the less, the less the estimate counts. Nothing:
+  /// not known, and it counts fully.
   std::optional<double> seen = std::nullopt;
 };
 
@@ -80,12 +81,12 @@ struct TrackedPose {
       Vector6d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
 };
 
-/// Follows one target's pose: a Kalman filter on R^3 x SO(3) that takes an estimate only where its
-/// target was visible, and predicts it meanwhile.
+/// Follows one target's pose: a Kalman filter on R^3 x SO(3) that takes an estimate only if enough
+/// of its target was visible, and predicts the pose meanwhile.
 ///
-/// An estimate of which only the share s was seen has the weight w = s^5: its covariance is divided
-/// by w, and the gate for it is multiplied by w. What is left to see tells less, and is more often
-/// wrong. The power is measured (docs/experiments.md).
+/// An estimate of a target of which the share s was seen has the weight w = s^5 (0.4^5 if less was
+/// seen): its covariance is divided by w, and its gate is multiplied by w. Such estimates are less
+/// exact, and more often wrong. The power is measured (docs/experiments.md).
 ///
 /// Estimates may come late and out of order: what is known at any stamp depends on which estimates
 /// came, not on when, as long as none was refused_late. A late one may therefore also change what

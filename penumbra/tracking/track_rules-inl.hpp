@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include <penumbra/occlusion/target.hpp>
@@ -18,11 +19,15 @@ struct TrackRules {
   Verdict worst = Verdict::visible;
 };
 
+[[nodiscard]] constexpr Verdict worst_of(std::optional<Verdict> worst) {
+  return worst.value_or(Verdict::visible);
+}
+
 /// The rules of a tracker's configuration, whose fields have the same names.
 template <class Config>
 TrackRules rules_of(const Config& config) {
   return {config.timeout, config.gate,          config.gate_patience,
-          config.memory,  config.max_estimates, config.worst};
+          config.memory,  config.max_estimates, worst_of(config.worst)};
 }
 
 /// Throws InputError, as the functions below do: "NAME: FIELD is VALUE; what would be right".

@@ -76,11 +76,17 @@ TEST(PartlySeen, MustAgreeTheMoreTheLessWasSeen) {
             Outcome::refused_gate);
 }
 
-TEST(PartlySeen, IsRefusedHiddenOrByAShareThatIsNone) {
+TEST(PartlySeen, IsRefusedHiddenOrBelowTheLeastShareOrByWorst) {
   auto tracker = settled();
-  EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, 0.05), Verdict::hidden),
+  EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, 0.9), Verdict::hidden),
             Outcome::refused_verdict);
-  EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, 0.0), Verdict::partial),
+  for (const double share : {0.0, 0.3})
+    EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, share), Verdict::partial),
+              Outcome::refused_verdict);
+  PoseTrackerConfig strict;
+  strict.worst = Verdict::visible;
+  auto strict_tracker = settled(strict);
+  EXPECT_EQ(strict_tracker.update(partly_seen(10 * frame, 0, 0.9), Verdict::partial),
             Outcome::refused_verdict);
   for (const double share : {-0.1, 1.1, std::nan("")})
     EXPECT_EQ(tracker.update(partly_seen(10 * frame, 0, share), Verdict::partial),
