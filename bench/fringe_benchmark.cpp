@@ -10,10 +10,10 @@
 #include <benchmark/benchmark.h>
 
 #include <penumbra/base/simd_target.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include <benchmark/benchmark.h>
 
 #include <penumbra/base/simd_target.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
 
 namespace penumbra::bench {
 namespace {

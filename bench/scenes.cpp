@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <random>
 
-#include <io/joint_file.hpp>
-#include <io/recording.hpp>
+#include <io/files/joint_file.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "stereo_camera.hpp"
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::study {
 

@@ -12,8 +12,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/labels/labels.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::study {
 

@@ -10,16 +10,16 @@ install(TARGETS penumbra EXPORT PenumbraTargets
 # The public headers: the classes that docs/cpp.md names, and what these include. All other headers
 # are free to change.
 set(public_headers
-  base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp base/triangle_mesh.hpp
-  base/virtual_depth.hpp
-  robot/joint_buffer.hpp robot/mesh_file.hpp robot/robot.hpp robot/source_tracks.hpp
-  robot/stamped_track.hpp robot/transform_buffer.hpp
+  base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp
+  base/virtual_depth.hpp mesh/mesh_file.hpp mesh/triangle_mesh.hpp robot/robot.hpp
+  time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp time/stamped_track.hpp
+  time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
   camera/registration.hpp
   render/depth_renderer.hpp
-  occlusion/labels.hpp occlusion/target.hpp occlusion/target_judge.hpp
+  labels/labels.hpp targets/target.hpp targets/target_judge.hpp
   tracking/point_tracker.hpp tracking/pose_tracker.hpp tracking/track.hpp
-  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/pose_history.hpp
+  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp
   pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

@@ -9,8 +9,8 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/recording.hpp>
 
 using namespace penumbra;
 

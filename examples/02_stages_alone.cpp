@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 

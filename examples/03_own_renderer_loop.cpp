@@ -9,8 +9,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/robot/joint_buffer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/joint_buffer.hpp>
 
 using namespace penumbra;
 

@@ -17,7 +17,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::python {
 

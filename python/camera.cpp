@@ -10,8 +10,8 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/camera/registration.hpp>
 
-#include <io/camera_info.hpp>
-#include <io/pose_file.hpp>
+#include <io/files/camera_info.hpp>
+#include <io/files/pose_file.hpp>
 
 namespace penumbra::python {
 namespace {

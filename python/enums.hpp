@@ -8,19 +8,19 @@
 #include <pybind11/pybind11.h>
 
 #include <penumbra/camera/distortion.hpp>
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/occlusion/target.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/robot/joint_buffer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
+#include <penumbra/time/joint_buffer.hpp>
 #include <penumbra/tracking/point_tracker.hpp>
 #include <penumbra/tracking/pose_tracker.hpp>
 #include <penumbra/tracking/track.hpp>
 
-#include <io/recording.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::python {
 

@@ -2,7 +2,7 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 
-#include <penumbra/robot/joint_buffer.hpp>
+#include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra::python {
 namespace {

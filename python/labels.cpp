@@ -6,7 +6,7 @@
 #include <python/fields.hpp>
 #include <python/renderer.hpp>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::python {
 namespace {

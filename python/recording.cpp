@@ -5,9 +5,9 @@
 #include <python/fields.hpp>
 #include <python/recording.hpp>
 
-#include <io/recording.hpp>
-#include <io/recording_source.hpp>
-#include <io/targets_file.hpp>
+#include <io/files/recording.hpp>
+#include <io/files/recording_source.hpp>
+#include <io/files/targets_file.hpp>
 
 namespace penumbra::python {
 

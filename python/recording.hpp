@@ -6,7 +6,7 @@
 
 #include <python/frame.hpp>
 
-#include <io/frame_reader.hpp>
+#include <io/files/frame_reader.hpp>
 
 namespace penumbra::python {
 

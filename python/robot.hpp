@@ -7,7 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {

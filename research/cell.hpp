@@ -7,8 +7,8 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/labels/labels.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::research {
 

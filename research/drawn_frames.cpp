@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include <io/bitmap_font.hpp>
+#include <io/files/bitmap_font.hpp>
 #include <research/detectors.hpp>
 #include <research/drawn_frames.hpp>
 

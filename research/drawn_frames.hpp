@@ -7,7 +7,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <research/seed_run.hpp>
 #include <sim/simulation.hpp>
 

@@ -11,7 +11,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/pending_file.hpp>
+#include <io/files/pending_file.hpp>
 #include <research/drawn_frames.hpp>
 #include <research/experiment.hpp>
 #include <research/metrics_json.hpp>

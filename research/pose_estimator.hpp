@@ -12,10 +12,10 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/occlusion/target.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/tracking/pose_tracker.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::research {
 

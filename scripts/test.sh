@@ -135,9 +135,9 @@ quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500
 # Each folder of tests in one tree or two: what makes meshes and images is watched by
 # AddressSanitizer, what reads files and reckons in numbers alone is not, and ThreadSanitizer looks at
 # the renderer's threads.
-not_in_release=-DPENUMBRA_SKIP_TESTS='base;camera;robot'
+not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera'
 not_in_asan=-DPENUMBRA_SKIP_TESTS='tracking;pipeline;house'
-not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;camera;robot;occlusion;tracking;pipeline;house'
+not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;house'
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")

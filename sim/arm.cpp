@@ -14,9 +14,9 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
-#include <penumbra/robot/mesh_file.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
 
-#include <io/stl_file.hpp>
+#include <io/files/stl_file.hpp>
 #include <sim/arm.hpp>
 #include <sim/mujoco_handles.hpp>
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <io/files/pending_file.hpp>
 #include <io/mcap/writer.hpp>
-#include <io/pending_file.hpp>
 #include <sim/mesh_folder.hpp>
 #include <sim/recording_sink.hpp>
 

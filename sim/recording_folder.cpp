@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <sim/numbers.hpp>
 #include <sim/recording_folder.hpp>
 

@@ -13,7 +13,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <sim/arm.hpp>
 #include <sim/numbers.hpp>
 #include <sim/simulation.hpp>

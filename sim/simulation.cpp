@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/names.hpp>
+#include <io/files/names.hpp>
 #include <sim/depth_sensor.hpp>
 #include <sim/random.hpp>
 #include <sim/scene.hpp>

@@ -14,7 +14,7 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/robot/robot.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::sim {
 

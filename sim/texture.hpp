@@ -3,7 +3,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <sim/random.hpp>
 
 namespace penumbra::sim {

@@ -5,7 +5,7 @@
 
 #include <apps/penumbra/argument_values.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/numbers.hpp>
+#include <io/files/numbers.hpp>
 
 namespace penumbra::app {
 

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>

@@ -7,13 +7,13 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/run_input.hpp>
-#include <io/bag_frames/bag_scene.hpp>
-#include <io/bag_frames/bag_source.hpp>
-#include <io/bag_frames/bag_topics.hpp>
-#include <io/pose_file.hpp>
-#include <io/printable.hpp>
-#include <io/ros_frames/camera_mount.hpp>
-#include <io/ros_frames/judged_cameras.hpp>
+#include <io/assembly/bag_scene.hpp>
+#include <io/assembly/bag_source.hpp>
+#include <io/assembly/bag_topics.hpp>
+#include <io/assembly/camera_mount.hpp>
+#include <io/assembly/judged_cameras.hpp>
+#include <io/files/pose_file.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::app {
 namespace {

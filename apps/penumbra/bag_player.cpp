@@ -7,7 +7,7 @@
 
 #include <apps/penumbra/bag_player.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::app {
 

@@ -9,8 +9,8 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/printable.hpp>
-#include <io/report_json.hpp>
+#include <io/files/printable.hpp>
+#include <io/files/report_json.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -15,8 +15,8 @@
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/run_output.hpp>
 #include <apps/penumbra/run_summary.hpp>
-#include <io/report_json.hpp>
-#include <io/targets_file.hpp>
+#include <io/files/report_json.hpp>
+#include <io/files/targets_file.hpp>
 
 namespace penumbra::app {
 

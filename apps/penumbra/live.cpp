@@ -15,7 +15,7 @@
 #include <sys/resource.h>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/robot/primitives.hpp>
+#include <penumbra/mesh/primitives.hpp>
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/live_cameras.hpp>
@@ -26,10 +26,10 @@
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/dds/receive_buffers.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/printable.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/live/trouble_news.hpp>
-#include <io/pending_file.hpp>
-#include <io/printable.hpp>
 #include <io/ros/message_encoder.hpp>
 
 namespace penumbra::app {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <apps/penumbra/arguments.hpp>
-#include <io/bag_frames/bag_topics.hpp>
+#include <io/assembly/bag_topics.hpp>
 #include <io/dds/participant.hpp>
 #include <io/live/live_inbox.hpp>
 #include <io/live/name_resolver.hpp>

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <io/assembly/result_encoder.hpp>
 #include <io/dds/participant.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_runner.hpp>
 #include <io/live/live_summary.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
 

@@ -9,8 +9,8 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/assembly/result_encoder.hpp>
 #include <io/live/name_resolver.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <apps/penumbra/live_setup.hpp>
 #include <apps/penumbra/run_input.hpp>
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::app {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <apps/penumbra/arguments.hpp>
+#include <io/assembly/result_encoder.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_inbox.hpp>
 #include <io/live/name_resolver.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <io/machine_report.hpp>
+#include <io/files/machine_report.hpp>
 
 namespace penumbra::app {
 

@@ -10,7 +10,7 @@
 
 #include <apps/penumbra/argument_values.hpp>
 #include <apps/penumbra/arguments.hpp>
-#include <io/numbers.hpp>
+#include <io/files/numbers.hpp>
 
 namespace penumbra::app {
 

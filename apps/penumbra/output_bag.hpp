@@ -11,9 +11,9 @@
 #include <penumbra/camera/camera.hpp>
 
 #include <apps/penumbra/run_output.hpp>
+#include <io/assembly/result_encoder.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/mcap/writer.hpp>
-#include <io/pending_file.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::app {
 

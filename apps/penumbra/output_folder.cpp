@@ -10,12 +10,12 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <apps/penumbra/output_folder.hpp>
-#include <io/cloud_file.hpp>
-#include <io/disk_file.hpp>
-#include <io/npy.hpp>
-#include <io/overlay.hpp>
-#include <io/pending_file.hpp>
-#include <io/png.hpp>
+#include <io/files/cloud_file.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/overlay.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/png.hpp>
 #include <io/web/report_page.hpp>
 
 namespace penumbra::app {

@@ -12,8 +12,8 @@
 
 #include <apps/penumbra/arguments.hpp>
 #include <apps/penumbra/run_output.hpp>
-#include <io/file_lock.hpp>
-#include <io/overlay_painter.hpp>
+#include <io/files/file_lock.hpp>
+#include <io/files/overlay_painter.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::app {

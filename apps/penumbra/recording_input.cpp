@@ -10,8 +10,8 @@
 
 #include <apps/penumbra/run_input.hpp>
 #include <io/bag/bag_file.hpp>
-#include <io/names.hpp>
-#include <io/recording_source.hpp>
+#include <io/files/names.hpp>
+#include <io/files/recording_source.hpp>
 
 namespace penumbra::app {
 namespace {

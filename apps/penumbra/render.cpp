@@ -17,13 +17,13 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/camera_info.hpp>
-#include <io/names.hpp>
-#include <io/npy.hpp>
-#include <io/pending_file.hpp>
-#include <io/png.hpp>
-#include <io/pose_file.hpp>
-#include <io/report_json.hpp>
+#include <io/files/camera_info.hpp>
+#include <io/files/names.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/png.hpp>
+#include <io/files/pose_file.hpp>
+#include <io/files/report_json.hpp>
 
 namespace penumbra::app {
 namespace {

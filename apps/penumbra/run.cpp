@@ -12,7 +12,7 @@
 #include <apps/penumbra/output_bag.hpp>
 #include <apps/penumbra/output_folder.hpp>
 #include <apps/penumbra/progress.hpp>
-#include <io/pending_file.hpp>
+#include <io/files/pending_file.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -12,10 +12,10 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <apps/penumbra/arguments.hpp>
-#include <io/frame_source.hpp>
-#include <io/recording.hpp>
-#include <io/report_json.hpp>
-#include <io/ros_frames/camera_mount.hpp>
+#include <io/assembly/camera_mount.hpp>
+#include <io/files/frame_source.hpp>
+#include <io/files/recording.hpp>
+#include <io/files/report_json.hpp>
 
 namespace penumbra::app {
 

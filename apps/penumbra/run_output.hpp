@@ -8,9 +8,9 @@
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/statistics.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/overlay_painter.hpp>
-#include <io/report_json.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/overlay_painter.hpp>
+#include <io/files/report_json.hpp>
 
 namespace penumbra::app {
 

@@ -7,7 +7,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/text.hpp>
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::app {
 

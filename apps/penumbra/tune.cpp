@@ -17,9 +17,9 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/disk_file.hpp>
-#include <io/stl_file.hpp>
-#include <io/tuning_report.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/stl_file.hpp>
+#include <io/files/tuning_report.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -14,17 +14,17 @@ ROOT = pathlib.Path(__file__).parents[2]
 # Folders of penumbra/ and what of them a program uses.
 HEADERS = {
     "The whole method": ["pipeline/pipeline.hpp", "pipeline/frame.hpp", "pipeline/target.hpp"],
-    "Poses over time": ["pipeline/frame_queue.hpp", "pipeline/pose_history.hpp",
-                        "pipeline/pose_lookup.hpp", "robot/joint_buffer.hpp",
-                        "robot/transform_buffer.hpp"],
+    "Poses over time": ["pipeline/frame_queue.hpp", "time/pose_history.hpp",
+                        "pipeline/pose_lookup.hpp", "time/joint_buffer.hpp",
+                        "time/transform_buffer.hpp"],
     "Robot": ["robot/robot.hpp"],
     "Camera": ["camera/camera.hpp", "camera/intrinsics.hpp", "camera/distortion.hpp",
                "camera/rectification.hpp", "camera/registration.hpp"],
     "Renderers": ["render/depth_renderer.hpp"],
-    "Labels and verdicts": ["occlusion/labels.hpp", "occlusion/target.hpp",
-                            "occlusion/target_judge.hpp"],
+    "Labels and verdicts": ["labels/labels.hpp", "targets/target.hpp",
+                            "targets/target_judge.hpp"],
     "Tracking": ["tracking/track.hpp", "tracking/pose_tracker.hpp", "tracking/point_tracker.hpp"],
-    "Images, meshes, errors": ["base/image.hpp", "base/virtual_depth.hpp", "base/triangle_mesh.hpp",
+    "Images, meshes, errors": ["base/image.hpp", "base/virtual_depth.hpp", "mesh/triangle_mesh.hpp",
                                "base/error.hpp"],
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <io/bag/bag_metadata.hpp>
 #include <io/bag/offered_qos.hpp>
-#include <io/yaml.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <io/bag/bag_reader.hpp>
-#include <io/yaml.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 

@@ -8,8 +8,8 @@
 #include <sqlite3.h>
 
 #include <io/bag/sqlite_database.hpp>
-#include <io/disk_file.hpp>
-#include <io/printable.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/dds/participant.hpp>
-#include <io/numbers.hpp>
+#include <io/files/numbers.hpp>
 
 namespace penumbra::io {
 namespace {

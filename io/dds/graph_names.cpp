@@ -5,7 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/dds/graph_names.hpp>
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -13,12 +13,12 @@
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 
+#include <io/assembly/camera_mount.hpp>
+#include <io/assembly/color_images.hpp>
+#include <io/assembly/info_pairs.hpp>
 #include <io/live/live_job.hpp>
 #include <io/live/live_robot.hpp>
 #include <io/ros/messages.hpp>
-#include <io/ros_frames/camera_mount.hpp>
-#include <io/ros_frames/color_images.hpp>
-#include <io/ros_frames/info_pairs.hpp>
 
 namespace penumbra::io {
 

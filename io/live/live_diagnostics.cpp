@@ -6,10 +6,10 @@
 
 #include <penumbra/pipeline/statistics.hpp>
 
+#include <io/assembly/pose_messages.hpp>
+#include <io/files/printable.hpp>
+#include <io/files/renderer_json-inl.hpp>
 #include <io/live/live_diagnostics.hpp>
-#include <io/printable.hpp>
-#include <io/renderer_json-inl.hpp>
-#include <io/ros_frames/pose_messages.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -4,8 +4,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <io/assembly/frame_tree.hpp>
 #include <io/live/live_inbox.hpp>
-#include <io/ros_frames/frame_tree.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include <io/assembly/message_faults.hpp>
+#include <io/assembly/message_sources.hpp>
 #include <io/live/latency_histogram.hpp>
 #include <io/live/live_camera.hpp>
 #include <io/live/live_robot.hpp>
 #include <io/ros/message_decoder.hpp>
-#include <io/ros_frames/message_faults.hpp>
-#include <io/ros_frames/message_sources.hpp>
 
 namespace penumbra::io {
 

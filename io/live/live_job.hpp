@@ -11,14 +11,14 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/target.hpp>
-#include <penumbra/robot/transform_buffer.hpp>
+#include <penumbra/time/transform_buffer.hpp>
 
+#include <io/assembly/camera_mount.hpp>
+#include <io/assembly/color_images.hpp>
+#include <io/assembly/judged_cameras.hpp>
+#include <io/files/report_json.hpp>
 #include <io/live/live_robot.hpp>
-#include <io/report_json.hpp>
 #include <io/ros/target_inbox.hpp>
-#include <io/ros_frames/camera_mount.hpp>
-#include <io/ros_frames/color_images.hpp>
-#include <io/ros_frames/judged_cameras.hpp>
 
 namespace penumbra::io {
 

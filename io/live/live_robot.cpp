@@ -4,9 +4,9 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/assembly/pose_messages.hpp>
+#include <io/files/printable.hpp>
 #include <io/live/live_robot.hpp>
-#include <io/printable.hpp>
-#include <io/ros_frames/pose_messages.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include <penumbra/pipeline/pose_history.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/pose_history.hpp>
 
+#include <io/assembly/frame_tree.hpp>
 #include <io/ros/messages.hpp>
-#include <io/ros_frames/frame_tree.hpp>
 
 namespace penumbra::io {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <io/files/renderer_json-inl.hpp>
 #include <io/live/live_summary.hpp>
-#include <io/renderer_json-inl.hpp>
 
 namespace penumbra::io {
 namespace {

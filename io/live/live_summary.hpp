@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <io/assembly/result_encoder.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_inbox.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::io {
 

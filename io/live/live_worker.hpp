@@ -7,10 +7,10 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
+#include <io/assembly/depth_input.hpp>
+#include <io/assembly/result_encoder.hpp>
 #include <io/live/frame_watcher.hpp>
 #include <io/live/live_job.hpp>
-#include <io/ros_frames/depth_input.hpp>
-#include <io/ros_frames/result_encoder.hpp>
 
 namespace penumbra::io {
 

@@ -4,8 +4,8 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/files/printable.hpp>
 #include <io/live/name_resolver.hpp>
-#include <io/printable.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <io/disk_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/mcap/compression.hpp>
 #include <io/mcap/file_layout.hpp>
 

@@ -7,9 +7,9 @@
 #include <zstd.h>
 #include <zstd_errors.h>
 
+#include <io/files/printable.hpp>
 #include <io/mcap/compression.hpp>
 #include <io/mcap/records.hpp>
-#include <io/printable.hpp>
 
 namespace penumbra::io::mcap {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <io/disk_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/mcap/definitions.hpp>
 
 namespace penumbra::io::mcap {

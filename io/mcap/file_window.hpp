@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include <io/disk_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/mcap/byte_buffer.hpp>
 
 namespace penumbra::io::mcap {

@@ -3,7 +3,7 @@
 #include <array>
 #include <set>
 
-#include <io/disk_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/mcap/chunk_merger.hpp>
 #include <io/mcap/reader.hpp>
 

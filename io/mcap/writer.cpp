@@ -7,7 +7,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/disk_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/mcap/chunk_builder.hpp>
 #include <io/mcap/crc32.hpp>
 #include <io/mcap/writer.hpp>

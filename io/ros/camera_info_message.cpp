@@ -2,7 +2,7 @@
 #include <cmath>
 #include <span>
 
-#include <io/camera_info_fields-inl.hpp>
+#include <io/files/camera_info_fields-inl.hpp>
 #include <io/ros/camera_info_message.hpp>
 
 namespace penumbra::io {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::io {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include <io/numbers.hpp>
-#include <io/printable.hpp>
+#include <io/files/numbers.hpp>
+#include <io/files/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_limits-inl.hpp>

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/colour_conversion-inl.hpp>
 #include <io/ros/compressed_depth-inl.hpp>

@@ -9,7 +9,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <io/ros/messages.hpp>
 
 namespace penumbra::io {

@@ -7,7 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/numbers.hpp>
+#include <io/files/numbers.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {

@@ -3,7 +3,7 @@
 #include <bit>
 #include <span>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 #include <io/ros/image_codec.hpp>
 #include <io/ros/result_messages.hpp>

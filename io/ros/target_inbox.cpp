@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include <io/printable.hpp>
+#include <io/files/printable.hpp>
 #include <io/ros/target_inbox.hpp>
 
 namespace penumbra::io {

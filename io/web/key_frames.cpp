@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <io/base64.hpp>
+#include <io/files/base64.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/key_frames.hpp>
 

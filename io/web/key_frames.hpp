@@ -9,7 +9,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::io {
 

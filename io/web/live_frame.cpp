@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include <io/report_json.hpp>
+#include <io/files/report_json.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/live_frame.hpp>
 #include <io/web/metres-inl.hpp>

@@ -8,8 +8,8 @@
 #include <limits>
 #include <span>
 
-#include <io/numbers.hpp>
-#include <io/png.hpp>
+#include <io/files/numbers.hpp>
+#include <io/files/png.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/server_id.hpp>

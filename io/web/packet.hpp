@@ -10,7 +10,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <io/web/web_types.hpp>
 
 namespace penumbra::io {

@@ -7,9 +7,9 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/json-inl.hpp>
-#include <io/npy.hpp>
-#include <io/png.hpp>
+#include <io/files/json-inl.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/png.hpp>
 #include <io/web/run_folder.hpp>
 #include <io/web/scene.hpp>
 

@@ -4,7 +4,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/web/run_folder.hpp>
 
 namespace penumbra::io {

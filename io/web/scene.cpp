@@ -2,9 +2,9 @@
 #include <cstddef>
 #include <utility>
 
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 
-#include <io/json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/web/scene.hpp>
 #include <io/web/server_id.hpp>
 

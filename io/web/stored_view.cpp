@@ -4,8 +4,8 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/json-inl.hpp>
-#include <io/numbers.hpp>
+#include <io/files/json-inl.hpp>
+#include <io/files/numbers.hpp>
 #include <io/web/page_files.hpp>
 #include <io/web/server_id.hpp>
 #include <io/web/stored_view.hpp>

@@ -9,7 +9,7 @@
 
 #include <sys/random.h>
 
-#include <io/numbers.hpp>
+#include <io/files/numbers.hpp>
 #include <io/web/server_id.hpp>
 #include <io/web/web_guard.hpp>
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include <io/json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/web/web_request.hpp>
 
 namespace penumbra::io {

@@ -15,7 +15,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/pipeline/target.hpp>
-#include <penumbra/robot/joint_buffer.hpp>
+#include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include <penumbra/occlusion/label_work-inl.hpp>
+#include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 

@@ -7,8 +7,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
-#include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
+#include <penumbra/targets/extent_tally-inl.hpp>
 
 namespace penumbra {
 namespace {

@@ -12,13 +12,13 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 

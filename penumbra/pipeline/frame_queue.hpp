@@ -10,9 +10,9 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/pose_history.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 

@@ -9,7 +9,7 @@
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra {
 

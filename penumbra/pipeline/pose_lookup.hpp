@@ -11,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/pose_history.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 

@@ -14,8 +14,8 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 

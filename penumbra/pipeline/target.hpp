@@ -12,9 +12,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/base/triangle_mesh.hpp>
-#include <penumbra/occlusion/target.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/target_judge.hpp>
 #include <penumbra/tracking/point_tracker.hpp>
 #include <penumbra/tracking/pose_tracker.hpp>
 #include <penumbra/tracking/track.hpp>

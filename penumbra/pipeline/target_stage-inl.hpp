@@ -12,13 +12,13 @@
 #include <unordered_map>
 #include <vector>
 
-#include <penumbra/occlusion/labels.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/recent_frames-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/pipeline/target_record-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 

@@ -13,13 +13,13 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/occlusion/label_work-inl.hpp>
-#include <penumbra/occlusion/target_judge.hpp>
+#include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/recent_frames-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 

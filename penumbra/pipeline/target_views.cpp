@@ -7,8 +7,8 @@
 #include <Eigen/SVD>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/occlusion/extent_tally-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
+#include <penumbra/targets/extent_tally-inl.hpp>
 
 namespace penumbra {
 namespace {

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <vector>
 
-#include <penumbra/base/mesh_sheets.hpp>
-#include <penumbra/base/mesh_topology.hpp>
-#include <penumbra/base/solid_angle-inl.hpp>
+#include <penumbra/mesh/mesh_sheets.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/solid_angle-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

@@ -4,8 +4,8 @@
 
 #include <meshoptimizer.h>
 
-#include <penumbra/base/mesh_edges-inl.hpp>
-#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/mesh/mesh_edges-inl.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/shells.hpp>
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/mesh_sheets.hpp>
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/mesh_sheets.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

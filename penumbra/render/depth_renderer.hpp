@@ -11,9 +11,9 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/triangle_mesh.hpp>
 #include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/mesh_sheets.hpp>
-#include <penumbra/base/triangle_mesh.hpp>
 #include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/mesh/mesh_sheets.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra {
 

@@ -4,9 +4,9 @@
 #include <charconv>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/text-inl.hpp>
 #include <penumbra/robot/file_locator-inl.hpp>
 #include <penumbra/robot/package_search-inl.hpp>
-#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/text-inl.hpp>
 #include <penumbra/robot/glob-inl.hpp>
 #include <penumbra/robot/link_choice-inl.hpp>
-#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/robot/file_locator-inl.hpp>
 #include <penumbra/robot/link_choice-inl.hpp>
 #include <penumbra/robot/robot.hpp>

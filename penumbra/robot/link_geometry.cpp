@@ -6,12 +6,12 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/base/text-inl.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/primitives.hpp>
+#include <penumbra/mesh/surface_offset.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
-#include <penumbra/robot/mesh_file.hpp>
-#include <penumbra/robot/primitives.hpp>
-#include <penumbra/robot/surface_offset.hpp>
-#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

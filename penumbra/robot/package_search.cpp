@@ -7,8 +7,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
+#include <penumbra/base/xml_document-inl.hpp>
 #include <penumbra/robot/package_search-inl.hpp>
-#include <penumbra/robot/xml_document-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra {
 

@@ -4,8 +4,8 @@
 #include <unordered_map>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/text-inl.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
-#include <penumbra/robot/text-inl.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/robot/xml_document-inl.hpp>
+#include <penumbra/base/xml_document-inl.hpp>
 
 namespace penumbra::detail {
 

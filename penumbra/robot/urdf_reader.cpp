@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/robot/text-inl.hpp>
+#include <penumbra/base/text-inl.hpp>
 #include <penumbra/robot/urdf-inl.hpp>
 #include <penumbra/robot/urdf_node-inl.hpp>
 

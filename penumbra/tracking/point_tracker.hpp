@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/occlusion/target.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/tracking/track.hpp>
 
 namespace penumbra {

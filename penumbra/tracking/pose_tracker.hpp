@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/occlusion/target.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/tracking/track.hpp>
 
 namespace penumbra {

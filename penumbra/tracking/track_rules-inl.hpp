@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include <penumbra/occlusion/target.hpp>
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra::detail {
 

@@ -13,7 +13,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/file_lock.hpp>
+#include <io/files/file_lock.hpp>
 
 namespace penumbra::test {
 namespace {

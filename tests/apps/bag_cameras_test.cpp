@@ -12,9 +12,9 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::test {

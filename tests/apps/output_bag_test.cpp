@@ -20,10 +20,10 @@
 #include <nlohmann/json.hpp>
 
 #include <io/bag/bag_reader.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/png.hpp>
 #include <io/mcap/crc32.hpp>
-#include <io/npy.hpp>
-#include <io/pending_file.hpp>
-#include <io/png.hpp>
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::test {

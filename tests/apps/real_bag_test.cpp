@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <io/bag/bag_reader.hpp>
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 #include <io/ros/message_decoder.hpp>
 
 namespace penumbra::test {

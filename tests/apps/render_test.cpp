@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <io/npy.hpp>
-#include <io/png.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <penumbra/base/version.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
-#include <io/npy.hpp>
-#include <io/png.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-#include <io/image_size.hpp>
+#include <io/files/image_size.hpp>
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_definition.hpp>
 

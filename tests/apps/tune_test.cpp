@@ -14,9 +14,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

@@ -5,7 +5,7 @@
 #include <penumbra/camera/registration.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/pose_history.hpp>
+#include <penumbra/time/pose_history.hpp>
 #include <penumbra/tracking/pose_tracker.hpp>
 
 struct Arm {

@@ -13,17 +13,21 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",      "camera",   "robot",    "render",
-                          "occlusion", "tracking", "pipeline", "tuning"};
+  static const Names core{"base",   "mesh",    "robot",    "time",     "camera", "render",
+                          "labels", "targets", "tracking", "pipeline", "tuning"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
+      {"penumbra/mesh", {"base", "mesh"}},
+      {"penumbra/robot", {"base", "mesh", "robot"}},
+      {"penumbra/time", {"base", "robot", "time"}},
       {"penumbra/camera", {"base", "camera"}},
-      {"penumbra/robot", {"base", "robot"}},
-      {"penumbra/render", {"base", "camera", "render"}},
-      {"penumbra/occlusion", {"base", "camera", "occlusion"}},
-      {"penumbra/tracking", {"base", "camera", "occlusion", "tracking"}},
+      {"penumbra/render", {"base", "camera", "mesh", "render"}},
+      {"penumbra/labels", {"base", "camera", "labels"}},
+      {"penumbra/targets", {"base", "camera", "labels", "targets"}},
+      {"penumbra/tracking", {"base", "targets", "tracking"}},
       {"penumbra/pipeline",
-       {"base", "camera", "robot", "render", "occlusion", "tracking", "pipeline"}},
+       {"base", "mesh", "robot", "time", "camera", "render", "labels", "targets", "tracking",
+        "pipeline"}},
       {"penumbra/tuning", core},
       {"io", core},
       {"sim", core},
@@ -41,19 +45,19 @@ struct Library {
 };
 
 const std::vector<Library>& libraries() {
-  static const std::vector<Library> all{{"tinyxml2", "penumbra/robot", 1},
-                                        {"assimp/", "penumbra/robot", 1},
-                                        {"nlohmann/", "penumbra/robot", 1},
-                                        {"meshoptimizer.h", "penumbra/robot", 1},
+  static const std::vector<Library> all{{"tinyxml2", "penumbra/base", 1},
+                                        {"assimp/", "penumbra/mesh", 1},
+                                        {"nlohmann/", "penumbra/mesh", 1},
+                                        {"meshoptimizer.h", "penumbra/mesh", 1},
                                         {"meshoptimizer.h", "penumbra/render", 1},
                                         {"hwy/", "penumbra/base", 2},
-                                        {"hwy/", "penumbra/occlusion", 5},
+                                        {"hwy/", "penumbra/labels", 5},
                                         {"hwy/", "penumbra/render", 2},
                                         {"epoxy/egl.h", "penumbra/render/gl", 1},
                                         {"dlfcn.h", "penumbra/render/gl", 1},
                                         {"epoxy/gl.h", "penumbra/render/gl", 7},
-                                        {"yaml-cpp/", "io", 2},
-                                        {"png.h", "io", 1},
+                                        {"yaml-cpp/", "io/files", 2},
+                                        {"png.h", "io/files", 1},
                                         {"jpeglib.h", "io", 1},
                                         {"jerror.h", "io", 1},
                                         {"nlohmann/", "io", 2},

@@ -6,8 +6,8 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::test {
 namespace {

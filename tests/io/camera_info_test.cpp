@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/camera_info.hpp>
+#include <io/files/camera_info.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <io/csv.hpp>
-#include <io/names.hpp>
-#include <io/numbers.hpp>
-#include <io/pose_file.hpp>
+#include <io/files/csv.hpp>
+#include <io/files/names.hpp>
+#include <io/files/numbers.hpp>
+#include <io/files/pose_file.hpp>
 
 namespace penumbra::io {
 namespace {

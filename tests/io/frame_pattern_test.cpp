@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/frame_pattern.hpp>
+#include <io/files/frame_pattern.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/joint_file.hpp>
+#include <io/files/joint_file.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/npy.hpp>
+#include <io/files/npy.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include <io/bitmap_font.hpp>
-#include <io/overlay.hpp>
+#include <io/files/bitmap_font.hpp>
+#include <io/files/overlay.hpp>
 
 namespace penumbra::io {
 namespace {

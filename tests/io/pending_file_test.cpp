@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <io/pending_file.hpp>
+#include <io/files/pending_file.hpp>
 
 namespace penumbra::io {
 namespace {

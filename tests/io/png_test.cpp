@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include <io/frame_reader.hpp>
-#include <io/npy.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/target_overlay.hpp>
+#include <io/files/target_overlay.hpp>
 
 namespace penumbra::io {
 namespace {

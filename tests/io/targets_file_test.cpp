@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <io/png.hpp>
-#include <io/targets_file.hpp>
+#include <io/files/png.hpp>
+#include <io/files/targets_file.hpp>
 
 namespace penumbra::test {
 namespace {

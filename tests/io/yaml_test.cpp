@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/yaml.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/png.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/png.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::test {
 namespace {

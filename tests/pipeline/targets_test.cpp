@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/robot/primitives.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -12,7 +12,7 @@
 #include <random>
 #include <utility>
 
-#include <penumbra/robot/primitives.hpp>
+#include <penumbra/mesh/primitives.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/triangle_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::test {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/triangle_mesh.hpp>
 #include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra::test {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/robot/joint_buffer.hpp>
-#include <penumbra/robot/transform_buffer.hpp>
+#include <penumbra/time/joint_buffer.hpp>
+#include <penumbra/time/transform_buffer.hpp>
 
 namespace penumbra::test {
 namespace {

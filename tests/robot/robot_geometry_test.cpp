@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/robot/primitives.hpp>
+#include <penumbra/mesh/primitives.hpp>
 
 namespace penumbra::test {
 namespace {

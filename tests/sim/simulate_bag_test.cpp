@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <io/files/png.hpp>
 #include <io/mcap/crc32.hpp>
-#include <io/png.hpp>
 #include <sim/recording_bag.hpp>
 
 namespace penumbra::test {

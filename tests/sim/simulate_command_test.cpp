@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -18,8 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include <penumbra/occlusion/target_judge.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <penumbra/occlusion/labels.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::test {
 

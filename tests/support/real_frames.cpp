@@ -7,9 +7,9 @@
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
-#include <io/frame_reader.hpp>
-#include <io/png.hpp>
-#include <io/recording.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/png.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::test {
 namespace {

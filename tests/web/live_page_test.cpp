@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/report_json.hpp>
+#include <io/files/report_json.hpp>
 #include <io/web/live_view.hpp>
 
 namespace penumbra::test {

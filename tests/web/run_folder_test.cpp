@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/png.hpp>
+#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {

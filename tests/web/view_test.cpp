@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <io/npy.hpp>
-#include <io/png.hpp>
+#include <io/files/npy.hpp>
+#include <io/files/png.hpp>
 #include <io/ros/jpeg.hpp>
 
 namespace penumbra::test {

@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include <penumbra/base/mesh_topology.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
 #include <penumbra/render/gl/buffer.hpp>
 #include <penumbra/render/gl/scene.hpp>
 

@@ -148,7 +148,7 @@ test('the list says how much is hidden, by robot and others, as the overlay does
           all.map((one) => [one.querySelector('.amount').textContent, one.ariaLabel]),
         );
       frame.targets.forEach((target, i) => {
-        // As io/target_overlay.cpp writes it at the target.
+        // As io/files/target_overlay.cpp writes it at the target.
         const share = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
         const percent = Math.round(100 * share);
         const isKnown = target.verdict !== 'unknown';

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <io/assembly/bag_inbox.hpp>
+#include <io/assembly/bag_topics.hpp>
+#include <io/assembly/frame_tree.hpp>
+
+namespace penumbra::io {
+
+/// What holds for a whole bag, and may be told anywhere in it: robot, camera, fixed frames.
+struct BagScene {
+  std::optional<std::string> description;  ///< the URDF
+  std::optional<std::string> depth_frame;  ///< frame_id of the first depth image
+  std::optional<CameraInfoMessage> camera_info, color_info;
+  std::vector<TransformMessage> static_transforms;
+  FrameTree frames;  ///< of TF
+};
+
+/// Looks for the scene of a bag, before its frames are read.
+class BagSceneReader {
+ public:
+  /// Throws InputError as open_bag and choose_topics.
+  BagSceneReader(const std::filesystem::path& bag, const TopicWishes& wishes);
+
+  [[nodiscard]] const BagTopics& topics() const { return topics_; }
+  [[nodiscard]] const BagScene& scene() const { return scene_; }
+
+  /// Reads until robot and camera are known. Throws InputError that names the topic if they are
+  /// not.
+  void read_robot_and_camera();
+
+  /// Reads on until `found`, or to the end: answers whether it was found.
+  bool read_until(const std::function<bool(const BagScene&)>& found);
+
+ private:
+  void take(const BagMessage& message);
+  template <typename M>
+  void take_depth(const BagMessage& message);
+  void take_transforms(const BagMessage& message, bool is_static);
+  void take_info(const BagMessage& message, std::optional<CameraInfoMessage>& info);
+  [[nodiscard]] std::string lacking() const;
+
+  BagInbox inbox_;
+  BagTopics topics_;
+  BagScene scene_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <initializer_list>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/bag_topics.hpp>
+#include <io/assembly/judged_cameras.hpp>
+#include <io/files/names.hpp>
+#include <io/files/printable.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::string_view image_type = "sensor_msgs/msg/Image";
+constexpr std::string_view compressed_type = "sensor_msgs/msg/CompressedImage";
+constexpr std::array image_types = {image_type, compressed_type};
+constexpr std::string_view info_type = "sensor_msgs/msg/CameraInfo";
+constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
+constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
+constexpr std::string_view text_type = "std_msgs/msg/String";
+
+using TopicTypes = std::span<const std::string_view>;
+constexpr std::array<std::string_view, 4> target_types = {
+    "vision_msgs/msg/Detection2DArray", "vision_msgs/msg/Detection3DArray",
+    "penumbra_msgs/msg/Keypoints", "geometry_msgs/msg/PoseStamped"};
+
+bool holds(std::string_view name, std::initializer_list<std::string_view> words) {
+  std::string lower(name);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('/') + 1); }
+
+/// Of one image that was recorded in several ways: what is least changed first.
+int loss(const std::string& topic) {
+  const std::string base = image_base(topic);
+  if (topic == base) return 0;
+  return topic == base + "/compressedDepth" ? 1 : 2;
+}
+
+std::string one_of(TopicTypes types) {
+  std::string names;
+  for (const std::string_view type : types) {
+    if (!names.empty()) names += " or ";
+    names += type;
+  }
+  return names;
+}
+
+std::string names_of(const std::vector<const BagTopic*>& topics) {
+  std::string names;
+  for (const BagTopic* topic : topics) {
+    if (!names.empty()) names += ", ";
+    names += printable(topic->name);
+  }
+  return names;
+}
+
+class Chooser {
+ public:
+  Chooser(const std::string& bag, std::span<const BagTopic> topics) : bag_(bag) {
+    for (const BagTopic& topic : topics)
+      if (topic.encoding == "cdr" && !(topic.messages && *topic.messages == 0))
+        topics_.push_back(&topic);
+    if (topics_.empty()) refuse(nothing_in(topics));
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(bag_ + ": " + what); }
+
+  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types) const {
+    std::vector<const BagTopic*> found;
+    for (const BagTopic* topic : topics_)
+      if (std::find(types.begin(), types.end(), topic->type) != types.end()) found.push_back(topic);
+    return found;
+  }
+
+  template <typename F>
+  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, const F& is_one) const {
+    auto found = of(types);
+    std::erase_if(found, [&](const BagTopic* topic) { return !is_one(topic->name); });
+    return found;
+  }
+
+  /// The topic that an option names.
+  [[nodiscard]] TopicUse named(const std::string& role, const std::string& option,
+                               const std::string& name, TopicTypes types) const {
+    const std::string why = "as " + option + " says";
+    std::vector<std::string_view> known;
+    for (const BagTopic* topic : of(types)) {
+      if (topic->name == name) return use(role, *topic, why);
+      known.push_back(topic->name);
+    }
+    const auto other = std::find_if(topics_.begin(), topics_.end(),
+                                    [&](const BagTopic* topic) { return topic->name == name; });
+    if (other != topics_.end())
+      refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; " +
+             one_of(types) + " is wanted");
+    refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
+  }
+
+  /// The only one of the candidates; of one image in several forms the least changed.
+  [[nodiscard]] TopicUse only_image(const std::string& role, const std::string& option,
+                                    std::vector<const BagTopic*> candidates,
+                                    const std::string& why) const {
+    std::map<std::string, const BagTopic*> of_base;
+    for (const BagTopic* topic : candidates) {
+      const BagTopic*& best = of_base[image_base(topic->name)];
+      if (best == nullptr || loss(topic->name) < loss(best->name)) best = topic;
+    }
+    if (of_base.size() == 1) return use(role, *of_base.begin()->second, why);
+    candidates.clear();
+    for (const auto& [base, topic] : of_base) candidates.push_back(topic);
+    throw AmbiguousTopics(bag_ + ": several topics may be the " + role +
+                          " images: " + names_of(candidates) + "; choose one with " + option);
+  }
+
+  [[nodiscard]] static TopicUse use(const std::string& role, const BagTopic& topic,
+                                    const std::string& why) {
+    return {role, topic.name, topic.type, why, topic.messages};
+  }
+
+ private:
+  static std::string nothing_in(std::span<const BagTopic> topics) {
+    for (const BagTopic& topic : topics)
+      if (topic.encoding != "cdr")
+        return "is no bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
+               printable(topic.encoding) + "'; cdr is wanted";
+    return "holds no messages";
+  }
+
+  const std::string& bag_;
+  std::vector<const BagTopic*> topics_;
+};
+
+bool is_depth(const std::string& name) {
+  return holds(name, {"depth"}) && !holds(last_part(image_base(name)), {"confidence"});
+}
+
+TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
+  const TopicTypes types = image_types;
+  if (wishes.depth) return chooser.named("depth", "--depth-topic", *wishes.depth, types);
+  const auto candidates = chooser.of(types, is_depth);
+  if (!candidates.empty())
+    return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
+  const auto images = chooser.of(types);
+  if (images.empty()) chooser.refuse("has no images; depth images are needed");
+  chooser.refuse("no images are called depth; there are " + names_of(images) +
+                 "; choose one with --depth-topic");
+}
+
+/// The camera_info that stands beside an image topic.
+const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
+  const std::string wanted = info_topic_beside(image);
+  const auto found = chooser.of(TopicTypes(&info_type, 1),
+                                [&](const std::string& name) { return name == wanted; });
+  return found.empty() ? nullptr : found.front();
+}
+
+TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const std::string& depth) {
+  const char* const option = "--camera-info-topic";
+  if (wishes.camera_info)
+    return chooser.named("camera_info", option, *wishes.camera_info, TopicTypes(&info_type, 1));
+  if (const BagTopic* beside = info_beside(chooser, depth))
+    return Chooser::use("camera_info", *beside, "it stands beside the depth images");
+  const auto candidates = chooser.of(TopicTypes(&info_type, 1));
+  if (candidates.size() == 1)
+    return Chooser::use("camera_info", *candidates.front(), "the only one");
+  if (candidates.empty())
+    chooser.refuse("has no camera_info (sensor_msgs/msg/CameraInfo) of " + printable(depth));
+  chooser.refuse("none of the camera_info topics stands beside " + printable(depth) + ": " +
+                 names_of(candidates) + "; choose one with " + option);
+}
+
+void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
+  const TopicTypes types = image_types;
+  if (wishes.color) {
+    topics.color = chooser.named("color", "--color-topic", *wishes.color, types);
+    const BagTopic* info = info_beside(chooser, topics.color->name);
+    if (info == nullptr)
+      chooser.refuse("--color-topic: no camera_info stands beside " + printable(*wishes.color));
+    topics.color_info = Chooser::use("color camera_info", *info, "it stands beside these images");
+    return;
+  }
+  if (!wishes.with_color) return;
+  const auto candidates = chooser.of(types, [](const std::string& name) {
+    return !is_depth(name) && holds(name, {"color", "colour", "rgb"});
+  });
+  if (!candidates.empty())
+    topics.color = chooser.only_image("color", "--color-topic", candidates,
+                                      "the only images called color, for overlays");
+}
+
+/// The one with the usual name, or the only one.
+std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
+                              std::string_view type, const std::string& name,
+                              const std::string& choice) {
+  const auto candidates = chooser.of(
+      TopicTypes(&type, 1), [&](const std::string& other) { return last_part(other) == name; });
+  for (const BagTopic* topic : candidates)
+    if (topic->name == "/" + name) return Chooser::use(role, *topic, "by its name");
+  if (candidates.size() == 1) return Chooser::use(role, *candidates.front(), "by its name");
+  if (candidates.size() > 1)
+    chooser.refuse("several topics are called " + name + ": " + names_of(candidates) + "; " +
+                   choice);
+  return std::nullopt;
+}
+
+void choose_joints(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
+  if (wishes.poses == PoseSource::transforms) return;
+  for (const std::string& name : wishes.joints)
+    topics.joints.push_back(
+        chooser.named("joints", "--joint-topic", name, TopicTypes(&joints_type, 1)));
+  if (!topics.joints.empty()) return;
+  const auto candidates = chooser.of(TopicTypes(&joints_type, 1));
+  for (const BagTopic* topic : candidates)
+    if (topic->name == "/joint_states")
+      topics.joints = {Chooser::use("joints", *topic, "by its name")};
+  if (!topics.joints.empty()) return;
+  if (candidates.size() > 1)
+    chooser.refuse("several topics may be the joint states: " + names_of(candidates) +
+                   "; choose with --joint-topic, which may be given several times");
+  if (candidates.size() == 1)
+    topics.joints = {Chooser::use("joints", *candidates.front(), "the only joint states")};
+}
+
+void choose_transforms(const Chooser& chooser, BagTopics& topics) {
+  for (const char* const name : {"tf", "tf_static"})
+    if (auto found = usual(chooser, "transforms", transforms_type, name,
+                           "only recordings of one tree of frames can be read"))
+      topics.transforms.push_back(std::move(*found));
+}
+
+PoseSource choose_poses(const Chooser& chooser, const TopicWishes& wishes,
+                        const BagTopics& topics) {
+  const PoseSource poses =
+      wishes.poses.value_or(topics.joints.empty() ? PoseSource::transforms : PoseSource::joints);
+  if (poses != PoseSource::transforms && topics.joints.empty())
+    chooser.refuse("has no joint states (sensor_msgs/msg/JointState), which --poses asks for");
+  if (!topics.transforms.empty()) return poses;
+  if (poses == PoseSource::transforms)
+    chooser.refuse("has neither joint states nor tf: the robot's poses are not known");
+  if (poses == PoseSource::both) chooser.refuse("has no tf, which --poses both asks for");
+  if (wishes.needs_transforms)
+    chooser.refuse("has no tf, which would say where the camera is; give --pose and --parent");
+  return poses;
+}
+
+}  // namespace
+
+std::vector<TopicUse> BagTopics::all() const {
+  std::vector<TopicUse> uses = {depth, camera_info};
+  for (const auto* one : {&color, &color_info, &description})
+    if (*one) uses.push_back(**one);
+  for (const auto* several : {&joints, &transforms, &targets})
+    uses.insert(uses.end(), several->begin(), several->end());
+  return uses;
+}
+
+std::string info_topic_beside(const std::string& image_topic) {
+  const std::string base = image_base(image_topic);
+  return base.substr(0, base.rfind('/') + 1) + "camera_info";
+}
+
+BagTopics choose_camera_topics(const std::string& source, std::span<const BagTopic> topics,
+                               const TopicWishes& wishes) {
+  const Chooser chooser(source, topics);
+  BagTopics chosen;
+  chosen.depth = choose_depth(chooser, wishes);
+  chosen.camera_info = choose_info(chooser, wishes, chosen.depth.name);
+  choose_color(chooser, wishes, chosen);
+  return chosen;
+}
+
+BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
+                        const TopicWishes& wishes) {
+  BagTopics chosen = choose_camera_topics(bag, topics, wishes);
+  const Chooser chooser(bag, topics);
+  choose_joints(chooser, wishes, chosen);
+  choose_transforms(chooser, chosen);
+  chosen.poses = choose_poses(chooser, wishes, chosen);
+  for (const std::string& name : wishes.targets)
+    chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
+  if (!wishes.needs_description) return chosen;
+  chosen.description =
+      usual(chooser, "robot", text_type, "robot_description", "give the URDF with --robot");
+  if (!chosen.description)
+    chooser.refuse("has no robot_description (std_msgs/msg/String); give the URDF with --robot");
+  return chosen;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string_view>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/camera_mount.hpp>
+#include <io/files/names.hpp>
+
+namespace penumbra::io {
+namespace {
+
+void check_parent(const Robot& robot, const std::string& link) {
+  if (robot.find_link(link)) return;
+  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
+  throw InputError("--parent: '" + link + "' is no link of the robot" + near_names(link, known));
+}
+
+/// The link whose frame it is; empty: none's.
+std::string link_of(const Robot& robot, const std::string& prefix, const std::string& frame) {
+  if (!frame.starts_with(prefix)) return {};
+  std::string link = frame.substr(prefix.size());
+  return robot.find_link(link) ? link : std::string();
+}
+
+}  // namespace
+
+std::string mounted_frame(const MountWishes& wishes, const std::string& frame_of_images) {
+  return std::string(frame_name(wishes.camera_frame.value_or(frame_of_images)));
+}
+
+std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+                                      const FrameTree& frames, const std::string& frame_of_images) {
+  if (wishes.parent) check_parent(robot, *wishes.parent);
+  if (wishes.pose)
+    return CameraMount{"", wishes.parent.value_or(robot.links().front()), *wishes.pose,
+                       wishes.pose_source};
+  const std::string frame = mounted_frame(wishes, frame_of_images);
+  if (frame.empty())
+    throw InputError("the images do not name their frame; give it with --camera-frame");
+  if (wishes.parent) return CameraMount{frame, *wishes.parent, Eigen::Isometry3d::Identity(), "tf"};
+  const std::string& prefix = wishes.frame_prefix;
+  if (const std::string own = link_of(robot, prefix, frame); !own.empty())
+    return CameraMount{"", own, Eigen::Isometry3d::Identity(), "a link of the robot"};
+  for (const std::string& above : frames.chain(frame))
+    if (const std::string link = link_of(robot, prefix, above); !link.empty())
+      return CameraMount{frame, link, Eigen::Isometry3d::Identity(), "tf"};
+  return std::nullopt;
+}
+
+CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+                          const std::string& frame_of_images) {
+  return {mounted_frame(wishes, frame_of_images), robot.links().front(),
+          Eigen::Isometry3d::Identity(), "tf"};
+}
+
+}  // namespace penumbra::io

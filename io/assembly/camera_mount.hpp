@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/robot/robot.hpp>
+
+#include <io/assembly/frame_tree.hpp>
+
+namespace penumbra::io {
+
+/// What the user says of where the camera sits.
+struct MountWishes {
+  std::optional<std::string> camera_frame;  ///< in place of the images' frame_id
+  std::optional<std::string> parent;        ///< link
+  std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link, in place of TF's
+  std::string pose_source = {};             ///< "--pose FILE"
+  std::string frame_prefix = {};            ///< PoseOptions::frame_prefix
+};
+
+/// Where a camera sits.
+struct CameraMount {
+  std::string frame;   ///< the judged images' in TF; empty: the camera's pose is T_parent_camera
+  std::string parent;  ///< link
+  Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
+  std::string told;  ///< by what, in words
+
+  [[nodiscard]] bool operator==(const CameraMount& other) const {
+    return frame == other.frame && parent == other.parent &&
+           T_parent_camera.matrix() == other.T_parent_camera.matrix();
+  }
+};
+
+/// Where the camera sits as far as the user, the robot and TF tell: at the nearest link above its
+/// frame. Nothing if no link is above it (yet). Throws InputError for a parent that is no link, and
+/// images that do not name their frame.
+[[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+                                                    const FrameTree& frames,
+                                                    const std::string& frame_of_images);
+
+/// The frame that find_mount looks for in TF.
+[[nodiscard]] std::string mounted_frame(const MountWishes& wishes,
+                                        const std::string& frame_of_images);
+
+/// Beside the robot: TF has to know the way from the camera to the root link.
+[[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+                                        const std::string& frame_of_images);
+
+}  // namespace penumbra::io

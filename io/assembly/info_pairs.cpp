@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+
+#include <penumbra/base/stamps.hpp>
+
+#include <io/assembly/info_pairs.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::size_t most_waiting_images = 8;
+/// Images may come late: 2 s and more at 90 Hz.
+constexpr std::size_t most_infos = 256;
+/// A camera_info is no word on images that are older by more. Of a clock that began anew all that
+/// came before is later than what comes now.
+constexpr std::int64_t longest_cover = 1'000'000'000;
+
+}  // namespace
+
+bool InfoPairs::is_jump(std::int64_t newest, std::int64_t stamp) {
+  return is_clock_jump(stamp, newest);
+}
+
+void InfoPairs::match(ImageStamp& image, std::int64_t info) {
+  if (image.stamp <= 0 || std::abs(image.stamp - info) > same_stamp) return;
+  image.info = info;
+  likely_ = true;
+}
+
+void InfoPairs::look_for_two() {
+  for (std::size_t i = 1; i < images_.size(); ++i) {
+    const std::int64_t one = images_[i - 1].info, other = images_[i].info;
+    certain_ |= one != 0 && other != 0 && one != other;  // one info for two images proves nothing
+  }
+}
+
+void InfoPairs::add_image(std::int64_t stamp) {
+  const bool jumped = stamp > 0 && is_jump(newest_image_, stamp);
+  newest_image_ = jumped ? stamp : std::max(newest_image_, stamp);
+  if (jumped && is_jump(newest_info_, stamp)) {
+    infos_.clear();
+    newest_info_ = 0;
+  }
+  images_.push_back({stamp});
+  if (images_.size() > most_waiting_images) images_.pop_front();
+  for (const std::int64_t info : infos_) match(images_.back(), info);
+  look_for_two();
+}
+
+void InfoPairs::add_info(std::int64_t stamp) {
+  if (is_jump(newest_info_, stamp)) {
+    infos_.clear();
+    newest_info_ = stamp;
+  }
+  newest_info_ = std::max(newest_info_, stamp);
+  infos_.push_back(stamp);
+  if (infos_.size() > most_infos) infos_.pop_front();
+  for (ImageStamp& image : images_) match(image, stamp);
+  look_for_two();
+}
+
+bool InfoPairs::covers(std::int64_t image) const {
+  return std::any_of(infos_.begin(), infos_.end(), [&](std::int64_t info) {
+    return info >= image - same_stamp && info <= image + longest_cover;
+  });
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/frame.hpp>
+
+#include <io/files/overlay_painter.hpp>
+#include <io/ros/result_messages.hpp>
+
+namespace penumbra::io {
+
+/// The topics of results.
+enum class Result { virtual_depth, labels, mask, filtered_depth, points, targets, overlay };
+
+struct ResultTopic {
+  Result result;
+  std::string_view name;  ///< below "/penumbra/"
+  std::string_view type;
+};
+inline constexpr std::array result_topics = {
+    ResultTopic{Result::virtual_depth, "vdi", "sensor_msgs/msg/Image"},
+    ResultTopic{Result::labels, "labels", "sensor_msgs/msg/Image"},
+    ResultTopic{Result::mask, "mask", "sensor_msgs/msg/Image"},
+    ResultTopic{Result::filtered_depth, "filtered_depth", "sensor_msgs/msg/Image"},
+    ResultTopic{Result::points, "points", "sensor_msgs/msg/PointCloud2"},
+    ResultTopic{Result::targets, "targets", "penumbra_msgs/msg/Targets"},
+    ResultTopic{Result::overlay, "overlay/compressed", "sensor_msgs/msg/CompressedImage"}};
+
+/// Where encoded results go: a bag, or ROS 2's graph.
+class ResultSink {
+ public:
+  ResultSink() = default;
+  ResultSink(const ResultSink&) = delete;
+  ResultSink& operator=(const ResultSink&) = delete;
+  virtual ~ResultSink() = default;
+
+  /// Whether this result is taken: others are not made.
+  [[nodiscard]] virtual bool wants(Result result) const = 0;
+  /// `payload`: the message in CDR, valid during the call.
+  virtual void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) = 0;
+};
+
+/// Makes messages of judged frames, those that their sink wants.
+class ResultEncoder {
+ public:
+  /// `camera`: of the judged images as they come; `root`: the robot's root link.
+  ResultEncoder(const Camera& camera, std::string root)
+      : results_(camera), root_(std::move(root)) {}
+
+  /// The report must have a stamp. `images.depth`: what was judged.
+  void encode(const FrameReport& report, const ShownImages& images, const ShownTargets& targets,
+              ResultSink& sink);
+
+ private:
+  template <typename M>
+  void write(Result result, const M& message, ResultSink& sink);
+
+  ResultMessages results_;
+  std::string root_;
+  OverlayPainter painter_{nullptr};
+  std::vector<std::byte> png_, payload_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <io/files/file_result.hpp>
+
+namespace penumbra::io {
+
+/// A regular file that is read from its start; a pipe or a folder is refused, so that no read can
+/// wait for ever.
+class InputFile {
+ public:
+  InputFile() = default;
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  [[nodiscard]] FileResult open(const std::filesystem::path& file);
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  /// Reads up to `count` bytes; fewer only at the file's end or after a fault of the device.
+  std::size_t read(void* to, std::size_t count);
+
+  /// The same from any place; where read() goes on stays as it is.
+  std::size_t read_at(std::uint64_t offset, void* to, std::size_t count) const;
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// A file that is written from its start. Every member throws InputError that names the file where
+/// the system refuses.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& file);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  void write(const void* from, std::size_t count);
+  void close();
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <io/files/names.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::size_t max_listed = 8;
+constexpr std::size_t max_near = 3;
+constexpr std::size_t max_compared = 128;  // letters; longer names are nobody's typing error
+
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+// Levenshtein's distance, whatever the case.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (same_letter(a[i], b[j]) ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+}  // namespace
+
+std::string near_names(std::string_view name, std::span<const std::string_view> known) {
+  if (known.size() <= max_listed) return known.empty() ? "" : "; known are: " + joined(known);
+  std::vector<std::pair<std::size_t, std::string_view>> near;
+  for (const std::string_view other : known) {
+    if (name.size() > max_compared || other.size() > max_compared) continue;
+    const std::size_t d = distance(name, other);
+    if (d <= std::max(name.size(), other.size()) / 2) near.emplace_back(d, other);
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (near.size() > max_near) near.resize(max_near);
+  std::vector<std::string_view> names;
+  names.reserve(near.size());
+  for (const auto& [d, other] : near) names.push_back(other);
+  return names.empty() ? "" : "; near are: " + joined(names);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include <penumbra/base/image.hpp>
+
+#include <io/files/file_result.hpp>
+#include <io/files/image_size.hpp>
+
+namespace penumbra::io {
+
+/// Reads a NumPy file of H x W little-endian float32 in C order (format versions 1 to 3) into
+/// `image`, whose buffer is kept where the size stays. Any fault of the file, or another element
+/// type, order, number of dimensions or (where given) size, is answered, never thrown; `image` is
+/// then unspecified.
+[[nodiscard]] FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
+                                  std::optional<ImageSize> wanted = {});
+
+/// Writes H x W float32. The image must not be empty. Throws InputError that names a file that
+/// cannot be written.
+void write_npy(const std::filesystem::path& file, ImageView<const float> image);
+
+}  // namespace penumbra::io

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <cstdio>
+#include <limits>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <png.h>
+
+#include <penumbra/camera/intrinsics.hpp>
+
+#include <io/files/disk_file.hpp>
+#include <io/files/png.hpp>
+
+namespace penumbra::io {
+namespace {
+
+static_assert(sizeof(Rgb8) == 3, "rows of Rgb8 are PNG's rows of 8-bit RGB");
+
+// Deflate cannot make more than this many bytes of one (RFC 1951: 258 bytes from two bits).
+constexpr std::uint64_t max_expansion = 1032;
+constexpr png_alloc_size_t max_chunk_bytes = 1 << 20;  // of a chunk that is not pixels
+
+// Runs `call`, which calls libpng, and answers whether it came to its end. libpng reports a fault
+// by a jump to here: `call` must not hold anything that needs a destructor.
+template <typename F>
+bool guarded(png_structp png, const F& call) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT: libpng's only way
+  call();
+  return true;
+}
+
+struct PngFault {
+  std::array<char, 96> text{};
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp text) {
+  auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
+  std::snprintf(fault->text.data(), fault->text.size(), "%s", text);
+  png_longjmp(png, 1);
+}
+
+// libpng warns of what does not touch the pixels.
+void on_warning(png_structp, png_const_charp) {}
+
+// A file in memory, read as one on the disk is.
+class InputMemory {
+ public:
+  explicit InputMemory(std::span<const std::byte> bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  std::size_t read(void* to, std::size_t count) {
+    const std::size_t done = std::min(count, rest_.size());
+    std::copy_n(rest_.begin(), done, static_cast<std::byte*>(to));
+    rest_ = rest_.subspan(done);
+    return done;
+  }
+
+ private:
+  std::span<const std::byte> rest_;
+  std::uint64_t size_;
+};
+
+template <typename Input>
+void read_bytes(png_structp png, png_bytep to, std::size_t count) {
+  if (static_cast<Input*>(png_get_io_ptr(png))->read(to, count) != count)
+    png_error(png, "ends too early");
+}
+
+class PngDecoder {
+ public:
+  template <typename Input>
+  explicit PngDecoder(Input& input)
+      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault_, on_error, on_warning)),
+        info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
+    if (info_ == nullptr) {
+      png_destroy_read_struct(&png_, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_chunk_malloc_max(png_, max_chunk_bytes);
+    png_set_read_fn(png_, &input, read_bytes<Input>);
+  }
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
+  ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+  // Each answers what is wrong, or nothing.
+  std::string read_header() {
+    return guarded(png_, [this] { png_read_info(png_, info_); }) ? "" : damaged();
+  }
+
+  std::string check_size(std::uint64_t file_size, std::optional<ImageSize> wanted) const {
+    const std::uint64_t width = png_get_image_width(png_, info_);
+    const std::uint64_t height = png_get_image_height(png_, info_);
+    const std::string pixels =
+        "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+    if (width > Intrinsics::max_size || height > Intrinsics::max_size)
+      return pixels + "; at most " + std::to_string(Intrinsics::max_size) + " each are possible";
+    if (wanted && size() != *wanted) return wrong_size(size(), *wanted);
+    if (png_get_rowbytes(png_, info_) * height > max_expansion * file_size)
+      return pixels + ", more than a file of " + std::to_string(file_size) + " bytes can hold";
+    return {};
+  }
+
+  std::string check_grey(int bits) const {
+    const int color_type = png_get_color_type(png_, info_);
+    const bool transparent = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+    const bool is_grey = color_type == PNG_COLOR_TYPE_GRAY;
+    const bool is_palette = color_type == PNG_COLOR_TYPE_PALETTE && bits == 8;  // of labels
+    if ((is_grey || is_palette) && png_get_bit_depth(png_, info_) == bits && !transparent)
+      return {};
+    return "is " + std::to_string(png_get_bit_depth(png_, info_)) + "-bit " +
+           color_name(color_type) + (transparent ? " with transparency" : "") + "; " +
+           std::to_string(bits) + "-bit grey is wanted";
+  }
+
+  // Reads all rows to `rows`, which have `stride` bytes each, and what stands behind them.
+  std::string read_rows(png_bytep rows, std::size_t stride, bool as_rgb) {
+    const bool done = guarded(png_, [&] {
+      if (as_rgb) {
+        png_set_expand(png_);
+        png_set_scale_16(png_);
+        png_set_strip_alpha(png_);
+        png_set_gray_to_rgb(png_);
+      } else if (png_get_bit_depth(png_, info_) == 16) {
+        png_set_swap(png_);
+      }
+      const int passes = png_set_interlace_handling(png_);
+      png_read_update_info(png_, info_);
+      if (png_get_rowbytes(png_, info_) != stride) png_error(png_, "rows of unexpected length");
+      const png_uint_32 height = png_get_image_height(png_, info_);
+      for (int pass = 0; pass < passes; ++pass)
+        for (png_uint_32 v = 0; v < height; ++v) png_read_row(png_, rows + v * stride, nullptr);
+      png_read_end(png_, nullptr);
+    });
+    return done ? "" : damaged();
+  }
+
+  ImageSize size() const {
+    return {static_cast<int>(png_get_image_width(png_, info_)),
+            static_cast<int>(png_get_image_height(png_, info_))};
+  }
+
+ private:
+  static std::string color_name(int color_type) {
+    switch (color_type) {
+      case PNG_COLOR_TYPE_GRAY:
+        return "grey";
+      case PNG_COLOR_TYPE_GRAY_ALPHA:
+        return "grey with alpha";
+      case PNG_COLOR_TYPE_PALETTE:
+        return "palette";
+      case PNG_COLOR_TYPE_RGB_ALPHA:
+        return "RGB with alpha";
+      default:
+        return "RGB";
+    }
+  }
+
+  std::string damaged() const {
+    const std::string said = fault_.text.data();
+    if (said == "Not a PNG file")  // libpng's words for another signature
+      return "is no PNG; convert it to one (colour: 8-bit, depth: 16-bit grey, millimetres)";
+    return "is a damaged PNG: " + said;
+  }
+
+  PngFault fault_;
+  png_structp png_;
+  png_infop info_;
+};
+
+// Answers what is wrong, or nothing.
+template <typename T, typename Input>
+std::string decode_image(Input& input, Image<T>& image, std::optional<ImageSize> wanted) {
+  constexpr bool as_rgb = std::is_same_v<T, Rgb8>;
+  PngDecoder decoder(input);
+  std::string fault = decoder.read_header();
+  if (fault.empty() && !as_rgb) fault = decoder.check_grey(8 * static_cast<int>(sizeof(T)));
+  if (fault.empty()) fault = decoder.check_size(input.size(), wanted);
+  if (!fault.empty()) return fault;
+
+  const ImageSize size = decoder.size();
+  if (image.width() != size.width || image.height() != size.height)
+    image = Image<T>(size.width, size.height);
+  return decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
+                           static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
+}
+
+template <typename T>
+FileResult read_image(const std::filesystem::path& file, Image<T>& image,
+                      std::optional<ImageSize> wanted) {
+  InputFile input;
+  if (FileResult opened = input.open(file); !opened.ok()) return opened;
+  const std::string fault = decode_image(input, image, wanted);
+  return fault.empty() ? FileResult{} : FileResult::bad(file, fault);
+}
+
+template <typename T>
+std::optional<std::string> read_image(std::span<const std::byte> bytes, Image<T>& image,
+                                      std::optional<ImageSize> wanted) {
+  InputMemory input(bytes);
+  std::string fault = decode_image(input, image, wanted);
+  if (fault.empty()) return std::nullopt;
+  return fault;
+}
+
+void append_bytes(png_structp png, png_bytep from, std::size_t count) {
+  auto* bytes = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+  const auto* first = reinterpret_cast<const std::byte*>(from);
+  bytes->insert(bytes->end(), first, first + count);
+}
+
+void flush_nothing(png_structp) {}
+
+// How rows are stored: on label and link images, flat as they are, any filter costs more than it
+// saves; on photographs differences of neighbours halve the work of deflate.
+struct Encoding {
+  int color_type;
+  int bits;
+  int filter;
+  std::span<const Rgb8> palette = {};
+};
+
+// Puts the file into `bytes`, in place of what is there. Answers what is wrong, or nothing.
+template <typename T>
+std::string encode_image(ImageView<const T> image, const Encoding& encoding,
+                         std::vector<std::byte>& bytes) {
+  PngFault fault;
+  bytes.clear();
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr) {
+    png_destroy_write_struct(&png, nullptr);
+    throw std::bad_alloc();
+  }
+  const bool done = guarded(png, [&] {
+    png_set_write_fn(png, &bytes, append_bytes, flush_nothing);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+                 static_cast<png_uint_32>(image.height), encoding.bits, encoding.color_type,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (!encoding.palette.empty())
+      png_set_PLTE(png, info, reinterpret_cast<png_const_colorp>(encoding.palette.data()),
+                   static_cast<int>(encoding.palette.size()));
+    png_set_compression_level(png, 1);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, encoding.filter);
+    png_write_info(png, info);
+    if (encoding.bits == 16) png_set_swap(png);
+    for (int v = 0; v < image.height; ++v)
+      png_write_row(png, reinterpret_cast<png_const_bytep>(image.row(v)));
+    png_write_end(png, nullptr);
+  });
+  png_destroy_write_struct(&png, &info);
+  return done ? std::string() : std::string("cannot be encoded: ") + fault.text.data();
+}
+
+constexpr Encoding colour_encoding{PNG_COLOR_TYPE_RGB, 8, PNG_FILTER_SUB};
+
+template <typename T>
+void write_image(const std::filesystem::path& file, ImageView<const T> image,
+                 const Encoding& encoding) {
+  std::vector<std::byte> bytes;
+  if (const std::string fault = encode_image(image, encoding, bytes); !fault.empty())
+    throw InputError(file.string() + ": " + fault);
+  OutputFile output(file);
+  output.write(bytes.data(), bytes.size());
+  output.close();
+}
+
+}  // namespace
+
+FileResult read_png(const std::filesystem::path& file, Image<std::uint16_t>& image,
+                    std::optional<ImageSize> wanted) {
+  return read_image(file, image, wanted);
+}
+
+FileResult read_png(const std::filesystem::path& file, Image<std::uint8_t>& image,
+                    std::optional<ImageSize> wanted) {
+  return read_image(file, image, wanted);
+}
+
+FileResult read_png(const std::filesystem::path& file, Image<Rgb8>& image,
+                    std::optional<ImageSize> wanted) {
+  return read_image(file, image, wanted);
+}
+
+void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image) {
+  write_image(file, image, {PNG_COLOR_TYPE_GRAY, 8, PNG_FILTER_NONE});
+}
+
+void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image,
+               std::span<const Rgb8> palette) {
+  write_image(file, image, {PNG_COLOR_TYPE_PALETTE, 8, PNG_FILTER_NONE, palette});
+}
+
+void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t> image) {
+  write_image(file, image, {PNG_COLOR_TYPE_GRAY, 16, PNG_FILTER_NONE});
+}
+
+void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image) {
+  write_image(file, image, colour_encoding);
+}
+
+std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<std::uint16_t>& image,
+                                      std::optional<ImageSize> wanted) {
+  return read_image(bytes, image, wanted);
+}
+
+std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<Rgb8>& image,
+                                      std::optional<ImageSize> wanted) {
+  return read_image(bytes, image, wanted);
+}
+
+void encode_png(ImageView<const Rgb8> image, std::vector<std::byte>& bytes) {
+  if (const std::string fault = encode_image(image, colour_encoding, bytes); !fault.empty())
+    throw InputError("PNG: " + fault);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/files/camera_info.hpp>
+#include <io/files/recording.hpp>
+#include <io/files/yaml.hpp>
+
+namespace penumbra::io {
+namespace {
+
+std::filesystem::path file_of(const YamlNode& node, const std::filesystem::path& folder) {
+  std::filesystem::path file = folder / node.text();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) node.fail("no file " + file.string());
+  return file;
+}
+
+Geometry geometry_of(const YamlNode& node) {
+  if (node.text() == "collision") return Geometry::collision;
+  if (node.text() == "visual") return Geometry::visual;
+  node.fail("is '" + node.text() + "'; collision or visual is wanted");
+}
+
+std::map<std::string, std::filesystem::path> packages_of(const YamlNode& node,
+                                                         const std::filesystem::path& folder) {
+  std::map<std::string, std::filesystem::path> packages;
+  for (const YamlNode& package : node.entries()) {
+    const std::filesystem::path at = folder / package.text();
+    std::error_code error;
+    if (!std::filesystem::is_directory(at, error)) package.fail("no folder " + at.string());
+    packages.emplace(package.key(), at);
+  }
+  return packages;
+}
+
+RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path& folder) {
+  RobotOptions options;
+  if (const YamlNode* packages = robot.find("packages"))
+    options.packages = packages_of(*packages, folder);
+  if (const YamlNode* geometry = robot.find("geometry")) {
+    if (!geometry->is_map())
+      options.geometry = geometry_of(*geometry);
+    else
+      for (const YamlNode& link : geometry->entries())
+        options.geometry_of_links.emplace(link.key(), geometry_of(link));
+  }
+  if (const YamlNode* links = robot.find("ignore_links")) options.ignore_links = links->texts();
+  if (const YamlNode* links = robot.find("only_links")) options.only_links = links->texts();
+  if (const YamlNode* margins = robot.find("margins"))
+    for (const YamlNode& link : margins->entries())
+      options.margins.emplace(link.key(), link.number());
+  if (const YamlNode* extras = robot.find("extra"))
+    for (const YamlNode& extra : extras->items()) {
+      extra.allow_only({"link", "mesh"});
+      options.extra.push_back({extra.at("link").text(), file_of(extra.at("mesh"), folder)});
+    }
+  return options;
+}
+
+void refuse_depth_camera(const YamlNode& camera, const std::filesystem::path& folder) {
+  const YamlNode* info = camera.find("depth_info");
+  const YamlNode* pose = camera.find("depth_pose");
+  if (info == nullptr && pose == nullptr) return;
+  const YamlNode& named = info != nullptr ? *info : *pose;
+  if (info == nullptr || pose == nullptr)
+    named.fail("depth_info and depth_pose belong together; one of them is missing");
+  static_cast<void>(read_camera_info(file_of(*info, folder), true));
+  static_cast<void>(read_pose_csv(file_of(*pose, folder)));
+  named.fail(
+      "a depth camera of its own is not supported yet; give depth images that are aligned to the "
+      "colour image, and remove depth_info and depth_pose");
+}
+
+int pixels_of(const YamlNode& node, int most) {
+  const std::int64_t pixels = node.integer();
+  if (pixels < 0 || pixels > most)
+    node.fail("is " + std::to_string(pixels) + "; 0 to " + std::to_string(most) +
+              " pixels are possible");
+  return static_cast<int>(pixels);
+}
+
+void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
+  LabelRule rule;
+  if (const YamlNode* sensor = node.find("sensor")) {
+    camera.sensor = sensor->text();
+    sensor->blamed_for([&] { rule = LabelRule::for_sensor(sensor->text()); });
+  }
+  if (const YamlNode* tolerance = node.find("tolerance")) {
+    const std::vector<double> abc = tolerance->numbers(3);
+    camera.tolerance = rule.tolerance = {abc[0], abc[1], abc[2]};
+    tolerance->blamed_for([&] { rule.check(); });
+  }
+  if (const YamlNode* width = node.find("front_min_width"))
+    camera.front_min_width = pixels_of(*width, LabelRule::max_width);
+  if (const YamlNode* reach = node.find("fringe_reach"))
+    camera.fringe_reach = pixels_of(*reach, LabelRule::max_fringe_reach);
+  if (const YamlNode* range = node.find("range")) {
+    const std::vector<double> ends = range->numbers(2);
+    camera.range = camera.camera.range = {ends[0], ends[1]};
+    range->blamed_for([&] { camera.camera.check(); });
+  }
+  if (const YamlNode* beyond = node.find("beyond")) {
+    if (beyond->text() == "occluded")
+      camera.beyond = BeyondMeans::occluded;
+    else if (beyond->text() == "visible")
+      camera.beyond = BeyondMeans::visible;
+    else
+      beyond->fail("is '" + beyond->text() + "'; occluded or visible is wanted");
+  }
+}
+
+RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
+  node.allow_only({"info", "parent", "pose", "sensor", "tolerance", "front_min_width",
+                   "fringe_reach", "range", "rectified", "beyond", "depth_info", "depth_pose"});
+  refuse_depth_camera(node, folder);
+  const YamlNode* rectified = node.find("rectified");
+  const bool is_rectified = rectified != nullptr && rectified->boolean();
+  const std::filesystem::path info = file_of(node.at("info"), folder);
+  RecordingCamera camera{.info = info,
+                         .camera = read_camera_info(info, is_rectified),
+                         .rectified = is_rectified,
+                         .parent = node.at("parent").text(),
+                         .T_parent_camera = read_pose_csv(file_of(node.at("pose"), folder))};
+  read_label_rule(node, camera);
+  return camera;
+}
+
+FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folder) {
+  return node.blamed_for([&] { return FramePattern(node.text(), folder); });
+}
+
+RecordingFrames frames_of(const YamlNode& node, const std::filesystem::path& folder) {
+  node.allow_only({"joints", "depth", "color"});
+  RecordingFrames frames{file_of(node.at("joints"), folder), pattern_of(node.at("depth"), folder),
+                         std::nullopt};
+  if (const YamlNode* color = node.find("color")) frames.color = pattern_of(*color, folder);
+  return frames;
+}
+
+}  // namespace
+
+Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::is_directory(folder_or_yaml, error)
+                                         ? folder_or_yaml / "recording.yaml"
+                                         : folder_or_yaml;
+  const std::filesystem::path folder = file.parent_path();
+  const YamlNode root = YamlNode::read(file);
+  root.allow_only({"robot", "camera", "frames", "targets"});
+  const YamlNode& robot = root.at("robot");
+  robot.allow_only(
+      {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra"});
+  std::optional<std::filesystem::path> targets;
+  if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
+  return {.file = file,
+          .urdf = file_of(robot.at("urdf"), folder),
+          .robot = robot_options_of(robot, folder),
+          .camera = camera_of(root.at("camera"), folder),
+          .frames = frames_of(root.at("frames"), folder),
+          .targets = targets};
+}
+
+PipelineConfig Recording::pipeline_config() const {
+  PipelineConfig config;
+  if (camera.sensor) config.rule = LabelRule::for_sensor(*camera.sensor);
+  if (camera.tolerance) config.rule.tolerance = *camera.tolerance;
+  if (camera.front_min_width) config.rule.front_min_width = *camera.front_min_width;
+  if (camera.fringe_reach) config.rule.fringe_reach = *camera.fringe_reach;
+  config.camera_parent = camera.parent;
+  config.T_parent_camera = camera.T_parent_camera;
+  return config;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <io/files/frame_pattern.hpp>
+#include <io/files/pose_file.hpp>
+
+namespace penumbra::io {
+
+/// What verdicts make of the label "beyond".
+enum class BeyondMeans { occluded, visible };
+
+/// The camera of a recording. What is not set was not written there.
+struct RecordingCamera {
+  std::filesystem::path info;  ///< the camera_info file
+  Camera camera;               ///< `range` holds camera.range where that is written
+  bool rectified = false;
+  std::string parent;                       ///< the link that the camera sits on
+  Eigen::Isometry3d T_parent_camera;        ///< pose of the optical frame in the parent link
+  std::optional<DepthRange> range = {};     ///< metres
+  std::optional<Tolerance> tolerance = {};  ///< of LabelRule
+  std::optional<int> front_min_width = {};  ///< of LabelRule, pixels
+  std::optional<int> fringe_reach = {};     ///< of LabelRule, pixels
+  std::optional<std::string> sensor = {};   ///< of LabelRule::for_sensor
+  std::optional<BeyondMeans> beyond = {};
+};
+
+/// Where the frames' files are.
+struct RecordingFrames {
+  std::filesystem::path joints;
+  FramePattern depth;
+  std::optional<FramePattern> color;
+};
+
+/// A recording folder's description (DESIGN section 4), read and checked. Paths are ready to use.
+struct Recording {
+  std::filesystem::path file;  ///< the recording.yaml
+  std::filesystem::path urdf;
+  RobotOptions robot;
+  RecordingCamera camera;
+  RecordingFrames frames;
+  std::optional<std::filesystem::path> targets = {};  ///< the targets.yaml
+
+  /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. Throws
+  /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or
+  /// values, a pose that is not rigid, and for what is not supported yet.
+  [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
+
+  /// The defaults of a pipeline with what the recording says: where the camera sits, and its
+  /// label rule.
+  [[nodiscard]] PipelineConfig pipeline_config() const;
+};
+
+}  // namespace penumbra::io

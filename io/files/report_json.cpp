@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/version.hpp>
+
+#include <io/files/disk_file.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/renderer_json-inl.hpp>
+#include <io/files/report_json.hpp>
+#include <io/files/target_json-inl.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::size_t write_size = std::size_t{1} << 16;  // bytes gathered before they are written
+constexpr double ns_per_ms = 1e6;
+
+/// Names come from files and may hold bytes that are no UTF-8: those are replaced.
+std::string dump(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json list(std::span<const std::string> names) {
+  Json array = Json::array();
+  for (const std::string& name : names) array.push_back(name);
+  return array;
+}
+
+std::string_view name_of(Geometry geometry) {
+  return geometry == Geometry::collision ? "collision" : "visual";
+}
+
+/// One name where all links have the same.
+Json geometry_json(const RobotOptions& robot) {
+  if (robot.geometry_of_links.empty()) return name_of(robot.geometry);
+  Json links = Json::object();
+  for (const auto& [pattern, geometry] : robot.geometry_of_links)
+    links[pattern] = name_of(geometry);
+  return {{"default", name_of(robot.geometry)}, {"links", std::move(links)}};
+}
+
+Json bag_json(const UsedBag& bag) {
+  Json topics = Json::array();
+  for (const UsedBag::Topic& topic : bag.topics)
+    topics.push_back(
+        {{"role", topic.role}, {"name", topic.name}, {"type", topic.type}, {"why", topic.why}});
+  return {
+      {"topics", std::move(topics)},
+      {"poses", bag.poses},
+      {"camera", {{"frame", bag.camera_frame}, {"link", bag.camera_link}, {"by", bag.camera_by}}},
+      {"time_offset_s", bag.time_offset},
+      {"first_publisher", bag.first_publisher}};
+}
+
+Json settings_json(const UsedSettings& used) {
+  const LabelRule& rule = used.rule;
+  const auto finite = [](double metres) { return std::isfinite(metres) ? Json(metres) : Json(); };
+  Json margins = Json::object(), extras = Json::array();
+  for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
+  for (const ExtraMesh& extra : used.robot.extra)
+    extras.push_back({{"link", extra.link}, {"mesh", extra.mesh.string()}});
+  return {{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
+          {"front_min_width", rule.front_min_width},
+          {"edge_margin", rule.edge_margin},
+          {"fringe_reach", rule.fringe_reach},
+          {"beyond_factor", rule.beyond_factor},
+          {"labels", used.paper_labels ? "paper" : "full"},
+          {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
+          {"targets", or_null(used.targets)},
+          {"target_history_s", used.target_history},
+          {"bag", used.bag ? bag_json(*used.bag) : Json(nullptr)},
+          {"range", {finite(rule.range.near), finite(rule.range.far)}},
+          {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
+          {"geometry", geometry_json(used.robot)},
+          {"geometry_fallback", used.robot.geometry_fallback},
+          {"margins", std::move(margins)},
+          {"extra", std::move(extras)},
+          {"ignore_links", list(used.robot.ignore_links)},
+          {"only_links", list(used.robot.only_links)}};
+}
+
+Json pixels_json(const PixelCounts& pixels) {
+  return {{"robot", or_null(pixels.robot)}, {"front", pixels.front},
+          {"occluded", pixels.occluded},    {"unknown", pixels.unknown},
+          {"beyond", pixels.beyond},        {"fringe", pixels.fringe},
+          {"uncovered", pixels.uncovered}};
+}
+
+Json frame_json(const FrameReport& report) {
+  Json timing;
+  for (const Stage& stage : stages) timing[stage.name] = or_null(report.timing.*stage.time);
+  const Json age =
+      report.joint_age ? Json(static_cast<double>(*report.joint_age) / ns_per_ms) : Json(nullptr);
+  Json targets = Json::array();
+  for (const TargetReport& target : report.targets)
+    targets.push_back(target_json(target, report.links));
+  return {{"index", report.index},
+          {"stamp_ns", or_null(report.stamp)},
+          {"joint_age_ms", age},
+          {"status", to_string(report.status)},
+          {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
+          {"pixels", pixels_json(report.pixels)},
+          {"timing_ms", std::move(timing)},
+          {"targets", std::move(targets)}};
+}
+
+Json faults_json(const Statistics& statistics) {
+  Json faults = Json::array();
+  for (const Fault& fault : statistics.faults()) {
+    Json reasons = Json::array();
+    for (const Reason& reason : fault.reasons)
+      reasons.push_back(
+          {{"message", reason.message}, {"frames", reason.frames}, {"first_index", reason.first}});
+    faults.push_back({{"status", to_string(fault.status)},
+                      {"frames", fault.frames},
+                      {"reasons", std::move(reasons)},
+                      {"frames_of_other_reasons", fault.other_reasons}});
+  }
+  return faults;
+}
+
+Json summary_json(const Statistics& statistics, std::span<const std::string> missing_links,
+                  std::span<const std::string> notes) {
+  Json timing;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const auto q = statistics.timing(i);
+    timing[stages[i].name] =
+        q ? Json{{"median", q->median}, {"p99", q->p99}, {"max", q->max}} : Json(nullptr);
+  }
+  Json targets = Json::array();
+  for (const TargetStatistics& target : statistics.targets())
+    targets.push_back(target_summary_json(target));
+  return {{"frames", statistics.frames()},        {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},       {"pixels", pixels_json(statistics.pixels())},
+          {"faults", faults_json(statistics)},    {"targets", std::move(targets)},
+          {"missing_links", list(missing_links)}, {"notes", list(notes)}};
+}
+
+Json link_json(const LinkReport& link) {
+  Json size = nullptr;
+  if (!link.bounds.isEmpty())
+    size = {link.bounds.sizes().x(), link.bounds.sizes().y(), link.bounds.sizes().z()};
+  return {{"name", link.link},
+          {"drawn", link.drawn},
+          {"missing", link.missing},
+          {"reason", link.reason},
+          {"sources", link.sources},
+          {"triangles", link.triangles},
+          {"watertight", link.drawn ? Json(link.watertight) : Json(nullptr)},
+          {"margin_m", link.margin},
+          {"size_m", std::move(size)},
+          {"load_ms", link.load_ms}};
+}
+
+Json joint_json(const Robot& robot, const Joint& joint) {
+  Json mimic = nullptr;
+  if (joint.mimics && joint.variable)
+    mimic = {{"variable", robot.variables()[*joint.variable]},
+             {"multiplier", joint.multiplier},
+             {"offset", joint.offset}};
+  return {{"name", joint.name},
+          {"type", to_string(joint.type)},
+          {"parent", robot.links()[joint.parent]},
+          {"child", robot.links()[joint.child]},
+          {"lower", or_null(joint.lower)},
+          {"upper", or_null(joint.upper)},
+          {"mimic", std::move(mimic)}};
+}
+
+}  // namespace
+
+Json renderer_json(const RendererInfo& info) {
+  return {{"backend", to_string(info.backend)},
+          {"isa", or_null(info.isa)},
+          {"threads", info.backend == Backend::gl ? Json(nullptr) : Json(info.threads)},
+          {"device", or_null(info.device)}};
+}
+
+std::string report_start(const ReportHead& head) {
+  return std::string(report_json_start) + dump(PENUMBRA_VERSION) +
+         ",\n\"input\": " + dump(head.input) +
+         ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
+         ",\n\"settings\": " + dump(settings_json(head.settings)) +
+         ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [";
+}
+
+std::string report_frame(const FrameReport& report) { return dump(frame_json(report)); }
+
+std::string report_end(const Statistics& statistics, std::span<const std::string> missing_links,
+                       std::span<const std::string> notes) {
+  return "\n],\n\"summary\": " + dump(summary_json(statistics, missing_links, notes)) + "}\n";
+}
+
+std::string unfinished_report_end() { return "\n],\n\"summary\": null}\n"; }
+
+struct ReportWriter::State {
+  explicit State(const std::filesystem::path& file) : pending(file), output(pending.part()) {}
+
+  void write(std::string_view text, bool now = false) {
+    waiting += text;
+    if (!now && waiting.size() < write_size) return;
+    output.write(waiting.data(), waiting.size());
+    waiting.clear();
+  }
+
+  PendingFile pending;
+  OutputFile output;
+  std::string waiting;
+  std::vector<std::string> missing_links;
+  std::vector<std::string> notes;
+  bool first = true;
+};
+
+ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& head)
+    : state_(std::make_unique<State>(file)) {
+  state_->missing_links.assign(head.missing_links.begin(), head.missing_links.end());
+  state_->notes.assign(head.notes.begin(), head.notes.end());
+  state_->write(report_start(head));
+}
+
+ReportWriter::~ReportWriter() = default;
+
+void ReportWriter::add(const FrameReport& report) {
+  state_->write((state_->first ? "\n" : ",\n") + report_frame(report));
+  state_->first = false;
+}
+
+void ReportWriter::finish(const Statistics& statistics, std::span<const std::string> notes) {
+  State& s = *state_;
+  s.notes.insert(s.notes.end(), notes.begin(), notes.end());
+  s.write(report_end(statistics, s.missing_links, s.notes), true);
+  s.output.close();
+  s.pending.finish();
+}
+
+std::string render_json(const RenderResult& result) {
+  Json json = {{"triangles", result.triangles},
+               {"robot_pixels", result.robot_pixels},
+               {"uncovered", result.uncovered_pixels}};
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (stages[i].name == "targets") continue;
+    const auto q = result.statistics.timing(i);
+    json[std::string(stages[i].name) + "_ms"] =
+        q ? Json{{"min", q->min}, {"median", q->median}, {"p99", q->p99}} : Json(nullptr);
+  }
+  json["renderer"] = renderer_json(result.renderer);
+  Json joints = Json::object();
+  for (std::size_t i = 0; i < result.variables.size(); ++i)
+    joints[result.variables[i]] = result.positions[i];
+  json["joints"] = std::move(joints);
+  json["missing_links"] = list(result.missing_links);
+  json["notes"] = list(result.notes);
+  return dump(json, 2);
+}
+
+std::string robot_json(const Robot& robot) {
+  Json links = Json::array();
+  for (const LinkReport& link : robot.report()) links.push_back(link_json(link));
+  Json joints = Json::array();
+  for (const Joint& joint : robot.joints()) joints.push_back(joint_json(robot, joint));
+  return dump(Json{{"robot", robot.name()},
+                   {"links", std::move(links)},
+                   {"joints", std::move(joints)},
+                   {"variables", list(robot.variables())},
+                   {"notes", list(robot.notes())}},
+              2);
+}
+
+}  // namespace penumbra::io

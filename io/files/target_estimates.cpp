@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include <io/files/target_shapes.hpp>
+#include <io/files/target_values-inl.hpp>
+
+namespace penumbra::io {
+namespace {
+
+// More than that is no measure of anything, less is below a double's rounding at 1 m.
+constexpr double least_sigma = 1e-9, largest_sigma = 1e9;
+
+/// Of an estimate with so many sigmas behind its numbers: of position, and of orientation.
+Matrix6d covariance_of(std::span<const double> sigmas) {
+  Matrix6d covariance = Matrix6d::Zero();
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
+    const double sigma = sigmas[i];
+    if (!(sigma >= least_sigma && sigma <= largest_sigma))
+      throw InputError("sigma of the estimate is " + std::to_string(sigma) +
+                       "; 1e-9 to 1e9 is wanted (metres, of orientation radians)");
+    covariance.diagonal().segment<3>(3 * static_cast<Eigen::Index>(i)).setConstant(sigma * sigma);
+  }
+  return covariance;
+}
+
+TargetEstimate estimate_of(const FrameValue& value, bool is_pose, const LinkFrame& link) {
+  TargetEstimate estimate{.stamp = value.stamp, .frame = link};
+  if (is_pose)
+    estimate.value = isometry_of(value.numbers);
+  else
+    estimate.value = position_of(value.numbers);
+  const auto sigmas = std::span(value.numbers).subspan(is_pose ? 7 : 3);
+  if (!sigmas.empty()) estimate.covariance = covariance_of(sigmas);
+  check_estimate(estimate);
+  return estimate;
+}
+
+}  // namespace
+
+EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
+  node.allow_only({"pose", "point", "link"});
+  const YamlNode* pose = node.find("pose");
+  if ((pose == nullptr) == (node.find("point") == nullptr))
+    node.fail("one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z] is wanted");
+  const LinkFrame link = link_of(node, reader.context.robot);
+  const bool is_pose = pose != nullptr;
+  const auto values = std::make_shared<FrameValues>(
+      is_pose ? reader.values(*pose, pose_format({"position_sigma", "orientation_sigma"}))
+              : reader.values(node.at("point"), fixed_format({"x", "y", "z"}, {"sigma"})));
+  const auto make = [=](const FrameValue& value) { return estimate_of(value, is_pose, link); };
+  values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
+  const auto of_frame = [=](std::int64_t index) {
+    const FrameValue value = values->at(index);
+    if (!value.fault.empty() && value.place.empty())
+      return TargetEstimate{.value = std::monostate{}};
+    if (!value.fault.empty()) throw InputError(value.fault);
+    return at_place(value.place, [&] { return make(value); });
+  };
+  return {of_frame, is_pose};
+}
+
+}  // namespace penumbra::io

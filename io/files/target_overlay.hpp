@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
+
+#include <io/files/png.hpp>
+#include <io/files/target_outline.hpp>
+
+namespace penumbra::io {
+
+/// The colour that stands for a verdict; told apart by people with any common colour blindness.
+[[nodiscard]] Rgb8 verdict_color(Verdict verdict);
+
+/// Names of targets that are drawn; of more, only the outlines are.
+inline constexpr std::size_t max_target_names = 40;
+
+/// Draws the targets of one frame after another.
+class TargetOverlay {
+ public:
+  /// The outlines of a frame's targets in their verdicts' colours, with name and verdict, and a
+  /// cross where a handled one is. A 3-D target that came late is drawn where it was at its own
+  /// stamp, seen by the camera as it is now; not at all where its frame was not drawn. `camera`: of
+  /// the report's images, which `out` has the size of.
+  void draw(std::span<const Target> targets, const FrameReport& report, const Robot& robot,
+            const Camera& camera, Image<Rgb8>& out);
+
+ private:
+  struct Poses {
+    std::optional<Eigen::Isometry3d> T_root_camera;
+    std::vector<Eigen::Isometry3d> T_root_link;
+  };
+  void remember(const FrameReport& report);
+  [[nodiscard]] TargetPoses poses_of(const TargetReport& target, const FrameReport& report) const;
+
+  std::map<std::int64_t, Poses> recent_;  // by stamps, as long as late targets may be
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+
+#include <io/files/frame_pattern.hpp>
+#include <io/files/names.hpp>
+#include <io/files/png.hpp>
+#include <io/files/target_shapes.hpp>
+#include <io/files/target_values-inl.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using MakeShape = std::function<TargetShape(const FrameValue&)>;
+
+/// What would make a target unknown in every frame is told at once.
+void check(const TargetShape& shape, const Intrinsics& images) {
+  check_shape(shape);
+  if (const auto* target = std::get_if<RegionTarget>(&shape))
+    check_region(target->region, images.width(), images.height());
+}
+
+/// The shape that is made of a frame's numbers. Those of the YAML file itself are tried at once.
+ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const ValueFormat& format,
+                      const MakeShape& make) {
+  auto values = std::make_shared<FrameValues>(reader.values(node, format));
+  const Intrinsics& images = reader.context.images;
+  values->check_written([&](const FrameValue& value) { check(make(value), images); });
+  const bool may_be_late = values->has_stamps();
+  return {
+      [=](std::int64_t index) {
+        const FrameValue value = values->at(index);
+        if (!value.fault.empty()) throw InputError(value.fault);
+        return ShapeSource::Given{at_place(value.place, [&] { return make(value); }), value.stamp};
+      },
+      may_be_late};
+}
+
+Extent extent_of(const YamlNode& node) {
+  const YamlNode* extent = node.find("extent");
+  if (extent == nullptr) return Extent::amodal;
+  if (extent->text() == "amodal") return Extent::amodal;
+  if (extent->text() == "modal") return Extent::modal;
+  extent->fail("is '" + extent->text() + "'; amodal or modal is wanted");
+}
+
+std::optional<double> depth_of(const YamlNode& node) {
+  const YamlNode* depth = node.find("expected_depth");
+  return depth == nullptr ? std::nullopt : std::optional(positive(*depth));
+}
+
+/// What all regions have, with the value's own depth if it has one.
+RegionTarget region_target(const RegionTarget& common, const Region& region,
+                           const FrameValue& value) {
+  RegionTarget target = common;
+  target.region = region;
+  if (value.expected_depth) target.expected_depth = value.expected_depth;
+  return target;
+}
+
+RegionTarget common_of(const TargetReader& reader) {
+  return {.region = {}, .extent = extent_of(reader.node), .expected_depth = depth_of(reader.node)};
+}
+
+ShapeSource read_box(const TargetReader& reader, const YamlNode& node) {
+  return source_of(reader, node, fixed_format({"u", "v", "width", "height"}),
+                   [common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                     const auto& n = value.numbers;
+                     if (!(n[2] > 0.0 && n[3] > 0.0))
+                       throw InputError("has no area: width and height above 0 are wanted");
+                     return region_target(common, PixelBox{n[0], n[1], n[2], n[3]}, value);
+                   });
+}
+
+std::vector<double> corners_of(const YamlNode& node) {
+  std::vector<double> numbers;
+  for (const YamlNode& corner : node.items())
+    for (const double number : corner.numbers(2)) numbers.push_back(number);
+  if (numbers.size() < 6) node.fail("has fewer than 3 corners; [[u, v], ...] is wanted");
+  return numbers;
+}
+
+ShapeSource read_polygon(const TargetReader& reader, const YamlNode& node) {
+  auto corners = std::make_shared<std::vector<Eigen::Vector2d>>();
+  return source_of(reader, node, {corners_of, {}, {}},
+                   [corners, common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                     corners->clear();
+                     for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
+                       corners->emplace_back(value.numbers[i], value.numbers[i + 1]);
+                     return region_target(common, PixelPolygon{*corners}, value);
+                   });
+}
+
+/// {size: [height, width], counts: [...]}: height and width before the counts.
+std::vector<double> run_lengths_of(const YamlNode& node) {
+  node.allow_only({"size", "counts"});
+  std::vector<double> numbers = node.at("size").numbers(2);
+  for (const YamlNode& count : node.at("counts").items()) {
+    const std::int64_t pixels = count.integer();
+    if (pixels < 0 || pixels > std::numeric_limits<std::uint32_t>::max())
+      count.fail("is " + count.text() + "; a number of pixels is wanted");
+    numbers.push_back(static_cast<double>(pixels));
+  }
+  return numbers;
+}
+
+ShapeSource read_run_lengths(const TargetReader& reader, const YamlNode& node) {
+  auto counts = std::make_shared<std::vector<std::uint32_t>>();
+  const Intrinsics images = reader.context.images;
+  return source_of(reader, node, {run_lengths_of, {}, {}},
+                   [=, common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                     const auto& n = value.numbers;
+                     if (n[0] != images.height() || n[1] != images.width())
+                       throw InputError("is of another size; [" + std::to_string(images.height()) +
+                                        ", " + std::to_string(images.width()) +
+                                        "] (height, width) is wanted");
+                     counts->clear();
+                     double pixels = 0.0;
+                     for (std::size_t i = 2; i < n.size(); ++i) {
+                       counts->push_back(static_cast<std::uint32_t>(n[i]));
+                       pixels += n[i];
+                     }
+                     if (pixels != n[0] * n[1])
+                       throw InputError("counts add up to " + std::to_string(std::llround(pixels)) +
+                                        "; all pixels of the image are wanted");
+                     return region_target(
+                         common, RunLengthMask{images.width(), images.height(), *counts}, value);
+                   });
+}
+
+ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
+  const ImageSize size{reader.context.images.width(), reader.context.images.height()};
+  auto mask = std::make_shared<Image<std::uint8_t>>();
+  const auto make = [mask, common = common_of(reader)] {
+    return ShapeSource::Given{
+        region_target(common, PixelMask{std::as_const(*mask).view()}, FrameValue{})};
+  };
+  if (!node.is_map()) {
+    const FileResult read = read_png(reader.folder / node.text(), *mask, size);
+    if (!read.ok()) node.fail(read.message);
+    node.blamed_for([&] { check(make().shape, reader.context.images); });
+    return {[=](std::int64_t) { return make(); }};
+  }
+  node.allow_only({"files"});
+  const YamlNode& files = node.at("files");
+  const FramePattern pattern =
+      files.blamed_for([&] { return FramePattern(files.text(), reader.folder); });
+  if (pattern.existing().empty()) files.fail("no file of that name for any frame");
+  return {[=](std::int64_t index) {
+    read_png(pattern.file(index), *mask, size).require();
+    return make();
+  }};
+}
+
+/// Semi-axes and angle of a key point: of `radius` or `ellipse`, in pixels, or with _m in metres.
+void read_ellipse(const YamlNode& node, KeypointTarget& target) {
+  constexpr std::array keys{"radius", "ellipse", "radius_m", "ellipse_m"};
+  const YamlNode* given = nullptr;
+  for (const char* const key : keys) {
+    const YamlNode* found = node.find(key);
+    if (found == nullptr) continue;
+    if (given != nullptr) found->fail("stands beside " + given->key() + "; keep one");
+    given = found;
+  }
+  if (given == nullptr) return;
+  target.in_metres = given->key().ends_with("_m");
+  if (given->key().starts_with("radius")) {
+    target.semi_axes.setConstant(positive(*given));
+    return;
+  }
+  const std::vector<double> ellipse = given->numbers(3);
+  if (!(ellipse[0] > 0.0 && ellipse[1] > 0.0))
+    given->fail("has no area; [a, b, angle] with a and b above 0 is wanted");
+  target.semi_axes = {ellipse[0], ellipse[1]};
+  target.angle = ellipse[2] * std::numbers::pi / 180.0;
+}
+
+ShapeSource read_keypoint(const TargetReader& reader, const YamlNode& node) {
+  KeypointTarget common;
+  read_ellipse(reader.node, common);
+  common.expected_depth = depth_of(reader.node);
+  ValueFormat format = fixed_format({"u", "v"}, {"score"});
+  if (const YamlNode* score = reader.node.find("min_score")) {
+    common.min_score = score->number();
+    format = fixed_format({"u", "v", "score"});  // it would be compared with nothing
+  }
+  return source_of(reader, node, format, [common](const FrameValue& value) -> TargetShape {
+    KeypointTarget target = common;
+    target.pixel = {value.numbers[0], value.numbers[1]};
+    if (value.numbers.size() > 2) target.score = value.numbers[2];
+    if (value.expected_depth) target.expected_depth = value.expected_depth;
+    return target;
+  });
+}
+
+ShapeSource read_point(const TargetReader& reader, const YamlNode& node) {
+  PointTarget common;
+  common.frame = link_of(reader.node, reader.context.robot);
+  if (const YamlNode* radius = reader.node.find("radius")) common.radius = positive(*radius);
+  return source_of(reader, node, fixed_format({"x", "y", "z"}),
+                   [common](const FrameValue& value) -> TargetShape {
+                     PointTarget target = common;
+                     target.position = position_of(value.numbers);
+                     return target;
+                   });
+}
+
+ShapeSource read_object_box(const TargetReader& reader, const YamlNode& node) {
+  BoxTarget common;
+  common.frame = link_of(reader.node, reader.context.robot);
+  const YamlNode& size = reader.node.at("size");
+  const std::vector<double> edges = size.numbers(3);
+  if (!(edges[0] > 0.0 && edges[1] > 0.0 && edges[2] > 0.0))
+    size.fail("has an edge that is not above 0; metres are wanted");
+  common.size = position_of(edges);
+  return source_of(reader, node, pose_format(), [common](const FrameValue& value) -> TargetShape {
+    BoxTarget target = common;
+    target.pose = isometry_of(value.numbers);
+    return target;
+  });
+}
+
+/// Farther out, or smaller, float32 depths of it would mean nothing.
+void check_extent(const TriangleMesh& mesh, const YamlNode& blamed) {
+  constexpr double least = 1e-6;  // metres
+  double farthest = 0.0;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    if (!vertex.allFinite())
+      blamed.fail(
+          "makes the mesh larger than numbers of 32 bits; its extent must be 1e-6 to 1e6 m");
+    farthest = std::max(farthest, static_cast<double>(vertex.cwiseAbs().maxCoeff()));
+    box.extend(vertex.cast<double>());
+  }
+  const double extent = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (extent >= least && extent <= max_target_distance && farthest <= max_target_distance) return;
+  std::ostringstream text;
+  text << "makes a mesh of " << extent << " m that reaches " << farthest
+       << " m from its origin; an extent of 1e-6 to 1e6 m, as far out at the most, is wanted";
+  blamed.fail(text.str());
+}
+
+std::shared_ptr<const TriangleMesh> mesh_of(const TargetReader& reader) {
+  const YamlNode& file = reader.node.at("file");
+  TriangleMesh mesh;
+  file.blamed_for([&] { mesh = load_mesh(reader.folder / file.text()); });
+  const YamlNode* scale = reader.node.find("scale");
+  if (scale != nullptr) {
+    const double factor = positive(*scale);
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = (factor * vertex.cast<double>()).cast<float>();
+  }
+  check_extent(mesh, scale != nullptr ? *scale : file);
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+ShapeSource read_mesh(const TargetReader& reader, const YamlNode& node) {
+  MeshTarget common;
+  common.frame = link_of(reader.node, reader.context.robot);
+  common.mesh = mesh_of(reader);
+  return source_of(reader, node, pose_format(), [common](const FrameValue& value) -> TargetShape {
+    MeshTarget target = common;
+    target.pose = isometry_of(value.numbers);
+    return target;
+  });
+}
+
+/// A kind of target: its key, how it is read, and which keys belong to it.
+struct ShapeKind {
+  std::string_view key;
+  ShapeSource (*read)(const TargetReader&, const YamlNode&);
+  bool has_pixels;
+  bool has_pose;
+  std::vector<std::string_view> keys;
+};
+
+const std::vector<ShapeKind>& kinds() {
+  static const std::vector<ShapeKind> all{
+      {"box", read_box, true, false, {"extent", "expected_depth"}},
+      {"polygon", read_polygon, true, false, {"extent", "expected_depth"}},
+      {"mask", read_mask, true, false, {"extent", "expected_depth"}},
+      {"rle", read_run_lengths, true, false, {"extent", "expected_depth"}},
+      {"keypoint",
+       read_keypoint,
+       true,
+       false,
+       {"radius", "ellipse", "radius_m", "ellipse_m", "min_score", "expected_depth"}},
+      {"point", read_point, false, false, {"radius", "link"}},
+      {"box3d", read_object_box, false, true, {"size", "link"}},
+      {"mesh", read_mesh, false, true, {"file", "scale", "link"}}};
+  return all;
+}
+
+constexpr std::array<std::string_view, 6> common_keys{"name",       "frame_id", "depth_margin",
+                                                      "thresholds", "handling", "estimate"};
+
+void check_keys(const YamlNode& node, const ShapeKind& kind) {
+  std::vector<std::string_view> known(common_keys.begin(), common_keys.end());
+  known.push_back(kind.key);
+  known.insert(known.end(), kind.keys.begin(), kind.keys.end());
+  for (const YamlNode& entry : node.entries())
+    if (std::find(known.begin(), known.end(), entry.key()) == known.end())
+      entry.fail("unknown key of a target of kind " + std::string(kind.key) +
+                 near_names(entry.key(), known));
+}
+
+}  // namespace
+
+bool names_pixels(const YamlNode& target) {
+  return std::any_of(kinds().begin(), kinds().end(), [&](const ShapeKind& kind) {
+    return kind.has_pixels && target.find(kind.key) != nullptr;
+  });
+}
+
+ShapeSource read_shape(const TargetReader& reader) {
+  const ShapeKind* chosen = nullptr;
+  for (const ShapeKind& kind : kinds()) {
+    const YamlNode* found = reader.node.find(kind.key);
+    if (found == nullptr) continue;
+    if (chosen != nullptr)
+      found->fail("stands beside " + std::string(chosen->key) + "; a target has one of them");
+    chosen = &kind;
+  }
+  if (chosen == nullptr) {
+    std::string known;
+    for (const ShapeKind& kind : kinds())
+      known += (known.empty() ? "" : ", ") + std::string(kind.key);
+    reader.node.fail("target '" + reader.name + "' says not where it is; one of the keys " + known +
+                     " is wanted");
+  }
+  check_keys(reader.node, *chosen);
+  ShapeSource source = chosen->read(reader, reader.node.at(chosen->key));
+  source.has_pose = chosen->has_pose;
+  return source;
+}
+
+}  // namespace penumbra::io

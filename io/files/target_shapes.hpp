@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/pipeline/target.hpp>
+
+#include <io/files/frame_values.hpp>
+#include <io/files/targets_file.hpp>
+#include <io/files/yaml.hpp>
+
+namespace penumbra::io {
+
+/// What one target of a targets.yaml is read with.
+struct TargetReader {
+  const YamlNode& node;
+  const std::string& name;
+  const TargetsContext& context;
+  const std::filesystem::path& folder;  ///< of the files that are named
+  ValueTables& tables;
+
+  /// Of a key of this target.
+  [[nodiscard]] FrameValues values(const YamlNode& at, const ValueFormat& format) const {
+    return FrameValues::read(at, format, folder, name, tables);
+  }
+};
+
+/// A target's shape by frames. `of_frame` throws InputError, with its place, where a frame has none
+/// or a wrong one; what the shape refers to is valid until its next call.
+struct ShapeSource {
+  struct Given {
+    TargetShape shape;
+    std::optional<std::int64_t> stamp = {};  ///< nanoseconds; nothing: the frame's
+  };
+  std::function<Given(std::int64_t index)> of_frame;
+  bool may_be_late = false;
+  bool has_pose = false;  ///< of its own: with an orientation
+};
+
+/// Whether the target is given by pixels of an image.
+[[nodiscard]] bool names_pixels(const YamlNode& target);
+
+/// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
+[[nodiscard]] ShapeSource read_shape(const TargetReader& reader);
+
+/// An estimate by frames; std::monostate in frames without one.
+struct EstimateSource {
+  std::function<TargetEstimate(std::int64_t index)> of_frame;
+  bool is_pose = false;
+};
+[[nodiscard]] EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node);
+
+/// `thresholds` and `handling` of a target.
+[[nodiscard]] TargetThresholds read_thresholds(const YamlNode& node, TargetThresholds thresholds);
+[[nodiscard]] TargetHandling read_handling(const YamlNode& node);
+
+}  // namespace penumbra::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the numbers of a targets.yaml are read, whatever they are of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <io/files/frame_values.hpp>
+#include <io/files/yaml.hpp>
+
+namespace penumbra::io {
+
+/// So many numbers, or those and all of the optional ones.
+[[nodiscard]] ValueFormat fixed_format(std::vector<std::string_view> columns,
+                                       std::vector<std::string_view> optional_columns = {});
+
+/// x, y, z, qx, qy, qz, qw; and `optional_columns` after them.
+[[nodiscard]] ValueFormat pose_format(std::vector<std::string_view> optional_columns = {});
+
+/// Of the first three numbers; metres.
+[[nodiscard]] Eigen::Vector3d position_of(const std::vector<double>& numbers);
+/// Of the first seven. Throws InputError for a quaternion that is not of length 1.
+[[nodiscard]] Eigen::Isometry3d isometry_of(const std::vector<double>& numbers);
+
+/// A number above 0.
+[[nodiscard]] double positive(const YamlNode& node);
+
+/// The key `link`; without it the camera's frame.
+[[nodiscard]] LinkFrame link_of(const YamlNode& node, const Robot& robot);
+
+/// Runs `call`; what it throws stands at `place`.
+template <typename F>
+auto at_place(const std::string& place, const F& call) {
+  try {
+    return call();
+  } catch (const InputError& fault) {
+    throw InputError(place + fault.what());
+  }
+}
+
+}  // namespace penumbra::io

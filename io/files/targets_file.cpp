@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <deque>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/files/frame_values.hpp>
+#include <io/files/printable.hpp>
+#include <io/files/target_shapes.hpp>
+#include <io/files/targets_file.hpp>
+#include <io/files/yaml.hpp>
+
+namespace penumbra::io {
+
+/// One target and where its parts come from.
+struct TargetSource {
+  std::string name, frame_id, fault;
+  ShapeSource shape;
+  std::optional<EstimateSource> estimate;
+};
+
+namespace {
+
+/// Pixels are of the image that the file says, else of the camera's as it comes.
+void check_image(const YamlNode& root, const TargetsContext& context) {
+  ImageSpace image = ImageSpace::raw;
+  const YamlNode* key = root.find("image");
+  if (key != nullptr) {
+    if (key->text() != "raw" && key->text() != "rectified")
+      key->fail("is '" + key->text() + "'; raw or rectified is wanted");
+    if (key->text() == "rectified") image = ImageSpace::rectified;
+  }
+  if (!context.is_bent || image == context.image) return;
+  const std::span<const YamlNode> targets = root.at("targets").items();
+  if (std::none_of(targets.begin(), targets.end(), names_pixels)) return;
+  const YamlNode& blamed = key != nullptr ? *key : root.at("targets");
+  blamed.fail(image == ImageSpace::raw
+                  ? "pixels are of the raw image, results of the rectified one; write image: "
+                    "rectified if they are of that, or leave --image out"
+                  : "pixels are of the rectified image, results of the raw one; use --image "
+                    "rectified");
+}
+
+/// Names stand in lines of reports and on terminals.
+void check_name(const YamlNode& node) {
+  const std::string& name = node.text();
+  if (std::any_of(name.begin(), name.end(), is_control))
+    node.fail("has a control character; letters, digits and signs are wanted");
+}
+
+std::string frame_id_of(const YamlNode& node, const TargetsContext& context) {
+  const YamlNode* frame_id = node.find("frame_id");
+  if (frame_id == nullptr) return {};
+  const std::string& name = frame_id->text();
+  if (name != context.camera_frame)
+    frame_id->fail("is '" + printable(name) + "', " +
+                   (context.camera_frame.empty()
+                        ? "but the camera's frame has no name; leave it out"
+                        : "the camera's is '" + printable(context.camera_frame) + "'"));
+  return name;
+}
+
+TargetSource source_of(const YamlNode& node, const TargetsContext& context,
+                       const std::filesystem::path& folder, ValueTables& tables) {
+  TargetSource source;
+  source.name = node.at("name").text();
+  check_name(node.at("name"));
+  const TargetReader reader{node, source.name, context, folder, tables};
+  source.shape = read_shape(reader);
+  source.frame_id = frame_id_of(node, context);
+  if (const YamlNode* estimate = node.find("estimate"))
+    source.estimate = read_estimate(reader, *estimate);
+  return source;
+}
+
+/// Handling that nothing can ever feed is a mistake, and would only say "lost".
+void check_handling(const YamlNode& node, const TargetSource& source,
+                    const TargetHandling& handling) {
+  if (source.estimate && std::holds_alternative<std::monostate>(handling))
+    node.at("estimate").fail("is given, but not handled; handling: pose or point is wanted");
+  if (!std::holds_alternative<PoseTrackerConfig>(handling)) return;
+  if (source.estimate && !source.estimate->is_pose)
+    node.at("handling")
+        .fail(
+            "is pose, but the estimate has no orientation; write handling: point, or estimate: "
+            "{pose: ...}");
+  if (!source.estimate && !source.shape.has_pose)
+    node.at("handling")
+        .fail(
+            "is pose, but only box3d and mesh have a pose of their own; write handling: point, or "
+            "add "
+            "estimate: {pose: ...}");
+}
+
+Target target_of(const YamlNode& node, const TargetSource& source, const TargetsContext& context) {
+  Target target;
+  target.name = source.name;
+  target.frame_id = source.frame_id;
+  if (const YamlNode* margin = node.find("depth_margin")) {
+    target.depth_margin = margin->number();
+    margin->blamed_for([&] { check_target(target); });
+  }
+  target.thresholds.beyond_hides = context.beyond_hides;
+  if (const YamlNode* thresholds = node.find("thresholds"))
+    target.thresholds = read_thresholds(*thresholds, target.thresholds);
+  if (const YamlNode* handling = node.find("handling")) target.handling = read_handling(*handling);
+  check_handling(node, source, target.handling);
+  if (source.shape.has_pose && target.thresholds.min_inside > 0)
+    node.at("thresholds")
+        .at("min_inside")
+        .fail(
+            "is not possible here: what of a box3d or a mesh lies outside of the image is not "
+            "known");
+  return target;
+}
+
+void fill(TargetSource& source, std::int64_t index, Target& target) {
+  target.shape = {};
+  target.stamp.reset();
+  target.estimate.reset();
+  source.fault.clear();
+  try {
+    if (source.estimate) target.estimate = source.estimate->of_frame(index);
+    ShapeSource::Given given = source.shape.of_frame(index);
+    target.stamp = given.stamp;
+    target.shape = std::move(given.shape);
+  } catch (const InputError& fault) {
+    source.fault = fault.what();
+  }
+  target.fault = source.fault;
+}
+
+}  // namespace
+
+struct TargetsFile::State {
+  std::filesystem::path file;
+  std::deque<TargetSource> sources;  // targets refer to their names
+  std::vector<Target> targets;
+  double history = 0.0;
+};
+
+TargetsFile::TargetsFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TargetsFile::~TargetsFile() = default;
+TargetsFile::TargetsFile(TargetsFile&&) noexcept = default;
+TargetsFile& TargetsFile::operator=(TargetsFile&&) noexcept = default;
+
+TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsContext& context) {
+  auto state = std::make_unique<State>();
+  state->file = file;
+  const YamlNode root = YamlNode::read(file);
+  root.allow_only({"image", "history", "targets"});
+  check_image(root, context);
+  ValueTables tables;
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (const YamlNode& node : root.at("targets").items()) {
+    TargetSource& source =
+        state->sources.emplace_back(source_of(node, context, file.parent_path(), tables));
+    const auto [known, is_new] = numbers.emplace(source.name, numbers.size());
+    if (!is_new)
+      node.at("name").fail("'" + source.name + "' is the name of target " +
+                           std::to_string(known->second + 1) + " already; names stand once");
+    state->targets.push_back(target_of(node, source, context));
+    if (source.shape.may_be_late) state->history = context.history;
+  }
+  if (const YamlNode* history = root.find("history")) {
+    state->history = history->number();
+    if (!(state->history >= 0.0 && state->history <= PipelineConfig::max_target_history))
+      history->fail("is " + history->text() + "; 0 to 60 seconds are possible");
+  }
+  return TargetsFile(std::move(state));
+}
+
+std::span<const Target> TargetsFile::of_frame(std::int64_t index) {
+  for (std::size_t i = 0; i < state_->sources.size(); ++i)
+    fill(state_->sources[i], index, state_->targets[i]);
+  return state_->targets;
+}
+
+const std::filesystem::path& TargetsFile::file() const { return state_->file; }
+std::size_t TargetsFile::size() const { return state_->sources.size(); }
+double TargetsFile::history() const { return state_->history; }
+
+}  // namespace penumbra::io

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/base/tile_mask.hpp>
+#include <penumbra/labels/label_work-inl.hpp>
+
+namespace penumbra::labelling {
+
+inline constexpr float millimetres_per_metre = 1000.0f;
+
+/// The buffers of the flood that finds the fringe (LabelRule), over blocks of 2 x 2 pixels.
+struct Fringe {
+  static constexpr std::uint16_t farthest = 0x7ffe;  ///< millimetres; a robot farther has no fringe
+
+  Fringe(int width, int height, int reach_pixels);
+
+  /// A block on the robot's outline, and the depths that the flood from it may take: those in
+  /// [nearest, farthest] that differ from their neighbour's by at most `step`, millimetres.
+  struct Source {
+    std::uint16_t nearest, farthest, step;
+    std::int16_t x, y;
+  };
+
+  /// In one number, so that a neighbour of the same source is one sum away.
+  struct Block {
+    std::uint64_t bits;
+
+    Block() = default;
+    Block(int x, int y, std::size_t source)
+        : bits(static_cast<std::uint64_t>(x) | static_cast<std::uint64_t>(y) << 16 | source << 32) {
+    }
+    [[nodiscard]] int x() const { return static_cast<std::uint16_t>(bits); }
+    [[nodiscard]] int y() const { return static_cast<std::uint16_t>(bits >> 16); }
+    [[nodiscard]] std::size_t source() const { return bits >> 32; }  ///< index in sources
+  };
+
+  [[nodiscard]] std::uint16_t* block(int x, int y) {
+    return &blocks[static_cast<std::size_t>(y + 1) * pitch + static_cast<std::size_t>(x + 1)];
+  }
+  void add_source(const Rule& rule, int x, int y, std::uint16_t depth);
+
+  int reach;  ///< pixels; 0: no fringe
+  std::size_t pitch;
+  /// Near the robot, with a rim of zeros: of each block the nearest depth of its occluded pixels,
+  /// in millimetres; without any that of its clear pixels, with the bit is_open until the flood
+  /// takes it; without any 0.
+  std::vector<std::uint16_t> blocks;
+  std::vector<Source> sources;
+  std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood took
+  TileMask reachable;
+};
+
+/// Labels the fringe in the labelled images and marks its tiles as touched. Returns its number of
+/// pixels.
+using LabelFringe = std::size_t (*)(Fringe&, Work&, const DepthView& measured);
+
+/// Compiled for a SIMD target (a bit of simd_target).
+[[nodiscard]] LabelFringe fringe_kernel(std::int64_t target);
+
+}  // namespace penumbra::labelling

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once per SIMD target. All targets give the same fringe.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "penumbra/labels/fringe_simd.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+#include <variant>
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <penumbra/labels/fringe-inl.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace penumbra::labelling {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
+constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
+constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
+static_assert(clear == 0);  // painted over by or
+
+constexpr std::uint16_t is_open = 0x8000;  // a flag at the depth of a clear block
+constexpr std::uint16_t farthest = Fringe::farthest;
+constexpr std::uint16_t nothing = 0xffff;
+
+HWY_INLINE std::uint16_t millimetres(std::uint16_t depth) { return depth; }
+
+/// Rounded; 0 where it is not in (0, farthest].
+HWY_INLINE std::uint16_t millimetres(float depth) {
+  const float rounded = depth * millimetres_per_metre + 0.5f;
+  return rounded > 0.0f && rounded < farthest + 1.0f ? static_cast<std::uint16_t>(rounded)
+                                                     : std::uint16_t{0};
+}
+
+using D = hn::CappedTag<std::uint16_t, 16>;
+using V = hn::VFromD<D>;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(D()));
+constexpr int chunk = 2 * lanes;  // pixels; a tile is whole chunks
+
+/// A chunk of a row, as whole vectors may read it; its first `count` pixels are in the image.
+struct Chunk {
+  template <typename T>
+  HWY_INLINE Chunk(const std::uint8_t* row_labels, const T* row_depth, int count) {
+    if constexpr (std::is_same_v<T, std::uint16_t>)
+      if (count == chunk) {
+        labels = row_labels;
+        depth = row_depth;
+        return;
+      }
+    own_labels.fill(0);
+    own_depth.fill(0);
+    for (int i = 0; i < count; ++i) {
+      own_labels[static_cast<std::size_t>(i)] = row_labels[i];
+      own_depth[static_cast<std::size_t>(i)] = millimetres(row_depth[i]);
+    }
+  }
+
+  std::array<std::uint8_t, chunk> own_labels;
+  std::array<std::uint16_t, chunk> own_depth;
+  const std::uint8_t* labels = own_labels.data();
+  const std::uint16_t* depth = own_depth.data();
+};
+
+/// What pixels give to their blocks. The least of a block counts: the depth of an occluded one,
+/// that of a clear one with is_open, or nothing.
+HWY_INLINE V ranks(const std::uint8_t* labels, const std::uint16_t* depth, V near, V far) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const auto d = hn::LoadU(D(), depth);
+  const auto label = hn::PromoteTo(D(), hn::LoadU(bytes, labels));
+  const auto is_clear = hn::Eq(label, hn::Set(D(), clear));
+  const auto is_any = hn::And(hn::Or(is_clear, hn::Eq(label, hn::Set(D(), occluded))),
+                              hn::Eq(hn::Min(hn::Max(d, near), far), d));
+  const auto flagged = hn::Or(d, hn::IfThenElseZero(is_clear, hn::Set(D(), is_open)));
+  return hn::IfThenElse(is_any, flagged, hn::Set(D(), nothing));
+}
+
+/// The blocks of two chunks, one above the other.
+HWY_INLINE V blocks_of(const Chunk& above, const Chunk& below, V near, V far) {
+  const auto left = hn::Min(ranks(above.labels, above.depth, near, far),
+                            ranks(below.labels, below.depth, near, far));
+  const auto right = hn::Min(ranks(above.labels + lanes, above.depth + lanes, near, far),
+                             ranks(below.labels + lanes, below.depth + lanes, near, far));
+  const auto least = hn::Min(hn::ConcatEven(D(), right, left), hn::ConcatOdd(D(), right, left));
+  return hn::IfThenZeroElse(hn::Eq(least, hn::Set(D(), nothing)), least);
+}
+
+/// In all tiles that the flood may reach.
+template <typename T>
+void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured) {
+  constexpr int ahead = 4;  // rows; those around the robot were not read before
+  const ImageView<const std::uint8_t> labels = work.labels.view();
+  const auto near = hn::Set(D(), millimetres(work.rule.millimetres.near));
+  const auto far = hn::Set(
+      D(), millimetres(std::min(work.rule.millimetres.far, farthest / millimetres_per_metre)));
+  flood.reachable.tile_width = work.touched.tile_width;
+  for (std::size_t j = 0; j < flood.reachable.rows.size(); ++j)
+    flood.reachable.rows[j] = marked_around(work.touched, j, flood.reach);
+  flood.reachable.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
+    for (int v = v0; v < v1; v += 2) {
+      const int below = std::min(v + 1, v1 - 1);
+      const int next = std::min(v + ahead, measured.height - 2);
+      std::uint16_t* const out = flood.block(0, v / 2);
+      for (int u = u0; u < u1; u += chunk) {
+        const int count = std::min(chunk, u1 - u);
+        hwy::Prefetch(measured.row(next) + u);
+        hwy::Prefetch(measured.row(next + 1) + u);
+        const auto blocks =
+            blocks_of(Chunk(labels.row(v) + u, measured.row(v) + u, count),
+                      Chunk(labels.row(below) + u, measured.row(below) + u, count), near, far);
+        hn::StoreU(blocks, D(), out + u / 2);
+      }
+    }
+  });
+}
+
+/// Blocks of the robot that have an open one among their eight neighbours.
+HWY_INLINE void find_sources(Fringe& flood, const Work& work) {
+  const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
+  const auto row_around = [](const std::uint16_t* at) HWY_ATTR {
+    return hn::Or(hn::Or(hn::LoadU(D(), at - 1), hn::LoadU(D(), at)), hn::LoadU(D(), at + 1));
+  };
+  const auto open = hn::Set(D(), is_open);
+  flood.sources.clear();
+  work.touched.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
+    for (int y = v0 / 2; y < (v1 + 1) / 2; ++y)
+      for (int x = u0 / 2; x < (u1 + 1) / 2; x += lanes) {
+        const std::uint16_t* const at = flood.block(x, y);
+        const auto around =
+            hn::Or(hn::Or(row_around(at - pitch), row_around(at)), row_around(at + pitch));
+        const auto here = hn::LoadU(D(), at);
+        const auto is_robot = hn::And(hn::Lt(here, open), hn::Ne(here, hn::Zero(D())));
+        std::array<std::uint8_t, 8> bytes{};  // Highway may write all of them
+        hn::StoreMaskBits(D(), hn::And(is_robot, hn::TestBit(around, open)), bytes.data());
+        std::uint32_t bits;
+        std::memcpy(&bits, bytes.data(), sizeof bits);
+        for (; bits != 0; bits &= bits - 1) {
+          const int i = std::countr_zero(bits);
+          flood.add_source(work.rule, x + i, y, at[i]);
+        }
+      }
+  });
+}
+
+/// The pixels of a block.
+using Four = hn::FixedTag<std::uint16_t, 4>;
+
+template <typename Both, typename T>
+HWY_INLINE Both load_two(const T* values) {
+  Both both;
+  std::memcpy(&both, values, sizeof both);
+  return both;
+}
+
+HWY_INLINE hn::VFromD<Four> four_millimetres(const std::uint16_t* above,
+                                             const std::uint16_t* below) {
+  const std::uint64_t all =
+      load_two<std::uint32_t>(above) | std::uint64_t{load_two<std::uint32_t>(below)} << 32;
+  return hn::BitCast(Four(), hn::Set(hn::FixedTag<std::uint64_t, 1>(), all));
+}
+
+HWY_INLINE hn::VFromD<Four> four_millimetres(const float* above, const float* below) {
+  const std::array<std::uint16_t, 4> all = {millimetres(above[0]), millimetres(above[1]),
+                                            millimetres(below[0]), millimetres(below[1])};
+  return hn::LoadU(Four(), all.data());
+}
+
+/// Labels the clear pixels of a block that differ from its depth by at most `off`, millimetres.
+/// Returns how many.
+template <typename T>
+HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
+                             ImageView<const T> measured, Fringe::Block block, int at, int off) {
+  const hn::FixedTag<std::uint8_t, 4> bytes;
+  const hn::FixedTag<std::uint32_t, 1> word;
+  const int u = std::min(2 * block.x(), labels.width - 2);
+  const int v = std::min(2 * block.y(), labels.height - 2);
+  const auto least = static_cast<std::uint16_t>(std::max(at - off, 0));
+  const auto most = static_cast<std::uint16_t>(std::min<int>(at + off, farthest));
+  std::uint8_t* const above = labels.row(v) + u;
+  std::uint8_t* const below = labels.row(v + 1) + u;
+  const std::uint32_t old =
+      load_two<std::uint16_t>(above) | std::uint32_t{load_two<std::uint16_t>(below)} << 16;
+  const auto label = hn::PromoteTo(Four(), hn::BitCast(bytes, hn::Set(word, old)));
+  const auto depth = four_millimetres(measured.row(v) + u, measured.row(v + 1) + u);
+  const auto is_near =
+      hn::Eq(hn::Min(hn::Max(depth, hn::Set(Four(), least)), hn::Set(Four(), most)), depth);
+  const auto is_fringe = hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear)));
+  const auto painted = hn::Or(label, hn::IfThenElseZero(is_fringe, hn::Set(Four(), fringe)));
+  const std::uint32_t now = hn::GetLane(hn::BitCast(word, hn::TruncateTo(bytes, painted)));
+  const std::uint32_t now_below = now >> 16;
+  std::memcpy(above, &now, 2);
+  std::memcpy(below, &now_below, 2);
+  const int tile_shift = std::countr_zero(static_cast<unsigned>(touched.tile_width));
+  touched.rows[static_cast<std::size_t>(v / TileMask::tile_height)] |= std::uint64_t{1}
+                                                                       << (u >> tile_shift);
+  const bool is_cut = u < 2 * block.x() || v < 2 * block.y();  // by the border of an odd image
+  if (is_cut) touched.mark(u, v, u + 1, v + 1);
+  return hn::CountTrue(Four(), is_fringe);
+}
+
+/// Takes blocks breadth first, so that each comes from a near part of the outline, and labels those
+/// clear pixels of each whose depth is about the block's. Returns the number of these pixels.
+template <typename T>
+std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
+  struct Way {
+    std::uint64_t block;
+    std::ptrdiff_t offset;
+  };
+  const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
+  const std::array<Way, 4> ways = {
+      {{-std::uint64_t{0x10000}, -pitch}, {-std::uint64_t{1}, -1}, {1, 1}, {0x10000, pitch}}};
+  const int goes_on = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
+  // Copies: writes to labels, as bytes, may change any member for all the compiler knows.
+  const ImageView<std::uint8_t> labels = work.labels.view();
+  Fringe::Block* const queue = flood.queue.get();
+  const Fringe::Source* const sources = flood.sources.data();
+  std::uint16_t* const origin = flood.block(0, 0);
+  std::size_t end = flood.sources.size();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Fringe::Block from = queue[i];
+    const Fringe::Source source = sources[from.source()];
+    std::uint16_t* const here = origin + from.y() * pitch + from.x();
+    const int depth = *here;
+    count += paint(work.touched, labels, measured, from, depth, 2 * source.step);
+    const int dx = from.x() - source.x, dy = from.y() - source.y;
+    if (dx * dx + dy * dy > goes_on) continue;
+    const int least = std::max<int>(depth - source.step, source.nearest);
+    const int most = std::min<int>(depth + source.step, source.farthest);
+    const auto first = static_cast<std::uint32_t>(least | is_open);
+    const auto span = static_cast<std::uint32_t>(most - least);
+    for (const Way& way : ways) {  // without branches: which are taken is hard to predict
+      std::uint16_t& next = here[way.offset];
+      const bool is_taken = next - first <= span;
+      queue[end].bits = from.bits + way.block;
+      end += is_taken;
+      next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
+    }
+  }
+  return count;
+}
+
+std::size_t label_fringe(Fringe& flood, Work& work, const DepthView& measured) {
+  if (flood.reach == 0) return 0;
+  return std::visit(
+      [&](const auto& depth) {
+        fill_blocks(flood, work, depth);
+        find_sources(flood, work);
+        return fill(flood, work, depth);
+      },
+      measured);
+}
+
+LabelFringe kernel() { return label_fringe; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace penumbra::labelling
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <penumbra/base/simd_dispatch-inl.hpp>
+
+namespace penumbra::labelling {
+namespace {
+HWY_EXPORT(kernel);
+}
+
+LabelFringe fringe_kernel(std::int64_t target) { return PENUMBRA_SIMD_FUNCTION(kernel, target)(); }
+
+Fringe::Fringe(int width, int height, int reach_pixels)
+    : reach(width < 2 || height < 2 ? 0 : reach_pixels),
+      pitch(static_cast<std::size_t>(width + 1) / 2 + 32),
+      reachable(width, height) {
+  if (reach == 0) return;
+  blocks.resize(pitch * static_cast<std::size_t>((height + 1) / 2 + 2) + 32);
+  sources.reserve(blocks.size());
+  queue = std::make_unique_for_overwrite<Block[]>(blocks.size() + 1);
+}
+
+void Fringe::add_source(const Rule& rule, int x, int y, std::uint16_t depth) {
+  const float z = static_cast<float>(depth) / millimetres_per_metre;
+  const float e =
+      std::min((rule.a + (rule.b + rule.c * z) * z) * millimetres_per_metre, float{farthest});
+  const auto drift = static_cast<int>(static_cast<float>(LabelRule::fringe_drift) * e);
+  const auto step = static_cast<int>(static_cast<float>(LabelRule::fringe_step) * e);
+  queue[sources.size()] = Block(x, y, sources.size());
+  sources.push_back({static_cast<std::uint16_t>(std::max(depth - drift, 1)),
+                     static_cast<std::uint16_t>(std::min<int>(depth + drift, farthest)),
+                     static_cast<std::uint16_t>(std::min<int>(step, depth)),
+                     static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
+}
+
+}  // namespace penumbra::labelling
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <sstream>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/simd_target.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/labels/fringe-inl.hpp>
+#include <penumbra/labels/label_work-inl.hpp>
+#include <penumbra/labels/labels.hpp>
+
+namespace penumbra {
+namespace {
+
+template <typename... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw InputError(message.str());
+}
+
+/// For some z >= 0.
+bool is_negative(const Tolerance& e) {
+  return e.a < 0.0 || e.c < 0.0 || (e.b < 0.0 && e.b * e.b > 4.0 * e.a * e.c);
+}
+
+}  // namespace
+
+LabelRule LabelRule::paper() {
+  LabelRule rule;
+  rule.tolerance = {0.01, 0.0, 0.0};
+  rule.front_min_width = 0;
+  rule.edge_margin = 0;
+  rule.fringe_reach = 0;
+  rule.fold_beyond = true;
+  return rule;
+}
+
+LabelRule LabelRule::for_sensor(std::string_view name) {
+  struct Sensor {
+    std::string_view name;
+    Tolerance tolerance;
+    int fringe_reach;
+  };
+  static constexpr Sensor sensors[] = {{"realsense_d4xx", {}, 40},
+                                       {"zed", {0.015, 0.0, 0.009}, 40},
+                                       {"tof", {0.015, 0.004, 0.0}, 6},
+                                       {"structured_light", {0.01, 0.0, 0.004}, 12},
+                                       {"none", {}, 0}};
+  for (const Sensor& sensor : sensors) {
+    if (sensor.name != name) continue;
+    LabelRule rule;
+    rule.tolerance = sensor.tolerance;
+    rule.fringe_reach = sensor.fringe_reach;
+    return rule;
+  }
+  fail("sensor '", name, "': realsense_d4xx, zed, tof, structured_light or none is wanted");
+}
+
+void LabelRule::check() const {
+  const Tolerance& e = tolerance;
+  if (!std::isfinite(e.a) || !std::isfinite(e.b) || !std::isfinite(e.c) || is_negative(e))
+    fail("tolerance ", e.a, ",", e.b, ",", e.c,
+         ": a + b z + c z^2 must be finite and not negative at any depth");
+  if (!std::isfinite(beyond_factor) || beyond_factor < 1.0)
+    fail("beyond factor ", beyond_factor, ": must be a number, 1 or more");
+  if (front_min_width < 0 || front_min_width > max_width)
+    fail("front_min_width ", front_min_width, ": must be 0 to ", max_width, " pixels");
+  if (edge_margin < 0 || edge_margin > max_edge_margin)
+    fail("edge_margin ", edge_margin, ": must be 0 to ", max_edge_margin, " pixels");
+  if (fringe_reach < 0 || fringe_reach > max_fringe_reach)
+    fail("fringe_reach ", fringe_reach, ": must be 0 to ", max_fringe_reach, " pixels");
+  if (!(range.near >= 0.0 && range.near < range.far))
+    fail("sensor range ", range.near, "..", range.far, " m: near must be 0 or more and below far");
+}
+
+struct Classifier::State {
+  State(int width, int height, const LabelRule& label_rule, const std::string& isa_name)
+      : rule(label_rule),
+        isa(isa_name == "scalar" ? isa_name : simd_target_name(simd_target(isa_name))),
+        kernels(isa_name == "scalar" ? labelling::scalar_kernels()
+                                     : labelling::simd_kernels(simd_target(isa_name))),
+        work(width, height, labelling::Rule(rule)),
+        fringe(width, height, rule.fringe_reach),
+        label_fringe(labelling::fringe_kernel(simd_target(isa_name == "scalar" ? "" : isa_name))),
+        everything(width, height) {
+    everything.mark(0, 0, width - 1, height - 1);
+    if (isa == "scalar") work.marks = Image<std::uint8_t>(width, height);
+  }
+
+  LabelRule rule;
+  std::string isa;
+  labelling::Kernels kernels;
+  labelling::Work work;
+  labelling::Fringe fringe;
+  labelling::LabelFringe label_fringe;
+  TileMask everything;
+};
+
+Classifier::Classifier(int width, int height, const LabelRule& rule, const std::string& isa) {
+  rule.check();
+  if (width < 1 || height < 1 || width > Intrinsics::max_size || height > Intrinsics::max_size)
+    fail("image size ", width, " x ", height, ": must be 1 to ", Intrinsics::max_size, " pixels");
+  state_ = std::make_unique<State>(width, height, rule, isa);
+}
+
+Classifier::~Classifier() = default;
+Classifier::Classifier(Classifier&&) noexcept = default;
+Classifier& Classifier::operator=(Classifier&&) noexcept = default;
+
+const LabelRule& Classifier::rule() const { return state_->rule; }
+const std::string& Classifier::isa() const { return state_->isa; }
+
+LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const DepthView& measured) {
+  labelling::Work& work = state_->work;
+  const TileMask& touched =
+      virtual_depth.touched != nullptr ? *virtual_depth.touched : state_->everything;
+  assert(virtual_depth.depth.width == work.width && virtual_depth.depth.height == work.height);
+  assert(touched.width == work.width && touched.height == work.height);
+  assert(touched.tile_width % 32 == 0);
+  work.begin(touched);
+  LabelView view;
+  view.pixels = std::visit(
+      [&](const auto& depth) {
+        assert(depth.width == work.width && depth.height == work.height);
+        return state_->kernels.label(work, virtual_depth.depth, depth);
+      },
+      measured);
+  view.pixels[static_cast<std::size_t>(Label::fringe)] =
+      state_->label_fringe(state_->fringe, work, measured);
+  std::size_t labelled = 0;
+  for (const std::size_t pixels : view.pixels) labelled += pixels;
+  view.pixels[static_cast<std::size_t>(Label::clear)] = work.labels.size() - labelled;
+  view.labels = work.labels.view();
+  view.touched = &work.touched;
+  return view;
+}
+
+}  // namespace penumbra

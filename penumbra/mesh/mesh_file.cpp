@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+
+namespace penumbra {
+namespace {
+
+using mesh_formats::FormatError;
+
+constexpr float farthest_vertex = 1e6F;  // see load_mesh
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending;
+}
+
+void check_is_mesh(const std::string& bytes) {
+  if (bytes.empty()) throw FormatError("it is empty; export or copy it again");
+  if (bytes.starts_with("version https://git-lfs"))
+    throw FormatError("it is a Git LFS pointer, not the mesh; run 'git lfs pull' in its folder");
+}
+
+TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& bytes, bool binary) {
+  const std::size_t counted = mesh_formats::check_gltf(bytes, binary);
+  mesh_formats::Scene scene = mesh_formats::read_with_assimp(file, bytes, binary);
+  // Assimp drops triangles whose vertices do not exist, and data in encodings that it lacks.
+  if (scene.triangles_stored != counted)
+    throw FormatError("glTF: " + std::to_string(scene.triangles_stored) + " of " +
+                      std::to_string(counted) +
+                      " triangles can be read; it is damaged or compressed: export it plain");
+  return std::move(scene.mesh);
+}
+
+TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
+  const std::string ending = lower_ending(file);
+  const std::string bytes = read_whole_file(file, FileLimit::data);
+  check_is_mesh(bytes);
+  if (ending == "stl") return mesh_formats::read_stl(bytes);
+  if (ending == "dae") return mesh_formats::read_collada(bytes);
+  if (ending == "obj") return mesh_formats::read_obj(bytes, oddity);
+  if (ending == "ply") return mesh_formats::read_ply(bytes);
+  if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending == "glb");
+  throw FormatError("'" + ending +
+                    "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
+}
+
+void check_vertices(const TriangleMesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const Eigen::Vector3f& p = mesh.vertices[corner];
+      if (p.array().abs().maxCoeff<Eigen::PropagateNaN>() <= farthest_vertex) continue;
+      const std::string place = "vertex (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) +
+                                ", " + std::to_string(p.z()) + ")";
+      throw FormatError(p.allFinite() ? place + " lies beyond 1e6; check the file's unit"
+                                      : place + " is not finite; export the file again");
+    }
+  }
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& file) {
+  std::vector<std::string> notes;
+  return load_mesh(file, notes);
+}
+
+TriangleMesh load_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {
+  try {
+    std::string oddity;
+    const TriangleMesh read_mesh = read(file, oddity);
+    if (read_mesh.triangles.empty())
+      throw FormatError("it holds no triangles; export the mesh's surface");
+    check_vertices(read_mesh);
+    TriangleMesh mesh = weld(read_mesh);
+    if (mesh.triangles.empty())
+      throw FormatError("all of its triangles have zero area; check the file's unit and precision");
+    if (!oddity.empty())
+      notes.push_back("mesh " + file.string() + ": " + oddity +
+                      ": if it looks incomplete it is truncated; export or copy it again");
+    return mesh;
+  } catch (const FormatError& error) {
+    throw InputError("mesh " + file.string() + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw InputError("mesh " + file.string() + ": too large for the memory; simplify it");
+  }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+
+#include <penumbra/targets/extent_tally-inl.hpp>
+#include <penumbra/targets/trusted_depth-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Fringe hides nothing, and its depth measures nothing.
+bool is_fringe(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::fringe); }
+
+bool is_seen(PixelState state) { return state == PixelState::clear || state == PixelState::front; }
+
+PixelState state_without_depth(std::uint8_t label, bool beyond_hides) {
+  switch (static_cast<Label>(label)) {
+    case Label::clear:
+    case Label::fringe:
+      return PixelState::clear;
+    case Label::front:
+      return PixelState::front;
+    case Label::occluded:
+      return PixelState::occluded;
+    case Label::beyond:
+      return beyond_hides ? PixelState::occluded : PixelState::clear;
+    case Label::unknown:
+      break;
+  }
+  return PixelState::unknown;
+}
+
+/// The table of docs/targets-judging.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
+/// it is not on the ray.
+PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits target,
+                          bool beyond_hides) {
+  const auto label = static_cast<Label>(value);
+  const bool before = d > 0.0f && d < target.near;
+  if (is_fringe(value)) return PixelState::clear;
+  if (label == Label::clear || (label == Label::beyond && !beyond_hides))
+    return before ? PixelState::other : PixelState::clear;
+  if (!(z > 0.0f)) return PixelState::unknown;  // where the lens model does not reach
+  if (z < target.near) return PixelState::occluded;
+  if (before) return label == Label::front ? PixelState::other : PixelState::occluded;
+  if (label == Label::front) return PixelState::front;
+  return z > target.far ? PixelState::clear : PixelState::unknown;
+}
+
+/// Calls f(u0, u1, touched) for the parts of a span inside and outside of some tiles.
+template <typename F>
+void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
+  if (tiles == nullptr) return f(span.u0, span.u1, true);
+  const int shift = std::countr_zero(static_cast<unsigned>(tiles->tile_width));
+  const std::uint64_t row = tiles->rows[static_cast<std::size_t>(span.v / TileMask::tile_height)];
+  for (int u = span.u0; u < span.u1;) {
+    const int tile = u >> shift;
+    const std::uint64_t bits = row >> tile;
+    const bool touched = (bits & 1) != 0;
+    const int count = touched ? std::countr_one(bits) : std::countr_zero(bits);
+    const int end = tile + count >= 64 ? span.u1 : std::min(span.u1, (tile + count) << shift);
+    f(u, end, touched);
+    u = end;
+  }
+}
+
+template <typename T>
+int end_of_run(const T* row, int u, int end) {
+  const T value = row[u];
+  while (u < end && row[u] == value) ++u;
+  return u;
+}
+
+constexpr double golden_ratio = 0.6180339887498949;
+
+int next_multiple(int number, int step) { return (number + step - 1) / step * step; }
+
+/// Counts pixels and gathers depths. `limits_of(v)` gives, by u, the limits of a row's pixels and
+/// `depths_of(v)` what is measured there.
+template <typename Limits, typename Depths>
+class ExtentReader {
+ public:
+  ExtentReader(const LabelledFrame& frame, bool has_depth, bool beyond_hides,
+               const Limits& limits_of, const Depths& depths_of, ExtentTally& tally)
+      : images_(frame.images),
+        has_depth_(has_depth),
+        beyond_hides_(beyond_hides),
+        limits_of_(limits_of),
+        depths_of_(depths_of),
+        tally_(tally) {}
+
+  void count(const RowSpan& span) {
+    for_each_part(images_.labels.touched, span, [&](int u0, int u1, bool touched) {
+      if (!touched)
+        count_seen(PixelState::clear, span.v, u0, u1);
+      else if (has_depth_)
+        count_pixels(span.v, u0, u1);
+      else
+        count_labels(span.v, u0, u1);
+    });
+  }
+
+  /// Gathers depths of about one pixel in `step`, in a lattice that no width of a span lines up
+  /// with. `robot`: null where none is near.
+  void sample(const RowSpan& span, int step, RobotSurroundings* robot) {
+    const auto limits = limits_of_(span.v);
+    const auto depths = depths_of_(span.v);
+    const std::uint8_t* const labels = images_.labels.labels.row(span.v);
+    const int shift = static_cast<int>(golden_ratio * step * span.v) % step;
+    RobotSurroundings::Depths of_robot;
+    int cell = -1;  // that of_robot is of
+    for (int u = next_multiple(span.u0 + shift, step) - shift; u < span.u1; u += step) {
+      const float d = depths[u];
+      const DepthLimits within = limits(u);
+      const bool is_of_target = d > 0.0f && within.near <= d && d <= within.far;
+      if (!is_of_target || !is_trusted(static_cast<Label>(labels[u]))) continue;
+      if (robot != nullptr && u / LabelRule::cell != cell) {
+        cell = u / LabelRule::cell;
+        of_robot = robot->around(cell, span.v / LabelRule::cell);
+      }
+      if (!of_robot.hold(d)) tally_.depths.push_back(d);
+    }
+  }
+
+ private:
+  struct Run {
+    PixelState state = PixelState::clear;
+    std::uint16_t link = 0;  // of a link image
+    std::size_t pixels = 0;
+  };
+
+  /// Counts pixels of one state, except where something is measured before the target.
+  void count_seen(PixelState state, int v, int u0, int u1) {
+    const auto limits = limits_of_(v);
+    const auto depths = depths_of_(v);
+    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth: for vectors
+    for (int u = u0; u < u1; ++u) all += depths.is_measured(u) ? 1 : 0;
+    for (int u = u0; u < u1 && has_depth_; ++u) {
+      nearer += depths.is_before(u, limits(u).near) ? 1 : 0;
+      farther += depths.is_past(u, limits(u).far) ? 1 : 0;
+    }
+    const auto before = static_cast<std::size_t>(nearer);
+    tally_.measured += static_cast<std::size_t>(all - nearer);
+    tally_.past += static_cast<std::size_t>(farther);
+    tally_.pixels[PixelState::other] += before;
+    tally_.pixels[state] += static_cast<std::size_t>(u1 - u0) - before;
+  }
+
+  /// By labels alone, run by run.
+  void count_labels(int v, int u0, int u1) {
+    const std::uint8_t* const labels = images_.labels.labels.row(v);
+    for (int u = u0; u < u1;) {
+      const int end = end_of_run(labels, u, u1);
+      const PixelState state = state_without_depth(labels[u], beyond_hides_);
+      if (is_seen(state) && !is_fringe(labels[u])) {
+        count_seen(state, v, u, end);
+      } else {
+        tally_.pixels[state] += static_cast<std::size_t>(end - u);
+        if (state == PixelState::occluded) count_links(v, u, end);
+      }
+      u = end;
+    }
+  }
+
+  void count_links(int v, int u0, int u1) {
+    if (images_.virtual_depth.links.empty()) return;
+    const std::uint16_t* const links = images_.virtual_depth.links.row(v);
+    for (int u = u0; u < u1;) {
+      const int end = end_of_run(links, u, u1);
+      tally_.links.add(links[u], static_cast<std::size_t>(end - u));
+      u = end;
+    }
+  }
+
+  void count_pixels(int v, int u0, int u1) {
+    const auto limits = limits_of_(v);
+    const auto depths = depths_of_(v);
+    const std::uint8_t* const labels = images_.labels.labels.row(v);
+    const float* const robot = images_.virtual_depth.depth.row(v);
+    const bool has_links = !images_.virtual_depth.links.empty();
+    const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
+    std::size_t measured = 0, past = 0;
+    Run run;  // of pixels state alike: counting them one by one in memory costs more
+    for (int u = u0; u < u1; ++u) {
+      const DepthLimits target = limits(u);
+      const PixelState state =
+          state_at_depth(labels[u], robot[u], depths[u], target, beyond_hides_);
+      const bool counts = is_seen(state) && !is_fringe(labels[u]);
+      measured += counts && depths.is_measured(u);
+      past += counts && depths.is_past(u, target.far);
+      const std::uint16_t link = state == PixelState::occluded && has_links ? links[u] : 0;
+      if (state != run.state || link != run.link) {
+        add(run);
+        run = {state, link, 0};
+      }
+      ++run.pixels;
+    }
+    add(run);
+    tally_.measured += measured;
+    tally_.past += past;
+  }
+
+  void add(const Run& run) {
+    tally_.pixels[run.state] += run.pixels;
+    if (run.pixels > 0) tally_.links.add(run.link, run.pixels);
+  }
+
+  const JudgedImages& images_;
+  bool has_depth_;
+  bool beyond_hides_;
+  const Limits& limits_of_;
+  const Depths& depths_of_;
+  ExtentTally& tally_;
+};
+
+/// Calls f(limits_of): limits_of(v)(u) are those of a pixel, without bounds where no depth is
+/// expected.
+template <typename F>
+void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expected, F&& f) {
+  const LimitRule rule(label_rule, expected.margin);
+  if (expected.image) {
+    f([&expected, rule](int v) {
+      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
+    });
+  } else {
+    const DepthLimits limits = expected.constant
+                                   ? rule.at(*expected.constant)
+                                   : DepthLimits{0.0f, std::numeric_limits<float>::infinity()};
+    f([limits](int) { return [limits](int) { return limits; }; });
+  }
+}
+
+struct NoDepths {
+  float operator[](int /*u*/) const { return 0.0f; }
+  [[nodiscard]] bool is_before(int /*u*/, float /*limit*/) const { return false; }
+  [[nodiscard]] bool is_past(int /*u*/, float /*limit*/) const { return false; }
+  [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
+};
+
+/// Calls f(depths_of): depths_of(v) gives, by u, what is measured in a row.
+template <typename F>
+void with_depths(const LabelledFrame& frame, F&& f) {
+  if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
+  std::visit(
+      [&](const auto& image) {
+        const Measured measured(image, *frame.rule);
+        f([&](int v) { return measured.row(v); });
+      },
+      frame.images.measured);
+}
+
+}  // namespace
+
+LabelledFrame::LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule,
+                             bool has_outside)
+    : images(judged),
+      rule(&label_rule),
+      width(judged.labels.labels.width),
+      height(judged.labels.labels.height),
+      is_outside_undrawn(has_outside) {}
+
+bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
+  u0 = std::max(u0, 0), v0 = std::max(v0, 0);
+  u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
+  if (u0 > u1 || v0 > v1) return false;
+  const TileMask* const tiles = images.labels.touched;
+  if (tiles == nullptr) return true;
+  const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tiles->tile_width);
+  const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));
+  for (int j = v0 / TileMask::tile_height; j <= v1 / TileMask::tile_height; ++j)
+    if ((tiles->rows[static_cast<std::size_t>(j)] & columns) != 0) return true;
+  return false;
+}
+
+bool LabelledFrame::robot_lies_in(int u0, int u1, int v) const {
+  const std::uint8_t* const labels = images.labels.labels.row(v);
+  const float* const z = is_outside_undrawn ? images.virtual_depth.depth.row(v) : nullptr;
+  for (int u = u0; u <= u1; ++u) {
+    u += first_set(labels + u, u1 + 1 - u);
+    if (u <= u1 && !is_fringe(labels[u]) && (z == nullptr || z[u] > 0.0f)) return true;
+  }
+  return false;
+}
+
+void LinkCounts::clear() {
+  for (const std::size_t link : touched_) counts_[link] = 0;
+  touched_.clear();
+}
+
+std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>& blame) const {
+  blame.clear();
+  for (const std::size_t link : touched_)
+    blame.push_back({link, static_cast<double>(counts_[link]) / static_cast<double>(pixels)});
+  std::sort(blame.begin(), blame.end(), [](const Blame& a, const Blame& b) {
+    return a.fraction != b.fraction ? a.fraction > b.fraction : a.link < b.link;
+  });
+  return blame;
+}
+
+namespace {
+
+/// Returns null if no robot is so near to the spans that it matters to their depths.
+RobotSurroundings* robot_near(const LabelledFrame& frame, std::span<const RowSpan> spans,
+                              RobotSurroundings& robot) {
+  const SpanBox box = box_of_spans(spans);
+  const int reach = robot.reach();
+  const bool is_near =
+      frame.robot_may_lie_in(box.u0 - reach, box.u1 + reach, box.v0 - reach, box.v1 + reach);
+  return is_near ? &robot : nullptr;
+}
+
+}  // namespace
+
+void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
+                  const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
+                  ExtentTally& tally) {
+  tally.clear();
+  if (spans.empty()) return;
+  std::size_t pixels = 0;
+  for (const RowSpan& span : spans) pixels += static_cast<std::size_t>(span.u1 - span.u0);
+  tally.step = static_cast<int>((pixels + max_depth_samples - 1) / max_depth_samples);
+  RobotSurroundings* const near = robot != nullptr ? robot_near(frame, spans, *robot) : nullptr;
+  with_depths(frame, [&](const auto& depths_of) {
+    with_limits(*frame.rule, expected, [&](const auto& limits_of) {
+      ExtentReader reader(frame, expected.known(), beyond_hides, limits_of, depths_of, tally);
+      for (const RowSpan& span : spans) {
+        reader.count(span);
+        if (robot != nullptr) reader.sample(span, tally.step, near);
+      }
+    });
+  });
+}
+
+}  // namespace penumbra

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Regions as spans of pixels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <sstream>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/image.hpp>
+#include <penumbra/targets/target.hpp>
+
+namespace penumbra {
+
+/// Throws InputError: the user's region or target is at fault.
+template <typename... Parts>
+[[noreturn]] void region_fault(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw InputError(message.str());
+}
+
+/// Some of the pixels [u0, u1) of row v.
+struct RowSpan {
+  int v, u0, u1;
+};
+
+/// Returns the index of the first of `count` bytes that is not 0, or `count` if all are 0.
+[[nodiscard]] int first_set(const std::uint8_t* p, int count);
+
+/// Pixels u0..u1 of rows v0..v1, all included.
+struct SpanBox {
+  int u0, u1, v0, v1;
+};
+
+/// Returns the box around one or more spans.
+[[nodiscard]] SpanBox box_of_spans(std::span<const RowSpan> spans);
+
+/// The pixels of an image that show what the camera saw.
+class SeenPixels {
+ public:
+  /// `unseen` is not 0 where the image shows nothing; empty: the camera saw every pixel.
+  explicit SeenPixels(ImageView<const std::uint8_t> unseen);
+
+  [[nodiscard]] bool all() const { return seen_.empty(); }
+  [[nodiscard]] const std::uint8_t* row(int v) const { return seen_.view().row(v); }
+  /// Whether the camera saw all pixels of a span, which may lie outside the image of the given
+  /// size.
+  [[nodiscard]] bool hold(const RowSpan& span, int width, int height) const;
+
+ private:
+  Image<std::uint8_t> seen_;  // 1: seen; empty: all are
+};
+
+/// The pixels of a region inside an image, and how many it has with those outside. Pixels inside
+/// are listed as spans; the others are only counted, by the region's area. Allocates nothing for
+/// regions no larger than former ones.
+class RegionSpans {
+ public:
+  RegionSpans(int width, int height);
+
+  /// Takes a region. Throws InputError, which says what is wrong with it.
+  void fill(const Region& region);
+
+  /// Takes spans of the image, moved by whole pixels.
+  void fill_moved(std::span<const RowSpan> spans, const Eigen::Vector2d& by);
+
+  /// Drops the pixels that the camera did not see: they count as outside the image.
+  void keep(const SeenPixels& seen);
+
+  [[nodiscard]] std::span<const RowSpan> spans() const { return spans_; }
+  [[nodiscard]] std::size_t inside() const { return inside_; }
+  /// Returns the pixels inside and outside of the image: at least those that were inside.
+  [[nodiscard]] std::size_t covered() const;
+  /// Returns the mean of the pixels inside, of which there must be some.
+  [[nodiscard]] Eigen::Vector2d middle() const;
+
+ private:
+  struct Edge {
+    Eigen::Vector2d top, bottom;  // by v
+    int winding;                  // 1 if the outline runs down, else -1
+  };
+  struct Crossing {
+    double u;
+    int winding;
+  };
+
+  void take(const PixelBox& box);
+  void take(const PixelEllipse& ellipse);
+  void take(const PixelPolygon& polygon);
+  void take(const PixelMask& mask);
+  void take(const RunLengthMask& mask);
+  void take(const RenderedRegion& region);
+
+  void clear();
+  void check_size(const char* what, int width, int height) const;
+  void add_span(int v, int u0, int u1);
+  void add_row(double v, double first, double end);
+  void add_bytes(const std::uint8_t* row, int v, int u0, int u1);
+  void add_column(int u, int v0, int v1);
+  void add_depths(const RenderedRegion& region, int v, int u0, int u1);
+  void add_nearest(const Eigen::Vector2d& point);
+  void add_edges(std::span<const Eigen::Vector2d> corners);
+  void scan_edges(double first, double last, double max_rows);
+  void add_crossings(double v, double rows);
+
+  int width_, height_;
+  std::vector<RowSpan> spans_, kept_;
+  std::size_t inside_ = 0;
+  double covered_ = 0;              // in all, as far as the region's kind tells; at least 0
+  std::vector<int> begins_, ends_;  // of each row's last span, while a run-length mask is read
+  std::vector<Edge> edges_;         // of a polygon, by their tops
+  std::vector<std::size_t> active_;
+  std::vector<Crossing> crossings_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <penumbra/targets/target_judge.hpp>
+#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/trusted_depth-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+Camera checked_camera(const Camera& camera) {
+  camera.check();
+  return camera;
+}
+
+LabelRule checked_rule(const LabelRule& rule) {
+  rule.check();
+  return rule;
+}
+
+void check_target(const TargetView& target) {
+  const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
+  const std::optional<double>& depth = target.expected_depth;
+  const double most = static_cast<double>(RenderedRegion::max_depth);
+  if (target.name.empty()) region_fault("needs a name");
+  if (rendered && target.extent == Extent::modal)
+    region_fault("a rendered region is the full extent: amodal");
+  if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
+  if (rendered && target.thresholds.min_inside > 0)
+    region_fault("min_inside ", target.thresholds.min_inside,
+                 ": what of a rendered region lies outside of the image is not known: must be 0");
+  if (depth && !(*depth > 0 && *depth <= most))
+    region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
+  if (!(target.depth_margin >= 0 && target.depth_margin <= most))
+    region_fault("depth margin ", target.depth_margin, " m: must be 0 to ", most);
+  if (target.point_pixel && !target.point_pixel->allFinite())
+    region_fault("point pixel: must be numbers");
+  if (target.motion && !(target.motion->cwiseAbs().maxCoeff() <= max_coordinate))
+    region_fault("motion: must be numbers up to ", max_coordinate, " pixels");
+  target.thresholds.check();
+}
+
+ExpectedDepth expected_of(const TargetView& target) {
+  ExpectedDepth expected;
+  expected.margin = target.depth_margin;
+  if (const auto* rendered = std::get_if<RenderedRegion>(&target.region))
+    expected.image = rendered->depth;
+  else if (target.expected_depth)
+    expected.constant = static_cast<float>(*target.expected_depth);
+  return expected;
+}
+
+/// Whether more than half of the unknown pixels lie where the lens model does not reach.
+bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
+                  std::size_t unknown) {
+  if (frame.images.virtual_depth.depth.empty()) return false;
+  std::size_t uncovered = 0;
+  for (const RowSpan& span : extent) {
+    const std::uint8_t* const labels = frame.images.labels.labels.row(span.v);
+    const float* const z = frame.images.virtual_depth.depth.row(span.v);
+    for (int u = span.u0; u < span.u1; ++u)
+      if (labels[u] == static_cast<std::uint8_t>(Label::unknown) && !(z[u] > 0.0f)) ++uncovered;
+  }
+  return 2 * uncovered > unknown;
+}
+
+std::string_view reason_for_unknown(const Visibility& visibility,
+                                    const TargetThresholds& thresholds, bool is_uncovered) {
+  if (!visibility.has_pose) return "the robot's pose is not known in this frame";
+  switch (visibility.size_unknown) {
+    case SizeUnknown::none:
+      break;
+    case SizeUnknown::cut:
+      return "the image's border cuts it: how much of it the robot next to it hides is not known";
+    case SizeUnknown::first_near_robot:
+      return "first seen next to the robot: how much of it the robot hides is not known";
+    case SizeUnknown::moved:
+      return "it moved next to the robot, and how large it is there is not known without an "
+             "expected depth";
+  }
+  if (visibility.is_missing)
+    return "its mask is smaller than the whole target, and the robot is next to it";
+  if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
+    return "the sensor looks past where most of it is expected";
+  if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
+    return "hardly anything is measured where it is expected";
+  if (is_uncovered) return "too much of it lies where the lens model does not reach";
+  if (visibility.is_expected)
+    return "too much of it is robot without measurement, or at the robot's own depth";
+  return "too much of it is robot without measurement";
+}
+
+}  // namespace
+
+struct TargetJudge::State {
+  State(const Camera& camera_, const LabelRule& rule, std::size_t links,
+        ImageView<const std::uint8_t> unseen);
+
+  Judgement judge(const TargetView& target);
+  TargetMemory& memory_of(std::string_view name);
+  void add_point(const TargetView& target, Judgement& judgement);
+
+  Camera camera;
+  labelling::Rule rule;
+  LabelledFrame frame;
+  std::uint64_t number = 0;  // of the frame
+  RobotSurroundings robot;
+  ExtentObserver observer;
+  std::vector<Blame> blame;
+  TargetMemories memories;
+};
+
+TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
+                          ImageView<const std::uint8_t> unseen)
+    : camera(checked_camera(camera_)),
+      rule(checked_rule(label_rule)),
+      frame({}, rule, !unseen.empty()),
+      robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
+      observer(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
+  blame.reserve(links);
+}
+
+TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
+                         ImageView<const std::uint8_t> unseen)
+    : state_(std::make_unique<State>(camera, rule, links, unseen)) {}
+TargetJudge::~TargetJudge() = default;
+TargetJudge::TargetJudge(TargetJudge&&) noexcept = default;
+TargetJudge& TargetJudge::operator=(TargetJudge&&) noexcept = default;
+
+void TargetJudge::begin(const JudgedImages& images) {
+  const Intrinsics& size = state_->camera.intrinsics;
+  const auto check = [&](const char* what, const auto& image, bool may_be_empty) {
+    if (image.width == size.width() && image.height == size.height() && image.data != nullptr)
+      return;
+    if (image.empty() && may_be_empty) return;
+    region_fault(what, " of ", image.width, " x ", image.height, " pixels: the camera's has ",
+                 size.width(), " x ", size.height());
+  };
+  check("label image", images.labels.labels, false);
+  check("virtual depth image", images.virtual_depth.depth, true);
+  check("link image", images.virtual_depth.links, true);
+  std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
+  state_->frame = LabelledFrame(images, state_->rule, state_->frame.is_outside_undrawn);
+  state_->robot.begin(state_->frame);
+  ++state_->number;
+}
+
+Judgement TargetJudge::judge(const TargetView& target) {
+  if (state_->number == 0) throw std::logic_error("TargetJudge::judge() before begin()");
+  return state_->judge(target);
+}
+
+void TargetJudge::forget(std::string_view name) {
+  const auto found = state_->memories.find(name);
+  if (found != state_->memories.end()) state_->memories.erase(found);
+}
+
+TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
+  const auto found = memories.find(name);
+  return found != memories.end() ? found->second : memories[std::string(name)];
+}
+
+Judgement TargetJudge::State::judge(const TargetView& target) {
+  check_target(target);
+  const ExpectedDepth expected = expected_of(target);
+  observer.fill(target.region);
+  TargetMemory& memory = memory_of(target.name);
+  if (memory.frame == number) region_fault("its name is used twice in a frame");
+  memory.frame = number;
+
+  const bool wants_depths = target.wants_point && frame.is_measured();
+  const Visibility visibility =
+      observer.observe({frame, target, expected, robot, wants_depths}, memory);
+  Judgement judgement;
+  judgement.verdict = decide(visibility, target.thresholds, memory);
+  judgement.covered = visibility.covered;
+  judgement.inside = visibility.inside;
+  judgement.occluded = visibility.fraction(PixelState::occluded);
+  judgement.front = visibility.fraction(PixelState::front);
+  judgement.unknown = visibility.fraction(PixelState::unknown);
+  judgement.clear = visibility.fraction(PixelState::clear);
+  if (frame.is_measured() && visibility.has_pose) {
+    judgement.measured = visibility.share(visibility.measured);
+    if (expected.known()) judgement.hidden_by_other = visibility.fraction(PixelState::other);
+    if (expected.known()) judgement.seen_past = visibility.share(visibility.past);
+  }
+  judgement.blame = visibility.links->write(visibility.inside, blame);
+  if (judgement.verdict == Verdict::unknown) {
+    const bool has_lens = !camera.distortion.is_none();
+    judgement.reason =
+        reason_for_unknown(visibility, target.thresholds,
+                           has_lens && is_uncovered(frame, observer.seen().spans(),
+                                                    visibility.pixels[PixelState::unknown]));
+  }
+  if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
+    observer.remember(target, memory);
+  if (wants_depths) add_point(target, judgement);
+  return judgement;
+}
+
+void TargetJudge::State::add_point(const TargetView& target, Judgement& judgement) {
+  if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
+  ExtentTally& tally = observer.tally();
+  const std::size_t inside = observer.seen().inside();
+  const std::size_t trusted =
+      std::min(inside, tally.depths.size() * static_cast<std::size_t>(tally.step));
+  const double least = target.thresholds.point_min_fraction * static_cast<double>(inside);
+  if (trusted == 0 || trusted < target.thresholds.point_min_pixels ||
+      static_cast<double>(trusted) < least)
+    return;
+  const Eigen::Vector2d pixel = target.point_pixel.value_or(observer.seen().middle());
+  const Intrinsics& pinhole = camera.intrinsics;
+  const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();
+  const auto ray = camera.distortion.undistort(distorted);
+  if (!ray) return;
+  const RobustDepth depth = robust_depth(tally.depths);
+  judgement.point = depth.median * Eigen::Vector3d(ray->x(), ray->y(), 1.0);
+  judgement.point_pixels = trusted;
+  judgement.point_spread = depth.spread;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <penumbra/targets/target_visibility-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Pixels. Networks draw masks at a quarter of the image's size: a mask may end so far from the
+/// border that cuts it, and so far outside of the last one of a target that stands still.
+constexpr int mask_error = 4;
+
+/// Of how many frames the size of a modal target is the average.
+constexpr double averaged_frames = 100;
+
+double bad_share(const Visibility& visibility, bool others_hide) {
+  return visibility.hidden(others_hide) + visibility.fraction(PixelState::unknown);
+}
+
+bool is_out_of_view(const Visibility& visibility, const TargetThresholds& thresholds) {
+  return static_cast<double>(visibility.inside) <=
+         thresholds.min_inside * static_cast<double>(visibility.covered);
+}
+
+Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
+  if (hidden > (level == Verdict::hidden ? t.hidden_leave : t.hidden_enter)) return Verdict::hidden;
+  if (hidden > (level == Verdict::visible ? t.partial_enter : t.partial_leave))
+    return Verdict::partial;
+  return Verdict::visible;
+}
+
+int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
+int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
+
+/// Nothing that was not seen is called visible, and nothing partial of which no pixel was.
+bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThresholds& t) {
+  if (level == Verdict::hidden) return true;
+  const std::size_t least = level == Verdict::visible ? visibility.pixels[PixelState::unknown] : 0;
+  if (visibility.seen() <= least) return false;
+  return !visibility.is_expected ||
+         !(visibility.is_passed(t.past_limit) || visibility.is_unmeasured(t.min_measured));
+}
+
+SpanBox grown(const SpanBox& box, int du, int dv) {
+  return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
+}
+
+/// Whether some of the robot lies in a box, which may reach past the image.
+bool holds_robot(const LabelledFrame& frame, const SpanBox& box) {
+  const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
+  const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
+  if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;
+  for (int v = v0; v <= v1; ++v)
+    if (frame.robot_lies_in(u0, u1, v)) return true;
+  return false;
+}
+
+bool lies_in(const SpanBox& inner, const SpanBox& outer) {
+  return inner.u0 >= outer.u0 && inner.u1 <= outer.u1 && inner.v0 >= outer.v0 &&
+         inner.v1 <= outer.v1;
+}
+
+/// By which pixels at a target's expected depth count, to be compared with its remembered size; 1
+/// where a depth is not known. Area in the image goes with 1 / depth^2.
+double area_scale(const TargetMemory& memory, const TargetView& target) {
+  if (!memory.depth || !target.expected_depth) return 1.0;
+  return (*target.expected_depth * *target.expected_depth) / (*memory.depth * *memory.depth);
+}
+
+}  // namespace
+
+double Visibility::share(std::size_t count) const {
+  return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
+}
+
+double Visibility::fraction(PixelState state) const { return share(pixels[state]); }
+
+void Visibility::mark_unknown(PixelState state, std::size_t& count) {
+  const std::size_t some = std::min(count, pixels[state]);
+  pixels[state] -= some;
+  pixels[PixelState::unknown] += some;
+  count -= some;
+}
+
+void Visibility::mark_all_unknown() {
+  pixels[PixelState::unknown] += seen();
+  pixels[PixelState::clear] = pixels[PixelState::front] = 0;
+  measured = past = 0;
+}
+
+Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionSpans& extent,
+                                          RobotSurroundings* robot, ExtentTally& tally) {
+  tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, robot,
+               tally);
+  Visibility visibility{.covered = extent.covered(),
+                        .inside = extent.inside(),
+                        .pixels = tally.pixels,
+                        .measured = tally.measured,
+                        .past = tally.past,
+                        .is_expected = at.expected.known(),
+                        .links = &tally.links};
+  visibility.unmeasured = visibility.seen() - visibility.measured;
+  if (at.frame.images.is_blind) visibility.mark_all_unknown();
+  return visibility;
+}
+
+Visibility ExtentObserver::observe(const TargetInFrame& at, const TargetMemory& memory) {
+  if (!at.frame.has_pose()) {
+    seen_tally_.clear();
+    Visibility none{.covered = seen_.covered(),
+                    .inside = seen_.inside(),
+                    .links = &seen_tally_.links,
+                    .has_pose = false};
+    none.pixels[PixelState::unknown] = seen_.inside();
+    return none;
+  }
+  const Visibility now =
+      observe_extent(at, seen_, at.wants_depths ? &at.robot : nullptr, seen_tally_);
+  return at.target.extent == Extent::modal ? observe_modal(at, memory, now) : now;
+}
+
+Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMemory& memory,
+                                         const Visibility& now) {
+  touches_robot_ = false;
+  if (is_out_of_view(now, at.target.thresholds)) return now;
+  const SpanBox box = box_of_spans(seen_.spans());
+  touches_robot_ = holds_robot(at.frame, grown(box, at.reach(), at.reach()));
+  if (memory.extent.empty()) {
+    Visibility first = now;
+    if (touches_robot_) first.size_unknown = SizeUnknown::first_near_robot;
+    return first;
+  }
+  Visibility visibility = compare(at, memory, now, box);
+  if (memory.is_cut) {
+    // There is more of it than was ever seen, perhaps as much again.
+    const SpanBox last = box_of_spans(memory.extent);
+    const int more =
+        at.reach() + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
+    if (holds_robot(at.frame, grown(box, more, more))) visibility.size_unknown = SizeUnknown::cut;
+  }
+  return visibility;
+}
+
+Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& memory,
+                                   const Visibility& now, const SpanBox& box) {
+  const TargetThresholds& thresholds = at.target.thresholds;
+  const bool is_placed = place_last(at, memory, box);
+  const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
+                                                     : memory.size / area_scale(memory, at.target);
+  const double lacking = std::max(whole - static_cast<double>(now.inside), 0.0);
+  const auto missing = may_hide_missing(at, box, box_of_spans(memory.extent))
+                           ? static_cast<std::size_t>(lacking)
+                           : std::size_t{0};
+  const double tolerance = thresholds.partial_enter * whole;
+  const bool has_depths = memory.depth && at.target.expected_depth;
+  Visibility moved = now;
+  if (lacking <= tolerance && touches_robot_ && !has_depths &&
+      (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
+    moved.size_unknown = SizeUnknown::moved;  // it may have come nearer, and be hidden in part
+  } else if (is_placed) {
+    const Visibility last = observe_last(at, missing);
+    const bool is_worse =
+        bad_share(last, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
+    return is_worse ? last : now;
+  } else if (lacking > tolerance) {
+    moved.covered += missing;
+    moved.inside += missing;
+    moved.pixels[PixelState::unknown] += missing;
+    moved.is_missing = missing > 0;
+  }
+  return moved;
+}
+
+/// Puts the last whole extent where it is expected, and says whether what is seen now can be part
+/// of it: it has the same expected depth and nothing is seen outside of it.
+bool ExtentObserver::place_last(const TargetInFrame& at, const TargetMemory& memory,
+                                const SpanBox& box) {
+  last_.fill_moved(memory.extent,
+                   memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero()));
+  last_.keep(seen_pixels_);
+  if (last_.inside() == 0) return false;
+  const double change = std::abs(area_scale(memory, at.target) - 1.0);
+  return change <= at.target.thresholds.partial_enter &&
+         lies_in(box, grown(box_of_spans(last_.spans()), mask_error, mask_error));
+}
+
+/// Whether the robot may hide what is missing in a mask: it lies near the last whole extent, or as
+/// near to the mask as what is missing can reach.
+bool ExtentObserver::may_hide_missing(const TargetInFrame& at, const SpanBox& box,
+                                      const SpanBox& whole) const {
+  const int du = std::max(width_of(whole) - width_of(box), 0);
+  const int dv = std::max(height_of(whole) - height_of(box), 0);
+  if (holds_robot(at.frame, grown(box, at.reach() + du, at.reach() + dv))) return true;
+  return last_.inside() > 0 &&
+         holds_robot(at.frame, grown(box_of_spans(last_.spans()), at.reach(), at.reach()));
+}
+
+Visibility ExtentObserver::observe_last(const TargetInFrame& at, std::size_t missing) {
+  Visibility last = observe_extent(at, last_, nullptr, last_tally_);
+  const StateCounts& pixels = last.pixels;
+  const std::size_t known =
+      pixels[PixelState::occluded] + pixels[PixelState::other] + pixels[PixelState::unknown];
+  std::size_t uncertain = missing - std::min(missing, known);
+  last.is_missing = missing > 0;
+  last.mark_unknown(PixelState::clear, uncertain);
+  last.mark_unknown(PixelState::front, uncertain);
+  return last;
+}
+
+bool ExtentObserver::reaches_border() const {
+  const std::span<const RowSpan> spans = seen_.spans();
+  return std::any_of(spans.begin(), spans.end(), [&](const RowSpan& span) {
+    for (const int dv : {-mask_error, 0, mask_error}) {
+      const RowSpan around{span.v + dv, span.u0 - mask_error, span.u1 + mask_error};
+      if (!seen_pixels_.hold(around, width_, height_)) return true;
+    }
+    return false;
+  });
+}
+
+void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) const {
+  const double size = static_cast<double>(seen_.inside()) * area_scale(memory, target);
+  const double tolerance = target.thresholds.partial_enter * memory.size;
+  const bool has_depths = memory.depth && target.expected_depth;
+  const bool is_whole =
+      touches_robot_ ? has_depths && size >= memory.size : size >= memory.size - tolerance;
+  if (!is_whole) {
+    memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
+    return;
+  }
+  const bool is_larger = size > memory.size + tolerance;
+  const double change = (size - memory.size) / (is_larger ? 1.0 : averaged_frames);
+  const double average = memory.size + change;
+  memory.size = average / area_scale(memory, target);
+  memory.depth = target.expected_depth;
+  memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
+  memory.is_cut = reaches_border();
+  memory.moved.setZero();
+}
+
+Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
+               TargetMemory& memory) {
+  if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
+  if (!visibility.has_pose) return Verdict::unknown;
+  const double hidden = visibility.hidden(thresholds.others_hide);
+  const bool has_size = visibility.size_unknown == SizeUnknown::none;
+  const double unknown = has_size ? visibility.fraction(PixelState::unknown) : 1 - hidden;
+  // What its mask lacks is not seen: no limit passes over what else is unknown.
+  const bool is_uncertain = !has_size || visibility.is_missing;
+  const double limit =
+      is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
+  const Verdict level = next_level(memory.level, hidden, thresholds);
+  if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
+    return Verdict::unknown;
+  if (!is_seen_enough(visibility, level, thresholds)) return Verdict::unknown;
+  memory.level = level;
+  return level;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <penumbra/targets/trusted_depth-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
+
+/// Of robot that cannot be drawn, as the lens model does not reach there.
+constexpr float any_depth = std::numeric_limits<float>::infinity();
+
+int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
+
+/// The mean of the middle one or two.
+float median_of(std::span<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5f * (*middle + *std::min_element(middle + 1, values.end()));
+}
+
+}  // namespace
+
+RobotSurroundings::RobotSurroundings(int width, int height, const LabelRule& rule)
+    : cells_(cells_of(std::max(rule.edge_margin, LabelRule{}.edge_margin))),
+      beyond_factor_(static_cast<float>(rule.beyond_factor)),
+      cell_(cells_of(width), cells_of(height)),
+      around_(cells_of(width), cells_of(height)) {}
+
+void RobotSurroundings::begin(const LabelledFrame& frame) {
+  frame_ = &frame;
+  ++number_;
+}
+
+const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
+  Cell& cell = cell_(cell_u, cell_v);
+  if (cell.frame == number_) return cell;
+  cell = {number_};
+  const int u0 = cell_u * LabelRule::cell, v0 = cell_v * LabelRule::cell;
+  const int u1 = std::min(u0 + LabelRule::cell, frame_->width);
+  const int v1 = std::min(v0 + LabelRule::cell, frame_->height);
+  if (!frame_->robot_may_lie_in(u0, u0, v0, v0)) return cell;  // tiles are of whole cells
+  for (int v = v0; v < v1; ++v) {
+    const std::uint8_t* const labels = frame_->images.labels.labels.row(v);
+    const float* const z = frame_->images.virtual_depth.depth.row(v);
+    for (int u = u0; u < u1; ++u) {
+      if (labels[u] == static_cast<std::uint8_t>(Label::clear) ||
+          labels[u] == static_cast<std::uint8_t>(Label::fringe))
+        continue;
+      const bool is_drawn = z[u] > 0.0f;
+      if (!is_drawn && frame_->is_outside_undrawn) continue;
+      cell.nearest = std::min(cell.nearest, is_drawn ? z[u] : 0.0f);
+      cell.farthest = std::max(cell.farthest, is_drawn ? z[u] : any_depth);
+    }
+  }
+  return cell;
+}
+
+const RobotSurroundings::Depths& RobotSurroundings::around(int cell_u, int cell_v) {
+  Around& result = around_(cell_u, cell_v);
+  if (result.frame == number_) return result.depths;
+  result = {number_, {}};
+  Cell all;
+  for (int j = std::max(0, cell_v - cells_); j <= std::min(cell_.height() - 1, cell_v + cells_);
+       ++j)
+    for (int i = std::max(0, cell_u - cells_); i <= std::min(cell_.width() - 1, cell_u + cells_);
+         ++i) {
+      const Cell& one = cell(i, j);
+      all.nearest = std::min(all.nearest, one.nearest);
+      all.farthest = std::max(all.farthest, one.farthest);
+    }
+  if (all.farthest == any_depth) {
+    result.depths = {0.0f, any_depth};
+  } else if (all.farthest > 0.0f) {
+    const LimitRule rule(*frame_->rule, 0);
+    result.depths.from = rule.at(all.nearest).near;
+    result.depths.to = all.farthest + beyond_factor_ * (rule.at(all.farthest).far - all.farthest);
+  }
+  return result.depths;
+}
+
+RobustDepth robust_depth(std::span<float> depths) {
+  const float median = median_of(depths);
+  for (float& depth : depths) depth = std::abs(depth - median);
+  return {static_cast<double>(median), mad_to_sigma * static_cast<double>(median_of(depths))};
+}
+
+}  // namespace penumbra

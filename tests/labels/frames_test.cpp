@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// One classifier over many frames: nothing of an earlier one is left, nothing is allocated.
+#include "../support/allocations.hpp"
+#include "../support/random.hpp"
+#include "scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <penumbra/labels/labels.hpp>
+
+namespace penumbra {
+namespace {
+
+class Frames : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Isa, Frames, testing::ValuesIn(test::every_isa()),
+                         [](const auto& isa) { return isa.param; });
+
+TEST_P(Frames, LeaveNothingToTheNext) {
+  auto random = test::seeded_random(41);
+  constexpr int width = 300, height = 70;
+  Classifier used(width, height, LabelRule{}, GetParam());
+  for (int i = 0; i < 60; ++i) {
+    const test::Scene scene = test::random_scene(width, height, random);
+    Classifier fresh(width, height, LabelRule{}, GetParam());
+    const LabelView expected = fresh.classify(scene.view(), scene.metres.view());
+    const LabelView got = used.classify(scene.view(), scene.metres.view());
+    ASSERT_EQ(got.pixels, expected.pixels) << i;
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) ASSERT_EQ(got.labels(u, v), expected.labels(u, v)) << i;
+  }
+}
+
+TEST_P(Frames, MayChangeTheirTiles) {
+  auto random = test::seeded_random(42);
+  constexpr int width = 300, height = 70;
+  Classifier used(width, height, LabelRule{}, GetParam());
+  Classifier fresh(width, height, LabelRule{}, GetParam());
+  test::Scene first = test::random_scene(width, height, random);
+  (void)used.classify(first.view(), first.metres.view());
+  test::Scene scene = test::random_scene(width, height, random);
+  scene.tiles.tile_width = 64;
+  scene.mark_tiles();
+  const auto counts = used.classify(scene.view(), scene.metres.view()).pixels;
+  EXPECT_EQ(counts, fresh.classify(scene.view(), scene.metres.view()).pixels);
+  VirtualDepthView all = scene.view();
+  all.touched = nullptr;
+  EXPECT_EQ(counts, used.classify(all, scene.metres.view()).pixels);
+}
+
+TEST_P(Frames, WithoutARobotAreClear) {
+  auto random = test::seeded_random(43);
+  Classifier classifier(300, 70, LabelRule{}, GetParam());
+  const test::Scene scene = test::random_scene(300, 70, random);
+  (void)classifier.classify(scene.view(), scene.metres.view());
+  const test::Scene empty(300, 70);
+  const LabelView view = classifier.classify(empty.view(), scene.metres.view());
+  EXPECT_EQ(view.pixels[0], 300u * 70u);
+  for (int v = 0; v < 70; ++v)
+    for (int u = 0; u < 300; ++u) ASSERT_EQ(view.labels(u, v), 0);
+}
+
+TEST_P(Frames, AllocateNothing) {
+  auto random = test::seeded_random(44);
+  Classifier classifier(300, 70, LabelRule{}, GetParam());
+  std::vector<test::Scene> scenes;
+  scenes.reserve(10);
+  for (int i = 0; i < 10; ++i) scenes.push_back(test::random_scene(300, 70, random));
+  const std::size_t before = test::allocations();
+  for (const test::Scene& scene : scenes)
+    (void)classifier.classify(scene.view(), scene.metres.view());
+  EXPECT_EQ(test::allocations(), before);
+}
+
+}  // namespace
+}  // namespace penumbra

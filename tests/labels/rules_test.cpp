@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// The labels of single pixels against the rule in closed form, on every target.
+#include "../support/random.hpp"
+#include "scene.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/labels/labels.hpp>
+
+namespace penumbra {
+namespace {
+
+using test::Scene;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+LabelRule without_cleanup() {
+  LabelRule rule;
+  rule.front_min_width = 0;
+  rule.fringe_reach = 0;
+  return rule;
+}
+
+class Rules : public testing::TestWithParam<std::string> {
+ protected:
+  /// The label of one pixel, seen at every position of a vector.
+  Label label(const LabelRule& rule, float z, float d) {
+    Scene scene(37, 1);
+    std::fill_n(scene.robot.data(), 37, z);
+    std::fill_n(scene.metres.data(), 37, d);
+    return only_label(rule, scene, scene.metres.view());
+  }
+
+  Label label_millimetres(const LabelRule& rule, float z, std::uint16_t d) {
+    Scene scene(37, 1);
+    std::fill_n(scene.robot.data(), 37, z);
+    Image<std::uint16_t> depth(37, 1, d);
+    return only_label(rule, scene, ImageView<const std::uint16_t>(depth.view()));
+  }
+
+ private:
+  Label only_label(const LabelRule& rule, Scene& scene, const DepthView& depth) {
+    scene.mark_tiles();
+    Classifier classifier(37, 1, rule, GetParam());
+    const LabelView view = classifier.classify(scene.view(), depth);
+    for (int u = 1; u < 37; ++u) EXPECT_EQ(view.labels(u, 0), view.labels(0, 0)) << u;
+    EXPECT_EQ(view.pixels[view.labels(0, 0)], 37u);
+    return static_cast<Label>(view.labels(0, 0));
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Isa, Rules, testing::ValuesIn(test::every_isa()),
+                         [](const auto& isa) { return isa.param; });
+
+TEST_P(Rules, FollowTheOrderOfDepths) {
+  const LabelRule rule = without_cleanup();  // e(1 m) = 0.021 m, k e = 0.042 m
+  EXPECT_EQ(label(rule, 1.0f, 0.9780f), Label::front);
+  EXPECT_EQ(label(rule, 1.0f, 0.9795f), Label::occluded);
+  EXPECT_EQ(label(rule, 1.0f, 1.0f), Label::occluded);
+  EXPECT_EQ(label(rule, 1.0f, 1.0415f), Label::occluded);
+  EXPECT_EQ(label(rule, 1.0f, 1.0425f), Label::beyond);
+  EXPECT_EQ(label(rule, 0.0f, 1.0f), Label::clear);
+}
+
+TEST_P(Rules, ExactEdgesBelongToOccluded) {
+  // Exact in binary: e(1) = 2^-6 + 2^-7 + 2^-8 and twice that.
+  LabelRule rule = without_cleanup();
+  rule.tolerance = {0x1p-6, 0x1p-7, 0x1p-8};
+  const float e = 0x1p-6f + 0x1p-7f + 0x1p-8f;
+  EXPECT_EQ(label(rule, 1.0f, 1.0f - e), Label::occluded);
+  EXPECT_EQ(label(rule, 1.0f, std::nextafter(1.0f - e, 0.0f)), Label::front);
+  EXPECT_EQ(label(rule, 1.0f, 1.0f + 2 * e), Label::occluded);
+  EXPECT_EQ(label(rule, 1.0f, std::nextafter(1.0f + 2 * e, 2.0f)), Label::beyond);
+}
+
+TEST_P(Rules, NoMeasurementIsUnknownOnTheRobotAndClearBesideIt) {
+  const LabelRule rule = without_cleanup();
+  const float payload = std::bit_cast<float>(0x7fc12345u);
+  const float signalling = std::bit_cast<float>(0xff812345u);
+  for (const float d : {0.0f, -0.0f, -1.0f, infinity, -infinity, payload, -payload, signalling}) {
+    EXPECT_EQ(label(rule, 1.0f, d), Label::unknown) << d;
+    EXPECT_EQ(label(rule, 0.0f, d), Label::clear) << d;
+  }
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 0), Label::unknown);
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 65535), Label::unknown) << "saturated";
+  EXPECT_EQ(label_millimetres(rule, 0.0f, 65535), Label::clear);
+}
+
+TEST_P(Rules, MillimetresAreThousandths) {
+  const LabelRule rule = without_cleanup();
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 978), Label::front);
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 980), Label::occluded);
+  EXPECT_EQ(label_millimetres(rule, 1.0f, 65534), Label::beyond);
+  EXPECT_EQ(label_millimetres(rule, 70.0f, 65534), Label::occluded);  // not read as negative
+  EXPECT_EQ(label_millimetres(rule, 40.0f, 1), Label::front);
+}
+
+TEST_P(Rules, OutsideTheSensorsRangeIsNoMeasurement) {
+  LabelRule rule = without_cleanup();
+  rule.range = {0.5, 3.0};
+  EXPECT_EQ(label(rule, 1.0f, 0.5f), Label::front);
+  EXPECT_EQ(label(rule, 1.0f, std::nextafter(0.5f, 0.0f)), Label::unknown);
+  EXPECT_EQ(label(rule, 1.0f, 3.0f), Label::beyond);
+  EXPECT_EQ(label(rule, 1.0f, std::nextafter(3.0f, 4.0f)), Label::unknown);
+  EXPECT_EQ(label(rule, 4.0f, 3.0f), Label::front);  // a robot farther than the range still counts
+}
+
+TEST_P(Rules, MillimetresAtTheRangesEndsAreInside) {
+  // Among them 3.0 m, which float32 rounds up when it is made of 3000 * 0.001.
+  Scene scene(37, 1);
+  std::fill_n(scene.robot.data(), 37, 1.0f);
+  scene.mark_tiles();
+  const auto is_measured = [&](const LabelRule& rule, int millimetres) {
+    const Image<std::uint16_t> depth(37, 1, static_cast<std::uint16_t>(millimetres));
+    Classifier classifier(37, 1, rule, GetParam());
+    const LabelView view = classifier.classify(scene.view(), depth.view());
+    const std::size_t unknown = view.pixels[static_cast<std::size_t>(Label::unknown)];
+    EXPECT_TRUE(unknown == 0 || unknown == 37) << millimetres;
+    return unknown == 0;
+  };
+  LabelRule rule = without_cleanup();
+  for (int end = 13; end < 20000; end += 29) {
+    rule.range = {0.0, end / 1000.0};
+    EXPECT_TRUE(is_measured(rule, end)) << end << " mm is range.far";
+    EXPECT_FALSE(is_measured(rule, end + 1)) << end << " mm is range.far";
+    rule.range = {end / 1000.0, infinity};
+    EXPECT_TRUE(is_measured(rule, end)) << end << " mm is range.near";
+    EXPECT_FALSE(is_measured(rule, end - 1)) << end << " mm is range.near";
+  }
+  rule.range = {0.0, infinity};
+  EXPECT_TRUE(is_measured(rule, 65534));
+  EXPECT_FALSE(is_measured(rule, 65535)) << "saturated";
+  rule.range = {70.0, 80.0};
+  EXPECT_FALSE(is_measured(rule, 65534));
+  rule.range = {0.0, 0.0005};
+  EXPECT_FALSE(is_measured(rule, 1));
+}
+
+TEST_P(Rules, FoldedBeyondIsOccluded) {
+  LabelRule rule = without_cleanup();
+  rule.fold_beyond = true;
+  EXPECT_EQ(label(rule, 1.0f, 60.0f), Label::occluded);
+  rule.tolerance = {0.0, 0.0, 0.0};
+  EXPECT_EQ(label(rule, 1.0f, 60.0f), Label::occluded);
+}
+
+TEST_P(Rules, ARobotThatIsNoNumberIsNoRobot) {
+  const LabelRule rule = without_cleanup();
+  EXPECT_EQ(label(rule, std::numeric_limits<float>::quiet_NaN(), 1.0f), Label::clear);
+  EXPECT_EQ(label(rule, -1.0f, 1.0f), Label::clear);
+}
+
+TEST_P(Rules, PaperIsThePapersInequality) {
+  // The paper: occluded where d >= dV - 0.01 m, for depths that the sensor measured.
+  auto random = test::seeded_random(21);
+  std::uniform_real_distribution<double> depth(0.3, 3.0), error(-0.03, 0.03);
+  Scene scene(640, 32);
+  for (std::size_t i = 0; i < scene.robot.size(); ++i) {
+    scene.robot.data()[i] = static_cast<float>(depth(random));
+    scene.metres.data()[i] = scene.robot.data()[i] + static_cast<float>(error(random));
+    if (i % 17 == 0) scene.metres.data()[i] = 0.0f;
+  }
+  scene.mark_tiles();
+  Classifier classifier(640, 32, LabelRule::paper(), GetParam());
+  const LabelView view = classifier.classify(scene.view(), scene.metres.view());
+  constexpr double rounding = 1e-6;  // metres; float32 at 3 m has steps of 2.4e-7 m
+  for (std::size_t i = 0; i < scene.robot.size(); ++i) {
+    const double z = scene.robot.data()[i], d = scene.metres.data()[i];
+    if (std::abs(d - (z - 0.01)) < rounding) continue;
+    const Label expected = d == 0.0        ? Label::unknown
+                           : d >= z - 0.01 ? Label::occluded
+                                           : Label::front;
+    ASSERT_EQ(view.labels.data[i], static_cast<std::uint8_t>(expected)) << d << " at " << z;
+  }
+}
+
+TEST_P(Rules, CountsAreTheLabels) {
+  auto random = test::seeded_random(22);
+  Classifier classifier(213, 90, LabelRule{}, GetParam());
+  for (int i = 0; i < 10; ++i) {
+    const Scene scene = test::random_scene(213, 90, random);
+    const LabelView view = classifier.classify(scene.view(), scene.metres.view());
+    std::array<std::size_t, label_count> counted{};
+    for (int v = 0; v < 90; ++v)
+      for (int u = 0; u < 213; ++u) ++counted.at(view.labels(u, v));
+    EXPECT_EQ(view.pixels, counted);
+  }
+}
+
+std::string message_of(const LabelRule& rule) {
+  try {
+    rule.check();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RuleCheck, AcceptsDefaultsAndPaper) {
+  EXPECT_EQ(message_of(LabelRule{}), "");
+  EXPECT_EQ(message_of(LabelRule::paper()), "");
+  LabelRule falling;
+  falling.tolerance = {0.02, -0.02, 0.005};  // 0 at 2 m, its least
+  EXPECT_EQ(message_of(falling), "");
+}
+
+TEST(RuleCheck, RefusesAndSaysWhatItGot) {
+  const auto expect = [](const char* part, auto change) {
+    LabelRule rule;
+    change(rule);
+    EXPECT_NE(message_of(rule).find(part), std::string::npos) << message_of(rule);
+    EXPECT_THROW(Classifier(8, 8, rule), InputError);
+  };
+  expect("tolerance -0.01,0,0", [](LabelRule& r) { r.tolerance = {-0.01, 0, 0}; });
+  expect("tolerance 0.02,-0.1,0.1", [](LabelRule& r) { r.tolerance = {0.02, -0.1, 0.1}; });
+  expect("tolerance 0.02,-0.01,0", [](LabelRule& r) { r.tolerance = {0.02, -0.01, 0}; });
+  expect("tolerance 0.02,-0.001,0", [](LabelRule& r) { r.tolerance = {0.02, -0.001, 0}; });
+  expect("tolerance 1,0,-1e-06", [](LabelRule& r) { r.tolerance = {1, 0, -1e-6}; });
+  expect("tolerance inf", [](LabelRule& r) { r.tolerance.a = infinity; });
+  expect("nan", [](LabelRule& r) { r.tolerance.c = std::nan(""); });
+  expect("factor 0.9", [](LabelRule& r) { r.beyond_factor = 0.9; });
+  expect("factor nan", [](LabelRule& r) { r.beyond_factor = std::nan(""); });
+  expect("front_min_width -1", [](LabelRule& r) { r.front_min_width = -1; });
+  expect("front_min_width 64", [](LabelRule& r) { r.front_min_width = 64; });
+  expect("edge_margin 65", [](LabelRule& r) { r.edge_margin = 65; });
+  expect("range 3..3", [](LabelRule& r) { r.range = {3, 3}; });
+  expect("range -1..3", [](LabelRule& r) { r.range = {-1, 3}; });
+  expect("range nan", [](LabelRule& r) { r.range.near = std::nan(""); });
+}
+
+TEST(ClassifierMade, RefusesBadSizesAndTargets) {
+  EXPECT_THROW(Classifier(0, 8, LabelRule{}), InputError);
+  EXPECT_THROW(Classifier(8, 40000, LabelRule{}), InputError);
+  EXPECT_THROW(Classifier(8, 8, LabelRule{}, "AVX9"), InputError);
+  EXPECT_EQ(Classifier(8, 8, LabelRule{}).isa(), simd_target_names().front());
+}
+
+}  // namespace
+}  // namespace penumbra

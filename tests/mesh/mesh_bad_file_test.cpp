@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <tests/mesh/mesh_samples.hpp>
+#include <tests/support/random.hpp>
+#include <tests/support/run_length.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+
+namespace penumbra {
+namespace {
+
+/// The message of the InputError that a load throws; empty if it throws none.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    (void)load_mesh(file);
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+class MeshBadFile : public ::testing::Test {
+ protected:
+  void expect_refused(const std::string& name, const std::string& bytes, const std::string& why) {
+    const std::string message = refusal(folder_.write(name, bytes));
+    EXPECT_NE(message.find(name), std::string::npos) << name << ": " << message;
+    EXPECT_NE(message.find(why), std::string::npos) << name << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_NE(message.find(';'), std::string::npos) << "no remedy: " << message;
+  }
+  test::TemporaryFolder folder_;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) throw std::logic_error("no " + what);
+  return text.replace(at, what.size(), by);
+}
+
+TEST_F(MeshBadFile, NoFile) {
+  EXPECT_NE(refusal(folder_.path() / "none.stl").find("none.stl: "), std::string::npos);
+  EXPECT_NE(refusal(folder_.path()).find("is a folder"), std::string::npos);
+  EXPECT_NE(refusal("/dev/zero").find("not a regular file"), std::string::npos);
+}
+
+TEST_F(MeshBadFile, TooLargeIsRefusedUnread) {
+  const auto file = folder_.write("sparse.dae", "");
+  std::filesystem::resize_file(file, std::uintmax_t{6} << 30U);
+  EXPECT_NE(refusal(file).find("sparse.dae: has 6442450944 bytes"), std::string::npos);
+}
+
+TEST_F(MeshBadFile, PolygonsOfTooManyCorners) {
+  std::string vertices, face = "f", corners = "5000";
+  for (int i = 0; i < 5000; ++i) {
+    vertices += std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0\n";
+    face += " " + std::to_string(i + 1);
+    corners += " " + std::to_string(i);
+  }
+  std::string obj;
+  for (std::size_t at = 0; at < vertices.size(); at = vertices.find('\n', at) + 1)
+    obj += "v " + vertices.substr(at, vertices.find('\n', at) + 1 - at);
+  expect_refused("many.obj", obj + face + "\n", "a polygon has 5000 corners");
+  expect_refused("many.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 5000\nproperty float x\n"
+                 "property float y\nproperty float z\nelement face 1\n"
+                 "property list uint uint vertex_indices\nend_header\n" +
+                     vertices + corners + "\n",
+                 "a polygon has 5000 corners");
+}
+
+TEST_F(MeshBadFile, NoMesh) {
+  for (const char* name : {"e.stl", "e.dae", "e.obj", "e.ply", "e.gltf", "e.glb", "e.step"})
+    expect_refused(name, "", "empty");
+  const std::string pointer =
+      "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+  for (const char* name : {"p.stl", "p.dae", "p.obj", "p.ply", "p.gltf", "p.glb"})
+    expect_refused(name, pointer, "git lfs pull");
+  expect_refused("a.step", "ISO-10303-21;", "no known mesh format");
+  expect_refused("noending", "text", "no known mesh format");
+}
+
+TEST_F(MeshBadFile, NoTriangles) {
+  expect_refused("a.stl", test::binary_stl({}), "no triangles");
+  expect_refused("b.stl", "solid x\nendsolid x\n", "no triangles");
+  expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "triangles");
+  const std::string in_library = "<library_nodes>" + test::collada_node() + "</library_nodes>";
+  for (const char* scene : {"", "<node id=\"n\"/>"}) {
+    expect_refused("a.dae", test::collada("", scene), "shows no geometry");
+    expect_refused("b.dae",
+                   replaced(test::collada("", scene), "<library_visual_scenes>",
+                            in_library + "<library_visual_scenes>"),
+                   "shows no geometry");
+  }
+  TriangleMesh line = test::tetrahedron();
+  for (auto& v : line.vertices) v = {v.x(), 0, 0};
+  expect_refused("line.stl", test::binary_stl(line), "zero area");
+}
+
+TEST_F(MeshBadFile, CoordinatesThatAreNoPlaces) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  for (const float bad : {nan, inf, -inf}) {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.vertices[2].y() = bad;
+    expect_refused("a.stl", test::binary_stl(mesh), "not finite");
+  }
+  for (const float far : {1e30F, -1.1e6F}) {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.vertices[1].z() = far;
+    expect_refused("far.stl", test::binary_stl(mesh), "beyond 1e6");
+  }
+  for (const char* bad : {"nan", "inf", "1e39", "1e30", "1e999", "abc"}) {
+    expect_refused("a.obj", replaced(test::obj(), "v 2 0 0", std::string("v ") + bad + " 0 0"), "");
+    expect_refused("a.ply",
+                   replaced(test::ascii_ply(), "\n2 0 0", std::string("\n") + bad + " 0 0"), "");
+    expect_refused("b.stl", replaced(test::ascii_stl(test::tetrahedron()), "2.000000", bad), "");
+    expect_refused("a.dae",
+                   replaced(test::collada("", test::collada_node()), "0 2 0 0 0 3",
+                            std::string("0 ") + bad + " 0 0 0 3"),
+                   "");
+  }
+}
+
+TEST_F(MeshBadFile, UnitsThatAreNoLength) {
+  for (const char* bad : {"x", "", "0", "-1", "nan", "inf", "1 inch", "0,01", "1e9"})
+    expect_refused("a.dae",
+                   test::collada(std::string("<unit name=\"odd\" meter=\"") + bad + "\"/>",
+                                 test::collada_node()),
+                   "write how many metres");
+}
+
+TEST_F(MeshBadFile, IndicesBeyondTheVertices) {
+  expect_refused("a.obj", replaced(test::obj(), "f 1 3 2", "f 1 3 5"), "names vertex 5 of 4");
+  expect_refused("b.obj", replaced(test::obj(), "f 1 3 2", "f 1 3 0"), "vertex's number");
+  expect_refused("c.obj", replaced(test::obj(), "f -3 -2 -1", "f -5 -2 -1"), "vertex's number");
+  expect_refused("d.obj", replaced(test::obj(), "f 1 3 2", "f 1 3"), "third corner");
+  expect_refused("a.ply", replaced(test::ascii_ply(), "3 0 2 1", "3 0 4 1"), "names vertex 4 of 4");
+  expect_refused("b.ply", replaced(test::ascii_ply(), "3 0 2 1", "3 0 -1 1"), "names vertex -1");
+  expect_refused("a.dae", replaced(test::collada("", test::collada_node()), "<p>0 2 1", "<p>0 4 1"),
+                 "");
+  std::string wild = test::glb();
+  wild[wild.size() - 24] = '\x05';
+  expect_refused("a.glb", wild, "");
+}
+
+TEST_F(MeshBadFile, CountsThatDoNotFit) {
+  const std::string stl = test::binary_stl(test::tetrahedron());
+  std::string more = stl;
+  more[80] = '\x05';
+  expect_refused("a.stl", more, "promises 5 triangles");
+  more[83] = '\x7f';
+  expect_refused("b.stl", more, "promises");
+  expect_refused("c.stl", stl + "x", "has 1 bytes too many");
+  expect_refused("d.stl", stl + "# made by\r\n", "has 11 bytes too many");
+  expect_refused("e.stl", stl.substr(0, stl.size() - 3), "lacks 3 of them: it is truncated");
+  expect_refused("a.ply", replaced(test::ascii_ply(), "face 4", "face 5"), "data end before");
+  expect_refused("b.ply", replaced(test::ascii_ply(), "face 4", "face 3"), "data follow");
+  expect_refused("c.ply", replaced(test::ascii_ply(), "vertex 4", "vertex 999999999999"), "");
+  expect_refused("d.ply", replaced(test::binary_ply(), "face 4", "face 5"), "data end before");
+  expect_refused("a.glb", test::glb() + "x", "promises");
+  expect_refused("a.dae",
+                 replaced(test::collada("", test::collada_node()), "count=\"12\"", "count=\"15\""),
+                 "");
+}
+
+TEST_F(MeshBadFile, ObjVerticesThatReadersTakeForDifferentThings) {
+  const auto expect = [&](const std::string& by, const std::string& why) {
+    expect_refused("a.obj", replaced(test::obj(), "v 2 0 0", by), why);
+  };
+  expect("v 2 0 0 2", "line 4: a vertex has a fourth coordinate, which is not 1");
+  expect("v 2 0 0 .5", "fourth coordinate");
+  expect("v 2 0", "the line ends where three coordinates should stand");
+  expect("v 2 0 # 0", "the line ends where three coordinates should stand");
+  expect("v 2 0 0 red", "'red' stands where a colour's number");
+  expect("v 2 nan 0", "'nan' stands where three coordinates");
+  expect("v 2,0 0 0", "'2,0' stands where");
+  std::string cr = replaced(test::obj(), "f 1 3 2", "f 1 3 5");
+  for (char& c : cr) c = c == '\n' ? '\r' : c;
+  expect_refused("cr.obj", cr, "line 10: a corner names vertex 5 of 4");
+}
+
+TEST_F(MeshBadFile, PlyWithoutACoordinate) {
+  for (const auto& [name, bytes] : test::samples())
+    if (name.ends_with(".ply"))
+      for (const char* axis : {"x", "y", "z"}) {
+        const std::string line = std::string("property float ") + axis;
+        expect_refused(name, replaced(bytes, line, "property float w"),
+                       std::string("have 0 properties '") + axis + "'");
+        expect_refused(name, replaced(bytes, "element face", line + "\nelement face"),
+                       std::string("have 2 properties '") + axis + "'");
+      }
+}
+
+TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
+  const std::string whole = test::gltf_json(",\"uri\":\"a.bin\"");
+  folder_.write("a.bin", test::gltf_buffer());
+  const auto expect = [&](const std::string& what, const std::string& by, const std::string& why) {
+    expect_refused("a.gltf", replaced(whole, what, by), why);
+  };
+  for (const char* component : {"5120", "5121", "5122", "5123", "5125"})
+    expect("\"componentType\":5126", std::string("\"componentType\":") + component,
+           "export it without quantisation");
+  expect("VEC3", "VEC4", "");
+  expect("VEC3", "VEC2", "can be read");
+  for (const char* extension :
+       {"KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod", "ACME_anything"})
+    expect("{\"asset\"",
+           std::string("{\"extensionsRequired\":[\"KHR_materials_unlit\",\"") + extension +
+               "\"],\"asset\"",
+           std::string("requires the extension ") + extension);
+  expect("{\"mesh\":0", "{\"mesh\":0,\"skin\":0", "by a skin");
+  expect("{\"mesh\":0", "{\"mesh\":0,\"weights\":[0,0.5]", "morph weights");
+  for (const char* rotation : {"[0,0,0.7,0.9]", "[0,0,0,0]", "[0,0,0.7073,0.7073]", "[0,0,1]"})
+    expect("{\"mesh\":0", std::string("{\"mesh\":0,\"rotation\":") + rotation,
+           "is no quaternion of length 1");
+  expect("{\"mesh\":0", "{\"mesh\":0,\"rotation\":[\"a\",0,0,1]", "glTF");
+  expect("{\"mesh\":0",
+         "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{}}}",
+         "repeats its mesh by EXT_mesh_gpu_instancing");
+  expect("{\"primitives\"", "{\"weights\":[1],\"primitives\"", "morph weights");
+  expect("\"count\":4", "\"count\":4,\"sparse\":{\"count\":1}", "sparse");
+  expect("\"count\":4", "\"count\":4,\"byteOffset\":4", "beyond its bufferView");
+  expect("\"count\":12", "\"count\":18446744073709551615", "is no size");
+  expect("\"byteLength\":72", "\"byteLength\":5000000000", "is no size");
+  expect("\"byteLength\":48", "\"byteStride\":16,\"byteLength\":48", "beyond its bufferView");
+  expect("\"byteLength\":48", "\"byteStride\":8,\"byteLength\":48", "into the next");
+  expect("\"byteOffset\":48", "\"byteOffset\":49", "beyond its buffer");
+}
+
+TEST_F(MeshBadFile, PartsThatAreElsewhere) {
+  expect_refused("a.gltf", test::gltf_json(",\"uri\":\"nowhere.bin\""), "");
+  folder_.write("short.bin", test::gltf_buffer().substr(0, 60));
+  expect_refused("b.gltf", test::gltf_json(",\"uri\":\"short.bin\""), "");
+  expect_refused("a.dae", test::collada("", replaced(test::collada_node(), "#tet", "#other")),
+                 "refers to '#other'");
+  expect_refused("b.dae", test::collada("", replaced(test::collada_node(), "#tet", "b.dae#tet")),
+                 "refers to");
+}
+
+TEST_F(MeshBadFile, DeepNestingEndsInAnError) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<node>";
+  expect_refused("a.dae", test::collada("", deep), "nested");
+  expect_refused("a.gltf", std::string(100000, '['), "nested");
+  expect_refused("cycle.dae",
+                 test::collada("",
+                               "<node id=\"n\"><instance_geometry url=\"#tet\"/>"
+                               "<instance_node url=\"#n\"/></node>"),
+                 "");
+}
+
+/// Bytes at a sample's end without which it still says everything.
+std::size_t spare_bytes(const std::string& name) {
+  if (name == "ascii.stl") return 6;  // " part\n" behind endsolid
+  if (name == "a.dae") return 1;
+  return 0;
+}
+
+/// A refusal that names nothing of a library.
+bool is_in_words(const std::string& refusal) {
+  return !refusal.empty() && refusal.find("XML_") == std::string::npos;
+}
+
+TEST_F(MeshBadFile, TruncationIsAnErrorAtEveryByte) {
+  folder_.write("a.bin", test::gltf_buffer());
+  for (const auto& [name, bytes] : test::samples()) {
+    if (name == "a.obj") continue;  // see below
+    for (std::size_t size = 0; size < bytes.size() - spare_bytes(name); ++size)
+      EXPECT_TRUE(is_in_words(refusal(folder_.write(name, bytes.substr(0, size)))))
+          << name << " " << size;
+  }
+}
+
+/// A tube of `side` corners, as exporters write it: all vertices, then all faces.
+std::string tube_obj(int side) {
+  std::string text = "o tube\n";
+  for (int i = 0; i < side; ++i)
+    for (const int z : {0, 1})
+      text += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " " +
+              std::to_string(z) + "\n";
+  for (int i = 0; i < side; ++i) {
+    const auto corner = [&](int k) { return " " + std::to_string(1 + (2 * i + k) % (2 * side)); };
+    text +=
+        "f" + corner(0) + corner(2) + corner(1) + "\nf" + corner(1) + corner(2) + corner(3) + "\n";
+  }
+  return text;
+}
+
+/// What a load notes, or its refusal.
+std::string notes_of(const std::filesystem::path& file) {
+  try {
+    std::vector<std::string> notes;
+    (void)load_mesh(file, notes);
+    EXPECT_LE(notes.size(), 1U);
+    return notes.empty() ? "" : "note: " + notes.front();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST_F(MeshBadFile, TruncatedObjPassesUnseenOnlyBehindALine) {
+  for (const std::string& whole : {test::obj(), tube_obj(12)}) {
+    EXPECT_EQ(notes_of(folder_.write("a.obj", whole)), "");
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const std::string told = notes_of(folder_.write("a.obj", whole.substr(0, size)));
+      EXPECT_TRUE(!told.empty() || whole[size - 1] == '\n') << size;
+    }
+  }
+}
+
+TEST_F(MeshBadFile, ObjThatIsCutWhereVerticesLackFacesNeverPassesUnseen) {
+  const std::string whole = tube_obj(100);
+  const std::size_t all_used = whole.rfind("\nf 199 ");  // the faces before name every vertex
+  ASSERT_NE(all_used, std::string::npos);
+  for (std::size_t size = 0; size < all_used; size += 17) {
+    const std::string told = notes_of(folder_.write("a.obj", whole.substr(0, size)));
+    EXPECT_NE(told, "") << size;
+    if (!told.starts_with("note: ")) continue;
+    EXPECT_EQ(whole[size - 1], '\n') << size;
+    EXPECT_NE(told.find("are part of no face: if it looks"), std::string::npos) << told;
+  }
+}
+
+TEST_F(MeshBadFile, PlyThatReadersTakeForDifferentThings) {
+  const auto expect = [&](const std::string& what, const std::string& by, const std::string& why) {
+    expect_refused("a.ply", replaced(test::ascii_ply(), what, by), why);
+  };
+  expect("element face", "element tristrips", "'tristrips' has a surface that is not read");
+  expect("3 0 2 1", "3 0 2.5 1", "names vertex 2.5 of 4");
+  expect("3 0 2 1", "2.5 0 2 1", "count");
+  expect("uchar int", "uchar float", "no integers");
+  expect("element face", "element vertex 0\nelement face", "two elements");
+}
+
+TEST_F(MeshBadFile, PlyPropertyWithoutName) {
+  for (const auto& [name, bytes] : test::samples())
+    if (name.ends_with(".ply"))
+      for (const char* line : {"property float", "property float y y"})
+        expect_refused(name, replaced(bytes, "property float y", line), "a type and a name");
+}
+
+TEST_F(MeshBadFile, ObjWithoutItsMaterialFile) {
+  const std::string whole = test::obj();
+  ASSERT_NE(whole.find("mtllib nowhere.mtl"), std::string::npos);
+  EXPECT_EQ(notes_of(folder_.write("a.obj", whole + "a 1/1 2/1 4/1\naniso 1\nd 1\nNs 1\n")), "");
+}
+
+TEST_F(MeshBadFile, ObjOddities) {
+  const std::string whole = test::obj();
+  EXPECT_EQ(notes_of(folder_.write("l.obj", whole + "v 9 9 9\nv 9 9 8\nl 5 6\np 5\n")), "");
+  EXPECT_EQ(notes_of(folder_.write("c.obj", replaced(whole, "f 1 3 2\n", "f 1 \\\n3 2\r\n"))), "");
+  EXPECT_EQ(notes_of(folder_.write("a.obj", "f 1 3 2\n" + replaced(whole, "f 1 3 2\n", ""))), "");
+  const std::string spare = notes_of(folder_.write("v.obj", whole + "v 9 9 9\n"));
+  EXPECT_NE(spare.find("v.obj: 1 of its 5 vertices are part of no face"), std::string::npos);
+  const std::string open = notes_of(folder_.write("o.obj", whole + "# end"));
+  EXPECT_NE(open.find("o.obj: its last line has no end"), std::string::npos) << open;
+  EXPECT_TRUE(open.starts_with("note: "));
+  expect_refused("x.obj", "v 0 0 0\nv 2 1 0\nv 2 0 0\nv 0 1 0\nv -1 .5 0\nf 1 2 3 4 5\n",
+                 "crosses itself");
+  expect_refused("b.obj", whole + "v 9 9 9", "1 of its 5 vertices are part of no face");
+}
+
+void flip_bytes(const test::TemporaryFolder& folder, int trials, std::uint64_t seed) {
+  auto random = test::seeded_random(seed);
+  folder.write("a.bin", test::gltf_buffer());
+  for (const auto& [name, bytes] : test::samples()) {
+    int refused = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::string damaged = bytes;
+      for (std::uint64_t flips = 1 + random() % 4; flips > 0; --flips)
+        damaged[random() % damaged.size()] = static_cast<char>(random());
+      if (trial % 8 == 0) damaged.erase(random() % damaged.size(), 1 + random() % 16);
+      refused += refusal(folder.write(name, damaged)).empty() ? 0 : 1;
+    }
+    std::cout << name << ": " << refused << " of " << trials << " refused\n";
+  }
+}
+
+TEST_F(MeshBadFile, RandomDamageNeverCrashes) { flip_bytes(folder_, 300, 7); }
+
+TEST(MeshBadFileFull, RandomDamageNeverCrashes) {
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  flip_bytes(test::TemporaryFolder(), 20000, 8);
+}
+
+}  // namespace
+}  // namespace penumbra

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reader of Collada: what it refuses, and Assimp's reading of sound files beside its own.
+#include <array>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+#include <tests/mesh/mesh_samples.hpp>
+#include <tests/support/data.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+
+namespace penumbra {
+namespace {
+
+// Assimp reads decimal numbers with an error of some units in the last place.
+constexpr double reading_error = 1e-5;  // relative
+
+struct Measures {
+  std::size_t triangles = 0;
+  double area = 0.0;
+  double volume = 0.0;  // that of the cone to the origin, signed
+  Eigen::AlignedBox3d bounds;
+};
+
+Measures measure(const TriangleMesh& mesh) {
+  Measures m;
+  m.triangles = mesh.triangles.size();
+  for (const auto& t : mesh.triangles) {
+    std::array<Eigen::Vector3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = mesh.vertices[t[k]].cast<double>();
+      m.bounds.extend(p[k]);
+    }
+    m.area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2.0;
+    m.volume += p[0].dot(p[1].cross(p[2])) / 6.0;
+  }
+  return m;
+}
+
+TriangleMesh read_by_assimp(const std::filesystem::path& file) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* const scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  TriangleMesh mesh;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+    const aiMesh& part = *scene->mMeshes[i];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned k = 0; k < part.mNumVertices; ++k)
+      mesh.vertices.emplace_back(part.mVertices[k].x, part.mVertices[k].y, part.mVertices[k].z);
+    for (unsigned k = 0; k < part.mNumFaces; ++k) {
+      const aiFace& face = part.mFaces[k];
+      if (face.mNumIndices == 3)
+        mesh.triangles.push_back(
+            {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    }
+  }
+  return weld(mesh);
+}
+
+void expect_as_assimp(const std::filesystem::path& file) {
+  SCOPED_TRACE(file);
+  const Measures ours = measure(load_mesh(file));
+  const Measures theirs = measure(read_by_assimp(file));
+  const double length = theirs.bounds.diagonal().norm();
+  EXPECT_EQ(ours.triangles, theirs.triangles);
+  EXPECT_NEAR(ours.area, theirs.area, reading_error * theirs.area);
+  EXPECT_NEAR(ours.volume, theirs.volume, reading_error * length * theirs.area);
+  EXPECT_LT((ours.bounds.min() - theirs.bounds.min()).norm(), reading_error * length);
+  EXPECT_LT((ours.bounds.max() - theirs.bounds.max()).norm(), reading_error * length);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) throw std::logic_error("no " + what);
+  return text.replace(at, what.size(), by);
+}
+
+/// A file whose primitive runs over the corners of a plane rectangle.
+std::string with_primitive(const std::string& primitive) {
+  std::string text = replaced(test::collada("<unit meter=\"0.5\"/>", test::collada_node()),
+                              "0 0 0 2 0 0 0 3 0 0 0 4", "0 0 1 2 0 1 2 3 2 0 3 2");
+  const std::size_t begin = text.find("<triangles");
+  return text.replace(begin, text.find("</mesh>") - begin, primitive);
+}
+
+const std::string vertex_input = "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>";
+
+class Collada : public ::testing::Test {
+ protected:
+  void expect_refused(const std::string& text, const std::string& why) {
+    try {
+      (void)load_mesh(folder_.write("a.dae", text));
+      ADD_FAILURE() << "read, but should be refused: " << why;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(why), std::string::npos) << why << ": " << message;
+      EXPECT_NE(message.find(';'), std::string::npos) << "no remedy: " << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+  }
+  /// The sample with one place changed.
+  void expect_refused(const std::string& what, const std::string& by, const std::string& why) {
+    expect_refused(replaced(test::collada("", test::collada_node()), what, by), why);
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Collada, ReadsAsAssimpDoes) {
+  const std::string nodes =
+      "<node id=\"a\"><matrix>0 -1 0 3  1 0 0 4  0 0 2 5  0 0 0 1</matrix>"
+      "<rotate>0.6 0 0.8 40</rotate><node><scale>1 2 3</scale><translate>1 2 3</translate>"
+      "<instance_geometry url=\"#tet\"/></node></node><node><translate>9 0 0</translate>"
+      "<instance_node url=\"#a\"/></node>";
+  expect_as_assimp(folder_.write("t.dae", test::collada("<unit meter=\"0.0254\"/>", nodes)));
+  const std::string uv =
+      "<input semantic=\"TEXCOORD\" source=\"#p\" offset=\"0\" set=\"0\"/>"
+      "<input semantic=\"VERTEX\" source=\"#v\" offset=\"1\"/>";
+  const std::vector<std::string> primitives{
+      "<triangles count=\"2\">" + uv + "<p>3 0 2 2 1 1 0 0 1 1 0 3</p></triangles>",
+      "<polylist count=\"3\">" + vertex_input +
+          "<vcount>3 2 4</vcount><p>0 2 1 0 1 0 1 2 3</p></polylist>",
+      "<polygons count=\"2\">" + vertex_input + "<p>0 2 1</p><p>0 1 3</p></polygons>",
+      "<tristrips count=\"2\">" + vertex_input + "<p>0 1 2 3 0</p><p>3 2 1</p></tristrips>",
+      "<lines count=\"1\">" + vertex_input + "<p>0 1</p></lines><triangles count=\"0\">" +
+          vertex_input + "</triangles><triangles count=\"1\">" + vertex_input +
+          "<p>0 1 2</p></triangles>"};
+  for (const std::string& primitive : primitives)
+    expect_as_assimp(folder_.write("p.dae", with_primitive(primitive)));
+}
+
+TEST_F(Collada, RealFilesReadAsAssimpDoes) {
+  expect_as_assimp(std::filesystem::path(PENUMBRA_SOURCE_DIR) /
+                   "examples/arm_over_table/arm_description/meshes/upper_arm.dae");
+  PENUMBRA_REQUIRE_DATA();
+  const auto folder = test::data_folder() / "robots/ur5e/ur_description/meshes/ur5e/visual";
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    expect_as_assimp(entry.path());
+}
+
+TEST_F(Collada, FansAndCommentsBetweenNumbersAreRead) {
+  const auto fan =
+      load_mesh(folder_.write("f.dae", with_primitive("<trifans count=\"1\">" + vertex_input +
+                                                      "<p>0 2 <!-- x --> 1 3 2</p></trifans>")));
+  EXPECT_EQ(fan.triangles.size(), 3U);
+  EXPECT_EQ(fan.vertices.size(), 4U);
+}
+
+TEST_F(Collada, TransformsThatAreNotReadMatterOnlyToGeometry) {
+  const std::string look = "<lookat>0 0 9 0 0 0 0 1 0</lookat>";
+  const std::string skew = "<skew>45 0 1 0 1 0 0</skew>";
+  for (const std::string& transform : {look, skew}) {
+    expect_refused(test::collada("", test::collada_node(transform)), "it moves geometry");
+    expect_refused(test::collada("", "<node>" + transform + test::collada_node() + "</node>"),
+                   "it moves geometry");
+    const std::string camera =
+        "<node id=\"c\">" + transform + "<node/><instance_camera url=\"#x\"/></node>";
+    EXPECT_EQ(load_mesh(folder_.write("c.dae", test::collada("", camera + test::collada_node())))
+                  .triangles.size(),
+              4U);
+  }
+  for (const std::string bad : {"<translate>1 2</translate>", "<translate>1 2 3 4</translate>",
+                                "<translate>1 2 nan</translate>", "<rotate>0 0 0 90</rotate>",
+                                "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>",
+                                "<scale>1 1 x</scale>", "<translat>1 2 3</translat>"})
+    expect_refused(test::collada("", test::collada_node(bad)), "damaged");
+}
+
+TEST_F(Collada, CountsOfPrimitivesMustFit) {
+  const auto refuse = [&](const std::string& primitive, const std::string& why) {
+    expect_refused(with_primitive(primitive), why);
+  };
+  refuse("<triangles count=\"1\">" + vertex_input + "</triangles>", "it has no <p>");
+  refuse("<triangles count=\"2\">" + vertex_input + "<p>0 1 2</p></triangles>",
+         "promises 6 corners");
+  refuse("<triangles count=\"1\">" + vertex_input + "<p>0 1 2</p><p>0 1 2</p></triangles>",
+         "a second");
+  refuse("<triangles>" + vertex_input + "<p>0 1 2</p></triangles>", "it has no count");
+  refuse("<polylist count=\"1\">" + vertex_input + "</polylist>", "it has no <p>");
+  refuse("<polylist count=\"1\">" + vertex_input + "<p>0 1 2</p></polylist>", "no <vcount>");
+  refuse("<polylist count=\"2\">" + vertex_input + "<vcount>3</vcount><p>0 1 2</p></polylist>",
+         "promises 2 polygons");
+  for (const char* sizes : {"4", "2", "-3"})
+    refuse("<polylist count=\"1\">" + vertex_input + "<vcount>" + sizes +
+               "</vcount><p>0 1 2</p></polylist>",
+           "do not agree");
+  const auto element = [&](const std::string& name, const char* count, const char* indices) {
+    return "<" + name + " count=\"" + count + "\">" + vertex_input + indices + "</" + name + ">";
+  };
+  for (const char* name : {"polygons", "tristrips", "trifans"}) {
+    refuse(element(name, "1", ""), "promises 1 <p>");
+    refuse(element(name, "2", "<p>0 1 2</p>"), "promises 2 <p>");
+  }
+  refuse("<polygons count=\"1\">" + vertex_input + "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>",
+         "hole");
+  refuse("<triangels count=\"1\">" + vertex_input + "<p>0 1 2</p></triangels>",
+         "stands in a <mesh>");
+}
+
+TEST_F(Collada, SourcesMustHoldWhatIsReadFromThem) {
+  const std::string text = test::collada("", test::collada_node());
+  for (const std::string name : {"Name_array", "IDREF_array", "int_array"})
+    expect_refused(
+        replaced(replaced(text, "<float_array", "<" + name), "</float_array", "</" + name),
+        "it has no <float_array>");
+  expect_refused("source=\"#pa\"", "source=\"#pb\"", "is not the <float_array> beside it");
+  expect_refused("source=\"#p\"", "source=\"#q\"", "no <source> of its mesh has the id 'q'");
+  expect_refused("source=\"#v\"", "source=\"#p\"", "is not the <vertices>");
+  expect_refused("stride=\"3\"", "", "beyond its stride of 1");
+  expect_refused("stride=\"3\"", "stride=\"3\" offset=\"1\"", "it reads 13 of 12");
+  expect_refused("count=\"4\" stride", "count=\"4294967295\" stride", "of 12 numbers");
+  expect_refused("name=\"Z\"", "name=\"Y\"", "positions need");
+  expect_refused("name=\"Z\"", "", "positions need");
+  expect_refused("\"POSITION\"", "\"NORMAL\"", "no <input> of POSITION");
+  expect_refused("\"VERTEX\"", "\"POSITION\"", "no <input> of VERTEX");
+  expect_refused("offset=\"0\"", "offset=\"99\"", "its offset");
+  expect_refused("<p>0 2 1", "<p>0 -2 1", "names vertex -2 of 4");
+}
+
+TEST_F(Collada, WhatASceneShowsMustBeThereAndRigid) {
+  const std::string text = test::collada("", test::collada_node());
+  expect_refused(replaced(text, "<scene>", "<scenery>"), "XML");
+  expect_refused(replaced(text, "url=\"#s\"", "url=\"#t\""), "refers to '#t'");
+  expect_refused(replaced(text, "<geometry ", "<geometry id=\"tet\"><mesh/></geometry><geometry "),
+                 "two elements have the id 'tet'");
+  expect_refused(replaced(text, "instance_geometry", "instance_controller"), "joints bend");
+  expect_refused(replaced(text, "#tet", "#a\nb"), "refers to '#a b'");
+  expect_refused("<html></html>", "a Collada file has <COLLADA>");
+}
+
+}  // namespace
+}  // namespace penumbra

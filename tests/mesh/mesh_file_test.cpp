@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include <gtest/gtest.h>
+#include <tests/mesh/mesh_samples.hpp>
+#include <tests/support/data.hpp>
+#include <tests/support/run_length.hpp>
+
+#include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr double float_rounding = 1e-5;  // of volumes of a few cubic metres from float corners
+
+double volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const MeshComponent& piece : connected_components(mesh)) sum += piece.signed_volume;
+  return sum;
+}
+
+Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
+  Eigen::Vector3f corner = mesh.vertices.front();
+  for (const auto& v : mesh.vertices) corner = corner.cwiseMax(v);
+  return corner;
+}
+
+/// The tetrahedron times `unit`.
+void expect_tetrahedron(const TriangleMesh& mesh, double unit = 1.0) {
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+  EXPECT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_TRUE(is_watertight(mesh));
+  const Eigen::Vector3f corner = (Eigen::Vector3d(2, 3, 4) * unit).cast<float>();
+  EXPECT_TRUE(upper_corner(mesh).isApprox(corner, 1e-6F)) << upper_corner(mesh).transpose();
+  EXPECT_NEAR(volume(mesh) / (unit * unit * unit), test::tetrahedron_volume, float_rounding);
+}
+
+class MeshFile : public ::testing::Test {
+ protected:
+  TriangleMesh load(const std::string& name, const std::string& bytes) {
+    return load_mesh(folder_.write(name, bytes));
+  }
+  TriangleMesh load_collada(const std::string& asset, const std::string& nodes) {
+    return load("a.dae", test::collada(asset, nodes));
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(MeshFile, EveryFormatGivesTheSameSolid) {
+  folder_.write("a.bin", test::gltf_buffer());
+  for (const auto& [name, bytes] : test::samples()) {
+    SCOPED_TRACE(name);
+    expect_tetrahedron(load(name, bytes));
+  }
+}
+
+TEST_F(MeshFile, EndingsMayBeUpperCase) {
+  for (const auto& [name, bytes] : test::samples()) {
+    std::string upper = name;
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](char c) { return static_cast<char>(std::toupper(c)); });
+    folder_.write("a.bin", test::gltf_buffer());
+    SCOPED_TRACE(upper);
+    expect_tetrahedron(load(upper, bytes));
+  }
+}
+
+TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
+  std::string text = test::ascii_stl(test::tetrahedron());
+  std::string upper = text;
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](char c) { return static_cast<char>(std::toupper(c)); });
+  expect_tetrahedron(load("upper.stl", upper));
+  std::string crlf;
+  for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  expect_tetrahedron(load("crlf.stl", crlf));
+  std::string nan = text;
+  nan.replace(nan.find("normal 0 0 0"), 12, "normal nan -nan(ind) 1.#IND");
+  expect_tetrahedron(load("nan.stl", nan));
+  std::string tiny = text;
+  tiny.replace(tiny.find("0.000000"), 8, "+1.0e-60");
+  EXPECT_EQ(load("tiny.stl", tiny).triangles.size(), 4U);
+  EXPECT_NEAR(volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume, float_rounding);
+}
+
+TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto expect_half = [&](const std::string& vertices) {
+    SCOPED_TRACE(vertices);
+    expect_tetrahedron(load("a.obj", vertices + faces), 0.25);
+  };
+  expect_half("v 0 0 0\nv .5 0 0\nv 0 .75 0\nv 0 0 1.\n");
+  expect_half("v 0 0 0\nv .5 0 0\nv 0 .75 0\nv 0 0 1\nv 9 9 9\nv 9 9 9\n");  // two unused
+  expect_half("v -.0 0. 0\nv +.5 0 0\nv 0 75.e-2 0\nv 0 0 .1E+1\n");
+  expect_half("  v  0 0 0\n\tv .5 0 0 \n v 0\t.75 0\nv 0 0 1 # the tip\n");
+  for (const char* more : {"1", "1.0", ".2 .3 1", "0.2 0.3 1", ".2 .3 1 .5", "1 .2 .3 1"}) {
+    const std::string end = std::string(" ") + more + "\n";
+    std::string lines;
+    for (const char* corner : {"0 0 0", ".5 0 0", "0 .75 0", "0 0 1"})
+      lines.append("v ").append(corner).append(end);
+    expect_half(lines);
+  }
+}
+
+TEST_F(MeshFile, ObjLinesMayEndAsOnAnySystem) {
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char c : test::obj()) text += c == '\n' ? std::string(line_end) : std::string(1, c);
+    std::vector<std::string> notes;
+    expect_tetrahedron(load_mesh(folder_.write("a.obj", text), notes));
+    EXPECT_EQ(notes.size(), 0U) << notes.front();
+  }
+}
+
+/// The tetrahedron with coordinates of type T and indices of type Index, among other data.
+template <typename T, typename Index>
+std::string ply_of(const std::string& type, const std::string& index_type, bool big_endian) {
+  std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
+                      "_endian 1.0\r\nelement camera 1\r\nproperty list uint double views\r\n" +
+                      "element vertex 4\r\nproperty " + type + " z\r\nproperty short quality\r\n" +
+                      "property " + type + " x\r\nproperty " + type + " y\r\nelement face 4\r\n" +
+                      "property list ushort float uv\r\nproperty list uchar " + index_type +
+                      " vertex_index\r\nproperty char flags\r\nend_header\r\n";
+  const auto put = [&](auto value) {
+    std::string raw;
+    test::put(raw, value);
+    if (big_endian) std::reverse(raw.begin(), raw.end());
+    bytes += raw;
+  };
+  const TriangleMesh mesh = test::tetrahedron();
+  put(std::uint32_t{2});
+  for (const double view : {0.5, 1.5}) put(view);
+  for (const auto& v : mesh.vertices) {
+    put(static_cast<T>(v.z()));
+    put(std::int16_t{-7});
+    for (int axis = 0; axis < 2; ++axis) put(static_cast<T>(v[axis]));
+  }
+  for (const auto& t : mesh.triangles) {
+    put(std::uint16_t{1});
+    put(0.25F);
+    put(std::uint8_t{3});
+    for (const std::uint32_t corner : t) put(static_cast<Index>(corner));
+    put(std::int8_t{-1});
+  }
+  return bytes;
+}
+
+TEST_F(MeshFile, PlyOfAnyTypeAndByteOrder) {
+  for (const bool big : {false, true}) {
+    SCOPED_TRACE(big);
+    expect_tetrahedron(load("a.ply", ply_of<float, std::int32_t>("float", "int", big)));
+    expect_tetrahedron(load("b.ply", ply_of<double, std::uint32_t>("double", "uint32", big)));
+    expect_tetrahedron(load("c.ply", ply_of<std::int16_t, std::int8_t>("int16", "char", big)));
+    expect_tetrahedron(load("d.ply", ply_of<std::uint8_t, std::uint16_t>("uint8", "ushort", big)));
+  }
+}
+
+TEST_F(MeshFile, FoldedQuadsAreRead) {
+  const std::string corners = "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nv .5 2 0\n";
+  EXPECT_EQ(load("quad.obj", corners + "f 1 2 3 4\nf 1 2 5\n").triangles.size(), 3U);
+}
+
+TEST_F(MeshFile, ColladaUnitIsAppliedOnce) {
+  expect_tetrahedron(load_collada("", test::collada_node()));
+  expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>", test::collada_node()));
+  expect_tetrahedron(load_collada("<unit name=\"meter\"/>", test::collada_node()));
+  expect_tetrahedron(load_collada("<unit name=\"mm\" meter=\"0.001\"/>", test::collada_node()),
+                     0.001);
+  const TriangleMesh moved = load_collada("<unit name=\"inch\" meter=\"0.0254\"/>",
+                                          test::collada_node("<translate>10 0 0</translate>"));
+  EXPECT_TRUE(upper_corner(moved).isApprox(Eigen::Vector3f(12, 3, 4) * 0.0254F, 1e-6F));
+}
+
+TEST_F(MeshFile, ColladaUpAxisIsIgnored) {
+  for (const std::string axis : {"X_UP", "Y_UP", "Z_UP"}) {
+    SCOPED_TRACE(axis);
+    expect_tetrahedron(load_collada("<up_axis>" + axis + "</up_axis>", test::collada_node()));
+    expect_tetrahedron(
+        load_collada("<unit meter=\"0.1\"/><up_axis>" + axis + "</up_axis>", test::collada_node()),
+        0.1);
+  }
+}
+
+TEST_F(MeshFile, ColladaNodeTransformsAreAppliedParentFirst) {
+  const TriangleMesh mesh =
+      load_collada("", "<node id=\"a\"><rotate>0 0 1 90</rotate>" +
+                           test::collada_node("<translate>10 0 0</translate>") + "</node>");
+  // (x, y, z) goes to (x + 10, y, z) and then to (-y, x + 10, z).
+  EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(0, 12, 4), 1e-5F))
+      << upper_corner(mesh).transpose();
+  EXPECT_NEAR(volume(mesh), test::tetrahedron_volume, float_rounding);
+}
+
+TEST_F(MeshFile, MirroredNodesAreWoundAgain) {
+  const TriangleMesh mesh = load_collada("", test::collada_node("<scale>-1 1 1</scale>"));
+  EXPECT_NEAR(volume(mesh), test::tetrahedron_volume, float_rounding);
+  EXPECT_FLOAT_EQ(upper_corner(mesh).x(), 0.0F);
+  const TriangleMesh twice = load_collada("", test::collada_node("<scale>-1 -1 1</scale>"));
+  EXPECT_NEAR(volume(twice), test::tetrahedron_volume, float_rounding);
+  const TriangleMesh gltf = load("m.glb", test::glb(",\"scale\":[1,-1,1]"));
+  EXPECT_NEAR(volume(gltf), test::tetrahedron_volume, float_rounding);
+}
+
+TEST_F(MeshFile, InstancesAreDrawnEach) {
+  const std::string two = test::collada_node("", "a") +
+                          test::collada_node("<translate>10 0 0</translate>", "b") +
+                          "<node id=\"c\"><translate>0 20 0</translate>"
+                          "<instance_node url=\"#a\"/></node>";
+  const TriangleMesh mesh = load_collada("", two);
+  EXPECT_EQ(connected_components(mesh).size(), 3U);
+  EXPECT_NEAR(volume(mesh), 3 * test::tetrahedron_volume, float_rounding);
+  EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(12, 23, 4), 1e-6F));
+}
+
+TEST_F(MeshFile, GltfKeepsItsYUp) { expect_tetrahedron(load("y.glb", test::glb())); }
+
+TEST_F(MeshFile, PolygonsAreTriangulatedAndLinesDropped) {
+  // An L of area 3, concave at (1, 1), extruded by nothing: one polygon, a line and a point.
+  const TriangleMesh mesh = load("l.obj",
+                                 "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+                                 "v 9 9 9\nf 1 2 3 4 5 6\nl 1 7\np 7\n");
+  EXPECT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_EQ(mesh.vertices.size(), 6U);
+  double area = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>() - a;
+    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>() - a;
+    area += (b.x() * c.y() - b.y() * c.x()) / 2.0;
+  }
+  EXPECT_NEAR(area, 3.0, float_rounding);
+}
+
+TEST_F(MeshFile, UR5eVisualLoadsFast) {
+  PENUMBRA_REQUIRE_DATA();
+  const auto folder = test::data_folder() / "robots/ur5e/ur_description/meshes/ur5e/visual";
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t triangles = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    triangles += load_mesh(entry.path()).triangles.size();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::cout << triangles << " triangles: " << 1e3 * took.count() << " ms\n";
+  constexpr std::size_t in_the_files = 121801;  // counted by other means; a few are degenerate
+  EXPECT_GT(triangles, in_the_files * 99 / 100);
+  EXPECT_LE(triangles, in_the_files);
+  constexpr double hang = 10.0;  // the budget is 0.8 s, on a machine that is not shared
+  EXPECT_LT(took.count(), hang);
+}
+
+/// About five million triangles.
+TriangleMesh large_grid() {
+  constexpr std::uint32_t side = 1582;  // 2 side^2 triangles
+  TriangleMesh grid;
+  for (std::uint32_t i = 0; i <= side; ++i)
+    for (std::uint32_t j = 0; j <= side; ++j)
+      grid.vertices.emplace_back(static_cast<float>(i), static_cast<float>(j), 0.0F);
+  for (std::uint32_t i = 0; i < side; ++i) {
+    for (std::uint32_t j = 0; j < side; ++j) {
+      const std::uint32_t p = i * (side + 1) + j;
+      grid.triangles.push_back({p, p + side + 1, p + 1});
+      grid.triangles.push_back({p + 1, p + side + 1, p + side + 2});
+    }
+  }
+  return grid;
+}
+
+void expect_loads(const std::filesystem::path& file, const TriangleMesh& grid) {
+  const auto start = std::chrono::steady_clock::now();
+  const TriangleMesh mesh = load_mesh(file);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::cout << file.filename() << ": " << mesh.triangles.size() << " triangles: " << took.count()
+            << " s\n";
+  EXPECT_EQ(mesh.triangles.size(), grid.triangles.size());
+  EXPECT_EQ(mesh.vertices.size(), grid.vertices.size());
+  constexpr double hang = 60.0;  // a few seconds, on a machine that is not shared
+  EXPECT_LT(took.count(), hang);
+}
+
+TEST(MeshFileFull, FiveMillionTrianglesLoad) {
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  const TriangleMesh grid = large_grid();
+  const test::TemporaryFolder folder;
+  expect_loads(folder.write("big.stl", test::binary_stl(grid)), grid);
+  expect_loads(folder.write("big.dae", test::collada_of(grid)), grid);
+}
+
+}  // namespace
+}  // namespace penumbra

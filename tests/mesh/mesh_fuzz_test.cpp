@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words of mesh files swapped, removed, doubled and renamed: a file is read, or refused in one
+// line, and never ends the process. Each run happens in a child, so that a crash or a hang names
+// its seed.
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <tests/mesh/mesh_samples.hpp>
+#include <tests/support/random.hpp>
+#include <tests/support/run_length.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+
+namespace penumbra {
+namespace {
+
+using Random = std::mt19937_64;
+
+constexpr unsigned hang = 30;  // seconds for a file of 2 kB, under sanitizers too
+
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_.-+#").find(c) != std::string_view::npos;
+}
+
+/// Words and what stands between them, in turns.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> tokens;
+  for (std::size_t i = 0; i < text.size();) {
+    const bool word = is_word(text[i]);
+    const std::size_t begin = i;
+    while (i < text.size() && is_word(text[i]) == word) ++i;
+    tokens.push_back(text.substr(begin, i - begin));
+  }
+  return tokens;
+}
+
+std::string foreign_word(Random& random) {
+  static const std::vector<std::string> words = split(
+      "skew|lookat|matrix|rotate|scale|translate|polylist|polygons|triangles|lines|linestrips|"
+      "trifans"
+      "|tristrips|p|ph|h|vcount|input|source|vertices|float_array|int_array|Name_array|IDREF_array"
+      "|accessor|param|technique|node|instance_node|instance_geometry|instance_controller|"
+      "controller"
+      "|skin|morph|joints|vertex_weights|extra|asset|unit|mesh|geometry|library_nodes|library_"
+      "lights"
+      "|library_animations|animation|sampler|channel|POSITION|NORMAL|TEXCOORD|COLOR|VERTEX|offset"
+      "|set|sparse|byteStride|byteOffset|normalized|indices|targets|skins|animations|children|"
+      "images"
+      "|textures|cameras|mode|MAT4|VEC2|VEC4|SCALAR|5120|5121|5122|5125|uri|extensions|max|min"
+      "|0|-1|1|2|3|4|5|6|7|16|1e30|nan|inf|99999999999|4294967295|2147483648|18446744073709551615"
+      "|-0|0.5|x|#|true|null|KHR_draco_mesh_compression");
+  return words[2 * (random() % (words.size() / 2))];
+}
+
+void mutate(std::vector<std::string>& tokens, Random& random) {
+  const auto pick = [&]() -> std::string& { return tokens[random() % tokens.size()]; };
+  std::string& one = pick();
+  const std::string before = one;
+  const std::string other = random() % 2 == 0 ? pick() : foreign_word(random);
+  switch (random() % 7) {
+    case 0:
+      std::swap(one, pick());
+      return;
+    case 1:
+      one.clear();
+      return;
+    case 2:
+      one += " " + one;
+      return;
+    case 3:
+    case 4:
+      one = other;
+      return;
+    default:  // an element's both tags, an id and what refers to it
+      if (is_word(before.empty() ? ' ' : before[0]))
+        std::replace(tokens.begin(), tokens.end(), before, other);
+  }
+}
+
+/// Takes out, doubles or moves what stands between two marks, brackets or tags mostly whole.
+std::string shuffled(std::string text, Random& random) {
+  const std::string_view open = text.starts_with('<') ? "<" : "{[,";
+  const auto mark = [&] {
+    return std::min(text.find_first_of(open, random() % text.size()), text.size());
+  };
+  const std::size_t begin = mark();
+  const std::size_t end = std::max(begin, mark());
+  const std::string piece = text.substr(begin, end - begin);
+  if (random() % 2 == 0) text.erase(begin, piece.size());
+  if (random() % 2 == 0) text.insert(mark(), piece);
+  return text;
+}
+
+std::string mutated(const std::string& text, Random& random) {
+  std::vector<std::string> tokens = split(text);
+  for (std::uint64_t n = 1 + random() % 3; n > 0; --n) mutate(tokens, random);
+  std::string result;
+  for (const std::string& token : tokens) result += token;
+  return random() % 4 == 0 && !result.empty() ? shuffled(std::move(result), random) : result;
+}
+
+/// The same scene with each kind of primitive, and other formats.
+std::vector<test::Sample> fuzz_samples() {
+  const std::string plain =
+      test::collada("<unit name=\"meter\" meter=\"1\"/>",
+                    "<node id=\"m\"><rotate>0 0 1 90</rotate><scale>1 2 1</scale>"
+                    "<instance_node url=\"#n\"/></node>" +
+                        test::collada_node("<translate>1 0 0</translate>"));
+  const std::string triangles = "<triangles count=\"4\">";
+  const auto with = [&](const std::string& open, const std::string& numbers,
+                        const std::string& close) {
+    std::string text = plain;
+    text.replace(text.find(triangles), triangles.size(), open);
+    const std::size_t p = text.find("<p>");
+    return text.replace(p, text.find("</mesh>") - p, numbers + close);
+  };
+  return {{"t.dae", plain},
+          {"l.dae", with("<polylist count=\"2\">", "<vcount>3 4</vcount><p>0 2 1 0 1 3 2</p>",
+                         "</polylist>")},
+          {"p.dae", with("<polygons count=\"2\">", "<p>0 2 1</p><p>0 1 3 2</p>", "</polygons>")},
+          {"s.dae", with("<tristrips count=\"1\">", "<p>0 1 2 3</p>", "</tristrips>")},
+          {"f.dae", with("<trifans count=\"1\">", "<p>0 1 2 3</p>", "</trifans>")},
+          {"a.obj", test::obj()},
+          {"a.ply", test::ascii_ply()},
+          {"a.gltf", test::gltf_json(",\"uri\":\"a.bin\"", ",\"scale\":[1,2,1]")}};
+}
+
+/// Whether a file is read, or refused as it should be.
+bool is_sound(const std::filesystem::path& file) {
+  std::string fault = "read without a triangle";
+  try {
+    if (!load_mesh(file).triangles.empty()) return true;
+  } catch (const InputError& error) {
+    fault = error.what();
+    if (fault.find('\n') == std::string::npos && fault.find(';') != std::string::npos) return true;
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  std::cerr << "no sound refusal: " << fault << '\n';
+  return false;
+}
+
+/// In a child: tries files until the last; `at` tells which one is tried.
+[[noreturn]] void run_child(int trials, std::uint64_t seed, volatile int* at) {
+  const test::TemporaryFolder folder;
+  folder.write("a.bin", test::gltf_buffer());
+  const std::vector<test::Sample> samples = fuzz_samples();
+  bool sound = true;
+  for (int trial = *at; sound && trial < trials; ++trial) {
+    *at = trial;
+    Random random(seed + static_cast<std::uint64_t>(trial));
+    // A third is glTF, which a library reads.
+    const test::Sample& sample =
+        trial % 3 == 0 ? samples.back() : samples[random() % samples.size()];
+    const auto file = folder.write(sample.name, mutated(sample.bytes, random));
+    alarm(hang);
+    sound = is_sound(file);
+  }
+  std::filesystem::remove_all(folder.path());
+  _exit(sound ? 0 : 1);
+}
+
+void fuzz(int trials, std::uint64_t default_seed) {
+  const std::uint64_t seed = test::seeded_random(default_seed)();
+  void* const shared =
+      mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  volatile int* const at = static_cast<int*>(shared);
+  std::cout.flush();
+  const pid_t child = fork();
+  if (child == 0) run_child(trials, seed, at);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+      << (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+                              : "an unsound refusal, or an error of a sanitizer")
+      << " in trial " << *at << " of seed " << default_seed << " (generator "
+      << seed + static_cast<std::uint64_t>(*at) << ")";
+  munmap(shared, sizeof(int));
+}
+
+TEST(MeshFuzz, SwappedWordsAreReadOrRefused) { fuzz(1500, 11); }
+
+TEST(MeshFuzz, MutationsLeaveSomeFilesReadable) {
+  const test::TemporaryFolder folder;
+  folder.write("a.bin", test::gltf_buffer());
+  Random random = test::seeded_random(12);
+  for (const auto& [name, bytes] : fuzz_samples()) {
+    EXPECT_NO_THROW((void)load_mesh(folder.write(name, bytes))) << name;
+    int read = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+      try {
+        read += load_mesh(folder.write(name, mutated(bytes, random))).triangles.empty() ? 0 : 1;
+      } catch (const InputError&) {
+      }
+    }
+    EXPECT_GT(read, 0) << name;
+    EXPECT_LT(read, 100) << name;
+  }
+}
+
+TEST(MeshFuzzFull, SwappedWordsAreReadOrRefused) {
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  fuzz(100000, 13);
+}
+
+}  // namespace
+}  // namespace penumbra

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/primitives.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double silhouette_limit = 1e-4;  // metres
+constexpr double radii[] = {1e-6, 1e-4, 0.001, 0.02, 0.05, 0.3, 2.0};
+
+using Distance = std::function<double(const Eigen::Vector3d&)>;
+
+double capsule_distance(const Eigen::Vector3d& p, double radius, double length) {
+  const double z = std::max(0.0, std::abs(p.z()) - length / 2.0);
+  return std::hypot(p.x(), p.y(), z) - radius;
+}
+
+double cylinder_distance(const Eigen::Vector3d& p, double radius, double length) {
+  const double side = std::hypot(p.x(), p.y()) - radius;
+  const double end = std::abs(p.z()) - length / 2.0;
+  if (side > 0.0 && end > 0.0) return std::hypot(side, end);
+  return std::max(side, end);
+}
+
+/// Largest |distance| to the true surface over corners and a grid of points on each triangle.
+double surface_error(const TriangleMesh& mesh, const Distance& distance) {
+  constexpr int steps = 6;
+  double worst = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>() - a;
+    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>() - a;
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j)
+        worst = std::max(worst, std::abs(distance(a + b * i / steps + c * j / steps)));
+  }
+  return worst;
+}
+
+void expect_solid(const TriangleMesh& mesh, double volume, double area, const Distance& distance) {
+  const double rounding = 1e-6 * std::cbrt(volume);
+  EXPECT_LE(surface_error(mesh, distance), primitive_error + rounding);
+  EXPECT_LT(primitive_error, silhouette_limit);
+  const TriangleMesh welded = weld(mesh);
+  EXPECT_EQ(welded.vertices.size(), mesh.vertices.size()) << "vertices shared already";
+  EXPECT_EQ(welded.triangles.size(), mesh.triangles.size()) << "no degenerate triangle";
+  const auto pieces = connected_components(welded);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_TRUE(pieces[0].closed);
+  EXPECT_GT(pieces[0].signed_volume, 0.0);
+  EXPECT_NEAR(pieces[0].signed_volume, volume, area * primitive_error + 1e-6 * volume);
+}
+
+TEST(MeshPrimitives, Box) {
+  const Eigen::Vector3d size(0.3, 0.02, 1.5);
+  const TriangleMesh box = make_box(size);
+  EXPECT_EQ(box.triangles.size(), 12U);
+  expect_solid(box, size.prod(), 0.0,
+               [&](const Eigen::Vector3d& p) { return (p.cwiseAbs() - size / 2.0).maxCoeff(); });
+}
+
+TEST(MeshPrimitives, Sphere) {
+  for (const double r : radii) {
+    const TriangleMesh sphere = make_sphere(r);
+    std::cout << "sphere " << r << " m: " << sphere.triangles.size() << " triangles\n";
+    expect_solid(sphere, 4.0 / 3.0 * pi * r * r * r, 4.0 * pi * r * r,
+                 [=](const Eigen::Vector3d& p) { return capsule_distance(p, r, 0.0); });
+  }
+}
+
+TEST(MeshPrimitives, Cylinder) {
+  for (const double r : radii) {
+    const TriangleMesh cylinder = make_cylinder(r, 0.4);
+    std::cout << "cylinder " << r << " m: " << cylinder.triangles.size() << " triangles\n";
+    expect_solid(cylinder, pi * r * r * 0.4, 2.0 * pi * r * 0.4,
+                 [=](const Eigen::Vector3d& p) { return cylinder_distance(p, r, 0.4); });
+  }
+}
+
+TEST(MeshPrimitives, Capsule) {
+  for (const double r : radii) {
+    for (const double length : {0.0, 0.001, 0.4}) {
+      const TriangleMesh capsule = make_capsule(r, length);
+      const double volume = pi * r * r * (4.0 / 3.0 * r + length);
+      expect_solid(capsule, volume, 2.0 * pi * r * (2.0 * r + length),
+                   [=](const Eigen::Vector3d& p) { return capsule_distance(p, r, length); });
+    }
+  }
+}
+
+TEST(MeshPrimitives, SizesThatAreNoneAreRefused) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.0, -1.0, nan, inf}) {
+    EXPECT_THROW((void)make_box({1, bad, 1}), InputError);
+    EXPECT_THROW((void)make_sphere(bad), InputError);
+    EXPECT_THROW((void)make_cylinder(bad, 1), InputError);
+    EXPECT_THROW((void)make_cylinder(1, bad), InputError);
+    EXPECT_THROW((void)make_capsule(bad, 1), InputError);
+  }
+  EXPECT_THROW((void)make_capsule(1, -1.0), InputError);
+  EXPECT_THROW((void)make_capsule(1, nan), InputError);
+  EXPECT_THROW((void)make_sphere(1e4), InputError);
+  EXPECT_THROW((void)make_cylinder(1e6, 1), InputError);
+}
+
+}  // namespace
+}  // namespace penumbra

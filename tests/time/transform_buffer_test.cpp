@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../robot/urdf_text.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/time/transform_buffer.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr double kTolerance = 1e-12;  // lengths of 1, a handful of operations
+
+Eigen::Isometry3d shift(double x, double y = 0.0, double z = 0.0) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Eigen::Vector3d(x, y, z);
+  return T;
+}
+
+Eigen::Isometry3d turn_z(double angle) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return T;
+}
+
+class Transforms : public testing::Test {
+ protected:
+  const TransformAnswer& at(std::int64_t stamp, const char* target, const char* source) {
+    buffer_.at(stamp, target, source, answer_);
+    EXPECT_EQ(answer_.message.empty(), answer_.status == TransformStatus::ok);
+    EXPECT_EQ(answer_.message.find('\n'), std::string::npos);
+    return answer_;
+  }
+
+  void expect_refused(TransformInsert outcome, TransformInsert why, const std::string& names) {
+    EXPECT_EQ(outcome, why);
+    EXPECT_TRUE(holds(buffer_.last_refusal(), names));
+  }
+
+  TransformBuffer buffer_{{.max_gap = 0.1, .history = 1.0}};
+  TransformAnswer answer_;
+};
+
+TEST_F(Transforms, MovesStraightAndTurnsAtConstantSpeed) {
+  buffer_.insert(100 * kMs, "base", "arm", shift(1, 2, 3) * turn_z(0.2));
+  buffer_.insert(180 * kMs, "base", "arm", shift(2, 2, 1) * turn_z(1.0));
+  const TransformAnswer& answer = at(120 * kMs, "base", "arm");
+  ASSERT_EQ(answer.status, TransformStatus::ok);
+  EXPECT_TRUE(answer.T_target_source.isApprox(shift(1.25, 2, 2.5) * turn_z(0.4), kTolerance));
+  EXPECT_EQ(answer.age, 60 * kMs);
+  EXPECT_FALSE(answer.is_static);
+}
+
+TEST_F(Transforms, TurnsTheShortWayWhateverTheSignOfTheQuaternion) {
+  const double pi = std::numbers::pi;
+  buffer_.insert(1 * kMs, "base", "arm", turn_z(pi - 0.1));
+  buffer_.insert(3 * kMs, "base", "arm", turn_z(-pi + 0.3));
+  EXPECT_TRUE(at(2 * kMs, "base", "arm").T_target_source.isApprox(turn_z(pi + 0.1), kTolerance));
+}
+
+TEST_F(Transforms, NothingIsExtrapolated) {
+  buffer_.insert(100 * kMs, "base", "arm", shift(1));
+  EXPECT_EQ(at(100 * kMs, "base", "arm").status, TransformStatus::ok);
+  EXPECT_EQ(answer_.age, 0);
+  for (const std::int64_t stamp : {100 * kMs - 1, 100 * kMs + 1, std::int64_t{0}})
+    EXPECT_EQ(at(stamp, "base", "arm").status, TransformStatus::stale) << stamp;
+  buffer_.insert(200 * kMs, "base", "arm", shift(2));
+  EXPECT_EQ(at(150 * kMs, "base", "arm").status, TransformStatus::ok);
+  buffer_.insert(300 * kMs + 1, "base", "arm", shift(3));
+  EXPECT_EQ(at(250 * kMs, "base", "arm").status, TransformStatus::stale);
+  EXPECT_TRUE(holds(answer_.message, "'arm' in 'base'"));
+  EXPECT_TRUE(holds(answer_.message, "100 ms apart"));
+}
+
+TEST_F(Transforms, ATurnOfMoreThanARightAngleIsNotGuessed) {
+  buffer_.insert(1 * kMs, "base", "arm", turn_z(0.0));
+  buffer_.insert(2 * kMs, "base", "arm", turn_z(1.57));
+  buffer_.insert(3 * kMs, "base", "arm", turn_z(1.57 + 1.58));
+  EXPECT_EQ(at(1 * kMs + 1, "base", "arm").status, TransformStatus::ok);
+  EXPECT_EQ(at(2 * kMs + 1, "base", "arm").status, TransformStatus::stale);
+  EXPECT_TRUE(holds(answer_.message, "right angle"));
+}
+
+TEST_F(Transforms, GoesUpAndDownTheTree) {
+  buffer_.insert_static("base", "pole", shift(0, 0, 1));
+  buffer_.insert_static("/pole", "/camera", turn_z(0.5));
+  buffer_.insert(1 * kMs, "base", "arm", turn_z(0.7));
+  buffer_.insert_static("arm", "tool", shift(0.3));
+  const Eigen::Isometry3d T_base_camera = shift(0, 0, 1) * turn_z(0.5);
+  const Eigen::Isometry3d T_base_tool = turn_z(0.7) * shift(0.3);
+  EXPECT_TRUE(at(1 * kMs, "camera", "tool")
+                  .T_target_source.isApprox(T_base_camera.inverse() * T_base_tool, kTolerance));
+  EXPECT_TRUE(at(1 * kMs, "tool", "camera")
+                  .T_target_source.isApprox(T_base_tool.inverse() * T_base_camera, kTolerance));
+  EXPECT_TRUE(at(9 * kMs, "base", "camera").T_target_source.isApprox(T_base_camera, kTolerance));
+  EXPECT_TRUE(answer_.is_static);
+  EXPECT_TRUE(at(9 * kMs, "arm", "tool").is_static) << "only what lies between counts";
+  EXPECT_EQ(at(9 * kMs, "tool", "tool").status, TransformStatus::ok);
+  EXPECT_TRUE(answer_.T_target_source.isApprox(Eigen::Isometry3d::Identity(), kTolerance));
+}
+
+TEST_F(Transforms, WhatIsMissingIsNamed) {
+  buffer_.insert_static("base", "arm", shift(1));
+  buffer_.insert_static("world", "camera", shift(1));
+  EXPECT_EQ(at(1, "base", "camera").status, TransformStatus::missing);
+  EXPECT_TRUE(holds(answer_.message, "'camera'"));
+  EXPECT_TRUE(holds(answer_.message, "'world'"));
+  EXPECT_TRUE(holds(answer_.message, "'base'"));
+  EXPECT_EQ(at(1, "base", "hand").status, TransformStatus::missing);
+  EXPECT_TRUE(holds(answer_.message, "'hand' was never seen"));
+  EXPECT_FALSE(buffer_.complete_until("base", "hand"));
+}
+
+TEST_F(Transforms, CompleteUntilTheLeastOfThoseThatMove) {
+  buffer_.insert_static("base", "a", shift(1));
+  EXPECT_EQ(buffer_.complete_until("base", "a"), std::numeric_limits<std::int64_t>::max());
+  buffer_.insert(5, "a", "b", shift(1));
+  buffer_.insert(9, "b", "c", shift(1));
+  EXPECT_EQ(buffer_.complete_until("base", "c"), 5);
+  EXPECT_EQ(buffer_.complete_until("b", "c"), 9);
+  EXPECT_EQ(buffer_.newest_of("c"), 9);
+  EXPECT_FALSE(buffer_.newest_of("a"));
+  EXPECT_FALSE(buffer_.newest_of("d"));
+}
+
+TEST_F(Transforms, WhatIsNoTreeIsRefusedAndChangesNothing) {
+  buffer_.insert(1, "a", "b", shift(1));
+  buffer_.insert_static("b", "c", shift(1));
+  expect_refused(buffer_.insert(2, "c", "a", shift(5)), TransformInsert::loop, "'a' in 'c'");
+  expect_refused(buffer_.insert(2, "c", "c", shift(5)), TransformInsert::loop, "'c' in 'c'");
+  expect_refused(buffer_.insert(2, "d", "b", shift(5)), TransformInsert::second_parent, "'a'");
+  expect_refused(buffer_.insert_static("a", "b", shift(5)), TransformInsert::static_and_free,
+                 "moving before");
+  expect_refused(buffer_.insert(2, "b", "c", shift(5)), TransformInsert::static_and_free,
+                 "static before");
+  EXPECT_EQ(buffer_.refused(), 5U);
+  EXPECT_EQ(buffer_.count(TransformInsert::loop), 2U);
+  EXPECT_EQ(buffer_.count(TransformInsert::taken), 2U);
+  EXPECT_FALSE(buffer_.knows("d"));
+  EXPECT_TRUE(at(1, "a", "c").T_target_source.isApprox(shift(2), kTolerance));
+  EXPECT_EQ(at(2, "a", "b").status, TransformStatus::stale);
+}
+
+TEST_F(Transforms, WhatIsNoTransformIsRefused) {
+  Eigen::Isometry3d bad = shift(std::nan(""));
+  expect_refused(buffer_.insert(1, "a", "b", bad), TransformInsert::not_rigid, "'b' in 'a'");
+  bad = shift(1);
+  bad.linear() *= 1.001;
+  EXPECT_EQ(buffer_.insert_static("a", "b", bad), TransformInsert::not_rigid);
+  bad.linear() = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  EXPECT_EQ(buffer_.insert(1, "a", "b", bad), TransformInsert::not_rigid);
+  EXPECT_EQ(buffer_.insert(1, "a", "b", shift(1.1e9)), TransformInsert::not_rigid);
+  EXPECT_EQ(buffer_.insert(0, "a", "b", shift(1)), TransformInsert::no_stamp);
+  EXPECT_EQ(buffer_.insert(-5, "a", "b", shift(1)), TransformInsert::no_stamp);
+  EXPECT_EQ(buffer_.insert(1, "", "b", shift(1)), TransformInsert::bad_name);
+  EXPECT_EQ(buffer_.insert(1, "a", "/", shift(1)), TransformInsert::bad_name);
+  EXPECT_EQ(buffer_.insert(1, "a", std::string(257, 'b'), shift(1)), TransformInsert::bad_name);
+  EXPECT_FALSE(buffer_.knows("a"));
+  EXPECT_EQ(buffer_.refused(), 9U);
+}
+
+TEST(TransformLimits, ChainsAndFramesAreBounded) {
+  TransformBuffer buffer({.max_frames = 10, .max_depth = 5});
+  const auto name = [](int i) { return "f" + std::to_string(i); };
+  for (int i = 0; i < 9; ++i)
+    EXPECT_EQ(buffer.insert_static(name(i), name(i + 1), shift(1)), TransformInsert::taken);
+  EXPECT_EQ(buffer.insert_static(name(9), name(10), shift(1)), TransformInsert::too_many_frames);
+  TransformAnswer answer;
+  buffer.at(1, "f2", "f7", answer);
+  EXPECT_EQ(answer.status, TransformStatus::ok);
+  EXPECT_TRUE(answer.T_target_source.isApprox(shift(5), kTolerance));
+  buffer.at(1, "f7", "f1", answer);
+  EXPECT_EQ(answer.status, TransformStatus::missing);
+  EXPECT_TRUE(holds(answer.message, "more than 5"));
+}
+
+TEST(TransformLimits, StatesAreBoundedInNumberAndTime) {
+  TransformBuffer buffer({.max_gap = 1.0, .history = 1e-6, .max_states = 10});
+  for (std::int64_t stamp = 1; stamp <= 1000; ++stamp)
+    buffer.insert(stamp, "a", "b", shift(static_cast<double>(stamp)));
+  TransformAnswer answer;
+  buffer.at(991, "a", "b", answer);
+  EXPECT_EQ(answer.status, TransformStatus::ok);
+  buffer.at(990, "a", "b", answer);
+  EXPECT_EQ(answer.status, TransformStatus::stale);
+  buffer.insert(9000, "a", "b", shift(0));
+  buffer.insert(9001, "c", "d", shift(0));
+  buffer.at(999, "a", "b", answer);
+  EXPECT_EQ(answer.status, TransformStatus::stale) << "older than the history";
+  buffer.at(9000, "a", "b", answer);
+  EXPECT_EQ(answer.status, TransformStatus::ok);
+}
+
+TEST_F(Transforms, ExtremeStampsAreSafe) {
+  constexpr auto kMax = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t stamp : {std::int64_t{1}, kMax - 1, kMax})
+    buffer_.insert(stamp, "a", "b", shift(1));
+  for (const std::int64_t stamp : {std::numeric_limits<std::int64_t>::min(), std::int64_t{5}})
+    EXPECT_EQ(at(stamp, "a", "b").status, TransformStatus::stale) << stamp;
+  EXPECT_EQ(at(kMax, "a", "b").status, TransformStatus::ok);
+}
+
+TEST_F(Transforms, ClearForgetsWhatMovesAndKeepsWhatIsStatic) {
+  buffer_.insert(5, "a", "b", shift(1));
+  buffer_.insert_static("b", "c", shift(1));
+  buffer_.insert(5, "b", "b", shift(1));
+  buffer_.clear();
+  EXPECT_EQ(at(5, "a", "b").status, TransformStatus::missing);
+  EXPECT_EQ(at(5, "b", "c").status, TransformStatus::ok);
+  EXPECT_EQ(buffer_.refused(), 1U);
+  EXPECT_EQ(buffer_.insert(5, "z", "b", shift(1)), TransformInsert::taken) << "another parent";
+}
+
+TEST(TransformOptions, AreChecked) {
+  for (const TransformBufferOptions& options :
+       {TransformBufferOptions{.max_gap = -1.0}, TransformBufferOptions{.history = 1e12},
+        TransformBufferOptions{.max_states = 0}, TransformBufferOptions{.max_frames = 0},
+        TransformBufferOptions{.max_depth = 0}})
+    EXPECT_TRUE(holds(message_of([&] { TransformBuffer buffer(options); }), "transform buffer"));
+}
+
+TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    buffer_.insert(t * kMs, "base", "arm", shift(0.5), "publisher 1 of /tf");
+    buffer_.insert((t + 3) * kMs, "base", "arm", turn_z(0.03), "publisher 2 of /tf");
+    buffer_.insert(t * kMs, "arm", "tool", shift(0.1), "publisher 1 of /tf");
+  }
+  EXPECT_EQ(at(305 * kMs, "base", "tool").status, TransformStatus::disputed);
+  for (const char* const part :
+       {"'arm' in 'base'", "500 mm apart", "publisher 1 of /tf and by", "publisher 2 of /tf"})
+    EXPECT_TRUE(holds(answer_.message, part));
+  EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not in this chain";
+}
+
+TEST_F(Transforms, OfTwoThatAgreeTheFirstIsTaken) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    const double x = 1e-3 * static_cast<double>(t);
+    buffer_.insert(t * kMs, "base", "arm", shift(x), "a");
+    buffer_.insert((t + 4) * kMs, "base", "arm", shift(x + 0.002), "b");  // 1 m/s, 2 ms behind
+  }
+  ASSERT_EQ(at(305 * kMs, "base", "arm").status, TransformStatus::ok);
+  EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.305), kTolerance));
+}
+
+TEST_F(Transforms, TwoPosesOfOneStampAreDisputedAsABagDoesNotSayWhose) {
+  for (std::int64_t t = 100; t < 500; t += 10) {
+    buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
+    if (t < 250 || t > 350) buffer_.insert(t * kMs, "base", "arm", shift(0.5), "/tf");
+    if (t >= 250 && t <= 350) buffer_.insert(t * kMs, "base", "arm", shift(0.6), "/tf");
+  }
+  EXPECT_EQ(at(145 * kMs, "base", "arm").status, TransformStatus::ok) << "a frame published twice";
+  EXPECT_EQ(at(303 * kMs, "base", "arm").status, TransformStatus::disputed);
+  EXPECT_TRUE(holds(answer_.message, "100 mm apart, at 300000000 ns by /tf"));
+}
+
+TEST_F(Transforms, StampsMayBeCoarse) {
+  // 2 m/s, five poses of each stamp: the last one counts.
+  for (std::int64_t t = 100; t < 500; t += 2)
+    buffer_.insert(t / 10 * 10 * kMs, "base", "arm", shift(2e-3 * static_cast<double>(t)), "/tf");
+  EXPECT_EQ(at(300 * kMs, "base", "arm").status, TransformStatus::ok);
+  EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.616), kTolerance));
+}
+
+}  // namespace
+}  // namespace penumbra::test
