@@ -55,7 +55,7 @@ class LabelledFrame {
   Camera camera;
   LabelRule rule;
   std::size_t links;
-  JudgedImages images;
+  LabelledImages images;
   std::vector<Eigen::Vector2d> on_robot;
 
  private:

@@ -33,7 +33,7 @@ struct Observation {
   std::int64_t stamp = 0;                       ///< nanoseconds
   ImageView<const std::uint16_t> depth;         ///< millimetres, 0 = nothing
   ImageView<const std::uint16_t> second_depth;  ///< of the second camera
-  JudgedImages robot;  ///< Penumbra's virtual depth and labels; only Penumbra uses the labels
+  LabelledImages robot;  ///< Penumbra's virtual depth and labels; only Penumbra uses the labels
 };
 
 /// Returns the point at a pixel and a depth in metres, in the base frame.

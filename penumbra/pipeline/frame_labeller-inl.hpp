@@ -6,15 +6,18 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
+#include <penumbra/pipeline/labelled_frame-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -30,10 +33,10 @@ class FrameLabeller {
   FrameLabeller(const Robot& robot, const Camera& camera, const Rectification* rectification,
                 const PipelineConfig& config);
 
-  /// `depth`: of the camera's size; empty: every robot pixel is unknown. Writes how long its stages
-  /// took. Valid until the next call, `measured` as long as the depth at most.
-  JudgedImages label(std::span<const Eigen::Isometry3d> T_camera_link, const DepthView& depth,
-                     StageTimes& timing);
+  /// Renders and labels what the poses say; without depth that can be used every robot pixel is
+  /// unknown. Adds how long its stages took. The result is valid until the next call, or as long as
+  /// the depth and the poses at most.
+  LabelledFrame label(const DepthView& depth, const PoseResult& poses, StageTimes& timing);
 
   [[nodiscard]] const DepthRenderer& renderer() const { return *renderer_; }
   [[nodiscard]] const LabelRule& rule() const { return classifier_.rule(); }
@@ -47,6 +50,8 @@ class FrameLabeller {
   [[nodiscard]] const Intrinsics& intrinsics() const { return intrinsics_; }
 
  private:
+  FrameStatus check(LabelledFrame& frame);
+  [[nodiscard]] LabelView unknown_labels() const;
   VirtualDepthView draw(std::span<const Eigen::Isometry3d> T_camera_link);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
 
@@ -57,11 +62,12 @@ class FrameLabeller {
   std::optional<RectifiedDepth> rectified_depth_;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered_;       // with distortion
   Classifier classifier_;
-  std::vector<std::uint16_t> no_depth_row_;  // stands for every row of an image (stride 0)
+  Eigen::Vector2i depth_size_;  // of the camera's images, pixels
+  labelling::Rule measured_;    // tells what is a measurement
+  std::string message_;
+  std::vector<std::uint16_t> no_depth_row_;  // stand for every row of an image (stride 0)
+  std::vector<std::uint8_t> unknown_row_;
 };
-
-/// The links' names and meshes; they refer to the robot.
-[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
 
 /// The configuration's, its range cut to the camera's.
 [[nodiscard]] LabelRule rule_of(const Camera& camera, const PipelineConfig& config);

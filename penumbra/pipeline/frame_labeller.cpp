@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <tuple>
 #include <variant>
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
+#include <penumbra/pipeline/pose_stage-inl.hpp>
 #include <penumbra/pipeline/stage_timer-inl.hpp>
+#include <penumbra/targets/extent_tally-inl.hpp>
 
 namespace penumbra {
+namespace {
 
-std::vector<Body> bodies_of(const Robot& robot) {
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < robot.links().size(); ++i)
-    bodies.push_back({robot.links()[i], robot.meshes(i)});
-  return bodies;
+template <typename T>
+bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
+  const Measured measured(depth, rule);
+  for (int v = 0; v < depth.height; ++v) {
+    const auto row = measured.row(v);
+    std::int32_t count = 0;  // whole rows, without branches: so the compiler takes vectors
+    for (int u = 0; u < depth.width; ++u) count += row.is_measured(u) ? 1 : 0;
+    if (count > 0) return true;
+  }
+  return false;
 }
+
+std::string without_measurement(const DepthRange& range) {
+  std::ostringstream text;
+  text << "no pixel of the depth image holds a measurement";
+  if (range.near > 0.0 || std::isfinite(range.far))
+    text << " within " << range.near << " to " << range.far << " m";
+  return text.str();
+}
+
+}  // namespace
 
 LabelRule rule_of(const Camera& camera, const PipelineConfig& config) {
   LabelRule rule = config.rule;
@@ -30,7 +52,10 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
                                     config.renderer)),
       classifier_(intrinsics_.width(), intrinsics_.height(), rule_of(camera, config),
                   config.backend == Backend::reference ? "scalar" : config.renderer.isa),
-      no_depth_row_(static_cast<std::size_t>(intrinsics_.width())) {
+      depth_size_(camera.intrinsics.width(), camera.intrinsics.height()),
+      measured_(classifier_.rule()),
+      no_depth_row_(static_cast<std::size_t>(intrinsics_.width())),
+      unknown_row_(no_depth_row_.size(), static_cast<std::uint8_t>(Label::unknown)) {
   if (rectification == nullptr) return;
   if (config.image == ImageSpace::raw) {
     raw_images_.emplace(*rectification);
@@ -41,19 +66,60 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
   }
 }
 
-JudgedImages FrameLabeller::label(std::span<const Eigen::Isometry3d> T_camera_link,
-                                  const DepthView& depth, StageTimes& timing) {
-  JudgedImages images;
-  images.is_blind = std::visit([](const auto& view) { return view.empty(); }, depth);
+LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& poses,
+                                   StageTimes& timing) {
+  LabelledFrame frame{
+      .poses = poses, .status = poses.status, .message = poses.message, .depth = depth};
+  LabelledImages& images = frame.images;
+  images.is_blind = true;
+  if (!poses.known()) {
+    images.labels = unknown_labels();
+    frame.uncovered = uncovered_ ? uncovered_->count() : 0;
+    return frame;
+  }
+  if (has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
+  images.is_blind = !has_depth(frame.status);
   {
     const StageTimer timer(timing.render);
-    images.virtual_depth = draw(T_camera_link);
+    images.virtual_depth = draw(poses.T_camera_link);
   }
   const StageTimer timer(timing.classify);
   if (!images.is_blind)
     images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
   images.labels = classify(images.virtual_depth, images.measured);
-  return images;
+  frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
+  return frame;
+}
+
+/// Looks for faults of the depth image.
+FrameStatus FrameLabeller::check(LabelledFrame& frame) {
+  const auto fault = [&](FrameStatus status, std::string_view part) {
+    message_ = frame.message;
+    add_part(message_, part);
+    frame.message = message_;
+    return status;
+  };
+  const auto [empty, width, height] =
+      std::visit([](const auto& view) { return std::tuple(view.empty(), view.width, view.height); },
+                 frame.depth);
+  if (empty) return fault(FrameStatus::missing_depth, "no depth image");
+  if (depth_size_ != Eigen::Vector2i(width, height))
+    return fault(FrameStatus::bad_depth, "depth image is " + std::to_string(width) + "x" +
+                                             std::to_string(height) + ", the camera's images are " +
+                                             std::to_string(depth_size_.x()) + "x" +
+                                             std::to_string(depth_size_.y()));
+  frame.nothing_measured = !std::visit(
+      [&](const auto& view) { return holds_measurement(view, measured_); }, frame.depth);
+  if (!frame.nothing_measured) return FrameStatus::ok;
+  return fault(FrameStatus::bad_depth, without_measurement(rule().range));
+}
+
+LabelView FrameLabeller::unknown_labels() const {
+  LabelView view{{unknown_row_.data(), intrinsics_.width(), intrinsics_.height(), 0}};
+  view.pixels[static_cast<std::size_t>(Label::unknown)] =
+      unknown_row_.size() * static_cast<std::size_t>(intrinsics_.height()) -
+      (uncovered_ ? uncovered_->count() : 0);
+  return view;
 }
 
 VirtualDepthView FrameLabeller::draw(std::span<const Eigen::Isometry3d> T_camera_link) {

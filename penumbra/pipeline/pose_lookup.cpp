@@ -5,9 +5,8 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/frame_check-inl.hpp>
-#include <penumbra/pipeline/link_poses-inl.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/pipeline/pose_stage-inl.hpp>
 
 namespace penumbra {
 namespace {

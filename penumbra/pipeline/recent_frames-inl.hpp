@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -15,29 +13,9 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/targets/target_judge.hpp>
+#include <penumbra/pipeline/labelled_frame-inl.hpp>
 
 namespace penumbra {
-
-/// Where the robot and its camera were. Without links: unknown.
-struct FramePoses {
-  std::span<const Eigen::Isometry3d> T_root_link;
-  std::span<const Eigen::Isometry3d> T_camera_link;
-  Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
-  LinkDoubts doubts = {};
-
-  [[nodiscard]] bool known() const { return !T_root_link.empty(); }
-};
-
-/// One frame as targets are judged on it.
-struct JudgedFrame {
-  std::optional<std::int64_t> stamp;  ///< nanoseconds
-  FrameStatus status = FrameStatus::ok;
-  std::string_view message;  ///< of a status that is not ok
-  FramePoses poses;
-  DepthView depth;      ///< the camera's image; empty where there is none that can be used
-  JudgedImages images;  ///< empty where targets cannot be judged
-};
 
 /// The last frames: their poses, and for a span of time their depth, so that they can be labelled
 /// again. Keeps its buffers.
@@ -50,14 +28,12 @@ class RecentFrames {
   RecentFrames(std::size_t links, std::int64_t span);
 
   /// In place of a frame of the same stamp. A frame without stamp is not kept.
-  void keep(const JudgedFrame& frame);
+  void keep(const LabelledFrame& frame);
 
-  /// The frame of exactly that stamp, without depth and images; nothing if there is none. Valid
-  /// until the next keep().
-  [[nodiscard]] std::optional<JudgedFrame> find(std::int64_t stamp) const;
-
-  /// With its depth, if it had any; nothing where that is gone.
-  [[nodiscard]] std::optional<JudgedFrame> find_with_depth(std::int64_t stamp) const;
+  /// The poses, or the depth image, of the frame of exactly that stamp; nothing if it is not kept.
+  /// Valid until the next keep().
+  [[nodiscard]] std::optional<PoseResult> poses_at(std::int64_t stamp) const;
+  [[nodiscard]] std::optional<DepthView> depth_at(std::int64_t stamp) const;
 
   [[nodiscard]] bool keeps_depth() const { return span_ > 0; }
   void clear();

@@ -36,21 +36,21 @@ RecentFrames::RecentFrames(std::size_t links, std::int64_t span)
   }
 }
 
-void RecentFrames::keep(const JudgedFrame& frame) {
-  if (!frame.stamp) return;
-  Kept& kept = place_for(*frame.stamp);
-  const FramePoses& poses = frame.poses;
-  kept.stamp = frame.stamp;
-  kept.status = frame.status;
-  kept.message = frame.message;
+void RecentFrames::keep(const LabelledFrame& frame) {
+  const PoseResult& poses = frame.poses;
+  if (!poses.stamp) return;
+  Kept& kept = place_for(*poses.stamp);
+  kept.stamp = poses.stamp;
+  kept.status = poses.status;
+  kept.message = poses.message;
   kept.T_root_link.assign(poses.T_root_link.begin(), poses.T_root_link.end());
   kept.T_camera_link.assign(poses.T_camera_link.begin(), poses.T_camera_link.end());
   kept.T_root_camera = poses.T_root_camera;
   kept.doubted_links.assign(poses.doubts.links.begin(), poses.doubts.links.end());
   kept.why_doubted = poses.doubts.why;
   if (!keeps_depth()) return;
-  KeptDepth& depth = depth_place_for(*frame.stamp, bytes_of(frame.depth));
-  depth.stamp = frame.stamp;
+  KeptDepth& depth = depth_place_for(*poses.stamp, bytes_of(frame.depth));
+  depth.stamp = poses.stamp;
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&frame.depth))
     depth.view = copy(*millimetres, depth.millimetres);
   else
@@ -83,25 +83,23 @@ RecentFrames::KeptDepth& RecentFrames::depth_place_for(std::int64_t stamp, std::
   return depths_.emplace_back();
 }
 
-std::optional<JudgedFrame> RecentFrames::find(std::int64_t stamp) const {
-  for (const Kept& kept : frames_) {
-    if (kept.stamp != stamp) continue;
-    const FramePoses poses{kept.T_root_link,
-                           kept.T_camera_link,
-                           kept.T_root_camera,
-                           {kept.doubted_links, kept.why_doubted}};
-    return JudgedFrame{kept.stamp, kept.status, kept.message, poses, {}, {}};
-  }
+std::optional<PoseResult> RecentFrames::poses_at(std::int64_t stamp) const {
+  for (const Kept& kept : frames_)
+    if (kept.stamp == stamp)
+      return PoseResult{kept.stamp,
+                        kept.status,
+                        kept.message,
+                        kept.T_root_link,
+                        kept.T_camera_link,
+                        kept.T_root_camera,
+                        {kept.doubted_links, kept.why_doubted}};
   return std::nullopt;
 }
 
-std::optional<JudgedFrame> RecentFrames::find_with_depth(std::int64_t stamp) const {
-  const auto depth = std::find_if(depths_.begin(), depths_.end(),
-                                  [&](const KeptDepth& kept) { return kept.stamp == stamp; });
-  if (depth == depths_.end()) return std::nullopt;
-  auto frame = find(stamp);
-  if (frame) frame->depth = depth->view;
-  return frame;
+std::optional<DepthView> RecentFrames::depth_at(std::int64_t stamp) const {
+  for (const KeptDepth& kept : depths_)
+    if (kept.stamp == stamp) return kept.view;
+  return std::nullopt;
 }
 
 void RecentFrames::clear() {

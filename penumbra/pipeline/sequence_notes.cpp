@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/pipeline/frame_check-inl.hpp>
+#include <penumbra/pipeline/labelled_frame-inl.hpp>
 #include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 

@@ -44,7 +44,8 @@ class TargetStage {
   explicit TargetStage(const Setup& setup);
 
   /// Judges the targets; the reports are valid until the next call. Keeps the frame for late ones.
-  std::span<const TargetReport> process(std::span<const Target> targets, const JudgedFrame& frame);
+  std::span<const TargetReport> process(std::span<const Target> targets,
+                                        const LabelledFrame& frame);
 
   void forget(std::string_view name);
   void forget_all();
@@ -61,26 +62,27 @@ class TargetStage {
   /// What a report refers to.
   struct Slot {
     Memories::value_type* known = nullptr;
-    const JudgedFrame* seen = nullptr;  ///< that the target was judged on, in order
+    const LabelledFrame* seen = nullptr;  ///< that the target was judged on, in order
     std::vector<Blame> blame;
     std::string reason;
   };
 
-  void begin(std::span<const Target> targets, const JudgedFrame& frame);
+  void begin(std::span<const Target> targets, const LabelledFrame& frame);
   Memories::value_type& known(std::string_view name);
   void forget_unused(std::size_t given);
 
-  void judge(const Target& target, const JudgedFrame& frame, Slot& slot, TargetReport& report);
-  const JudgedFrame& frame_of(const Target& target, const JudgedFrame& frame);
-  const JudgedFrame& late_frame(std::int64_t stamp);
+  void judge(const Target& target, const LabelledFrame& frame, Slot& slot, TargetReport& report);
+  const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
+  const LabelledFrame& late_frame(std::int64_t stamp);
   void check(const Target& target, TargetRecord& memory) const;
-  static void doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report);
-  Judgement judge_on(const JudgedFrame& frame, const Target& target, Slot& slot);
-  void expect_motion(const JudgedFrame& frame, const TargetRecord& memory, TargetView& view) const;
-  [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const JudgedFrame& frame,
+  static void doubt(const LabelledFrame& frame, Slot& slot, TargetReport& report);
+  Judgement judge_on(const LabelledFrame& frame, const Target& target, Slot& slot);
+  void expect_motion(const LabelledFrame& frame, const TargetRecord& memory,
+                     TargetView& view) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const LabelledFrame& frame,
                                                            const TargetRecord& memory) const;
 
-  void handle(const Target& target, const JudgedFrame& frame, const Slot& slot,
+  void handle(const Target& target, const LabelledFrame& frame, const Slot& slot,
               TargetReport& report) const;
   Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetRecord& memory) const;
 
@@ -91,14 +93,14 @@ class TargetStage {
   TargetViews views_;
   RecentFrames recent_frames_;
   FrameLabeller* late_labeller_;
-  JudgedFrame late_;  // the late frame that was labelled last in this call
+  LabelledFrame late_;  // the late frame that was labelled last in this call
   Memories memories_;
   std::deque<std::string> without_identity_;  // names in memories_ of the last call
   std::size_t calls_ = 0;
   std::optional<std::int64_t> newest_stamp_;
-  const JudgedFrame* judged_ = nullptr;  // that the judge's begin() was called with
-  std::deque<Slot> slots_;               // grows only
-  std::vector<TargetReport> reports_;    // likewise
+  const LabelledFrame* judged_ = nullptr;  // that the judge's begin() was called with
+  std::deque<Slot> slots_;                 // grows only
+  std::vector<TargetReport> reports_;      // likewise
 };
 
 }  // namespace penumbra

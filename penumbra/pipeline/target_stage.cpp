@@ -39,7 +39,7 @@ bool is_expected(const Target& target) {
   return !std::holds_alternative<std::monostate>(target.shape);
 }
 
-std::string fault_of(const JudgedFrame& frame) {
+std::string fault_of(const LabelledFrame& frame) {
   if (frame.status == FrameStatus::ok) return std::string(frame.message);
   return std::string(to_string(frame.status)) + ": " + std::string(frame.message);
 }
@@ -48,7 +48,7 @@ bool is_known(const LinkFrame& frame, const Robot& robot) {
   return !frame || frame->empty() || robot.find_link(*frame);
 }
 
-bool is_doubted(const LinkFrame& frame, const FramePoses& poses, const Robot& robot) {
+bool is_doubted(const LinkFrame& frame, const PoseResult& poses, const Robot& robot) {
   const auto link = frame ? robot.find_link(*frame) : std::nullopt;
   return link && poses.doubts.holds(*link);
 }
@@ -106,7 +106,7 @@ TargetStage::TargetStage(const Setup& setup)
       late_labeller_(setup.late_labeller) {}
 
 std::span<const TargetReport> TargetStage::process(std::span<const Target> targets,
-                                                   const JudgedFrame& frame) {
+                                                   const LabelledFrame& frame) {
   begin(targets, frame);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     judge(targets[i], frame, slots_[i], reports_[i]);
@@ -116,13 +116,13 @@ std::span<const TargetReport> TargetStage::process(std::span<const Target> targe
   return std::span(reports_).first(targets.size());
 }
 
-void TargetStage::begin(std::span<const Target> targets, const JudgedFrame& frame) {
+void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& frame) {
   ++calls_;
   judged_ = nullptr;
   late_ = {};
-  if (frame.stamp) {
-    if (newest_stamp_ && is_clock_jump(*frame.stamp, *newest_stamp_)) forget_all();
-    newest_stamp_ = std::max(newest_stamp_.value_or(*frame.stamp), *frame.stamp);
+  if (frame.stamp()) {
+    if (newest_stamp_ && is_clock_jump(*frame.stamp(), *newest_stamp_)) forget_all();
+    newest_stamp_ = std::max(newest_stamp_.value_or(*frame.stamp()), *frame.stamp());
     recent_frames_.keep(frame);
   }
   for (const std::string& name : without_identity_) forget(name);
@@ -158,14 +158,14 @@ void TargetStage::forget_unused(std::size_t given) {
   }
 }
 
-void TargetStage::judge(const Target& target, const JudgedFrame& frame, Slot& slot,
+void TargetStage::judge(const Target& target, const LabelledFrame& frame, Slot& slot,
                         TargetReport& report) {
   TargetRecord& memory = slot.known->second;
-  report.stamp = target.stamp ? target.stamp : frame.stamp;
+  report.stamp = target.stamp ? target.stamp : frame.stamp();
   bool was_judged = false;
   try {
     check(target, memory);
-    const JudgedFrame& seen = frame_of(target, frame);
+    const LabelledFrame& seen = frame_of(target, frame);
     Judgement judgement = judge_on(seen, target, slot);
     slot.blame.assign(judgement.blame.begin(), judgement.blame.end());
     judgement.blame = slot.blame;
@@ -200,7 +200,7 @@ void TargetStage::check(const Target& target, TargetRecord& memory) const {
 
 /// A link without geometry may hide whatever seems to be seen, and any depth may be its own.
 /// Without depth, what the robot does not hide is unknown.
-void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& report) {
+void TargetStage::doubt(const LabelledFrame& frame, Slot& slot, TargetReport& report) {
   if (frame.images.is_blind && report.verdict == Verdict::unknown) slot.reason = fault_of(frame);
   if (frame.status != FrameStatus::missing_link) return;
   Judgement& judgement = *report.judgement;
@@ -215,32 +215,31 @@ void TargetStage::doubt(const JudgedFrame& frame, Slot& slot, TargetReport& repo
   slot.reason = frame.message;
 }
 
-const JudgedFrame& TargetStage::frame_of(const Target& target, const JudgedFrame& frame) {
-  const bool is_late = target.stamp && target.stamp != frame.stamp;
-  const JudgedFrame& seen = is_late ? late_frame(*target.stamp) : frame;
+const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledFrame& frame) {
+  const bool is_late = target.stamp && target.stamp != frame.stamp();
+  const LabelledFrame& seen = is_late ? late_frame(*target.stamp) : frame;
   const bool is_blind = seen.images.is_blind && !is_expected(target);
-  if (seen.images.labels.labels.empty() || is_blind) throw InputError(fault_of(seen));
+  if (!seen.poses.known() || is_blind) throw InputError(fault_of(seen));
   return seen;
 }
 
 /// A kept frame, labelled again.
-const JudgedFrame& TargetStage::late_frame(std::int64_t stamp) {
+const LabelledFrame& TargetStage::late_frame(std::int64_t stamp) {
   if (!recent_frames_.keeps_depth())
     throw InputError("its stamp is not the frame's, and no frames are kept (target_history)");
-  if (late_.stamp == stamp) return late_;
-  const auto kept = recent_frames_.find_with_depth(stamp);
-  if (!kept) throw InputError("no frame of its stamp is kept");
-  late_ = *kept;
+  if (late_.stamp() == stamp) return late_;
+  const auto depth = recent_frames_.depth_at(stamp);
+  const auto poses = recent_frames_.poses_at(stamp);
+  if (!depth || !poses) throw InputError("no frame of its stamp is kept");
   judged_ = nullptr;
   StageTimes unreported;
-  if (late_.poses.known())
-    late_.images = late_labeller_->label(late_.poses.T_camera_link, late_.depth, unreported);
+  late_ = late_labeller_->label(*depth, *poses, unreported);
   return late_;
 }
 
-Judgement TargetStage::judge_on(const JudgedFrame& frame, const Target& target, Slot& slot) {
+Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target, Slot& slot) {
   TargetRecord& memory = slot.known->second;
-  const bool is_late = frame.stamp && memory.last_stamp && *frame.stamp < *memory.last_stamp;
+  const bool is_late = frame.stamp() && memory.last_stamp && *frame.stamp() < *memory.last_stamp;
   if (is_late && is_modal(target))
     throw InputError("its stamp is before one that was judged: a modal extent needs their order");
   auto view = views_.view(target, frame);
@@ -259,40 +258,40 @@ Judgement TargetStage::judge_on(const JudgedFrame& frame, const Target& target, 
     return judgement;
   }
   slot.seen = &frame;
-  memory.last_stamp = frame.stamp;
+  memory.last_stamp = frame.stamp();
   expect_motion(frame, memory, *view);
   return judge_.judge(*view);
 }
 
-void TargetStage::expect_motion(const JudgedFrame& frame, const TargetRecord& memory,
+void TargetStage::expect_motion(const LabelledFrame& frame, const TargetRecord& memory,
                                 TargetView& view) const {
   if (view.extent != Extent::modal || !memory.good_pixel) return;
   if (const auto pixel = track_pixel(frame, memory)) view.motion = *pixel - *memory.good_pixel;
 }
 
-std::optional<Eigen::Vector2d> TargetStage::track_pixel(const JudgedFrame& frame,
+std::optional<Eigen::Vector2d> TargetStage::track_pixel(const LabelledFrame& frame,
                                                         const TargetRecord& memory) const {
-  if (!memory.track || !frame.stamp) return std::nullopt;
-  const auto handled = memory.track->at(*frame.stamp, false);
+  if (!memory.track || !frame.stamp()) return std::nullopt;
+  const auto handled = memory.track->at(*frame.stamp(), false);
   if (!handled || !handled->position) return std::nullopt;
   return views_.project(frame.poses.T_root_camera.inverse() * *handled->position);
 }
 
-void TargetStage::handle(const Target& target, const JudgedFrame& frame, const Slot& slot,
+void TargetStage::handle(const Target& target, const LabelledFrame& frame, const Slot& slot,
                          TargetReport& report) const {
   TargetRecord& memory = slot.known->second;
   if (!memory.track || !memory.track->handles()) return;
-  report.wants_stamp = !frame.stamp;
+  report.wants_stamp = !frame.stamp();
   if (report.wants_stamp) return;
   const auto estimate = target.estimate ? target.estimate : own_estimate(target, report);
   const bool is_given = estimate && !std::holds_alternative<std::monostate>(estimate->value);
   bool is_measured = false;  // by this call: what an earlier one took of the same stamp is no news
   if (is_given && memory.times == 1) {
-    const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp));
+    const std::int64_t stamp = estimate->stamp.value_or(target.stamp.value_or(*frame.stamp()));
     report.estimate = feed(*estimate, stamp, memory);
-    is_measured = *report.estimate == Outcome::accepted && stamp == *frame.stamp;
+    is_measured = *report.estimate == Outcome::accepted && stamp == *frame.stamp();
   }
-  report.handled = memory.track->at(*frame.stamp, is_measured);
+  report.handled = memory.track->at(*frame.stamp(), is_measured);
   if (report.verdict == Verdict::visible && slot.seen != nullptr)
     memory.good_pixel = track_pixel(*slot.seen, memory);
 }
@@ -301,13 +300,12 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp,
                           TargetRecord& memory) const {
   const auto verdict = memory.log.find(stamp);
   if (!verdict || !verdict->was_judged) return Outcome::refused_verdict;
-  const auto frame = recent_frames_.find(stamp);
-  if (!frame || !frame->poses.known()) return Outcome::refused_verdict;
-  const FramePoses& poses = frame->poses;
-  if (!is_known(estimate.frame, robot_) || is_doubted(estimate.frame, poses, robot_))
+  const auto poses = recent_frames_.poses_at(stamp);
+  if (!poses || !poses->known()) return Outcome::refused_verdict;
+  if (!is_known(estimate.frame, robot_) || is_doubted(estimate.frame, *poses, robot_))
     return Outcome::refused_invalid;
-  const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, poses, robot_);
-  if (is_in_camera(estimate, poses.T_root_camera.inverse() * T_root_frame))
+  const Eigen::Isometry3d T_root_frame = pose_of(estimate.frame, *poses, robot_);
+  if (is_in_camera(estimate, poses->T_root_camera.inverse() * T_root_frame))
     return Outcome::refused_invalid;
   return memory.track->update(estimate, *verdict, T_root_frame);
 }

@@ -15,7 +15,7 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
-#include <penumbra/pipeline/recent_frames-inl.hpp>
+#include <penumbra/pipeline/labelled_frame-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -25,7 +25,7 @@ namespace penumbra {
 
 /// T_root_frame in a frame whose poses are known. Throws InputError for a link that is none, or
 /// that is doubted.
-[[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses,
+[[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const PoseResult& poses,
                                         const Robot& robot);
 
 /// Renders objects alone: each mesh by a renderer of its own that is kept as long as it is in use,
@@ -75,7 +75,7 @@ class TargetViews {
 
   /// The target's region and expected depth; nothing where its shape lies outside of the camera's
   /// view. Valid until the next call. Throws InputError for a shape that is none.
-  [[nodiscard]] std::optional<TargetView> view(const Target& target, const JudgedFrame& frame);
+  [[nodiscard]] std::optional<TargetView> view(const Target& target, const LabelledFrame& frame);
 
   /// Where a point in the optical frame is seen, pixels; nothing where the camera cannot see it.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const;

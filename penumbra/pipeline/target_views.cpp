@@ -68,7 +68,7 @@ bool shows_anything(const VirtualDepthView& view) {
 
 }  // namespace
 
-Eigen::Isometry3d pose_of(const LinkFrame& frame, const FramePoses& poses, const Robot& robot) {
+Eigen::Isometry3d pose_of(const LinkFrame& frame, const PoseResult& poses, const Robot& robot) {
   if (!frame) return poses.T_root_camera;
   if (frame->empty()) return Eigen::Isometry3d::Identity();
   const auto link = robot.find_link(*frame);
@@ -88,7 +88,7 @@ TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRendere
 /// Makes a view of each kind of shape.
 struct TargetViews::Builder {
   TargetViews& views;
-  const JudgedFrame& frame;
+  const LabelledFrame& frame;
   TargetView view;
 
   bool operator()(const std::monostate&) { throw InputError("not found in this frame"); }
@@ -196,7 +196,7 @@ struct TargetViews::Builder {
   }
 };
 
-std::optional<TargetView> TargetViews::view(const Target& target, const JudgedFrame& frame) {
+std::optional<TargetView> TargetViews::view(const Target& target, const LabelledFrame& frame) {
   Builder builder{*this, frame, {}};
   builder.view.name = target.name;
   builder.view.thresholds = target.thresholds;

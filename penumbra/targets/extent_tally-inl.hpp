@@ -89,10 +89,10 @@ class Measured {
 };
 
 /// A frame as targets are judged on it.
-struct LabelledFrame {
+struct TalliedFrame {
   /// `has_outside`: what was not drawn is outside of what the camera saw (rectified images); else
   /// the robot may lie there.
-  LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule, bool has_outside);
+  TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule, bool has_outside);
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const {
@@ -104,7 +104,7 @@ struct LabelledFrame {
   /// Whether some of it does, or may where it cannot be drawn: in pixels of the image.
   [[nodiscard]] bool robot_lies_in(int u0, int u1, int v) const;
 
-  JudgedImages images;
+  LabelledImages images;
   const labelling::Rule* rule;
   int width, height;
   bool is_outside_undrawn;
@@ -181,7 +181,7 @@ class RobotSurroundings;
 /// Counts the pixels of an extent on a frame whose pose is known. `robot`, if not null: also
 /// gathers measured depths that are labelled clear or front, lie within the limits of the expected
 /// depth and cannot be of the robot.
-void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
+void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
                   ExtentTally& tally);
 

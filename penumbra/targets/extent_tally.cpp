@@ -79,7 +79,7 @@ int next_multiple(int number, int step) { return (number + step - 1) / step * st
 template <typename Limits, typename Depths>
 class ExtentReader {
  public:
-  ExtentReader(const LabelledFrame& frame, bool has_depth, bool beyond_hides,
+  ExtentReader(const TalliedFrame& frame, bool has_depth, bool beyond_hides,
                const Limits& limits_of, const Depths& depths_of, ExtentTally& tally)
       : images_(frame.images),
         has_depth_(has_depth),
@@ -204,7 +204,7 @@ class ExtentReader {
     if (run.pixels > 0) tally_.links.add(run.link, run.pixels);
   }
 
-  const JudgedImages& images_;
+  const LabelledImages& images_;
   bool has_depth_;
   bool beyond_hides_;
   const Limits& limits_of_;
@@ -238,7 +238,7 @@ struct NoDepths {
 
 /// Calls f(depths_of): depths_of(v) gives, by u, what is measured in a row.
 template <typename F>
-void with_depths(const LabelledFrame& frame, F&& f) {
+void with_depths(const TalliedFrame& frame, F&& f) {
   if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
   std::visit(
       [&](const auto& image) {
@@ -250,15 +250,15 @@ void with_depths(const LabelledFrame& frame, F&& f) {
 
 }  // namespace
 
-LabelledFrame::LabelledFrame(const JudgedImages& judged, const labelling::Rule& label_rule,
-                             bool has_outside)
+TalliedFrame::TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule,
+                           bool has_outside)
     : images(judged),
       rule(&label_rule),
       width(judged.labels.labels.width),
       height(judged.labels.labels.height),
       is_outside_undrawn(has_outside) {}
 
-bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
+bool TalliedFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   u0 = std::max(u0, 0), v0 = std::max(v0, 0);
   u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
   if (u0 > u1 || v0 > v1) return false;
@@ -271,7 +271,7 @@ bool LabelledFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   return false;
 }
 
-bool LabelledFrame::robot_lies_in(int u0, int u1, int v) const {
+bool TalliedFrame::robot_lies_in(int u0, int u1, int v) const {
   const std::uint8_t* const labels = images.labels.labels.row(v);
   const float* const z = is_outside_undrawn ? images.virtual_depth.depth.row(v) : nullptr;
   for (int u = u0; u <= u1; ++u) {
@@ -299,7 +299,7 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
 namespace {
 
 /// Returns null if no robot is so near to the spans that it matters to their depths.
-RobotSurroundings* robot_near(const LabelledFrame& frame, std::span<const RowSpan> spans,
+RobotSurroundings* robot_near(const TalliedFrame& frame, std::span<const RowSpan> spans,
                               RobotSurroundings& robot) {
   const SpanBox box = box_of_spans(spans);
   const int reach = robot.reach();
@@ -310,7 +310,7 @@ RobotSurroundings* robot_near(const LabelledFrame& frame, std::span<const RowSpa
 
 }  // namespace
 
-void tally_extent(const LabelledFrame& frame, std::span<const RowSpan> spans,
+void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
                   ExtentTally& tally) {
   tally.clear();

@@ -58,8 +58,7 @@ ExpectedDepth expected_of(const TargetView& target) {
 }
 
 /// Whether more than half of the unknown pixels lie where the lens model does not reach.
-bool is_uncovered(const LabelledFrame& frame, std::span<const RowSpan> extent,
-                  std::size_t unknown) {
+bool is_uncovered(const TalliedFrame& frame, std::span<const RowSpan> extent, std::size_t unknown) {
   if (frame.images.virtual_depth.depth.empty()) return false;
   std::size_t uncovered = 0;
   for (const RowSpan& span : extent) {
@@ -109,7 +108,7 @@ struct TargetJudge::State {
 
   Camera camera;
   labelling::Rule rule;
-  LabelledFrame frame;
+  TalliedFrame frame;
   std::uint64_t number = 0;  // of the frame
   RobotSurroundings robot;
   ExtentObserver observer;
@@ -134,7 +133,7 @@ TargetJudge::~TargetJudge() = default;
 TargetJudge::TargetJudge(TargetJudge&&) noexcept = default;
 TargetJudge& TargetJudge::operator=(TargetJudge&&) noexcept = default;
 
-void TargetJudge::begin(const JudgedImages& images) {
+void TargetJudge::begin(const LabelledImages& images) {
   const Intrinsics& size = state_->camera.intrinsics;
   const auto check = [&](const char* what, const auto& image, bool may_be_empty) {
     if (image.width == size.width() && image.height == size.height() && image.data != nullptr)
@@ -147,7 +146,7 @@ void TargetJudge::begin(const JudgedImages& images) {
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
-  state_->frame = LabelledFrame(images, state_->rule, state_->frame.is_outside_undrawn);
+  state_->frame = TalliedFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
   ++state_->number;
 }

@@ -20,7 +20,7 @@ namespace penumbra {
 
 /// One frame's images, all of one size, as targets are judged on them. They are looked at until
 /// the next frame's are given.
-struct JudgedImages {
+struct LabelledImages {
   LabelView labels;
   VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by others
@@ -141,7 +141,7 @@ class TargetJudge {
   TargetJudge& operator=(TargetJudge&&) noexcept;
 
   /// Names the frame that is judged next. Throws InputError for images not of the camera's size.
-  void begin(const JudgedImages& images);
+  void begin(const LabelledImages& images);
 
   /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
   /// InputError, which says what is wrong and not of which target, for a region that is none (not

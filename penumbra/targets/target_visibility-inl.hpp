@@ -83,7 +83,7 @@ struct Visibility {
 
 /// A target and the frame it is judged on.
 struct TargetInFrame {
-  const LabelledFrame& frame;
+  const TalliedFrame& frame;
   const TargetView& target;
   const ExpectedDepth& expected;
   RobotSurroundings& robot;

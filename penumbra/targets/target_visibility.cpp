@@ -47,7 +47,7 @@ SpanBox grown(const SpanBox& box, int du, int dv) {
 }
 
 /// Whether some of the robot lies in a box, which may reach past the image.
-bool holds_robot(const LabelledFrame& frame, const SpanBox& box) {
+bool holds_robot(const TalliedFrame& frame, const SpanBox& box) {
   const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
   const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
   if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;

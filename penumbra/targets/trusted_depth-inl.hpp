@@ -19,7 +19,7 @@ class RobotSurroundings {
   RobotSurroundings(int width, int height, const LabelRule& rule);
 
   /// Forgets the last frame. `frame` is read until the next call.
-  void begin(const LabelledFrame& frame);
+  void begin(const TalliedFrame& frame);
 
   /// Depths that may be of the robot within edge_margin pixels of a cell; none: from > to.
   struct Depths {
@@ -45,7 +45,7 @@ class RobotSurroundings {
 
   int cells_;  // how many of them the margin reaches
   float beyond_factor_;
-  const LabelledFrame* frame_ = nullptr;
+  const TalliedFrame* frame_ = nullptr;
   std::uint64_t number_ = 0;
   Image<Cell> cell_;
   Image<Around> around_;

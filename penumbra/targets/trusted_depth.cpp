@@ -30,7 +30,7 @@ RobotSurroundings::RobotSurroundings(int width, int height, const LabelRule& rul
       cell_(cells_of(width), cells_of(height)),
       around_(cells_of(width), cells_of(height)) {}
 
-void RobotSurroundings::begin(const LabelledFrame& frame) {
+void RobotSurroundings::begin(const TalliedFrame& frame) {
   frame_ = &frame;
   ++number_;
 }

@@ -189,10 +189,10 @@ TEST_F(FrameStatusTest, DepthOutOfTheSensorsRange) {
   expect_robot_unknown(frame, FrameStatus::bad_depth, "holds a measurement within 0.3 to 1.6 m");
 }
 
-TEST_F(FrameStatusTest, TheWorseFaultIsTheStatusAndAllAreTold) {
+TEST_F(FrameStatusTest, WithoutAPoseTheDepthIsNotLookedAt) {
   Frame frame = with_joints({});
   frame.depth = {};
-  expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions; no depth image");
+  expect_pose_unknown(frame, FrameStatus::missing_joints, "no joint positions");
 }
 
 TEST_F(FrameStatusTest, FramesAreNumbered) {

@@ -91,7 +91,7 @@ TEST(BadTargets, ImagesOfAnotherSize) {
   TargetFrame frame;
   const Image<float> small(10, 10);
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  JudgedImages images = frame.images();
+  LabelledImages images = frame.images();
   images.measured = small.view();
   EXPECT_THROW(judge.begin(images), InputError);
   images = frame.images();

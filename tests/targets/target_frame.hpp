@@ -53,7 +53,7 @@ struct TargetFrame {
       for (int u = std::max(u0, 0); u < std::min(u1, width); ++u) measured(u, v) = d;
   }
 
-  [[nodiscard]] JudgedImages images() {
+  [[nodiscard]] LabelledImages images() {
     const VirtualDepthView view{robot.view(), links.view(), &tiles};
     return {classifier.classify(view, measured.view()), view, measured.view()};
   }

@@ -33,7 +33,7 @@ TEST(ManyTargets, AllocateNothingOnceSeen) {
   const char* const names[] = {"box",     "polygon", "mask", "a run-length mask with a long name",
                                "ellipse", "rendered"};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  const JudgedImages images = frame.images();
+  const LabelledImages images = frame.images();
   std::size_t points = 0;
   for (int i = 0; i < 20; ++i) {
     const std::size_t before = test::allocations();

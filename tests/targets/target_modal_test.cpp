@@ -196,7 +196,7 @@ TEST_F(ModalTargets, KeepTheirAverageSize) {
     TargetView target = box_target("cup", {u, 40, columns, 20}, Extent::modal);
     target.expected_depth = depth;
     target.thresholds.min_measured = 0;
-    JudgedImages images = frame.images();
+    LabelledImages images = frame.images();
     images.measured = {};  // the wall would not move with the target
     judge.begin(images);
     return judge.judge(target).verdict;

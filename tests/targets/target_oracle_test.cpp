@@ -208,7 +208,7 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
     const Image<std::uint16_t> links = links_of(scene.robot);
 
     Classifier classifier(width, height, rule);
-    JudgedImages images{classifier.classify(scene.view(), depth), scene.view(), depth};
+    LabelledImages images{classifier.classify(scene.view(), depth), scene.view(), depth};
     images.virtual_depth.links = links.view();
     if (frame % 7 == 0) images.labels.touched = nullptr;
     TargetJudge judge({Intrinsics(width, height, 90, 91, 49, 33), {}, {}, {}}, rule, link_count);

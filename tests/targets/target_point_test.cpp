@@ -173,7 +173,7 @@ TEST(TargetPoints, AreNotGivenWhereTheRobotHides) {
 TEST(TargetPoints, OfMillimetresAreThoseOfMetres) {
   TargetFrame frame;
   Image<std::uint16_t> depth(TargetFrame::width, TargetFrame::height, 1234);
-  JudgedImages images = frame.images();
+  LabelledImages images = frame.images();
   images.measured = depth.view();
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);

@@ -103,7 +103,7 @@ TEST(TargetPixels, AMarginWidensWhereTheTargetMayLie) {
 
 TEST(TargetPixels, UnreachedByTheLensAreUnknown) {
   TargetFrame frame;
-  JudgedImages images = frame.images();
+  LabelledImages images = frame.images();
   Image<std::uint8_t> labels(TargetFrame::width, TargetFrame::height,
                              static_cast<std::uint8_t>(Label::unknown));
   images.labels = {labels.view()};
@@ -222,7 +222,7 @@ TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
 
 TEST(Judging, WithoutTheRobotsPoseAllIsUnknown) {
   TargetFrame frame;
-  JudgedImages images = frame.images();
+  LabelledImages images = frame.images();
   images.virtual_depth = {};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);
@@ -242,7 +242,7 @@ TEST(Judging, WithoutDepthOnlyWhatIsRobotIsUnknown) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
   std::fill_n(frame.measured.data(), frame.measured.size(), hole);
-  JudgedImages images = frame.images();
+  LabelledImages images = frame.images();
   images.measured = {};
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(images);

@@ -25,8 +25,8 @@ Camera lens_camera() {
 class UncoveredTargets : public testing::Test {
  protected:
   /// The frame's images, unknown from the column on.
-  JudgedImages images() {
-    JudgedImages images = frame_.images();
+  LabelledImages images() {
+    LabelledImages images = frame_.images();
     for (int v = 0; v < TargetFrame::height; ++v)
       for (int u = 0; u < TargetFrame::width; ++u)
         labels_(u, v) = u < uncovered_from ? images.labels.labels(u, v)

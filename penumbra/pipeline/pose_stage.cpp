@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/pipeline/pose_stage-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+/// What Robot::forward_kinematics takes, rad and m.
+constexpr double largest_position = 1e9;
+
+/// A quaternion's length may be off 1 by rounding in a file, not by a wrong value.
+constexpr double quaternion_error = 0.01;
+
+bool is_rotation(std::span<const double> q) {
+  const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  return std::abs(length - 1.0) <= quaternion_error;
+}
+
+/// The first dispute, and which other joints are disputed.
+std::string describe_disputes(const Robot& robot, std::span<const JointDispute> disputes) {
+  if (disputes.empty()) return "two programs publish different joint positions";
+  const JointDispute& first = disputes.front();
+  std::ostringstream text;
+  text.precision(4);
+  text << "joint '" << robot.variables()[first.variable] << "' is at " << first.values[0] << " by "
+       << first.sources[0] << " and at " << first.values[1] << " by " << first.sources[1] << " ("
+       << first.stamp << " ns)";
+  for (const JointDispute& other : disputes.subspan(1))
+    text << (&other == &disputes[1] ? "; so is '" : ", '") << robot.variables()[other.variable]
+         << "'";
+  return text.str();
+}
+
+}  // namespace
+
+FrameStatus worse(FrameStatus a, FrameStatus b) {
+  constexpr std::array order = {FrameStatus::missing_joints,    FrameStatus::stale_joints,
+                                FrameStatus::missing_transform, FrameStatus::stale_transform,
+                                FrameStatus::poses_disagree,    FrameStatus::missing_depth,
+                                FrameStatus::bad_depth,         FrameStatus::missing_link};
+  for (const FrameStatus status : order)
+    if (a == status || b == status) return status;
+  return FrameStatus::ok;
+}
+
+void add_part(std::string& line, std::string_view part) {
+  if (!line.empty()) line += "; ";
+  line += part;
+}
+
+std::vector<Body> bodies_of(const Robot& robot) {
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < robot.links().size(); ++i)
+    bodies.push_back({robot.links()[i], robot.meshes(i)});
+  return bodies;
+}
+
+std::size_t find_camera_parent(const Robot& robot, const std::string& name) {
+  if (name.empty()) return 0;
+  if (const auto link = robot.find_link(name)) return *link;
+  std::string known;
+  for (const std::string& link : robot.links()) known += (known.empty() ? "" : ", ") + link;
+  throw InputError("camera parent '" + name + "' is no link of robot '" + robot.name() +
+                   "'; its links: " + known);
+}
+
+PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
+                     std::span<const std::string> missing_links)
+    : robot_(robot),
+      parent_(find_camera_parent(robot, config.camera_parent)),
+      camera_inside_(bodies_of(robot)),
+      T_root_link_(robot.links().size()),
+      T_camera_link_(robot.links().size()) {
+  if (!is_rigid(config.T_parent_camera))
+    throw InputError(
+        "camera pose is no rigid transform: a rotation (orthonormal, determinant 1) and a finite "
+        "translation in metres are needed");
+  if (config.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_distance)
+    throw InputError("camera pose is more than 1000 km from its parent link; metres are wanted");
+  T_camera_parent_ = config.T_parent_camera.inverse();
+  for (const std::string& link : missing_links)
+    missing_links_ += (missing_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
+}
+
+PoseResult PoseStage::pose_of(const Frame& frame) {
+  check_doubts(frame.doubts);
+  message_.clear();
+  FrameStatus status = frame.source_status;
+  if (status != FrameStatus::ok)
+    message_ = frame.source_message.empty() ? to_string(status) : frame.source_message;
+  if (has_pose(status)) status = worse(status, check_poses(frame));
+  if (!missing_links_.empty())
+    status = worse(status, fault(FrameStatus::missing_link, missing_links_));
+  if (has_pose(status)) status = worse(status, place_links(frame));
+  if (!has_pose(status)) return {.stamp = frame.stamp, .status = status, .message = message_};
+  return {frame.stamp,    status,         message_,    T_root_link_,
+          T_camera_link_, T_root_camera_, frame.doubts};
+}
+
+/// No frame's fault: whoever made it counts other links.
+void PoseStage::check_doubts(const LinkDoubts& doubts) const {
+  const std::size_t count = robot_.links().size();
+  for (const std::size_t link : doubts.links)
+    if (link >= count)
+      throw InputError("doubted link " + std::to_string(link) + " is none of robot '" +
+                       robot_.name() + "': expected an index below " + std::to_string(count));
+}
+
+FrameStatus PoseStage::fault(FrameStatus status, std::string_view message) {
+  add_part(message_, message);
+  return status;
+}
+
+FrameStatus PoseStage::check_poses(const Frame& frame) {
+  const FrameStatus links =
+      frame.T_root_link.empty() ? check_joints(frame.joints) : check_links(frame.T_root_link);
+  if (!frame.T_parent_camera || is_rigid(*frame.T_parent_camera)) return links;
+  return worse(links,
+               fault(FrameStatus::missing_transform, "the camera's pose is no rigid transform"));
+}
+
+FrameStatus PoseStage::check_links(std::span<const Eigen::Isometry3d> T_root_link) {
+  const auto links = robot_.links();
+  if (T_root_link.size() != links.size())
+    return fault(FrameStatus::missing_transform, std::to_string(T_root_link.size()) +
+                                                     " poses for " + std::to_string(links.size()) +
+                                                     " links");
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const bool at_root = i > 0 || T_root_link[0].isApprox(Eigen::Isometry3d::Identity(), rounding);
+    if (is_rigid(T_root_link[i]) && at_root) continue;
+    return fault(FrameStatus::missing_transform,
+                 "pose of link '" + links[i] + "' is no rigid transform" +
+                     (i > 0 ? "" : ", or not the identity though it is the root"));
+  }
+  return FrameStatus::ok;
+}
+
+FrameStatus PoseStage::check_joints(const JointInput& joints) {
+  if (joints.status != JointStatus::ok)
+    return fault(status_of(joints.status), describe(robot_, joints));
+  const auto variables = robot_.variables();
+  if (joints.positions.size() != variables.size())
+    return fault(FrameStatus::missing_joints,
+                 std::to_string(joints.positions.size()) + " joint positions for " +
+                     std::to_string(variables.size()) + " joint variables");
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (std::abs(joints.positions[i]) <= largest_position) continue;  // false for NaN
+    return fault(FrameStatus::missing_joints,
+                 "position of joint '" + variables[i] + "' is not a number within +-1e9");
+  }
+  for (const Joint& joint : robot_.joints()) {
+    if (joint.type != JointType::floating) continue;
+    if (is_rotation(joints.positions.subspan(*joint.variable + 3, 4))) continue;
+    return fault(FrameStatus::missing_joints,
+                 "quaternion of joint '" + joint.name + "' has not the length 1");
+  }
+  return FrameStatus::ok;
+}
+
+/// By poses or joints that check_poses() found ok.
+FrameStatus PoseStage::place_links(const Frame& frame) {
+  if (frame.T_root_link.empty())
+    robot_.forward_kinematics(frame.joints.positions, T_root_link_);
+  else
+    std::copy(frame.T_root_link.begin(), frame.T_root_link.end(), T_root_link_.begin());
+  const Eigen::Isometry3d T_camera_parent =
+      frame.T_parent_camera ? frame.T_parent_camera->inverse() : T_camera_parent_;
+  const Eigen::Isometry3d T_camera_root = T_camera_parent * T_root_link_[parent_].inverse();
+  T_root_camera_ = T_camera_root.inverse();
+  for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
+    T_camera_link_[i] = T_camera_root * T_root_link_[i];
+    if (T_camera_link_[i].translation().cwiseAbs().maxCoeff() <= max_distance &&
+        T_camera_link_[i].matrix().allFinite())
+      continue;
+    const bool by_joints = frame.T_root_link.empty() && !frame.T_parent_camera;
+    return fault(by_joints ? FrameStatus::missing_joints : FrameStatus::missing_transform,
+                 (by_joints ? "joint positions put link '" : "poses put link '") +
+                     robot_.links()[i] + "' more than 1000 km from the camera");
+  }
+  if (const auto link = camera_inside_.find(T_camera_link_))
+    return fault(FrameStatus::missing_transform,
+                 "the camera's centre lies inside of link '" + robot_.links()[*link] +
+                     "': correct the camera's pose, or name the link in ignore_links if it is the "
+                     "camera's own housing");
+  return FrameStatus::ok;
+}
+
+FrameStatus status_of(JointStatus joints) {
+  switch (joints) {
+    case JointStatus::ok:
+      return FrameStatus::ok;
+    case JointStatus::stale:
+      return FrameStatus::stale_joints;
+    case JointStatus::disputed:
+      return FrameStatus::poses_disagree;
+    case JointStatus::missing:
+      break;
+  }
+  return FrameStatus::missing_joints;
+}
+
+std::string describe(const Robot& robot, const JointInput& joints) {
+  if (joints.status == JointStatus::disputed) return describe_disputes(robot, joints.disputes);
+  if (joints.gaps.empty()) return "no joint positions";
+  std::string text;
+  for (const JointGap& gap : joints.gaps) {
+    text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
+            "' ";
+    if (gap.jump) {
+      text += "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
+      continue;
+    }
+    text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
+    if (!gap.last_seen) continue;
+    text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";
+    if (!gap.source.empty()) text += " by " + gap.source + std::string(others_unused);
+    text += ")";
+  }
+  return text;
+}
+
+}  // namespace penumbra
