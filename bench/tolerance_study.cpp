@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures what labelling rules make of a real recording in which nothing stands before the robot,
-// and of objects pasted into it. Writes docs/tuning.md's tables, its plot and a CSV file.
+// and of objects pasted into it. Writes docs/tuning.md's table, its plot and a CSV file.
 #include "tolerance_study.hpp"
 
 #include "study_page.hpp"
@@ -128,21 +128,14 @@ struct Study {
 void run(const std::filesystem::path& recording, const std::filesystem::path& root,
          int placements) {
   Study study{test::load_real_frames(recording), placements, {}, {}};
-  std::ostringstream out;
-  out << "\nSeed " << first_seed << ", " << placements << " placements in each of "
-      << study.frames.size() << " frames for every figure about objects.\n\n"
-      << study.untouched() << "\nPixels of the object labelled front, %:\n";
-  const std::vector<NamedKind> compared = kinds();
-  for (std::size_t i = 0; i < compared.size(); ++i) {
-    const std::string rows = study.objects(compared[i]);
-    if (i == 0) out << '\n' << rows << '\n';  // the CSV file has all
-  }
+  const std::string untouched = '\n' + study.untouched() + '\n';
+  std::cout << untouched;
+  for (const NamedKind& kind : kinds()) std::cout << study.objects(kind) << '\n';
   study.tuning();
-  std::cout << out.str();
   write_file(root / "bench/results/tolerance.csv", study.csv.str());
   write_file(root / "docs/tolerance.svg",
              svg_plot("Square of 5 cm before the robot", study.curves));
-  update_page(root / "docs/tuning.md", "tolerance_study", out.str());
+  update_page(root / "docs/tuning.md", "tolerance_study", untouched);
 }
 
 }  // namespace

@@ -17,12 +17,10 @@ from performance_table import table
 # Key in metrics.json, head of the column, digits. The file has more, and confidence intervals.
 COLUMNS = {
     "conveyor": (("translation_p95_mm", "p95 error hidden, mm", 1),
-                 ("wrong_accepted_hidden", "wrong accepted hidden, per run", 2),
-                 ("success_percent", "picks, %", 0)),
+                 ("wrong_accepted_hidden", "wrong accepted hidden, per run", 2)),
     "handover": (("translation_p95_mm", "p95 error hidden, mm", 0),
                  ("on_robot_accepted", "on the body accepted, per run", 2),
-                 ("refused_before_robot_percent", "hands in front refused, %", 1),
-                 ("success_percent", "reached, %", 0)),
+                 ("refused_before_robot_percent", "hands in front refused, %", 1)),
 }
 README = {
     "conveyor": ("amodal", ("wrong_accepted_hidden", "translation_p95_mm"),
