@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures, on a real recording, how many points of the robot are left in a cloud without the robot
-// and what the fringe takes of objects pasted beside it. Writes tables into docs/cloud.md and a CSV
-// file.
+// and what the fringe takes of objects pasted beside it. Prints all tables; writes the first into
+// docs/cloud.md, and a CSV file.
 #include "../tests/support/cloud_measure.hpp"
 #include "../tests/support/pasted_object.hpp"
 #include "study_page.hpp"
@@ -109,14 +109,12 @@ struct Study {
 };
 
 std::string Study::leftover() {
-  Rows rows = {{"fringe_reach, px", "points left", "% of the arm's points",
-                "false front, % of the mask", "clear points kept", "clear points taken, %"}};
+  Rows rows = {{"fringe_reach, px", "points of the arm left, %", "clear points removed, %"}};
   std::size_t all_clear = 0;
   for (const int reach : {0, 10, 20, 30, 40, 60}) {
     const test::Leftover found = measure_leftover(frames, nearest, rule_with_reach(reach));
     if (reach == 0) all_clear = found.clear;
-    rows.push_back({std::to_string(reach), std::to_string(found.left), number(found.percent(), 2),
-                    number(found.front_percent(), 3), std::to_string(found.clear),
+    rows.push_back({std::to_string(reach), number(found.percent(), 2),
                     number(test::percent(all_clear - found.clear, all_clear), 2)});
     csv << "leftover," << reach << ',' << found.left << ',' << found.carried + found.on_robot << ','
         << number(found.percent(), 4) << ',' << number(found.front_percent(), 4) << ','
@@ -268,11 +266,9 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
   Study study{test::load_real_frames(recording), placements};
   for (const test::RealFrame& frame : study.frames)
     study.nearest.push_back(test::nearest_robot(frame.robot.view()));
+  const std::string leftover = '\n' + study.leftover() + '\n';
   std::ostringstream out;
-  out << "\nPoints of the robot that are left in the cloud (rows < " << test::SidePaster::air_rows
-      << " of the image; " << study.frames.size() << " frames):\n\n"
-      << study.leftover() << '\n'
-      << study.carried_by_distance() << "\nObjects: seed " << first_seed << ", "
+  out << leftover << study.carried_by_distance() << "\nObjects: seed " << first_seed << ", "
       << placements * static_cast<int>(study.frames.size())
       << " placements for every figure. Points of the object that are kept, % (in brackets: of the "
          "2-pixel band at its edge):\n";
@@ -286,7 +282,7 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
       << study.rods() << '\n';
   std::cout << out.str();
   write_file(root / "bench/results/cloud.csv", study.csv.str());
-  update_page(root / "docs/cloud.md", "cloud_study", out.str());
+  update_page(root / "docs/cloud.md", "cloud_study", leftover);
 }
 
 }  // namespace

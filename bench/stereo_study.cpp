@@ -176,14 +176,18 @@ Tally study(std::size_t frames) {
 }
 
 std::string report(const Tally& sum) {
-  std::vector<std::vector<std::string>> rows = {
-      {"fringe_reach, px", "points of the robot left", "% of the robot's points",
-       "points of things taken, %", "points of the room taken, %"}};
+  std::vector<std::vector<std::string>> rows = {{"fringe_reach, px", "points of the robot left, %",
+                                                 "points of things removed, %",
+                                                 "points of the room removed, %"}};
   for (std::size_t i = 0; i < reaches.size(); ++i)
-    rows.push_back({std::to_string(reaches[i]), std::to_string(sum.carried_left[i]),
+    rows.push_back({std::to_string(reaches[i]),
                     number(test::percent(sum.carried_left[i], sum.robot + sum.carried), 2),
                     number(test::percent(sum.things_taken[i], sum.things), 2),
                     number(test::percent(sum.room_taken[i], sum.room), 3)});
+  return '\n' + table(rows) + '\n';
+}
+
+std::string counts(const Tally& sum) {
   std::vector<std::vector<std::string>> far = {{"pixels from the outline"},
                                                {"points carried there"}};
   for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -191,11 +195,9 @@ std::string report(const Tally& sum) {
     far[1].push_back(std::to_string(sum.by_distance[i]));
   }
   std::ostringstream out;
-  out << "\n"
-      << sum.frames << " frames, seeds from " << first_seed << ": " << sum.robot
+  out << sum.frames << " frames, seeds from " << first_seed << ": " << sum.robot
       << " points on the robot, " << sum.things << " right ones on things and " << sum.room
-      << " on the room:\n\n"
-      << table(rows) << '\n'
+      << " on the room\n\n"
       << table(far) << '\n';
   return out.str();
 }
@@ -237,8 +239,9 @@ int main(int argc, char** argv) {
                    "       stereo_study --picture FILE.png CELL FRAME\n";
       return 2;
     }
-    const std::string text = report(study(has_count ? std::stoul(arguments[2]) : 1000));
-    std::cout << text;
+    const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
+    const std::string text = report(sum);
+    std::cout << text << counts(sum);
     if (!has_count)
       update_page(std::filesystem::path(arguments[0]) / "docs/cloud.md", "stereo_study", text);
   } catch (const std::exception& error) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures what labelling rules make of a real recording in which nothing stands before the robot,
-// and of objects pasted into it. Writes docs/tolerance.md's tables, its plot and a CSV file.
+// and of objects pasted into it. Writes docs/tuning.md's table, its plot and a CSV file.
 #include "tolerance_study.hpp"
 
 #include "study_page.hpp"
@@ -82,6 +82,8 @@ struct Study {
     return table(rows);
   }
 
+  /// Returns a table of the gaps up to 5 cm and of 10 cm. The CSV file has all gaps, and
+  /// the band at the edge.
   std::string objects(const NamedKind& named) {
     const auto rules = compared_rules();
     std::vector<std::vector<std::string>> rows = {{named.name + ", cm before"}};
@@ -94,64 +96,46 @@ struct Study {
           study_objects(frames, rules, named.kind, 0.01 * gap, placements, first_seed);
       std::vector<std::string> row = {std::to_string(gap)};
       for (std::size_t i = 0; i < rules.size(); ++i) {
-        row.push_back(number(seen[i].core, 1) + " (" + number(seen[i].band, 0) + ")");
+        row.push_back(number(seen[i].core, 1));
         csv << "object," << rules[i].name << ',' << named.name << ',' << gap << ','
             << number(seen[i].core, 3) << ',' << number(seen[i].band, 3) << '\n';
         if (!plotted) continue;
         curves[i].x.push_back(gap);
         curves[i].y.push_back(seen[i].core);
       }
-      if (gap <= 5 || gap == 10) rows.push_back(row);  // the CSV file has all
+      if (gap <= 5 || gap == 10) rows.push_back(row);
       std::cerr << named.name << ' ' << gap << " cm\n";
     }
     return table(rows);
   }
 
-  std::string tuning() {
+  void tuning() {
     const auto rules = variants();
     const auto untouched = study_untouched(frames, rules);
     const test::ObjectKind kind = kinds().front().kind;
     std::vector<std::vector<Seen>> seen;
     for (const double gap : {0.02, 0.03, 0.05})
       seen.push_back(study_objects(frames, rules, kind, gap, placements, first_seed));
-    std::vector<std::vector<std::string>> rows = {
-        {"changed", "false front, mean", "worst frame", "front at 2 cm", "at 3 cm", "at 5 cm"}};
     for (std::size_t i = 0; i < rules.size(); ++i) {
-      rows.push_back({rules[i].name, number(mean(untouched[i].front), 2),
-                      number(largest(untouched[i].front), 2)});
       csv << "tuning," << rules[i].name << ",," << number(mean(untouched[i].front), 4) << ','
           << number(largest(untouched[i].front), 4);
-      for (const auto& at_gap : seen) {
-        rows.back().push_back(number(at_gap[i].core, 1));
-        csv << ',' << number(at_gap[i].core, 3);
-      }
+      for (const auto& at_gap : seen) csv << ',' << number(at_gap[i].core, 3);
       csv << '\n';
     }
-    return table(rows);
   }
 };
 
 void run(const std::filesystem::path& recording, const std::filesystem::path& root,
          int placements) {
   Study study{test::load_real_frames(recording), placements, {}, {}};
-  std::ostringstream out;
-  out << "\nSeed " << first_seed << ", " << placements << " placements in each of "
-      << study.frames.size() << " frames for every figure about objects.\n\n"
-      << study.untouched()
-      << "\nPixels of the object labelled front, % (in brackets: of the 2-pixel band at its "
-         "edge):\n";
-  const std::vector<NamedKind> compared = kinds();
-  for (std::size_t i = 0; i < compared.size(); ++i) {
-    const std::string rows = study.objects(compared[i]);
-    if (i < 2) out << '\n' << rows;  // the hardest; the CSV file has all
-  }
-  out << "\nThe default with one thing changed (objects: square 5 cm):\n\n"
-      << study.tuning() << '\n';
-  std::cout << out.str();
+  const std::string untouched = '\n' + study.untouched() + '\n';
+  std::cout << untouched;
+  for (const NamedKind& kind : kinds()) std::cout << study.objects(kind) << '\n';
+  study.tuning();
   write_file(root / "bench/results/tolerance.csv", study.csv.str());
   write_file(root / "docs/tolerance.svg",
              svg_plot("Square of 5 cm before the robot", study.curves));
-  update_page(root / "docs/tolerance.md", "tolerance_study", out.str());
+  update_page(root / "docs/tuning.md", "tolerance_study", untouched);
 }
 
 }  // namespace

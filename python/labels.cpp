@@ -21,7 +21,7 @@ void bind_rule(py::module_& m) {
               Field{"c", &Tolerance::c, "Metres per square metre."});
   tolerance.def("at", &Tolerance::at, py::arg("z"), "e(z), metres.");
 
-  py::class_<LabelRule> rule(m, "LabelRule", "The rule of labelling: docs/tolerance.md.");
+  py::class_<LabelRule> rule(m, "LabelRule", "The rule of labelling: docs/tuning.md.");
   using R = LabelRule;
   bind_fields(rule, Field{"tolerance", &R::tolerance, "How far off the robot may be measured."},
               Field{"beyond_factor", &R::beyond_factor, "k: beyond is past dV + k e(dV)."},

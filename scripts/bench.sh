@@ -32,19 +32,15 @@ if ! $only_gl; then
   build/bench/bench/scaling --rounds "$rounds" --json "$results/scaling.json" |
     tee "$results/scaling.txt"
   build/bench/bench/target_benchmark --benchmark_min_time=0.05 \
-    --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
-    --benchmark_out="$results/targets.json" --benchmark_out_format=json |
+    --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true |
     tee "$results/targets.txt"
-  build/bench/bench/pipeline_benchmark \
-    --benchmark_repetitions="$rounds" --benchmark_report_aggregates_only=true \
-    --benchmark_out="$results/frames.json" --benchmark_out_format=json |
-    tee "$results/frames.txt"
+  build/bench/bench/pipeline_benchmark --benchmark_repetitions="$rounds" \
+    --benchmark_report_aggregates_only=true | tee "$results/frames.txt"
   build/bench/bench/fringe_benchmark --benchmark_repetitions="$rounds" \
     --benchmark_report_aggregates_only=true | tee "$results/fringe.txt"
   bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
   PYTHONPATH=build/bench/python:build/bench/bench "${PYTHON:-/usr/bin/python3}" bench/python_overhead.py \
     --rounds "$rounds" "${PENUMBRA_DATA:-../shared/data}/xarm7_realsense" | tee "$results/python.txt"
-  sed -i '/"host_name"\|"executable"/d' "$results/targets.json" "$results/frames.json"
 fi
 device=$(build/bench/bench/gl_benchmark --name)
 build/bench/bench/gl_benchmark --rounds "$rounds" "${soak[@]}" --json "$results/gl-$device.json" |

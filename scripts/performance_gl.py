@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """The OpenGL parts of docs/performance.md, from gl_benchmark's reports, one per device."""
-from performance_table import table
 
 
 def named(contenders):
@@ -21,74 +20,40 @@ def short(report):
     return report["device"].split(" (")[0].split("/")[0].split(", OpenGL")[0]
 
 
-def factor(gl, cpu):
-    ratio = gl / cpu
-    return f"{ratio:.3g}" if ratio >= 1 else f"**{ratio:.2f}**"
-
-
 def ratios(report):
-    """Per row: what it is; gl against one thread of cpu in frame time, CPU time, time per frame
-    with frames ahead."""
+    """Yields a frame's name, and gl's frame time, CPU time, and time with frames submitted ahead,
+    each divided by that of one thread of cpu."""
     for row in report["frame_costs"]:
         contenders = named(row["contenders"])
         gl, cpu = contenders["gl"], contenders[best_cpu(report)]
-        yield (what(row), row["triangles"], cpu["typical_ms"], gl["typical_ms"],
-               gl["typical_ms"] / cpu["typical_ms"], gl["cpu_ms"] / cpu["cpu_ms"],
+        yield (what(row), gl["typical_ms"] / cpu["typical_ms"], gl["cpu_ms"] / cpu["cpu_ms"],
                cpu["ahead_frames_per_s"] / gl["ahead_frames_per_s"])
 
 
-def ratio_table(report):
-    rows = [(name, triangles, f"{cpu:.3f}", f"{gl:.3f}", *(factor(r, 1.0) for r in others))
-            for name, triangles, cpu, gl, *others in ratios(report)]
-    return table(("frame", "triangles", f"{best_cpu(report)}, ms", "gl, ms",
-                  "gl / cpu: frame time", "CPU time", "time with frames ahead"), rows)
-
-
 def verdict(report):
-    """Where gl begins to pay, in words."""
+    """Returns the ratios' ranges, and the frames in which gl is faster."""
     rows = list(ratios(report))
     parts = []
-    for column, label in ((4, "frame time"), (5, "CPU time"), (6, "time with frames ahead")):
+    for column, label in ((1, "the frame time"), (2, "the CPU time"),
+                          (3, "the time with frames submitted ahead")):
         values = [row[column] for row in rows]
-        faster = [row[0] for row in rows if row[column] < 1.0]
-        where = "nowhere" if not faster else "; ".join(faster)
-        if len(faster) == len(rows):
-            where = "everywhere"
-        parts.append(f"{label} {min(values):.3g} to {max(values):.3g} times as long (shorter "
-                     f"{where})")
-    text = f'gl against one thread of cpu: {", ".join(parts)}.'
-    if all(min(row[4:]) >= 1.0 for row in rows):
+        faster = "; ".join(row[0] for row in rows if row[column] < 1.0)
+        parts.append(f"{min(values):.3g} to {max(values):.3g} times {label}"
+                     + (f" (less for {faster})" if faster else ""))
+    text = f'Compared with one thread of `cpu`, `gl` takes {", ".join(parts)}.'
+    if all(min(row[1:]) >= 1.0 for row in rows):
         text += " **Use `cpu` on this device.**"
     return text
 
 
-def cameras_table(report):
-    return table(("cameras", "renderer", "threads", "frames/s in all", "CPU ms per frame"),
-                 [(r["cameras"], r["name"], r["threads"], f'{r["frames_per_s"]:.0f}',
-                   f'{r["cpu_ms"]:.3f}')
-                  for r in report["cameras"]])
-
-
-def disturbed(report):
-    if float(report["load_average"]["start"].split()[0]) <= 1.0:
-        return ""
-    return (" Other programs ran at the same time: frame times and frames/s are worse than on a "
-            "quiet machine, CPU times less so.")
-
-
 def settings(report):
     kind = "draws on the CPU" if report["software"] else "hardware"
-    return (f'{report["device"]} ({kind}; LP_NUM_THREADS {report["lp_num_threads"]}). '
-            f'{report["cpu"]}, {report["cores"]} cores; cpu: one thread, best SIMD target '
-            f'{report["isa"]}. {report["rounds"]} rounds of {report["frames"]} frames, seed '
-            f'{report["seed"]}. Load average (1, 5, 15 minutes): {report["load_average"]["start"]} '
-            f'at the start, {report["load_average"]["end"]} at the end.{disturbed(report)}')
+    return (f'{report["device"]} ({kind}). {report["cpu"]}, {report["cores"]} cores; cpu: one '
+            f'thread, {report["isa"]}. {report["rounds"]} rounds of {report["frames"]} frames.')
 
 
 def section(report):
-    parts = [f"### {short(report)}", settings(report), verdict(report), ratio_table(report),
-             "Several cameras, xArm 7, 1280x720:", cameras_table(report)]
-    return "\n\n".join(parts)
+    return "\n\n".join([f"### {short(report)}", settings(report), verdict(report)])
 
 
 def gl_sections(reports):
@@ -101,21 +66,6 @@ def devices(reports):
         return ("**No GPU was available: these figures are of software OpenGL, which draws on the "
                 "same CPU. What a GPU gains is not measured yet.**")
     return f'Measured: {", ".join(short(report) for report in reports)}.'
-
-
-def paper_table(reports):
-    rows = [("the paper", "GTX 1060", "its robot and camera", "< 10", "30")]
-    for report in reports:
-        for row in report["frame_costs"]:
-            if row["axis"] != "frame":
-                continue
-            contenders = named(row["contenders"])
-            for name, on in ((best_cpu(report), report["cpu"].split(",")[0] + ", one thread"),
-                             ("gl", short(report))):
-                c = contenders[name]
-                rows.append((f"Penumbra, {name}", on, row["value"], f'{c["typical_ms"]:.3f}',
-                             f'{c["ahead_frames_per_s"]:.0f}'))
-    return table(("who", "on", "frame", "virtual depth, ms", "frames/s"), rows)
 
 
 def gl_panels(reports):

@@ -3,9 +3,8 @@
 """Rewrites the tables of the performance page, and draws its plots, from the benchmarks' JSON.
 
 performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json,
-RESULTS/targets.json, RESULTS/frames.json, RESULTS/run.txt and every RESULTS/gl-*.json; replaces
-what stands between "<!-- begin NAME -->" and "<!-- end NAME -->" in PAGE/performance.md; writes
-PAGE/performance.svg and PAGE/performance-gl.svg.
+RESULTS/run.txt and every RESULTS/gl-*.json; replaces the text between "<!-- begin NAME -->" and
+"<!-- end NAME -->" in PAGE/performance.md; writes PAGE/performance.svg and PAGE/performance-gl.svg.
 """
 import json
 import math
@@ -13,12 +12,10 @@ import pathlib
 import re
 import sys
 
-from performance_gl import devices, gl_panels, gl_sections, paper_table
+from performance_gl import devices, gl_panels, gl_sections
 from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
-RATIOS = ("against_llvmpipe", "against_embree_rectangle", "against_embree_hulls")
-TABLED_AXES = ("triangles", "image", "threads")  # the others are plotted alone
 COLOURS = ("#1f6fb2", "#d1662b", "#3a8f4d")
 
 
@@ -29,43 +26,10 @@ def renderers_table(report):
     return table(("typical ms", *names), rows)
 
 
-def ratios_table(report):
-    rows = [(scene["scene"], r["isa"], *(f"{r[key]:.1f}" for key in RATIOS))
-            for scene in report["scenes"] for r in scene["ratios"]]
-    return table(("frame", "SIMD target", "times llvmpipe's speed", "Embree's, rectangle",
-                  "Embree's, hulls"), rows)
-
-
-def targets_table(report):
-    rows = [(run["run_name"], f'{run["cpu_time"]:.1f}',
-             f'{1e3 * run["cpu_time"] / run["pixels"]:.2f}')
-            for run in report["benchmarks"] if run.get("aggregate_name") == "median"
-            and not run["run_name"].startswith("large")]
-    return table(("targets", "us per frame", "ns per pixel"), rows)
-
-
-def frames_table(report):
-    rows = [(run["run_name"].split("/")[0],
-             *(f'{1e-3 * run[stage + "_us"]:.3f}'
-               for stage in ("typical", "render", "classify", "targets")))
-            for run in report["benchmarks"] if run.get("aggregate_name") == "median"]
-    return table(("frame", "typical ms", "of it: render", "classify", "targets"), rows)
-
-
 def settings(renderers, scaling):
     return (f'{renderers["cpu"]}; one thread; {renderers["rounds"]} rounds of '
-            f'{renderers["frames"]} frames, seed {renderers["seed"]}. OpenGL: '
-            f'{renderers["scenes"][0]["opengl"]}, {renderers["llvmpipe_vector_width"]} bits, its '
-            f'fastest vector width. Scaling: {scaling["rounds"]} rounds of {scaling["frames"]} '
-            'frames.')
-
-
-def axis_table(axis, rows):
-    isas = list(rows[0]["ms"])
-    key = "triangles" if axis == "triangles" else "value"
-    return table((axis, "robot pixels", *(f"{isa}, ms" for isa in isas)),
-                 [(r[key], r["robot_pixels"], *(f'{r["ms"][isa]:.4f}' for isa in isas))
-                  for r in rows])
+            f'{renderers["frames"]} frames. OpenGL: {renderers["scenes"][0]["opengl"]}. '
+            f'Scaling: {scaling["rounds"]} rounds of {scaling["frames"]} frames.')
 
 
 def abscissa(axis, row):
@@ -135,17 +99,11 @@ def main():
     results, page = (pathlib.Path(argument) for argument in sys.argv[1:3])
     renderers = json.loads((results / "renderers.json").read_text())
     scaling = json.loads((results / "scaling.json").read_text())
-    parts = {"settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
-             "ratios": ratios_table(renderers)}
-    targets = json.loads((results / "targets.json").read_text())
-    parts["targets"] = targets_table(targets)
-    parts["frames"] = frames_table(json.loads((results / "frames.json").read_text()))
-    parts["run"] = ": ".join((results / "run.txt").read_text().splitlines()[:2]) + "."
-    parts |= {axis: axis_table(axis, scaling["axes"][axis]) for axis in TABLED_AXES}
     reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
-    parts |= {"devices": devices(reports), "paper": paper_table(reports),
-              "gl": gl_sections(reports)}
-    fill(page / "performance.md", parts)
+    run = (results / "run.txt").read_text().splitlines()[:2]
+    fill(page / "performance.md", {
+        "settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
+        "run": ": ".join(run) + ".", "devices": devices(reports), "gl": gl_sections(reports)})
     (page / "performance.svg").write_text(plot(
         [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))
     (page / "performance-gl.svg").write_text(plot(gl_panels(reports)))

@@ -2,9 +2,9 @@
 """Which pages there are, in which order."""
 
 PAGES = {
-    "Start": ["getting-started", "method", "tuning"],
-    "Use": ["recording", "results", "viewer", "ros2", "cloud", "targets", "python", "cpp"],
-    "Details": ["time", "tolerance", "targets-judging", "tracking"],
+    "Start": ["getting-started", "method"],
+    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning"],
+    "Details": ["recording", "tracking", "time"],
     "Figures": ["performance", "experiments"],
     "Reference": ["architecture"],
 }

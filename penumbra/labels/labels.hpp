@@ -42,8 +42,8 @@ struct Tolerance {
   [[nodiscard]] double at(double z) const { return a + (b + c * z) * z; }
 };
 
-/// The rule of labelling. Defaults are measured in docs/tolerance.md; docs/tuning.md says how to
-/// choose others.
+/// The rule of labelling. docs/tuning.md says how the defaults were measured and
+/// how to choose others.
 ///
 /// With d the measured and dV the virtual depth of a pixel of the robot, computed in float32:
 /// unknown where d is no measurement, beyond where d > dV + k e(dV), front where d < dV - e(dV),

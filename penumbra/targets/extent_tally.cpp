@@ -30,7 +30,7 @@ PixelState state_without_depth(std::uint8_t label, bool beyond_hides) {
   return PixelState::unknown;
 }
 
-/// The table of docs/targets-judging.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
+/// The table of docs/targets.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
 /// it is not on the ray.
 PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits target,
                           bool beyond_hides) {

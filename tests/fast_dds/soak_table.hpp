@@ -13,7 +13,7 @@ inline std::string fixed(double value, int digits = 1) {
   return text.str();
 }
 
-/// Rows of a table for docs/ros2.md.
+/// The rows of a Markdown table.
 class SoakTable {
  public:
   explicit SoakTable(const std::string& title) { text_ << "| " << title << " | |\n|---|---:|\n"; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The default rule on the real recording, in which nothing stands before the robot, and on objects
-// pasted into it. docs/tolerance.md has the full study.
+// pasted into it. docs/tuning.md has the full study.
 #include "../support/data.hpp"
 #include "../support/pasted_object.hpp"
 #include "../support/real_frames.hpp"

@@ -16,7 +16,7 @@ interface Fact {
   readonly color?: string;
 }
 
-/** What surprises; docs/targets-judging.md says more. */
+/** What surprises; docs/targets.md says more. */
 const meanings: Readonly<Record<string, string>> = {
   occluded_fraction: 'of its pixels in the image: the sensor sees the robot there',
   front_fraction: 'something real stands before the robot there',
