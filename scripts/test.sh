@@ -155,7 +155,7 @@ check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPEN
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 # Whole experiments, once more on other numbers of threads, and what others of their kind test, too.
 once_more='^Experiment[.](DoesNotDependOnTheNumberOfThreads|Handover.*|Conveyor.*)$'
-once_more+='|^Gl[.]RenderersMadeAndDroppedHoldNothing$|^LiveRenderers[.](ADevice|ASummary)'
+once_more+='|^Gl[.]RenderersMadeAndDroppedHoldNothing$|^LiveRenderers[.]ADevice'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
   "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&

@@ -1,183 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags that `penumbra run` cannot take.
-#include "program.hpp"
-#include "tiny_bag.hpp"
-#include "tiny_recording.hpp"
+#include "fixtures.hpp"
 
 #include <functional>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
 
-/// A bag that is spoilt, and words that the one line on stderr must hold.
-struct BadBag {
-  const char* name;
-  std::function<void(TinyBag&)> spoil;
-  std::vector<std::string> words;
-  std::vector<std::string> options = {};
+class BadBagTest : public BagTest {
+ protected:
+  /// The tiny bag as it is after `spoil` is refused.
+  void expect_spoilt(const std::function<void(TinyBag&)>& spoil, const Words& named) {
+    const TinyBag sound = bag_;
+    spoil(bag_);
+    expect_refused(run(), named);
+    bag_ = sound;
+  }
+  static auto without(const char* topic) {
+    return [topic](TinyBag& bag) { bag.remove(topic); };
+  }
 };
 
-std::ostream& operator<<(std::ostream& out, const BadBag& bad) { return out << bad.name; }
-
-/// Spoils a bag by leaving a topic out.
-std::function<void(TinyBag&)> without(const char* topic) {
-  return [topic](TinyBag& bag) { bag.remove(topic); };
-}
-
-std::vector<BadBag> bad_cameras() {
-  return {
-      {"NoDepth",
-       without("/camera/depth/image_rect_raw"),
-       {"no images are called depth", "/camera/color/image_raw/compressed", "--depth-topic"}},
-      {"TwoDepths",
-       [](TinyBag& bag) { bag.copy("/camera/depth/image_rect_raw", "/second/depth/image_raw"); },
-       {"/camera/depth/image_rect_raw, /second/depth/image_raw", "--depth-topic"}},
-      {"NoCameraInfo", without("/camera/depth/camera_info"), {"has no camera_info"}},
-      {"TwoCameraInfos",
-       [](TinyBag& bag) {
-         bag.rename("/camera/depth/camera_info", "/left/camera_info");
-         bag.copy("/left/camera_info", "/right/camera_info");
-       },
-       {"/left/camera_info, /right/camera_info", "--camera-info-topic"}},
-      {"CameraInfoOfAnotherFrame",
-       [](TinyBag& bag) {
-         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
-                                         [](auto& info) { info.header.frame_id = "left"; });
-       },
-       {"'left'", "'optical'", "--camera-info-topic"}},
-      {"CameraInfoWithoutFocalLength",
-       [](TinyBag& bag) {
-         bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info",
-                                         [](auto& info) { info.p[0] = 0; });
-       },
-       {"/camera/depth/camera_info: p: "}},
+TEST_F(BadBagTest, NamesWhatTheCameraLacks) {
+  expect_spoilt(without("/camera/depth/image_rect_raw"),
+                {"/camera/color/image_raw/compressed", "--depth-topic"});
+  expect_spoilt(
+      [](TinyBag& bag) { bag.copy("/camera/depth/image_rect_raw", "/second/depth/image_raw"); },
+      {"/camera/depth/image_rect_raw, /second/depth/image_raw", "--depth-topic"});
+  expect_spoilt(without("/camera/depth/camera_info"), {"camera_info"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.rename("/camera/depth/camera_info", "/left/camera_info");
+        bag.copy("/left/camera_info", "/right/camera_info");
+      },
+      {"/left/camera_info, /right/camera_info", "--camera-info-topic"});
+  const auto edit_info = [](const auto& change) {
+    return [change](TinyBag& bag) {
+      bag.edit<io::CameraInfoMessage>("/camera/depth/camera_info", change);
+    };
   };
+  expect_spoilt(edit_info([](auto& info) { info.header.frame_id = "left"; }),
+                {"'left'", "'optical'", "--camera-info-topic"});
+  expect_spoilt(edit_info([](auto& info) { info.p[0] = 0; }), {"/camera/depth/camera_info: p: "});
 }
 
-std::vector<BadBag> bad_bag_robots() {
-  return {
-      {"NoRobot", without("/robot_description"), {"has no robot_description", "--robot"}},
-      {"RobotIsNoUrdf",
-       [](TinyBag& bag) {
-         bag.edit<io::StringMessage>("/robot_description",
-                                     [](auto& text) { text.data = "no robot"; });
-       },
-       {"robot_description"}},
-      {"NoJointsAndNoTf",
-       [](TinyBag& bag) {
-         bag.remove("/joint_states");
-         bag.remove("/tf_static");
-       },
-       {"neither joint states nor tf"}},
-      {"TwoJointStates",
-       [](TinyBag& bag) {
-         bag.rename("/joint_states", "/a/joint_states");
-         bag.copy("/a/joint_states", "/b/joint_states");
-       },
-       {"/a/joint_states, /b/joint_states", "--joint-topic"}},
-      {"NoTf", without("/tf_static"), {"has no tf", "--pose"}},
-      {"CameraNotInTf",
-       [](TinyBag& bag) {
-         bag.edit<io::TfMessage>("/tf_static", [](auto& tf) {
-           if (tf.transforms[0].child_frame_id == "optical")
-             tf.transforms[0].child_frame_id = "lens";
-         });
-       },
-       {"'optical'", "tf does not know", "--camera-frame"}},
-  };
+TEST_F(BadBagTest, NamesWhatTheRobotLacks) {
+  expect_spoilt(without("/robot_description"), {"robot_description", "--robot"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.edit<io::StringMessage>("/robot_description",
+                                    [](auto& text) { text.data = "no robot"; });
+      },
+      {"robot_description"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.remove("/joint_states");
+        bag.remove("/tf_static");
+      },
+      {"joint states", "tf"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.rename("/joint_states", "/a/joint_states");
+        bag.copy("/a/joint_states", "/b/joint_states");
+      },
+      {"/a/joint_states, /b/joint_states", "--joint-topic"});
+  expect_spoilt(without("/tf_static"), {"has no tf", "--pose"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.edit<io::TfMessage>("/tf_static", [](auto& tf) {
+          if (tf.transforms[0].child_frame_id == "optical")
+            tf.transforms[0].child_frame_id = "lens";
+        });
+      },
+      {"'optical'", "--camera-frame"});
 }
 
-std::vector<BadBag> bad_files() {
-  return {
-      {"OtherProfile",
-       [](TinyBag& bag) {
-         bag.encoding = "ros1";
-         bag.profile = "ros1";
-       },
-       {"no bag of ROS 2", "ros1", "cdr"}},
-      {"NoMessages", [](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"}},
-  };
+TEST_F(BadBagTest, NamesTheOption) {
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--depth-topic", "/nowhere"}, "/nowhere"},
+      {{"--depth-topic", "/joint_states"}, "sensor_msgs/msg/JointState"},
+      {{"--parent", "bas"}, "bas"},
+      {{"--target-topic", "/joint_states"}, "vision_msgs/msg/Detection2DArray"},
+      {{"--poses", "latest"}, "--poses"},
+      {{"--time-offset", "soon"}, "--time-offset"},
+      {{"--frames", "1:4"}, "0 to 2"}};
+  for (const auto& [options, named] : cases) expect_refused(run(options), {options[0], named});
 }
 
-std::vector<BadBag> bad_bag_options() {
-  return {
-      {"TopicMissing",
-       [](TinyBag&) {},
-       {"--depth-topic", "/nowhere"},
-       {"--depth-topic", "/nowhere"}},
-      {"TopicOfAnotherType",
-       [](TinyBag&) {},
-       {"--depth-topic", "sensor_msgs/msg/JointState"},
-       {"--depth-topic", "/joint_states"}},
-      {"ParentIsNoLink", [](TinyBag&) {}, {"--parent", "bas"}, {"--parent", "bas"}},
-      {"TargetsOfAnotherType",
-       [](TinyBag&) {},
-       {"--target-topic", "vision_msgs/msg/Detection2DArray or "},
-       {"--target-topic", "/joint_states"}},
-      {"PosesText", [](TinyBag&) {}, {"--poses"}, {"--poses", "latest"}},
-      {"TimeOffsetText", [](TinyBag&) {}, {"--time-offset"}, {"--time-offset", "soon"}},
-  };
-}
-
-class BadBagTest : public testing::TestWithParam<BadBag> {};
-
-TEST_P(BadBagTest, IsOneClearLineAndStatus2) {
-  const TemporaryFolder folder;
-  write_tiny_recording(folder.path());
-  TinyBag bag = tiny_bag(folder.path());
-  GetParam().spoil(bag);
-  bag.write_mcap(folder.path() / "tiny.mcap");
-  std::vector<std::string> arguments = {"run", folder.path() / "tiny.mcap", "-o",
-                                        folder.path() / "out"};
-  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
-  const Outcome outcome = penumbra(arguments);
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  for (const std::string& word : GetParam().words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
-}
-
-INSTANTIATE_TEST_SUITE_P(Cameras, BadBagTest, testing::ValuesIn(bad_cameras()), name_of);
-INSTANTIATE_TEST_SUITE_P(Robots, BadBagTest, testing::ValuesIn(bad_bag_robots()), name_of);
-INSTANTIATE_TEST_SUITE_P(Files, BadBagTest, testing::ValuesIn(bad_files()), name_of);
-INSTANTIATE_TEST_SUITE_P(Options, BadBagTest, testing::ValuesIn(bad_bag_options()), name_of);
-
-TEST(BadBagFile, IsOneClearLineAndStatus2) {
-  const TemporaryFolder folder;
-  write_tiny_recording(folder.path());
-  tiny_bag(folder.path()).write_mcap(folder.path() / "whole.mcap");
-  const std::string whole = read_file(folder.path() / "whole.mcap");
+TEST_F(BadBagTest, NamesTheFile) {
+  expect_spoilt([](TinyBag& bag) { bag.encoding = bag.profile = "ros1"; }, {"ros1", "cdr"});
+  expect_spoilt([](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"});
+  bag_.write_mcap(path("whole.mcap"));
+  const std::string whole = read_file(path("whole.mcap"));
   for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.mcap", ""),
                                       {"empty.db3", ""},
                                       {"head.mcap", whole.substr(0, 100)},
+                                      {"cut.mcap", whole.substr(0, 300)},  // in the first chunk
                                       {"text.mcap", "a text of some length, but no bag"},
                                       {"text.db3", "a text of some length, but no bag"}}) {
-    write_file(folder.path() / file, content);
-    const Outcome outcome = penumbra({"run", folder.path() / file, "-o", folder.path() / "out"});
-    EXPECT_EQ(outcome.status, 2) << file << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << file << outcome.err;
-    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+    write_file(path(file), content);
+    expect_refused(run({}, file), {file});
   }
-}
-
-TEST(BadBagFolder, IsNeitherARecordingNorABag) {
-  const TemporaryFolder folder;
-  write_file(folder.path() / "notes.txt", "x");
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{}, {"--depth-topic", "/depth"}}) {
-    std::vector<std::string> arguments = {"run", folder.path(), "-o", folder.path() / "out"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Outcome outcome = penumbra(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find("neither a recording (recording.yaml) nor a bag"), std::string::npos)
-        << outcome.err;
-  }
+  fs::create_directory(path("folder"));
+  write_file(path("folder/notes.txt"), "x");
+  expect_refused(run({}, "folder"), {"recording.yaml"});
+  expect_refused(run({"--depth-topic", "/depth"}, "folder"), {"recording.yaml"});
 }
 
 }  // namespace

@@ -1,46 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags whose camera_info changes on the way, comes late or not at all.
-#include "bag_fixture.hpp"
+#include "fixtures.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
 
 class BagInfosTest : public BagTest {};
 
+/// Also where it is recorded 120 ms after the image, when the image's pose has long been known.
 TEST_F(BagInfosTest, AnotherCamerasInfoIsNotTaken) {
   int info = 0;
   bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
     if (++info == 2) camera.k[0] = 61;
   });
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(status(0), "ok");
-  EXPECT_EQ(status(1), "bad_depth");
-  EXPECT_EQ(status(2), "ok");
-}
-
-/// Recorded 120 ms after the image, when the image's pose has long been known.
-TEST_F(BagInfosTest, AnotherCamerasInfoIsNotTakenWhenItComesLate) {
-  int info = 0;
-  bag_.edit<io::CameraInfoMessage>("/camera/depth/camera_info", [&](auto& camera) {
-    if (++info == 2) camera.k[0] = 61;
-  });
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic == "/camera/depth/camera_info") message.log_time += 120'000'000;
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(status(0), "ok");
-  EXPECT_EQ(status(1), "bad_depth");
-  EXPECT_EQ(status(2), "ok");
+  for (const std::int64_t delay : {0, 120'000'000}) {
+    for (TinyBag::Message& message : bag_.messages)
+      if (message.topic == "/camera/depth/camera_info") message.log_time += delay;
+    const Outcome outcome = run();
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(status(0), "ok");
+    EXPECT_EQ(status(1), "bad_depth");
+    EXPECT_EQ(status(2), "ok");
+  }
 }
 
 /// Where camera_infos come with images, one whose own is not there may be of another camera.
@@ -59,22 +44,9 @@ TEST_F(BagInfosTest, AnImageWithoutItsOwnCameraInfoIsNotJudgedByAnotherOnes) {
             std::string::npos);
 }
 
-/// One for all, as of a driver that latches it.
-TEST_F(BagInfosTest, OneCameraInfoHoldsForAllImages) {
-  std::vector<TinyBag::Message> kept;
-  int info = 0;
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic != "/camera/depth/camera_info" || ++info <= 1) kept.push_back(message);
-  bag_.messages = std::move(kept);
-  const Outcome outcome = run();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const std::size_t frame : {0U, 1U, 2U}) EXPECT_EQ(status(frame), "ok");
-}
-
 /// A bag whose images come quickly, with what their driver says of the camera.
 class BagDriversTest : public BagTest {
  protected:
-  enum class Driver { silent, first, other };
   static constexpr std::int64_t period = 50'000'000;
 
   BagDriversTest() {
@@ -86,23 +58,22 @@ class BagDriversTest : public BagTest {
       bag_.remove(topic);
   }
 
+  /// Each letter is an image: `f` comes with the first camera's info, `o` with another's, `-` with
+  /// none; `<` sets the clock back.
+  void play(const std::string& script) {
+    for (const char letter : script) letter == '<' ? jump_back(1'100'000'000) : add(letter);
+  }
+
   /// One image, `period` after the one before.
-  void add(Driver driver) {
+  void add(char driver) {
     stamp_ += period;
-    tell(driver);
+    auto camera = decoded<io::CameraInfoMessage>(info_);
+    camera.header.stamp = stamp_;
+    if (driver == 'o') camera.k[0] = 61;
+    if (driver != '-') bag_.add(info, stamp_ + lap_, camera);
     auto image = decoded<io::ImageMessage>(depth_);
     image.header.stamp = stamp_;
     bag_.add(depth, stamp_ + lap_, image);
-  }
-  void tell(Driver driver) {
-    if (driver == Driver::silent) return;
-    auto camera = decoded<io::CameraInfoMessage>(info_);
-    camera.header.stamp = stamp_;
-    if (driver == Driver::other) camera.k[0] = 61;
-    bag_.add(info, stamp_ + lap_, camera);
-  }
-  void add(Driver driver, int images) {
-    for (int i = 0; i < images; ++i) add(driver);
   }
 
   /// The clock of all is set back, once; the recorder's goes on.
@@ -150,73 +121,41 @@ class BagDriversTest : public BagTest {
   std::int64_t lap_ = 0;  // by how much the recorder's clock is ahead
 };
 
-/// A recorder hears a topic that appears anew some images late.
-TEST_F(BagDriversTest, ImagesBeforeTheFirstInfoOfAnotherCameraAreItsImages) {
-  add(Driver::first, 4);
-  add(Driver::silent, 2);
-  add(Driver::other, 3);
-  EXPECT_EQ(statuses(), "oooobbbbb");
-}
+struct DriverCase {
+  const char* why;
+  std::string script, statuses;  ///< `o`: ok, `b`: bad_depth; `x`: anything but ok
+};
 
-TEST_F(BagDriversTest, ImagesBeforeTheFirstCamerasInfoAgainMayBeOfTheOther) {
-  add(Driver::first, 4);
-  add(Driver::other, 3);
-  add(Driver::silent, 2);
-  add(Driver::first, 3);
-  EXPECT_EQ(statuses(), "oooobbbbbooo");
-}
+class BagDrivers : public BagDriversTest, public testing::WithParamInterface<DriverCase> {};
 
-TEST_F(BagDriversTest, WhereInfosComeSeldomTheLastHoldsUntilTheNext) {
-  add(Driver::first, 1);
-  add(Driver::silent, 9);
-  add(Driver::other, 1);
-  add(Driver::silent, 4);
-  EXPECT_EQ(statuses(),
-            "oooooo"
-            "bbbb"
-            "bbbbb")
-      << "0.2 s is what an image waits for its own";
-}
-
-TEST_F(BagDriversTest, AnotherCameraIsAnotherAfterAJumpOfTheClockToo) {
-  add(Driver::first, 18);
-  add(Driver::other, 4);
-  jump_back(1'100'000'000);
-  add(Driver::other, 4);
-  add(Driver::first, 4);
+TEST_P(BagDrivers, EachImageIsJudgedByItsOwnCameraOrNot) {
+  play(GetParam().script);
   const std::string all = statuses();
-  EXPECT_EQ(all.substr(18, 4), "bbbb");
-  EXPECT_EQ(all.substr(22, 4).find('o'), std::string::npos) << all;
-  EXPECT_EQ(all.substr(26), "oooo") << all;
+  ASSERT_EQ(all.size(), GetParam().statuses.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const char wanted = GetParam().statuses[i];
+    const bool is_right = wanted == '?' || (wanted == 'x' ? all[i] != 'o' : all[i] == wanted);
+    EXPECT_TRUE(is_right) << GetParam().why << ": image " << i << " of " << all;
+  }
 }
 
-TEST_F(BagDriversTest, AnInfoThatIsToldOnceHoldsAfterAJumpOfTheClock) {
-  add(Driver::first, 1);
-  add(Driver::silent, 20);
-  add(Driver::other, 1);
-  jump_back(1'100'000'000);
-  add(Driver::silent, 8);
-  EXPECT_EQ(statuses().substr(22).find('o'), std::string::npos);
-}
-
-TEST_F(BagDriversTest, InfosFromBeforeAJumpOfTheClockAreNotOfImagesAfterIt) {
-  add(Driver::first, 24);
-  jump_back(1'100'000'000);
-  add(Driver::silent, 6);
-  add(Driver::other, 4);
-  EXPECT_EQ(statuses().substr(24).find('o'), std::string::npos);
-}
-
-TEST_F(BagDriversTest, ImagesBetweenTwoCamerasMayBeOfTheOtherOverAJumpOfTheClockToo) {
-  add(Driver::first, 20);
-  add(Driver::other, 4);
-  jump_back(1'100'000'000);
-  add(Driver::silent, 3);
-  add(Driver::first, 4);
-  const std::string all = statuses();
-  EXPECT_EQ(all.substr(24, 3).find('o'), std::string::npos) << all;
-  EXPECT_EQ(all.substr(27), "oooo") << all;
-}
+INSTANTIATE_TEST_SUITE_P(
+    All, BagDrivers,
+    testing::Values(
+        DriverCase{"a recorder hears another camera's topic some images late", "ffff--ooo",
+                   "oooobbbbb"},
+        DriverCase{"the first camera comes again", "ffffooo--fff", "oooobbbbbooo"},
+        DriverCase{"infos come seldom: the last holds until the next", "f---------o----",
+                   "oooooobbbbbbbbb"},  // 0.2 s is what an image waits for its own
+        DriverCase{"another camera behind a jump", std::string(18, 'f') + "oooo<ooooffff",
+                   std::string(18, '?') + "bbbbxxxxoooo"},
+        DriverCase{"an info that was told once holds behind a jump",
+                   "f" + std::string(20, '-') + "o<--------", std::string(22, '?') + "xxxxxxxx"},
+        DriverCase{"infos of before a jump are of no image behind it",
+                   std::string(24, 'f') + "<------oooo", std::string(24, '?') + "xxxxxxxxxx"},
+        DriverCase{"between two cameras, over a jump", std::string(20, 'f') + "oooo<---ffff",
+                   std::string(24, '?') + "xxxoooo"}),
+    [](const auto& test) { return "case" + std::to_string(test.index); });
 
 }  // namespace
 }  // namespace penumbra::test

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags whose joints come from transforms, or from several publishers.
-#include "bag_fixture.hpp"
+#include "fixtures.hpp"
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
@@ -28,10 +25,10 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
   const Outcome outcome = run({"--poses", "both"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(status(1), "poses_disagree");
-  EXPECT_NE(outcome.err.find("poses_disagree in 3 of 3 frames"), std::string::npos) << outcome.err;
+  expect_has(outcome.err, {"poses_disagree", "3 of 3"});
 
   bag_.remove("/joint_states");
-  EXPECT_NE(run().out.find("poses: from tf"), std::string::npos);
+  expect_has(run().out, {"poses: from tf"});
 }
 
 TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {
@@ -44,7 +41,7 @@ TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {
   Outcome outcome = run();
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(status(1), "poses_disagree");
-  for (const char* const part : {"poses_disagree in 3 of 3 frames", "joint 'slide' is at ",
+  for (const char* const part : {"poses_disagree", "3 of 3", "joint 'slide' is at ",
                                  "/joint_states (2 joints from "
                                  "'other')",
                                  "/joint_states (2 joints from 'slide')"})

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags with targets.
-#include "bag_fixture.hpp"
 #include "detections.hpp"
+#include "fixtures.hpp"
 
 #include <cstdint>
 #include <map>
-#include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -39,7 +35,7 @@ TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
     options.insert(options.end(), {"--target-topic", topic});
   const Outcome outcome = run(options);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("targets: /wrist (penumbra_msgs/msg/Keypoints)"), std::string::npos);
+  expect_has(outcome.out, {"/wrist", "penumbra_msgs/msg/Keypoints"});
   const Json json = report();
   EXPECT_TRUE(json["frames"][0]["targets"].empty());
   EXPECT_TRUE(json["frames"][1]["targets"].empty());
@@ -47,7 +43,7 @@ TEST_F(BagTest, JudgesTargetsOnTheFrameOfTheirStamp) {
   for (const Json& target : json["frames"][2]["targets"]) {
     verdicts[target["name"]] = target["verdict"];
     if (target["name"] == "/far") {
-      EXPECT_NE(std::string(target["reason"]).find("'map' is neither"), std::string::npos);
+      expect_has(std::string(target["reason"]), {"'map' is neither"});
     }
   }
   EXPECT_EQ(verdicts, (std::map<std::string, std::string>{{"/detections/object", "unknown"},

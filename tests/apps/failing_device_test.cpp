@@ -2,37 +2,28 @@
 // A graphics device that fails under the command line: a plain line, and what was done is kept.
 #include "../support/opengl.hpp"
 #include "../support/run_length.hpp"
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
+#include "fixtures.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
 
 constexpr int most_questions = 100;  // that OpenGL may be asked while three frames are drawn
 
-class FailingDevice : public testing::Test {
+class FailingDevice : public TinyTest {
  protected:
   void SetUp() override {
     if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // it wants to be the first library
     if (!has_opengl()) GTEST_SKIP() << no_opengl;
-    write_tiny_recording(folder_.path());
   }
 
   /// The device fails when it was asked for its state `spared` times.
   [[nodiscard]] Outcome run(int spared) const {
-    return penumbra({"run", folder_.path(), "-o", out(), "--renderer", "gl", "--save", "labels"},
+    return penumbra({"run", path(), "-o", out(), "--renderer", "gl", "--save", "labels"},
                     {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE,
                      "PENUMBRA_TEST_SPARED=" + std::to_string(spared)});
   }
-  [[nodiscard]] std::filesystem::path out() const { return folder_.path() / "out"; }
 
   /// Frames in the report of a run that failed; 0 where there is none.
   [[nodiscard]] std::size_t expect_failed(const Outcome& outcome) const {
@@ -57,8 +48,6 @@ class FailingDevice : public testing::Test {
     for (const Json& frame : report["frames"]) EXPECT_EQ(frame["pixels"]["front"], 64);
     return frames;
   }
-
-  TemporaryFolder folder_;
 };
 
 /// The device fails ever later until the run is done.
@@ -77,15 +66,13 @@ TEST_F(FailingDevice, LeavesTheFramesBefore) {
 
 TEST_F(FailingDevice, IsNoFaultOfRender) {
   const Outcome outcome =
-      penumbra({"render", "--robot", folder_.path() / "tiny.urdf", "--camera",
-                folder_.path() / "camera_info.yaml", "--pose", folder_.path() / "camera_pose.csv",
-                "-o", folder_.path() / "vdi.npy", "--renderer", "gl"},
-               {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=0"});
+      render({"--renderer", "gl"},
+             {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=0"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
   EXPECT_NE(outcome.err.find("penumbra: OpenGL: the graphics device was reset"), std::string::npos)
       << outcome.err;
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "vdi.npy"));
+  EXPECT_FALSE(std::filesystem::exists(path("vdi.npy")));
 }
 
 }  // namespace

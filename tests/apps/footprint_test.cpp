@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../support/data.hpp"
 #include "../support/run_length.hpp"
-#include "json.hpp"
-#include "program.hpp"
+#include "fixtures.hpp"
 
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <iostream>
-#include <string>
-#include <vector>
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -53,47 +46,6 @@ TEST(Footprint, ARunOnTheRecordingStaysSmall) {
     EXPECT_LT(peak, budget);
     EXPECT_GT(peak, 1.0) << "not measured";
   }
-}
-
-/// A binary STL file of a grid of 2 side^2 triangles in the plane z = 0, 1 mm wide.
-std::string grid_stl(std::uint32_t side) {
-  const std::uint32_t count = 2 * side * side;
-  std::string stl(84 + 50 * static_cast<std::size_t>(count), '\0');
-  std::memcpy(&stl[80], &count, sizeof(count));
-  std::size_t at = 84 + 12;  // after the normal, which is 0
-  const auto put = [&](std::uint32_t i, std::uint32_t j) {
-    const float point[3] = {0.001F * static_cast<float>(i), 0.001F * static_cast<float>(j), 0.0F};
-    std::memcpy(&stl[at], point, sizeof(point));
-    at += sizeof(point);
-  };
-  for (std::uint32_t i = 0; i < side; ++i) {
-    for (std::uint32_t j = 0; j < side; ++j) {
-      put(i, j), put(i + 1, j), put(i, j + 1);
-      at += 50 - 36;
-      put(i, j + 1), put(i + 1, j), put(i + 1, j + 1);
-      at += 50 - 36;
-    }
-  }
-  return stl;
-}
-
-TEST(InspectFull, AMeshOfFiveMillionTrianglesIsReported) {
-  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
-  if (!is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
-  constexpr std::uint32_t side = 1582;
-  const TemporaryFolder folder;
-  write_file(folder.path() / "big.stl", grid_stl(side));
-  write_file(folder.path() / "big.urdf",
-             "<robot name=\"big\"><link name=\"base\"><collision><geometry>"
-             "<mesh filename=\"big.stl\"/></geometry></collision></link></robot>");
-  const Outcome outcome = penumbra({"inspect", folder.path() / "big.urdf", "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const Json link = Json::parse(outcome.out)["links"][0];
-  std::cout << link["load_ms"] << " ms\n";
-  EXPECT_EQ(link["triangles"], 2 * side * side);
-  EXPECT_EQ(link["watertight"], false);
-  EXPECT_NEAR(link["size_m"][0].get<double>(), 0.001 * side, 1e-6);
-  EXPECT_GT(link["load_ms"], 0.0);
 }
 
 }  // namespace

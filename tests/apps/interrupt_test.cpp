@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
+#include "fixtures.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 namespace penumbra::test {
 namespace {
 
-constexpr int frames = 20'000;  // seconds of work
+constexpr int many_frames = 20'000;  // seconds of work
 
 /// The tiny recording's first frame, over and over.
 void write_long_recording(const std::filesystem::path& folder) {
   write_tiny_recording(folder);
   std::ostringstream joints;
   joints << "frame,slide\n";
-  for (int i = 0; i < frames; ++i) {
+  for (int i = 0; i < many_frames; ++i) {
     joints << i << ",0\n";
     const std::filesystem::path image = folder / ("depth_" + std::to_string(i) + ".png");
     if (!std::filesystem::exists(image)) std::filesystem::create_symlink("depth_0.png", image);
@@ -49,7 +44,7 @@ TEST(Interrupt, LeavesTheReportOfTheFramesThatAreDone) {
   const Json report = Json::parse(read_file(out / "report.json"));
   const std::size_t done = report["frames"].size();
   EXPECT_GT(done, 0U);
-  EXPECT_LT(done, static_cast<std::size_t>(frames));
+  EXPECT_LT(done, static_cast<std::size_t>(many_frames));
   EXPECT_EQ(report["summary"]["frames"], done);
   const std::string note = report["summary"]["notes"].back();
   EXPECT_NE(note.find("stopped after " + std::to_string(done)), std::string::npos) << note;

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What penumbra live refuses, and how it ends; what it publishes is tested against Fast DDS.
 #include "../support/opengl.hpp"
-#include "program.hpp"
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "fixtures.hpp"
 
 #include <io/dds/participant.hpp>
 
@@ -72,26 +66,6 @@ TEST(LiveCommand, ADeviceThatCannotDrawIsRefusedBeforeTheGraphIsJoined) {
   expect_refused({"--renderer", "gl", "--gl-device", "99"}, "there is no device 99");
 }
 
-TEST(LiveCommand, HelpNamesItsOwnDefaults) {
-  const auto line_of = [](const std::string& command, const std::string& option) {
-    const std::string help = penumbra({command, "--help"}).out;
-    const std::size_t begin = help.find("\n  " + option + " ");
-    EXPECT_NE(begin, std::string::npos) << option;
-    return help.substr(begin, help.find('\n', begin + 1) - begin);
-  };
-  struct Default {
-    std::string option, of_run, of_live;
-  };
-  const std::vector<Default> all = {
-      {"--poses", "default: joints, else tf", "default: joints, never tf by itself"},
-      {"--joint-topic", "default: /joint_states, or the only one;", "default: joint_states;"},
-      {"--geometry", "default: the recording's, else collision", "default: collision"}};
-  for (const Default& one : all) {
-    EXPECT_NE(line_of("run", one.option).find(one.of_run), std::string::npos) << one.option;
-    EXPECT_NE(line_of("live", one.option).find(one.of_live), std::string::npos) << one.option;
-  }
-}
-
 TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
   const TemporaryFolder folder;
@@ -100,10 +74,10 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
       {"live", "--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary},
       {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_NE(outcome.err.find("no image was judged"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("no publisher of /nobody/depth"), std::string::npos) << outcome.err;
-  EXPECT_NE(read_file(summary).find("\"received\": 0"), std::string::npos);
-  EXPECT_NE(read_file(summary).find("\"renderer\": null"), std::string::npos);
+  expect_has(outcome.err, {"no image was judged"});
+  expect_has(outcome.err, {"no publisher of /nobody/depth"});
+  expect_has(read_file(summary), {"\"received\": 0"});
+  expect_has(read_file(summary), {"\"renderer\": null"});
 }
 
 TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
@@ -114,7 +88,7 @@ TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
   const Outcome outcome = penumbra({"live", "--duration", "0.3", "--summary", summary},
                                    {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_NE(outcome.err.find("live.json is left as it was"), std::string::npos) << outcome.err;
+  expect_has(outcome.err, {"live.json is left as it was"});
   EXPECT_EQ(read_file(summary), "former");
 }
 

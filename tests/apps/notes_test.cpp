@@ -1,45 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // What run and render say of input that is understood, but looks wrong.
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "fixtures.hpp"
 
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class NotesTest : public testing::Test {
+class NotesTest : public TinyTest {
  protected:
-  NotesTest() { write_tiny_recording(folder_.path()); }
-
   /// Runs and expects success with this one note, on stderr and in the report; "": without any.
   void expect_note_of_run(const std::string& words) {
-    const Outcome outcome = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
-    const Json report = Json::parse(read_file(folder_.path() / "out/report.json"));
-    expect_note(outcome, report["summary"]["notes"], words);
-    EXPECT_EQ(report["summary"]["bad_frames"], 0);
+    const Outcome outcome = run();
+    const Json summary = report()["summary"];
+    expect_note(outcome, summary["notes"], words);
+    EXPECT_EQ(summary["bad_frames"], 0);
   }
 
   /// The same of render.
-  void expect_note_of_render(const std::vector<std::string>& options, const std::string& words) {
-    std::vector<std::string> line = {"render", "--json", "--robot", path("tiny.urdf"), "--camera"};
-    line.insert(line.end(), {path("camera_info.yaml"), "--pose", path("camera_pose.csv"), "-o",
-                             path("vdi.npy")});
-    line.insert(line.end(), options.begin(), options.end());
-    const Outcome outcome = penumbra(line);
+  void expect_note_of_render(Words options, const std::string& words) {
+    options.emplace_back("--json");
+    const Outcome outcome = render(options);
     expect_note(outcome, Json::parse(outcome.out)["notes"], words);
   }
-
-  [[nodiscard]] std::string path(const char* file) const { return folder_.path() / file; }
-
-  TemporaryFolder folder_;
 
  private:
   static void expect_note(const Outcome& outcome, const Json& notes, const std::string& words) {
@@ -79,11 +60,9 @@ TEST_F(NotesTest, RawPixelsThatTheLensModelDoesNotReach) {
   edit_file(path("camera_info.yaml"), "d: [0.0,", "d: [-0.6,");
   expect_note_of_run("the lens model does not reach ");
   expect_note_of_render({}, "the lens model does not reach ");
-  const Outcome ran = penumbra({"run", folder_.path(), "-o", folder_.path() / "out"});
-  EXPECT_NE(ran.out.find(" uncovered pixels"), std::string::npos) << ran.out;
-  const Outcome rendered = penumbra({"render", "--json", "--robot", path("tiny.urdf"), "--camera",
-                                     path("camera_info.yaml"), "--pose", path("camera_pose.csv"),
-                                     "-o", path("vdi.npy")});
+  const Outcome ran = run();
+  expect_has(ran.out, {" uncovered pixels"});
+  const Outcome rendered = render({"--json"});
   EXPECT_GT(Json::parse(rendered.out)["uncovered"], 0) << rendered.out;
 }
 
@@ -95,7 +74,7 @@ TEST_F(NotesTest, LinksThatAreTiny) {
   const std::string words = "link 'speck': its geometry is only 0.4 mm large; is the unit right?";
   expect_note_of_run(words);
   expect_note_of_render({}, words);
-  EXPECT_NE(penumbra({"inspect", path("tiny.urdf")}).out.find("note: " + words), std::string::npos);
+  EXPECT_NE(inspect().out.find("note: " + words), std::string::npos);
 }
 
 TEST_F(NotesTest, PartsBeforeTheNearPlane) {

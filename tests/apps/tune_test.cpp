@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // penumbra tune on a real recording, on a robot that lacks parts, and on what it must refuse.
 #include "../support/data.hpp"
-#include "json.hpp"
-#include "program.hpp"
-#include "tiny_recording.hpp"
+#include "fixtures.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <regex>
-#include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include <penumbra/labels/labels.hpp>
 
-#include <io/files/png.hpp>
-
 namespace penumbra::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int recorded_frames = 10;
 

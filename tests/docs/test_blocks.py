@@ -158,7 +158,7 @@ def test_csv_is_even(block):
 
 def test_the_page_on_recordings_tells_all_keys():
     """Those that the reader allows."""
-    source = (ROOT / "io" / "recording.cpp").read_text()
+    source = (ROOT / "io" / "files" / "recording.cpp").read_text()
     keys = set()
     for found in re.finditer(r"(\w+)\.allow_only\(\s*\{(.*?)\}\)", source, re.DOTALL):
         of = found[1]

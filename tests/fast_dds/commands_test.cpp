@@ -3,6 +3,7 @@
 #include "../apps/program.hpp"
 #include "../apps/tiny_bag.hpp"
 #include "listening.hpp"
+#include "live_program.hpp"
 #include "lone_domain.hpp"
 
 #include <algorithm>
@@ -14,10 +15,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#ifdef PENUMBRA_FAST_DDS_PEER
-#include "peer_process.hpp"
-#endif
 
 namespace penumbra::test {
 namespace {
@@ -222,12 +219,6 @@ TEST_F(Commands, PlayTellsWhatItLeavesOut) {
   EXPECT_EQ(play({"--topics", "no_slash"}).status, 2);
 }
 
-TEST_F(Commands, PlayTellsThatNothingIsSoLate) {
-  const Outcome outcome = play({"--delay", "0", "--start", "100"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("no message is later than --start"), std::string::npos) << outcome.err;
-}
-
 TEST_F(Commands, PlayOfABagCutAtItsBeginningTellsTheDamage) {
   std::filesystem::resize_file(file(), 2000);
   const Outcome outcome = play({});
@@ -289,15 +280,22 @@ TEST_F(Commands, TopicsListsBothSides) {
   EXPECT_EQ(json["topics"][1]["subscribers"][0]["reliable"], false);
 }
 
-#ifdef PENUMBRA_FAST_DDS_PEER
-TEST_F(Commands, FastDdsHearsWhatIsPlayed) {
-  PeerProcess peer({std::to_string(domain_.id()), "subscribe", "rt/joint_states",
-                    "sensor_msgs::msg::dds_::JointState_", "reliable,depth=100"});
-  auto player = playing({"--delay", "3"});
-  for (const Bytes& wanted : recorded("/joint_states")) EXPECT_EQ(peer.message(), wanted);
-  EXPECT_EQ(player.get().status, 0);
+TEST_F(Commands, LiveRemapsItsDiagnostics) {
+  const auto heard =
+      graph_->subscribe("/cell/health", "diagnostic_msgs/msg/DiagnosticArray", {.reliable = true});
+  LiveProgram live({"--domain", std::to_string(domain_.id()), "--depth-topic", "/depth", "--remap",
+                    "/diagnostics:=/cell/health"},
+                   folder_.path() / "live.log");
+  io::Sample sample;
+  ASSERT_TRUE(eventually(*graph_, [&] { return heard->take(sample); }));
+  io::DiagnosticArrayMessage message;
+  ASSERT_FALSE(io::Decoder<io::DiagnosticArrayMessage>().decode(sample.data, message));
+  EXPECT_FALSE(message.status.empty());
+  const auto topics = graph_->graph();
+  EXPECT_TRUE(std::none_of(topics.begin(), topics.end(),
+                           [](const auto& topic) { return topic.name == "/diagnostics"; }));
+  EXPECT_EQ(live.end(), 0);
 }
-#endif
 
 }  // namespace
 }  // namespace penumbra::test

@@ -10,16 +10,14 @@
 //   fast_dds_peer DOMAIN repeat TOPIC TYPE QOS HZ
 //     one message with a header from stdin, likewise, again and again with each tick of the clock
 //     as its stamp; says "heard" likewise, and "written N" since then at the end
-//   fast_dds_peer DOMAIN subscribe TOPIC TYPE QOS
-//     messages to stdout, likewise
 //   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
 //     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: its writer's sequence number,
 //     from 1 on, and stamp and arrival in nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
 //     "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
-// latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone; net:N: on
-// the network. Ends with stdin.
+// latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone. Ends
+// with stdin.
 #include "pattern.hpp"
 #include "stamped_message.hpp"
 
@@ -126,13 +124,10 @@ void stay_here(dds::DomainParticipantQos& qos) {
 
 class Peer {
  public:
-  Peer(std::string domain, const std::string& topic, const std::string& type) {
+  Peer(const std::string& domain, const std::string& topic, const std::string& type) {
     dds::DomainParticipantQos qos;
     qos.name("fast_dds_peer");
-    if (domain.rfind("net:", 0) == 0)
-      domain = domain.substr(4);
-    else
-      stay_here(qos);
+    stay_here(qos);
     qos.wire_protocol().builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
     qos.wire_protocol().builtin.discovery_config.leaseDuration = {3, 0};
     qos.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
@@ -296,21 +291,14 @@ void subscribe(dds::DataReader& reader, const std::string& mode) {
       say(std::to_string(penumbra::test::pattern_number(message)) + " " +
           std::to_string(message.size()));
     });
-  } else if (mode == "watch") {
-    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo& info) {
-      const std::int64_t arrival = now();
-      say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
-          std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
-          std::to_string(penumbra::test::digest_of(message)));
-    });
-  } else {
-    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo&) {
-      const auto size = static_cast<std::uint32_t>(message.size());
-      std::fwrite(&size, sizeof(size), 1, stdout);
-      std::fwrite(message.data(), 1, size, stdout);
-      std::fflush(stdout);
-    });
+    return;
   }
+  read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo& info) {
+    const std::int64_t arrival = now();
+    say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
+        std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
+        std::to_string(penumbra::test::digest_of(message)));
+  });
 }
 
 int run(const std::vector<std::string>& words) {
@@ -340,7 +328,7 @@ int main(int argc, char** argv) {
   const bool known = words.size() == (words.size() > 1 && words[1] == "repeat" ? 6 : 5) ||
                      (words.size() == 8 && words[1] == "publish");
   if (!known) {
-    std::cerr << "fast_dds_peer DOMAIN publish|repeat|subscribe|watch|count TOPIC TYPE QOS [HZ | "
+    std::cerr << "fast_dds_peer DOMAIN publish|repeat|watch|count TOPIC TYPE QOS [HZ | "
                  "SIZE COUNT HZ]\n";
     return 2;
   }

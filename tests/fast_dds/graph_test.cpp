@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // ROS 2's graph by itself: names, settings, messages within one process.
+#include "../support/errors.hpp"
 #include "listening.hpp"
 #include "lone_domain.hpp"
 
 #include <cstdlib>
-#include <thread>
 
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
-
 #include <io/dds/graph_names.hpp>
-#include <io/dds/receive_buffers.hpp>
 
 namespace penumbra::test {
 namespace {
 
 constexpr const char* image = "sensor_msgs/msg/Image";
-
-std::string refusal(const io::ParticipantOptions& options) {
-  try {
-    static_cast<void>(io::join_graph(options));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "not refused";
-}
 
 // The names are those of REP-like conventions of ROS 2's "Topic and Service name mapping to DDS".
 TEST(GraphNames, AreThoseOfRos2) {
@@ -68,13 +56,6 @@ TEST(GraphDomain, IsThatOfOptionsEnvironmentOrZero) {
   EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = -1})), InputError);
 }
 
-TEST(ReceiveBuffers, AdviceComesWhereTheKernelGivesLittle) {
-  constexpr std::uint64_t debian = 212'992;  // net.core.rmem_max as Debian has it
-  EXPECT_NE(io::receive_buffer_advice(debian).find("net.core.rmem_max"), std::string::npos);
-  EXPECT_EQ(io::receive_buffer_advice(16U << 20U), "");
-  EXPECT_EQ(io::receive_buffer_advice(std::nullopt), "");
-}
-
 TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
   const LoneDomain domain;
   for (const char* const bad :
@@ -85,30 +66,12 @@ TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"wlan99\"/></Interfaces>"
         "</General></Domain></CycloneDDS>"}) {
     setenv("CYCLONEDDS_URI", bad, 1);
-    const std::string said = refusal({.domain = domain.id()});
+    const std::string said = message_of([&] { return io::join_graph({.domain = domain.id()}); });
     EXPECT_NE(said.find("CYCLONEDDS_URI"), std::string::npos) << bad << ": " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }
   unsetenv("CYCLONEDDS_URI");
-  EXPECT_EQ(refusal({.domain = domain.id()}), "not refused");
-}
-
-TEST(Graph, PassesMessagesBetweenParticipantsOfOneProcess) {
-  const LoneDomain domain;
-  const auto one = io::join_graph({.domain = domain.id()});
-  const auto other = io::join_graph({.domain = domain.id()});
-  const auto heard = one->subscribe("/a", image, {.reliable = true, .depth = 100});
-  const auto said = other->advertise("/a", image, {.reliable = true, .depth = 100});
-  ASSERT_TRUE(eventually(*one, [&] { return said->subscribers() == 1; }));
-  constexpr std::uint32_t count = 50;
-  for (std::uint32_t i = 0; i < count; ++i) ASSERT_TRUE(said->write(pattern_message(i, 1000 + i)));
-  EXPECT_EQ(listen(*one, *heard, count), numbers_up_to(count));
-  EXPECT_TRUE(said->flush(dds_patience));
-  const auto status = heard->status();
-  EXPECT_EQ(status.publishers, 1);
-  EXPECT_EQ(status.taken, count);
-  EXPECT_EQ(status.overwritten, 0U);
-  EXPECT_EQ(status.lost, 0U);
+  EXPECT_EQ(message_of([&] { return io::join_graph({.domain = domain.id()}); }), "");
 }
 
 TEST(Graph, AMessageOutlivesItsSubscriptionAndParticipant) {
@@ -135,48 +98,6 @@ TEST(Graph, CountsWhatNewerMessagesReplaced) {
   EXPECT_EQ(status.received, 10U);
   EXPECT_EQ(status.taken, 3U);
   EXPECT_EQ(status.overwritten, 7U);
-}
-
-TEST(Graph, WaitEndsWithMessagesAWakeOrTheTime) {
-  using namespace std::chrono_literals;
-  const LoneDomain domain;
-  const auto graph = io::join_graph({.domain = domain.id()});
-  const auto heard = graph->subscribe("/a", image, {});
-  EXPECT_FALSE(graph->wait(1ms));
-  graph->wake();
-  EXPECT_TRUE(graph->wait(20s));
-  EXPECT_FALSE(graph->wait(1ms));
-  std::thread other([&] {
-    std::this_thread::sleep_for(20ms);
-    graph->wake();
-  });
-  EXPECT_TRUE(graph->wait(20s));
-  other.join();
-  const auto said = graph->advertise("/a", image, {});
-  ASSERT_TRUE(said->write(pattern_message(0, 64)));
-  EXPECT_TRUE(graph->wait(20s));
-  EXPECT_EQ(take_numbers(*heard), numbers_up_to(1));
-  EXPECT_FALSE(graph->wait(1ms));
-}
-
-TEST(Graph, ListsTopicsOfBothSides) {
-  const LoneDomain domain;
-  const auto graph = io::join_graph({.domain = domain.id()});
-  const auto other = io::join_graph({.domain = domain.id()});
-  const auto heard = graph->subscribe("/a", image, {.reliable = true});
-  const auto said = other->advertise("/a", image, {.latched = true});
-  const auto same_name = other->advertise("/a", "std_msgs/msg/String", {.reliable = true});
-  ASSERT_TRUE(eventually(*graph, [&] { return graph->graph().size() == 2; }));
-  const auto topics = graph->graph();
-  EXPECT_EQ(topics[0].name, "/a");
-  EXPECT_EQ(topics[0].type, image);
-  ASSERT_EQ(topics[0].publishers.size(), 1U);
-  ASSERT_EQ(topics[0].subscribers.size(), 1U);
-  EXPECT_TRUE(topics[0].publishers[0].qos.latched);
-  EXPECT_FALSE(topics[0].publishers[0].qos.reliable);
-  EXPECT_FALSE(topics[0].publishers[0].own);
-  EXPECT_TRUE(topics[0].subscribers[0].own);
-  EXPECT_EQ(topics[1].type, "std_msgs/msg/String");
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ std::vector<std::byte> labels_message(std::int64_t stamp, ImageView<const std::u
 
 }  // namespace
 
-LabelWatch::LabelWatch(int domain, const LiveLens& lens)
+LabelWatch::LabelWatch(int domain, const LiveLens& lens, const std::string& topic)
     : lens_(lens),
-      process_(make_peer(domain, {"watch", "rt/penumbra/labels", "sensor_msgs::msg::dds_::Image_",
-                                  "reliable,depth=50"})),
+      process_(make_peer(
+          domain, {"watch", "rt" + topic, "sensor_msgs::msg::dds_::Image_", "reliable,depth=50"})),
       thread_([this] { read(); }) {}
 
 void LabelWatch::read() {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct LabelVerdict {
 
 class LabelWatch {
  public:
-  LabelWatch(int domain, const LiveLens& lens);
+  LabelWatch(int domain, const LiveLens& lens, const std::string& topic = "/penumbra/labels");
   ~LabelWatch() { end(); }
   LabelWatch(const LabelWatch&) = delete;
   LabelWatch& operator=(const LabelWatch&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-//   PENUMBRA_FULL=1 test_dds_soak --gtest_filter='LiveSoakFull.*'
+//   PENUMBRA_FULL=1 test_dds_live --gtest_filter='LiveSoakFull.*'
 // is 10 minutes without overlays, 10 with them and 5 of chaos; PENUMBRA_SOAK_SECONDS=N makes N s of
 // each.
 #include "live_soak.hpp"
@@ -23,9 +23,9 @@ class LiveSoakFull : public LiveSoak {
   [[nodiscard]] bool is_alone() const override { return true; }
 };
 
-TEST_F(LiveSoak, EverySampleIsAccountedFor) { soak_steadily(3s, true); }
+TEST_F(LiveSoak, EverySampleIsAccountedFor) { soak_steadily(2s, true); }
 
-TEST_F(LiveSoak, NoLabelsAreOfAWrongPoseAmongKilledPublishers) { soak_in_chaos(5s); }
+TEST_F(LiveSoak, NoLabelsAreOfAWrongPoseAmongKilledPublishers) { soak_in_chaos(3s); }
 
 TEST_F(LiveSoakFull, Steady) {
   if (!measures_in_full()) GTEST_SKIP() << "set PENUMBRA_FULL";

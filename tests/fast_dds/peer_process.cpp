@@ -69,14 +69,6 @@ std::optional<std::string> PeerProcess::line() {
   return std::nullopt;
 }
 
-std::optional<std::vector<std::byte>> PeerProcess::message() {
-  std::uint32_t size = 0;
-  if (!read_exactly(&size, sizeof(size))) return std::nullopt;
-  std::vector<std::byte> message(size);
-  if (!read_exactly(message.data(), size)) return std::nullopt;
-  return message;
-}
-
 void PeerProcess::go() {
   if (write(in_, "\n", 1) != 1) throw std::runtime_error("it is gone");
 }

@@ -33,9 +33,6 @@ class PeerProcess {
   /// For one that publishes what it is given.
   void give(std::span<const std::byte> message);
 
-  /// The next message of one that subscribes.
-  [[nodiscard]] std::optional<std::vector<std::byte>> message();
-
   /// SIGKILL: it says no goodbye.
   void kill();
 

@@ -117,14 +117,10 @@ SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
     : domain_(domain), scene_(scene), joints_(scene.joint_hertz, scene.troubles, scene.seed) {
   description_ = make_peer(
       domain, {"publish", "rt/robot_description", "std_msgs::msg::dds_::String_", latched});
-  tell_robot(live_urdf);
+  description_->give(encoded(io::StringMessage{live_urdf}));
   mount_ =
       make_peer(domain, {"publish", "rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", latched});
   mount_->give(encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
-}
-
-void SoakPublishers::tell_robot(const std::string& urdf) {
-  description_->give(encoded(io::StringMessage{urdf}));
 }
 
 std::vector<std::byte> SoakPublishers::message_of(Part part) const {

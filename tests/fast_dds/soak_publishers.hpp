@@ -85,9 +85,6 @@ class SoakPublishers {
   void start_all();
   void kill(Part part);
 
-  /// Tells another robot_description.
-  void tell_robot(const std::string& urdf);
-
   /// When what a part's process said was heard first, nanoseconds since 1970; nothing: nobody heard
   /// it within 20 s.
   [[nodiscard]] std::optional<std::int64_t> heard(Part part);

@@ -12,16 +12,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* image = "sensor_msgs/msg/Image";
-constexpr const char* image_in_dds = "sensor_msgs::msg::dds_::Image_";
+constexpr const char* ros_image = "sensor_msgs/msg/Image";
+constexpr const char* peers_image = "sensor_msgs::msg::dds_::Image_";
 constexpr std::size_t large = 1280 * 720 * 4 + 67;  // the last bytes fill no four
 
 class Vendors : public testing::Test {
  protected:
-  /// "publish" or "subscribe" and more of Fast DDS on /a.
+  /// "publish" or "count" and more of Fast DDS on /a.
   PeerProcess peer(const std::string& mode, const std::string& qos,
                    const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words = {std::to_string(domain.id()), mode, "rt/a", image_in_dds, qos};
+    std::vector<std::string> words = {std::to_string(domain.id()), mode, "rt/a", peers_image, qos};
     words.insert(words.end(), more.begin(), more.end());
     return PeerProcess(words);
   }
@@ -56,7 +56,7 @@ class BothWays : public Vendors, public testing::WithParamInterface<Case> {
 // The first message may be missed: if a part of it is dropped before the publisher's first
 // heartbeat, a subscription that is not latched takes it for one from before they met.
 TEST_P(BothWays, FromFastDdsEveryByteArrives) {
-  const auto heard = graph->subscribe("/a", image, qos());
+  const auto heard = graph->subscribe("/a", ros_image, qos());
   auto other = peer("publish", peers_qos(),
                     {std::to_string(GetParam().size), std::to_string(GetParam().count), "30"});
   begin(other, *heard);
@@ -78,7 +78,7 @@ TEST_P(BothWays, FromFastDdsEveryByteArrives) {
 }
 
 TEST_P(BothWays, ToFastDdsEveryByteArrives) {
-  const auto said = graph->advertise("/a", image, qos());
+  const auto said = graph->advertise("/a", ros_image, qos());
   auto other = peer("count", peers_qos());
   ASSERT_TRUE(other.says("ready"));
   ASSERT_TRUE(eventually(*graph, [&] { return said->subscribers() == 1; }));
@@ -99,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, BothWays,
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
-  const auto said = graph->advertise("/a", image, {.reliable = true, .latched = true, .depth = 1});
+  const auto said =
+      graph->advertise("/a", ros_image, {.reliable = true, .latched = true, .depth = 1});
   for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(said->write(pattern_message(i, 100'000)));
   auto late = peer("count", "reliable,latched,depth=1");
   ASSERT_TRUE(late.says("ready"));
@@ -111,13 +112,14 @@ TEST_F(Vendors, ComingLateLatchedMessagesAreHad) {
   ASSERT_TRUE(early.says("ready"));
   early.go();
   ASSERT_TRUE(early.says("written 3"));
-  const auto heard = graph->subscribe("/a", image, {.reliable = true, .latched = true, .depth = 1});
+  const auto heard =
+      graph->subscribe("/a", ros_image, {.reliable = true, .latched = true, .depth = 1});
   EXPECT_EQ(listen(*graph, *heard, 1), (std::vector<std::int64_t>{2}));
 }
 
 TEST_F(Vendors, QosThatDoesNotFitIsToldByPolicy) {
-  const auto heard = graph->subscribe("/a", image, {.reliable = true});
-  const auto latched = graph->subscribe("/a", image, {.latched = true});
+  const auto heard = graph->subscribe("/a", ros_image, {.reliable = true});
+  const auto latched = graph->subscribe("/a", ros_image, {.latched = true});
   auto other = peer("publish", "best_effort", {"100", "1000", "100"});
   ASSERT_TRUE(eventually(
       *graph, [&] { return heard->status().refused > 0 && latched->status().refused > 0; }));
@@ -134,7 +136,7 @@ TEST_F(Vendors, QosThatDoesNotFitIsToldByPolicy) {
 }
 
 TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
-  const auto heard = graph->subscribe("/a", image, {.reliable = true, .depth = 100});
+  const auto heard = graph->subscribe("/a", ros_image, {.reliable = true, .depth = 100});
   {
     auto first = peer("publish", "reliable", {"1000", "1000000", "100"});
     begin(first, *heard);
@@ -153,7 +155,7 @@ TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
 
 // How many arrive depends on the kernel's buffers.
 TEST_F(Vendors, LargeMessagesWithBestEffortArriveWholeOrAreCounted) {
-  const auto heard = graph->subscribe("/a", image, {.depth = 50});
+  const auto heard = graph->subscribe("/a", ros_image, {.depth = 50});
   auto other = peer("publish", "best_effort", {std::to_string(large), "15", "30"});
   begin(other, *heard);
   ASSERT_TRUE(other.says("written 15"));
@@ -179,8 +181,8 @@ TEST(VendorsLoss, WhatIsDroppedOnTheWayIsCounted) {
       1);
   const auto graph = io::join_graph({.domain = domain.id()});
   unsetenv("CYCLONEDDS_URI");
-  const auto heard = graph->subscribe("/a", image, {.depth = 1000});
-  PeerProcess other({std::to_string(domain.id()), "publish", "rt/a", image_in_dds, "best_effort",
+  const auto heard = graph->subscribe("/a", ros_image, {.depth = 1000});
+  PeerProcess other({std::to_string(domain.id()), "publish", "rt/a", peers_image, "best_effort",
                      "600000", "200", "100"});
   ASSERT_TRUE(other.says("ready"));
   ASSERT_TRUE(other.says("matched"));

@@ -1,39 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the tests of readers share: tables of bad input, and damage to good input.
 #pragma once
 
+#include "../support/errors.hpp"
+#include "../support/random.hpp"
 #include "../support/temporary_folder.hpp"
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 namespace penumbra::test {
 
-/// The message of the InputError that `call` throws; it must be one line.
-template <typename F>
-std::string input_error(const F& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    std::string message = error.what();
+/// Input, and what the one line of its error must name.
+using BadInputs = std::initializer_list<std::pair<std::string, std::string>>;
+
+template <class Read>
+void expect_refused(const BadInputs& inputs, const Read& read) {
+  for (const auto& [input, named] : inputs) {
+    const std::string message = message_of([&, &text = input] { read(text); });
+    EXPECT_NE(message, "") << "read: " << input;
+    EXPECT_HAS(message, named) << input;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
   }
-  ADD_FAILURE() << "no InputError was thrown";
-  return {};
 }
 
-/// Runs `call`; what it throws must be an InputError.
-template <typename F>
-void only_input_errors(const F& call) {
-  try {
-    call();
-  } catch (const InputError&) {
+/// Calls `read` with each beginning of `whole` and with random edits of it. Only an InputError may
+/// come of it.
+template <class Read>
+void read_damaged(const std::string& whole, int rounds, const Read& read) {
+  using namespace std::string_literals;
+  const std::string special = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\r\t ~?=\\<\xff\x01\0"s;
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    message_of([&] { read(whole.substr(0, length)); });
+  std::mt19937_64 random = seeded_random(31);
+  for (int i = 0; i < rounds; ++i) {
+    std::string text = whole;
+    for (std::size_t edits = 1 + random() % 5; edits > 0 && !text.empty(); --edits) {
+      const std::size_t at = random() % text.size();
+      const char letter =
+          random() % 2 == 0 ? special[random() % special.size()] : static_cast<char>(random());
+      const std::uint64_t kind = random() % 6;
+      if (kind == 0) text.erase(at, 1 + random() % 8);
+      if (kind == 1) text.insert(at, 1, letter);
+      if (kind > 1) text[at] = letter;
+    }
+    message_of([&] { read(text); });
   }
 }
 
 }  // namespace penumbra::test
-
-#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)

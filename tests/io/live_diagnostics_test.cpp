@@ -3,13 +3,10 @@
 #include "live_scene.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/simd_target.hpp>
 
 #include <io/live/live_diagnostics.hpp>
-#include <io/live/live_summary.hpp>
 #include <io/live/name_resolver.hpp>
 #include <io/live/trouble_news.hpp>
 
@@ -17,7 +14,6 @@ namespace penumbra::test {
 namespace {
 
 using Status = io::DiagnosticStatusMessage;
-using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 class LiveDiagnosticsTest : public testing::Test {
@@ -43,12 +39,6 @@ class LiveDiagnosticsTest : public testing::Test {
     bench_.tell_joints(bench_.now + 10 * milliseconds);
     bench_.tell_depth(bench_.now);
     bench_.work();
-  }
-  static Words values_of(const Status& status, const std::string& key) {
-    Words values;
-    for (const auto& value : status.values)
-      if (value.key == key) values.push_back(value.value);
-    return values;
   }
   static void expect_says(const Status& status, std::uint8_t level, const std::string& what) {
     EXPECT_EQ(status.level, level) << status.message;
@@ -99,62 +89,6 @@ TEST_F(LiveDiagnosticsTest, TellsUnreadableMessages) {
   expect_says(camera(), Status::stale, "1 messages cannot be read");
 }
 
-TEST_F(LiveDiagnosticsTest, TellsWhatWasNotUsed) {
-  const auto value_of = [](const Status& status, const std::string& key) -> std::string {
-    for (const auto& value : status.values)
-      if (value.key == key && value.value.find("transforms") == std::string::npos)
-        return value.value;
-    return {};
-  };
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/wrist"};
-  LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::LiveRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-  const auto report_of = [&] {
-    bench.now += seconds / 100;
-    const std::vector<io::LiveLink> links(bench.inbox.topics().size());
-    return io::LiveDiagnostics(bench.now).report(bench.inbox, links, {bench.now, bench.now});
-  };
-  const char* const early = "target messages before robot and camera were known";
-  EXPECT_EQ(value_of(report_of().status.at(1), early), "");
-  bench.tell("/wrist", encoded(io::PoseStampedMessage{.header = {bench.now, "optical"}}));
-  bench.tell_all();
-  EXPECT_EQ(value_of(report_of().status.at(1), early), "1");
-
-  EXPECT_EQ(value_of(report_of().status.at(0), "note"), "");
-  bench.tell("/joint_states",
-             encoded(io::JointStateMessage{
-                 .header = {bench.now, ""}, .names = {"spin"}, .positions = {std::nan("")}}));
-  EXPECT_NE(value_of(report_of().status.at(0), "note").find("joint positions not used: 1 "),
-            std::string::npos);
-}
-
-TEST_F(LiveDiagnosticsTest, TellsWhatDraws) {
-  bench_.tell_all();
-  EXPECT_EQ(values_of(camera(), "renderer backend"), Words{}) << "nothing draws yet";
-  judge();
-  const Status drawn = camera();
-  EXPECT_EQ(values_of(drawn, "renderer backend"), Words{"cpu"});
-  EXPECT_EQ(values_of(drawn, "renderer isa"), Words{simd_target_names().front()});
-  EXPECT_EQ(values_of(drawn, "renderer threads"), Words{"1"});
-  const std::string summary = io::live_summary_json(bench_.inbox, links_, {.results = {{}}});
-  EXPECT_NE(summary.find("\"backend\": \"cpu\""), std::string::npos) << summary;
-  EXPECT_NE(summary.find("\"fault\": null"), std::string::npos) << summary;
-}
-
-TEST_F(LiveDiagnosticsTest, TheSummaryCountsWhatWasPublished) {
-  io::WrittenResults results{.not_written = 4};
-  results.written[static_cast<std::size_t>(io::Result::labels)] = 17;
-  const Json summary =
-      Json::parse(io::live_summary_json(bench_.inbox, links_, {.results = {results}}));
-  EXPECT_EQ(summary["results_not_written"], 4);
-  const Json& written = summary["cameras"][0]["results_written"];
-  EXPECT_EQ(written["labels"], 17);
-  EXPECT_EQ(written["overlay/compressed"], 0);
-}
-
 TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   bench_.tell_all();
   const auto tell = [&](std::int64_t stamp, std::vector<std::string> names, double position) {
@@ -178,27 +112,6 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   }
   expect_says(robot(), Status::error, "no joint states of the robot for 3.0 s");
   expect_says(robot(), Status::error, "a, b, c, ...");
-}
-
-TEST_F(LiveDiagnosticsTest, SaysThatCameraInfosNoLongerComeWithImages) {
-  bench_.tell_all();
-  for (int i = 0; i < 20; ++i) {
-    bench_.now += 33 * milliseconds;
-    if (i < 10) bench_.tell_info(bench_.now);
-    judge();
-  }
-  bench_.now += 100 * milliseconds;
-  bench_.work();
-  expect_says(camera(), Status::error, "10 images came without a camera_info of their own");
-  EXPECT_EQ(values_of(camera(), "dropped: no_camera_info"), Words{"10"});
-}
-
-TEST_F(LiveDiagnosticsTest, SaysWhoItIs) {
-  const auto told = io::LiveDiagnostics(bench_.now, {"penumbra /cell", "left-arm-pc"})
-                        .report(bench_.inbox, links_, {bench_.now + seconds, bench_.now});
-  EXPECT_EQ(told.status.at(0).name, "penumbra /cell: robot");
-  EXPECT_EQ(told.status.at(1).name, "penumbra /cell: camera");
-  for (const Status& status : told.status) EXPECT_EQ(status.hardware_id, "left-arm-pc");
 }
 
 TEST_F(LiveDiagnosticsTest, ASlowCameraIsNotCalledSilent) {
@@ -234,38 +147,6 @@ TEST(TroubleNews, TellsEachStatusByItself) {
   EXPECT_EQ(news.look(of_cameras("", "4 images are bad")), Words{"left: well again"});
   EXPECT_EQ(news.look(of_cameras("", "")), Words{"penumbra: all is judged"});
   EXPECT_EQ(news.look(of_cameras("", "")), Words{});
-}
-
-TEST(TroubleNews, NumbersAreNoNewsWhateverTheirSignAndSize) {
-  io::TroubleNews news;
-  EXPECT_EQ(news.look(of_cameras("frame 'a-b' is 0.25 m off, at 7 ns", "")).size(), 1U);
-  for (const char* const same :
-       {"frame 'a-b' is -0.25 m off, at 7 ns", "frame 'a-b' is 2.5e-05 m off, at -12 ns",
-        "frame 'a-b' is -1e+06 m off, at 0 ns"})
-    EXPECT_EQ(news.look(of_cameras(same, "")), Words{}) << same;
-  EXPECT_EQ(news.look(of_cameras("frame 'ab' is 0.25 m off, at 7 ns", "")).size(), 1U);
-}
-
-/// Of an arm that moves: other joints, values and publishers each second.
-TEST(TroubleNews, JointsThatContradictEachOtherAreOneTrouble) {
-  io::TroubleNews news;
-  const auto told = [&](const std::string& why) {
-    return news.look(of_cameras("poses_disagree: joint " + why, "")).size();
-  };
-  EXPECT_EQ(told("'a' is at 0.1 by one and at 0.5 by other (7 ns)"), 1U);
-  EXPECT_EQ(told("'a' is at -0.1 by one and at 1e-05 by other (9 ns); so is 'b', 'c'"), 0U);
-  EXPECT_EQ(told("'b' is at 0.2 by other and at 0.1 by one (11 ns); so is 'c'"), 0U);
-  EXPECT_EQ(news.look(of_cameras("stale_joints: joint 'a' has no position", "")).size(), 1U);
-}
-
-TEST_F(LiveDiagnosticsTest, IsAMessage) {
-  bench_.tell_all();
-  judge();
-  std::vector<std::byte> payload;
-  io::encode(report(), payload);
-  io::DiagnosticArrayMessage message;
-  EXPECT_FALSE(io::Decoder<io::DiagnosticArrayMessage>().decode(payload, message));
-  EXPECT_EQ(message.status.size(), 2U);
 }
 
 TEST(NameResolver, ExpandsAndRemaps) {

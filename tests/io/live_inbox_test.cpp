@@ -1,11 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is judged of messages as they come, driven by hand.
-#include "live_inbox_bench.hpp"
+#include "live_scene.hpp"
+#include "ros_images.hpp"
 
 #include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
+
+class LiveInboxTest : public testing::Test {
+ protected:
+  /// Joint states around a stamp, which lies between two of them.
+  void tell_joints_around(std::int64_t stamp) {
+    bench_.tell_joints(stamp - 10 * milliseconds);
+    bench_.tell_joints(stamp + 10 * milliseconds);
+  }
+  /// An image whose pose is known, judged at once.
+  std::size_t judge(std::int64_t stamp) {
+    tell_joints_around(stamp);
+    bench_.tell_depth(stamp);
+    bench_.now += 33 * milliseconds;
+    return bench_.work();
+  }
+  std::string status() {
+    return bench_.results.last<io::TargetsMessage>(io::Result::targets).status;
+  }
+  void expect_nothing_trusted() {
+    const auto mask = bench_.results.last<io::ImageMessage>(io::Result::mask);
+    for (const std::byte pixel : mask.data) ASSERT_EQ(pixel, std::byte{255});
+  }
+
+  LiveBench bench_;
+  LiveTruth truth_;
+};
 
 TEST_F(LiveInboxTest, JudgesAnImageAtItsStamp) {
   bench_.tell_all();
@@ -44,15 +71,6 @@ TEST_F(LiveInboxTest, APoseLiesBetweenTheStatesAroundItsStamp) {
   };
   EXPECT_TRUE(is_turned(0.3));
   for (const double other : {0.0, 0.1, 0.2, 0.5}) EXPECT_FALSE(is_turned(other)) << other;
-}
-
-TEST_F(LiveInboxTest, OnlyWhatIsWantedIsMade) {
-  bench_.results.wanted = {{io::Result::overlay, false}, {io::Result::points, false}};
-  bench_.tell_all();
-  judge(start);
-  EXPECT_EQ(bench_.results.count(io::Result::overlay), 0U);
-  EXPECT_EQ(bench_.results.count(io::Result::points), 0U);
-  EXPECT_EQ(bench_.results.count(io::Result::mask), 1U);
 }
 
 TEST_F(LiveInboxTest, NothingIsPublishedBeforeRobotAndCameraAreKnown) {
@@ -128,22 +146,6 @@ TEST_F(LiveInboxTest, PublishersThatAgreeAndADriverThatStartsAgainAreWell) {
   EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 16U);
 }
 
-TEST_F(LiveInboxTest, PublishersOfAPlayedBagAreDistinguishedByTheirMessages) {
-  // One publisher plays the messages of two programs.
-  bench_.tell_all();
-  for (std::int64_t ago = 300; ago >= -20; ago -= 20) {
-    bench_.tell_joints(start - ago * milliseconds, 7);
-    bench_.tell("/joint_states",
-                encoded(io::JointStateMessage{.header = {start - (ago - 7) * milliseconds, ""},
-                                              .names = {"spin", "other"},
-                                              .positions = {0.0, 0.0}}),
-                7);
-  }
-  bench_.tell_depth(start);
-  ASSERT_EQ(bench_.work(), 1U);
-  EXPECT_EQ(status(), "poses_disagree");
-}
-
 TEST_F(LiveInboxTest, WithoutTheCamerasTransformAllIsUnknown) {
   bench_.tell_robot();
   bench_.tell_info(0);
@@ -189,52 +191,6 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   EXPECT_EQ(bench_.inbox.camera(0).camera_changes(), 1U);
 }
 
-TEST_F(LiveInboxTest, TheSameRobotAgainIsNothingNew) {
-  bench_.tell_all();
-  judge(start);
-  const io::LiveSetup* const setup = bench_.inbox.camera(0).setup();
-  bench_.tell_robot();
-  EXPECT_EQ(bench_.inbox.camera(0).setup(), setup);
-  EXPECT_EQ(bench_.inbox.robot().robots(), 1U);
-}
-
-TEST_F(LiveInboxTest, ABrokenRobotEndsTheResults) {
-  bench_.tell_all();
-  EXPECT_EQ(judge(start), 1U);
-  bench_.tell_robot("<robot name=\"half\"><link name=\"base\"/>");
-  EXPECT_NE(bench_.inbox.robot().fault(), "");
-  EXPECT_EQ(judge(start + 33 * milliseconds), 0U) << "the old robot is not there any more";
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::not_ready), 1U);
-  bench_.tell_robot();
-  EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
-  EXPECT_EQ(status(), "ok");
-}
-
-TEST_F(LiveInboxTest, ARobotThatCouldNotBeMadeIsTriedAgain) {
-  bench_.tell_mount();
-  bench_.tell_info(0);
-  const auto text = encoded(io::StringMessage{live_urdf});
-  bench_.tell("/robot_description", text);
-  auto order = bench_.inbox.take_order();
-  ASSERT_TRUE(order);
-  bench_.tell("/robot_description", text);
-  EXPECT_FALSE(bench_.inbox.take_order()) << "it is being made";
-  bench_.inbox.place({order->number, nullptr, "its meshes are not there"});
-  bench_.tell("/robot_description", text);
-  order = bench_.inbox.take_order();
-  ASSERT_TRUE(order) << "told again";
-  EXPECT_EQ(bench_.inbox.robot().fault(), "its meshes are not there") << "until it is made";
-  bench_.inbox.place({order->number, nullptr, "nor now"});
-  bench_.inbox.retry_robot();
-  order = bench_.inbox.take_order();
-  ASSERT_TRUE(order);
-  bench_.inbox.place(io::make_robot(*order));
-  EXPECT_EQ(bench_.inbox.robot().fault(), "");
-  bench_.inbox.retry_robot();
-  EXPECT_FALSE(bench_.inbox.take_order());
-  EXPECT_EQ(judge(start), 1U);
-}
-
 TEST_F(LiveInboxTest, AnotherRobotIsDrawn) {
   bench_.tell_all();
   judge(start);
@@ -249,26 +205,6 @@ TEST_F(LiveInboxTest, AnotherRobotIsDrawn) {
   judge(start + 33 * milliseconds);
   EXPECT_EQ(status(), "ok") << "the static transforms are not told again";
   EXPECT_GT(pixels(), 3 * before);
-}
-
-TEST_F(LiveInboxTest, RecoversFromAClockThatJumpsBack) {
-  bench_.tell_all();
-  EXPECT_EQ(judge(start), 1U);
-  bench_.results.told.clear();
-  EXPECT_EQ(judge(start - 500 * seconds), 1U);
-  EXPECT_EQ(judge(start - 500 * seconds + 33 * milliseconds), 1U);
-  EXPECT_EQ(status(), "ok");
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 2U);
-}
-
-TEST_F(LiveInboxTest, UnreadableMessagesAreCountedAndSaid) {
-  bench_.tell_all();
-  const std::vector<std::byte> half(10, std::byte{1});
-  bench_.tell("/camera/depth/image_rect_raw", half);
-  bench_.tell("/joint_states", half);
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::unreadable), 1U);
-  EXPECT_EQ(bench_.inbox.faults().of("/joint_states"), 1U);
-  EXPECT_EQ(judge(start), 1U);
 }
 
 TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
@@ -294,20 +230,135 @@ TEST_F(LiveInboxTest, ImagesOfAnotherFrameThanTheirCameraInfoAreRefused) {
   EXPECT_EQ(judge(start + 33 * milliseconds), 1U);
 }
 
-TEST_F(LiveInboxTest, EveryImageIsAccountedFor) {
+/// A camera that sends a camera_info with each image starts again as another one, whose camera_info
+/// is heard a second later than its images.
+TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   bench_.tell_all();
-  for (int i = 0; i < 20; ++i) {
+  const auto drive = [&](std::int64_t from, int images, double focal, std::uint64_t publisher) {
+    std::size_t judged = 0;
+    for (int i = 0; i < images; ++i) {
+      const std::int64_t stamp = from + i * 33 * milliseconds;
+      if (focal > 0)
+        bench_.tell("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})),
+                    publisher);
+      tell_joints_around(stamp);
+      bench_.tell("/camera/depth/image_rect_raw", live_depth(stamp), publisher);
+      bench_.now += 33 * milliseconds;
+      judged += bench_.work();
+    }
+    return judged;
+  };
+  EXPECT_EQ(drive(start, 5, 60.0, 1), 5U);
+  bench_.results.told.clear();
+  EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
+  bench_.now += 200 * milliseconds;
+  EXPECT_EQ(bench_.work(), 0U);
+  EXPECT_EQ(bench_.counts().of(io::LiveDrop::no_camera_info), 30U);
+  EXPECT_EQ(bench_.inbox.camera(0).without_info(), 30U);
+  EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
+  EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
+  LiveTruth other({.focal = 90.0});
+  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 3U);
+  // Again, now by a clock that begins anew: what came before is later than all that comes.
+  bench_.results.told.clear();
+  EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);
+  EXPECT_EQ(drive(start - 899 * seconds, 3, 60.0, 3), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 3U);
+}
+
+TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
+  bench_.tell_all();
+  std::size_t judged = 0;
+  for (int i = 0; i < 60; ++i) {
     const std::int64_t stamp = start + i * 33 * milliseconds;
-    if (i % 3 == 0) tell_joints_around(stamp);
-    bench_.tell_depth(i == 7 ? 0 : stamp);
+    if (i % 30 == 10) bench_.tell_info(stamp);  // of an image's stamp, once a second
+    tell_joints_around(stamp);
+    bench_.tell_depth(stamp);
     bench_.now += 33 * milliseconds;
-    if (i % 2 == 0) bench_.work();
+    judged += bench_.work();
   }
+  bench_.now += 200 * milliseconds;
+  judged += bench_.work();
   const io::LiveCounts counts = bench_.counts();
-  std::size_t all = counts.judged + counts.failed + counts.waiting + counts.in_work;
-  for (const std::size_t dropped : counts.dropped) all += dropped;
-  EXPECT_EQ(counts.received, 20U);
-  EXPECT_EQ(all, 20U);
+  EXPECT_EQ(counts.of(io::LiveDrop::no_camera_info), 0U);
+  EXPECT_EQ(judged + counts.of(io::LiveDrop::superseded), 60U);
+  EXPECT_GT(judged, 50U);
+  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), judged);
+}
+
+/// Where the robot is known, but no depth: it is unknown there, and the rest is free of it.
+TEST_F(LiveInboxTest, CompressedDepthIsJudgedAsWhatItHolds) {
+  for (const bool rvl : {false, true}) {
+    io::LiveOptions options = LiveBench::one_camera();
+    const std::string topic = options.cameras[0].depth_topic += "/compressedDepth";
+    LiveBench bench(options);
+    bench.tell_all();
+    const auto data = compressed_depth(Image<std::uint16_t>(64, 48, 3000), rvl, 0, 0);
+    const std::string format = std::string("16UC1; compressedDepth") + (rvl ? " rvl" : " png");
+    const auto judge = [&](std::int64_t stamp, std::size_t bytes) {
+      bench.tell_joints(stamp - 10 * milliseconds);
+      bench.tell_joints(stamp + 10 * milliseconds);
+      bench.tell(topic, encoded(io::CompressedImageMessage{
+                            {stamp, "optical"}, format, std::span(data).first(bytes)}));
+      EXPECT_EQ(bench.work(), 1U);
+      return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
+    };
+    EXPECT_EQ(judge(start, data.size()), "ok");
+    EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 1U);
+    const std::int64_t next = start + 33 * milliseconds;
+    EXPECT_EQ(judge(next, data.size() / 2), "bad_depth");
+    const auto labels = bench.results.last<io::ImageMessage>(io::Result::labels);
+    const FrameReport& report = truth_.judge(next);
+    for (std::size_t i = 0; i < labels.data.size(); ++i) {
+      const bool on_robot = static_cast<Label>(report.labels.data[i]) != Label::clear;
+      ASSERT_EQ(static_cast<Label>(labels.data[i]), on_robot ? Label::unknown : Label::clear) << i;
+    }
+  }
+}
+
+TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
+  io::LiveOptions options = LiveBench::one_camera();
+  options.poses = options.cameras[0].poses = PoseSource::transforms;
+  LiveBench bench(options);
+  bench.tell_all();
+  const auto judge = [&](std::int64_t stamp) {
+    bench.tell_depth(stamp);
+    bench.now += 200 * milliseconds;
+    EXPECT_EQ(bench.work(), 1U);
+    return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
+  };
+  for (int i = 0; i < 30; ++i) {
+    const std::int64_t stamp = start + i * 67 * milliseconds;
+    for (const std::int64_t told : {stamp - 20 * milliseconds, stamp + 20 * milliseconds}) {
+      const Eigen::Isometry3d pose = Eigen::Translation3d(0, 0, 1) *
+                                     Eigen::AngleAxisd(spin_at(told), Eigen::Vector3d::UnitZ());
+      bench.tell("/tf", encoded(io::TfMessage{{{{told, "base"}, "board", pose}}}));
+    }
+    EXPECT_EQ(judge(stamp), "ok") << i;
+  }
+  EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 30U);
+  EXPECT_NE(judge(start + 10 * seconds), "ok") << "what was told last is no pose of now";
+}
+
+TEST(LiveTargets, ComeWithTheNextImage) {
+  io::LiveOptions options = LiveBench::one_camera();
+  options.target_topics = {"/wrist"};
+  LiveBench bench(options);
+  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
+    if (bench.inbox.topics()[i].role == io::LiveRole::targets)
+      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+  bench.tell_all();
+  bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
+  io::PoseStampedMessage pose{.header = {start, "optical"}};
+  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
+  bench.tell("/wrist", encoded(pose));
+  bench.tell_joints(start);
+  bench.tell_depth(start);
+  EXPECT_EQ(bench.work(), 1U);
+  const auto targets = bench.results.last<io::TargetsMessage>(io::Result::targets).targets;
+  ASSERT_EQ(targets.size(), 1U);
+  EXPECT_EQ(targets[0].name, "/wrist");
+  EXPECT_EQ(targets[0].verdict, io::TargetMessage::visible);
 }
 
 }  // namespace

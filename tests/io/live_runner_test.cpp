@@ -6,7 +6,6 @@
 #include <chrono>
 #include <future>
 #include <mutex>
-#include <new>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -162,60 +161,6 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   runner.stop();
   EXPECT_FALSE(runner.fault());
   EXPECT_GT(expect_true_labels(left_.told(), truth), 0U);
-}
-
-TEST_F(LiveRunnerTest, TheRobotThatWasToldLastIsTaken) {
-  std::promise<void> begun, may_go_on;
-  std::atomic<int> made = 0;
-  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotOrder& order) {
-    if (made++ == 0) {
-      begun.set_value();
-      may_go_on.get_future().wait();
-    }
-    return io::make_robot(order);
-  });
-  const auto topics = topics_of(runner);
-  runner.start();
-  const auto say_robot = [&](const std::string& name) {
-    std::string urdf = live_urdf;
-    urdf.replace(urdf.find("tiny"), 4, name);
-    tell(runner, topics, "/robot_description", encoded(io::StringMessage{urdf}));
-  };
-  say_robot("first");
-  begun.get_future().wait();
-  say_robot("second");
-  say_robot("third");
-  may_go_on.set_value();
-  std::string taken;
-  for (int i = 0; i < 1000 && taken.empty(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    taken = runner.with_inbox([](const io::LiveInbox& inbox) {
-      const auto& posed = inbox.robot().posed();
-      return posed ? posed->robot.name() : std::string();
-    });
-  }
-  runner.stop();
-  EXPECT_EQ(taken, "third");
-  EXPECT_EQ(made, 2) << "what was told in between is nobody's robot";
-}
-
-TEST_F(LiveRunnerTest, AFaultOfTheMakerIsTheRunners) {
-  io::LiveRunner runner(options_, {}, {&left_, &right_},
-                        [](const io::RobotOrder&) -> io::MadeRobot { throw std::bad_alloc(); });
-  const auto topics = topics_of(runner);
-  runner.start();
-  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
-  for (int i = 0; i < 1000 && !runner.has_failed(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(runner.has_failed());
-  EXPECT_THROW(std::rethrow_exception(runner.fault()), std::bad_alloc);
-}
-
-TEST_F(LiveRunnerTest, EndsAtOnce) {
-  io::LiveRunner runner(options_, {}, {&left_, &right_});
-  runner.start();
-  runner.stop();
-  EXPECT_FALSE(runner.has_failed());
 }
 
 }  // namespace

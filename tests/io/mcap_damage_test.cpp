@@ -2,7 +2,6 @@
 // Files that are cut or damaged anywhere: what is read is right, what is not read is told, and
 // memory stays in proportion.
 #include "../support/allocations.hpp"
-#include "../support/random.hpp"
 #include "../support/run_length.hpp"
 #include "mcap_files.hpp"
 
@@ -35,7 +34,7 @@ class McapDamage : public testing::TestWithParam<Compression> {
     folder_.write("a.mcap", bytes);
     const test::MemoryShortage none(large_memory, 0);
     ToldFile all;
-    test::only_input_errors([&] { all = test::read_mcap(file_); });
+    test::message_of([&] { all = test::read_mcap(file_); });
     return all;
   }
 
@@ -164,8 +163,7 @@ TEST(McapClaims, LongSchemasArePassedOver) {
   const test::MemoryShortage none(large_memory, 0);
   const ToldFile all = test::read_mcap(path);
   ASSERT_EQ(all.faults.size(), 2U);
-  EXPECT_EQ(all.faults[0],
-            "a schema or channel is far too long; its 100000000 bytes are passed over");
+  EXPECT_HAS(all.faults[0], "100000000 bytes");
 }
 
 // What a file claims costs nothing.

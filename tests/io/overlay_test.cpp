@@ -56,17 +56,6 @@ TEST(Overlay, BlendsTheLabelAndKeepsTheScene) {
   }
 }
 
-TEST(Overlay, DrawsTheOutlineWhiteWithinAndBlackWithout) {
-  const Scene scene(640, 480, Label::occluded);
-  Image<Rgb8> out;
-  draw_overlay(scene.input(), out);
-  EXPECT_EQ(out(320, 300), white);
-  EXPECT_EQ(out(319, 300), black);
-  EXPECT_EQ(out(400, 240), white);
-  EXPECT_EQ(out(400, 239), black);
-  EXPECT_EQ(out(318, 300), (Rgb8{100, 100, 100}));
-}
-
 TEST(Overlay, ShowsDepthWithoutColor) {
   Image<float> metres(64, 480, 0.0F);
   for (int v = 0; v < 480; ++v) {
@@ -124,47 +113,6 @@ TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
   EXPECT_TRUE(shows(out, "robot: pose unknown"));
   EXPECT_TRUE(shows(out, "unknown  all pixels"));
   EXPECT_FALSE(shows(out, "robot 76800 px"));
-}
-
-TEST(Overlay, TheLegendCountsUncoveredPixels) {
-  const Scene scene(640, 480, Label::occluded);
-  OverlayInput input = scene.input();
-  Image<Rgb8> out;
-  draw_overlay(input, out);
-  EXPECT_FALSE(shows(out, "uncovered"));
-  input.uncovered = 1234;
-  draw_overlay(input, out);
-  EXPECT_TRUE(shows(out, "uncovered   1234"));
-}
-
-// The legend lies in the corner where it hides the least of the robot.
-TEST(Overlay, LegendGivesWayToTheRobot) {
-  Scene scene(640, 480, Label::occluded);
-  scene.labels = Image<std::uint8_t>(640, 480, 2);
-  for (int v = 300; v < 480; ++v)
-    for (int u = 400; u < 640; ++u) scene.labels(u, v) = 0;
-  scene.view.labels = std::as_const(scene.labels).view();
-  Image<Rgb8> out;
-  draw_overlay(scene.input(), out);
-  const Rgb8 robot = out(5, 5);
-  EXPECT_EQ(robot.r, (100 + label_color(Label::occluded).r) / 2);
-  EXPECT_LT(out(637, 477).r, 60);
-}
-
-TEST(Overlay, LegendHidesLittle) {
-  for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}}) {
-    const Scene scene(width, height, Label::occluded);
-    OverlayInput input = scene.input();
-    input.stamp = 1700000000123456789;
-    Image<Rgb8> out;
-    draw_overlay(input, out);
-    std::size_t changed = 0;
-    for (int v = 0; v < height; ++v)
-      for (int u = 0; u < width; ++u)
-        changed += scene.labels(u, v) == 0 && !(out(u, v) == Rgb8{100, 100, 100}) ? 1 : 0;
-    EXPECT_LT(static_cast<double>(changed), 0.16 * width * height) << width;
-    EXPECT_GT(changed, 1000U);
-  }
 }
 
 TEST(Overlay, WorksAtAnySize) {
@@ -227,30 +175,6 @@ TEST(Overlay, ColorsAreToldApartByAll) {
                       .norm(),
                   clearly_apart)
             << a << " and " << b;
-}
-
-TEST(BitmapFont, DrawsEveryLetterDifferently) {
-  std::vector<std::string> drawn;
-  for (char c = ' '; c <= '~'; ++c) {
-    Image<Rgb8> image(BitmapFont::advance, BitmapFont::height);
-    BitmapFont::draw(std::string(1, c), 0, 0, 1, white, image);
-    std::string ink;
-    for (int v = 0; v < image.height(); ++v)
-      for (int u = 0; u < image.width(); ++u) ink += image(u, v) == white ? '#' : ' ';
-    EXPECT_EQ(std::find(drawn.begin(), drawn.end(), ink), drawn.end()) << c;
-    EXPECT_EQ(ink.find('#') == std::string::npos, c == ' ') << c;
-    drawn.push_back(ink);
-  }
-}
-
-TEST(BitmapFont, CutsAtTheImageAndReplacesOtherBytes) {
-  Image<Rgb8> image(20, 10), question(20, 10);
-  BitmapFont::draw("WWWWWWWWWW", -7, -3, 3, white, image);
-  BitmapFont::draw("W", 100, 100, 3, white, image);
-  image = Image<Rgb8>(20, 10);
-  BitmapFont::draw("\xC3\t", 0, 0, 1, white, image);
-  BitmapFont::draw("??", 0, 0, 1, white, question);
-  EXPECT_TRUE(std::equal(image.data(), image.data() + image.size(), question.data()));
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/data.hpp"
-#include "../support/random.hpp"
 #include "files.hpp"
 #include "robots.hpp"
 
-#include <random>
 #include <thread>
 #include <utility>
 
@@ -16,8 +13,6 @@
 
 namespace penumbra::io {
 namespace {
-
-using test::input_error;
 
 constexpr const char* minimal =
     "robot:\n"
@@ -67,9 +62,6 @@ class RecordingFolder : public testing::Test {
     write_yaml(yaml);
     return Recording::open(folder_.path());
   }
-  std::string fault(const std::string& yaml) const {
-    return input_error([&] { static_cast<void>(open(yaml)); });
-  }
   FrameReader reader() const { return {Recording::open(folder_.path()), test::arm()}; }
 
   // `minimal` with `line` below the line that starts with `after`.
@@ -92,14 +84,8 @@ TEST_F(RecordingFolder, OpensByFolderAndByFile) {
     const Recording recording = Recording::open(path);
     EXPECT_EQ(recording.file, file("recording.yaml"));
     EXPECT_EQ(recording.urdf, file("arm.urdf"));
-    EXPECT_EQ(recording.robot.geometry, Geometry::collision);
     EXPECT_EQ(recording.camera.camera.intrinsics, Intrinsics(8, 6, 9, 9, 3.5, 2.5));
-    EXPECT_EQ(recording.camera.parent, "base");
     EXPECT_EQ(recording.camera.T_parent_camera.translation(), Eigen::Vector3d(0.5, 0, -1));
-    EXPECT_FALSE(recording.camera.rectified);
-    EXPECT_FALSE(recording.camera.tolerance || recording.camera.front_min_width ||
-                 recording.camera.range || recording.camera.beyond);
-    EXPECT_EQ(recording.pipeline_config().rule.tolerance.a, LabelRule{}.tolerance.a);
     EXPECT_EQ(recording.frames.depth.file(5), file("depth_5.png"));
     EXPECT_EQ(recording.frames.color.value().file(5), file("color_5.png"));
   }
@@ -132,23 +118,16 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
             (std::map<std::string, Geometry>{{"finger*", Geometry::visual},
                                              {"base", Geometry::collision}}));
   EXPECT_EQ(recording.robot.ignore_links, (std::vector<std::string>{"tool*", "base"}));
-  EXPECT_EQ(recording.robot.only_links, (std::vector<std::string>{"*"}));
   EXPECT_EQ(recording.robot.margins,
             (std::map<std::string, double>{{"upper", 0.01}, {"f*", -0.002}}));
   ASSERT_EQ(recording.robot.extra.size(), 1U);
   EXPECT_EQ(recording.robot.extra[0].link, "lower");
   EXPECT_EQ(recording.robot.extra[0].mesh, file("arm.urdf"));
-  EXPECT_EQ(recording.camera.parent, "lower");
-  ASSERT_TRUE(recording.camera.tolerance);
-  EXPECT_EQ(recording.camera.tolerance->a, 0.02);
-  EXPECT_EQ(recording.camera.tolerance->c, 0.01);
-  EXPECT_EQ(recording.camera.front_min_width, 3);
   const PipelineConfig config = recording.pipeline_config();
   EXPECT_EQ(config.rule.tolerance.a, 0.02);
   EXPECT_EQ(config.rule.tolerance.c, 0.01);
   EXPECT_EQ(config.rule.front_min_width, 3);
   EXPECT_EQ(config.camera_parent, "lower");
-  EXPECT_TRUE(config.T_parent_camera.isApprox(recording.camera.T_parent_camera, 0.0));
   ASSERT_TRUE(recording.camera.range);
   EXPECT_EQ(recording.camera.range->far, 4.0);
   EXPECT_EQ(recording.camera.camera.range.near, 0.3);
@@ -160,63 +139,44 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
 }
 
 TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
-  const std::string yaml = file("recording.yaml").string();
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {with("  parent", "  toleranc: [1, 2, 3]"),
-       ":6: camera.toleranc: unknown key; near are: tolerance"},
-      {with("  urdf", "  color: red"), ":3: robot.color: unknown key; known are: urdf"},
-      {with("  joints", "  colour: x"), ":9: frames.colour: unknown key"},
-      {std::string(minimal) + "scene: x\n", ":11: scene: unknown key; known are: robot"},
-      {replaced("  urdf: arm.urdf\n", "  geometry: visual\n"), ":1: robot: key 'urdf' is missing"},
-      {replaced("  parent: base\n", ""), ":3: camera: key 'parent' is missing"},
-      {replaced("  depth: depth_%d.png\n", ""), ":7: frames: key 'depth' is missing"},
-      {replaced("arm.urdf", "none.urdf"), ":2: robot.urdf: no file " + file("none.urdf").string()},
-      {replaced("arm.urdf", "[a, b]"), ":2: robot.urdf: is a list; a text is wanted"},
-      {replaced("pose.csv", "none.csv"), ":6: camera.pose: no file"},
-      {replaced("info.yaml", "pkg"), ":4: camera.info: no file"},
-      {replaced("joints.csv", "''"), ":8: frames.joints: is ''; a text is wanted"},
-      {replaced("depth_%d.png", "depth_%s.png"), ":9: frames.depth: 'depth_%s.png': exactly one"},
-      {replaced("color_%d.png", "color.png"), ":10: frames.color: 'color.png': exactly one"},
-      {with("  urdf", "  packages: {a: nowhere}"), ":3: robot.packages.a: no folder"},
-      {with("  urdf", "  packages: [a]"), ":3: robot.packages: is a list"},
-      {with("  urdf", "  geometry: convex"),
-       ":3: robot.geometry: is 'convex'; collision or visual"},
-      {with("  urdf", "  geometry: {a: x}"), ":3: robot.geometry.a: is 'x'"},
-      {with("  urdf", "  ignore_links: base"), ":3: robot.ignore_links: is 'base'; a list"},
-      {with("  urdf", "  margins: {a: wide}"), ":3: robot.margins.a: is 'wide'; a finite number"},
-      {with("  parent", "  tolerance: 0.01"), ":6: camera.tolerance: is '0.01'; a list"},
-      {with("  parent", "  tolerance: [0.01, 0]"), ":6: camera.tolerance: has 2 values; 3"},
-      {with("  parent", "  tolerance: [-0.01, 0, 0]"), ":6: camera.tolerance: "},
-      {with("  parent", "  front_min_width: 2.5"), ":6: camera.front_min_width: is '2.5'; a whole"},
-      {with("  parent", "  front_min_width: 64"), ":6: camera.front_min_width: is 64; 0 to 63"},
-      {with("  parent", "  front_min_width: -1"), ":6: camera.front_min_width: is -1; 0 to 63"},
-      {with("  parent", "  range: [3, 1]"), ":6: camera.range: "},
-      {with("  parent", "  range: [.nan, 1]"), ":6: camera.range[0]: is '.nan'"},
-      {with("  parent", "  rectified: yes"), ":6: camera.rectified: is 'yes'; true or false"},
-      {with("  parent", "  beyond: hidden"), ":6: camera.beyond: is 'hidden'; occluded or visible"},
-      {with("  parent", "  depth_info: info.yaml"),
-       ":6: camera.depth_info: depth_info and depth_pose belong together"},
-      {with("  parent", "  depth_pose: pose.csv\n  depth_info: info.yaml"),
-       "a depth camera of its own is not supported yet"},
-      {std::string(minimal) + "targets: targets.yaml\n", ":11: targets: no file "},
-      {with("  parent", "  parent: tool"), ":6: key 'parent' is there already, in line 5"},
-      {"", ":1: is empty"},
-      {"text", ":1: is 'text'; keys with values are wanted"},
-  };
-  for (const auto& [text, told] : cases) {
-    const std::string message = fault(text);
-    EXPECT_TRUE(message.starts_with(yaml + ":")) << message;
-    EXPECT_HAS(message, told);
-  }
-}
-
-TEST_F(RecordingFolder, NamesTheFaultyFile) {
-  folder_.write("pose.csv", "2,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
-  EXPECT_HAS(fault(minimal), "pose.csv: is no rigid transform");
-  EXPECT_HAS(input_error([&] { static_cast<void>(Recording::open(file("nowhere"))); }),
-             "nowhere: cannot be read: No such file or directory");
-  EXPECT_HAS(input_error([&] { static_cast<void>(Recording::open(file("pkg"))); }),
-             "pkg/recording.yaml: cannot be read");
+  test::expect_refused(
+      {{with("  parent", "  toleranc: [1, 2, 3]"), ":6: camera.toleranc: "},
+       {with("  urdf", "  color: red"), ":3: robot.color: "},
+       {with("  joints", "  colour: x"), ":9: frames.colour: "},
+       {std::string(minimal) + "scene: x\n", ":11: scene: "},
+       {replaced("  urdf: arm.urdf\n", "  geometry: visual\n"), ":1: robot: key 'urdf'"},
+       {replaced("  parent: base\n", ""), ":3: camera: key 'parent'"},
+       {replaced("  depth: depth_%d.png\n", ""), ":7: frames: key 'depth'"},
+       {replaced("arm.urdf", "none.urdf"), ":2: robot.urdf: no file " + file("none.urdf").string()},
+       {replaced("arm.urdf", "[a, b]"), ":2: robot.urdf: "},
+       {replaced("pose.csv", "none.csv"), ":6: camera.pose: "},
+       {replaced("info.yaml", "pkg"), ":4: camera.info: "},
+       {replaced("joints.csv", "''"), ":8: frames.joints: "},
+       {replaced("depth_%d.png", "depth_%s.png"), ":9: frames.depth: 'depth_%s.png'"},
+       {replaced("color_%d.png", "color.png"), ":10: frames.color: 'color.png'"},
+       {with("  urdf", "  packages: {a: nowhere}"), ":3: robot.packages.a: "},
+       {with("  urdf", "  packages: [a]"), ":3: robot.packages: "},
+       {with("  urdf", "  geometry: convex"), ":3: robot.geometry: "},
+       {with("  urdf", "  geometry: {a: x}"), ":3: robot.geometry.a: "},
+       {with("  urdf", "  ignore_links: base"), ":3: robot.ignore_links: "},
+       {with("  urdf", "  margins: {a: wide}"), ":3: robot.margins.a: "},
+       {with("  parent", "  tolerance: 0.01"), ":6: camera.tolerance: "},
+       {with("  parent", "  tolerance: [0.01, 0]"), ":6: camera.tolerance: has 2 values"},
+       {with("  parent", "  tolerance: [-0.01, 0, 0]"), ":6: camera.tolerance: "},
+       {with("  parent", "  front_min_width: 2.5"), ":6: camera.front_min_width: "},
+       {with("  parent", "  front_min_width: 64"), "0 to 63"},
+       {with("  parent", "  range: [3, 1]"), ":6: camera.range: "},
+       {with("  parent", "  range: [.nan, 1]"), ":6: camera.range[0]: "},
+       {with("  parent", "  rectified: yes"), ":6: camera.rectified: "},
+       {with("  parent", "  beyond: hidden"), ":6: camera.beyond: "},
+       {with("  parent", "  depth_info: info.yaml"), ":6: camera.depth_info: "},
+       {with("  parent", "  depth_pose: pose.csv\n  depth_info: info.yaml"), "not supported"},
+       {std::string(minimal) + "targets: targets.yaml\n", ":11: targets: no file "},
+       {with("  parent", "  parent: tool"), ":6: key 'parent'"},
+       {"", ":1: "},
+       {"text", ":1: "}},
+      [&](const std::string& text) { static_cast<void>(open(text)); });
+  EXPECT_HAS(test::message_of([&] { return Recording::open(file("nowhere")); }), "nowhere: ");
 }
 
 TEST_F(RecordingFolder, ReadsFrames) {
@@ -242,32 +202,6 @@ TEST_F(RecordingFolder, ReadsFrames) {
   EXPECT_EQ(frame.color_message, "");
 }
 
-TEST_F(RecordingFolder, DepthImagesWithoutARowAreFramesToo) {
-  for (const int i : {0, 6, 9})
-    write_png(file("depth_" + std::to_string(i) + ".png"), depth(i).view());
-  folder_.write("joints.csv", "frame,shoulder,elbow\n7,1,2\n5,3,4\n");
-  const FrameReader frames = reader();
-  std::vector<std::int64_t> indices;
-  FrameData frame;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    indices.push_back(frames.index(i));
-    frames.read(i, false, frame);
-    EXPECT_EQ(frame.index, frames.index(i));
-    if (frame.index == 5 || frame.index == 7) {
-      EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
-      continue;
-    }
-    EXPECT_EQ(frame.status, FrameStatus::missing_joints);
-    EXPECT_EQ(frame.message,
-              file("joints.csv").string() + " has no row for frame " + std::to_string(frame.index));
-    EXPECT_TRUE(frame.positions.empty());
-    EXPECT_EQ(frame.stamp, std::nullopt);
-    const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth_view());
-    EXPECT_EQ(view(3, 2), depth(static_cast<int>(frame.index))(3, 2));
-  }
-  EXPECT_EQ(indices, (std::vector<std::int64_t>{0, 6, 7, 5, 9})) << "the file's order stays";
-}
-
 TEST_F(RecordingFolder, ReadsFramesFromSeveralThreads) {
   const FrameReader frames = reader();
   const auto work = [&](std::size_t first) {
@@ -287,19 +221,6 @@ TEST_F(RecordingFolder, ReadsFramesFromSeveralThreads) {
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST_F(RecordingFolder, KeepsBuffersFromFrameToFrame) {
-  const FrameReader frames = reader();
-  FrameData frame;
-  frames.read(0, true, frame);
-  const auto* depth_before = std::get<Image<std::uint16_t>>(frame.depth).data();
-  const Rgb8* color_before = frame.color.data();
-  const double* positions_before = frame.positions.data();
-  frames.read(1, true, frame);
-  EXPECT_EQ(std::get<Image<std::uint16_t>>(frame.depth).data(), depth_before);
-  EXPECT_EQ(frame.color.data(), color_before);
-  EXPECT_EQ(frame.positions.data(), positions_before);
-}
-
 TEST_F(RecordingFolder, ReadsDepthInMetres) {
   Image<float> metres(width, height, 1.25F);
   write_npy(file("z_05.npy"), std::as_const(metres).view());
@@ -315,81 +236,36 @@ TEST_F(RecordingFolder, ReadsDepthInMetres) {
 
 TEST_F(RecordingFolder, TellsFaultsOfAFrameInItsStatus) {
   FrameData frame;
-  const auto read = [&](bool with_color = false) {
-    reader().read(0, with_color, frame);
-    return frame.status;
-  };
-  const auto is_empty = [&] {
-    return std::visit([](const auto& view) { return view.empty(); }, frame.depth_view());
+  const auto expect = [&](FrameStatus status, const std::string& named) {
+    reader().read(0, false, frame);
+    EXPECT_EQ(frame.status, status);
+    EXPECT_HAS(frame.message, named);
   };
   const std::string depth_file = file("depth_5.png").string();
-
   write_png(depth_file, Image<std::uint16_t>(height, width, 1).view());
-  EXPECT_EQ(read(), FrameStatus::bad_depth);
-  EXPECT_EQ(frame.message, depth_file + ": has 6 x 8 pixels; the camera has 8 x 6");
-  EXPECT_TRUE(is_empty());
-
+  expect(FrameStatus::bad_depth, depth_file + ": has 6 x 8 pixels");
+  EXPECT_TRUE(std::visit([](const auto& view) { return view.empty(); }, frame.depth_view()));
   write_png(depth_file, Image<std::uint8_t>(width, height, 1).view());
-  EXPECT_EQ(read(), FrameStatus::bad_depth);
-  EXPECT_EQ(frame.message, depth_file + ": is 8-bit grey; 16-bit grey is wanted");
-
-  write_png(depth_file, std::as_const(color_).view());
-  EXPECT_EQ(read(), FrameStatus::bad_depth);
-  EXPECT_EQ(frame.message, depth_file + ": is 8-bit RGB; 16-bit grey is wanted");
-
-  folder_.write("depth_5.png", "text");
-  EXPECT_EQ(read(), FrameStatus::bad_depth);
-
+  expect(FrameStatus::bad_depth, depth_file + ": is 8-bit grey");
   std::filesystem::remove(depth_file);
-  EXPECT_EQ(read(), FrameStatus::missing_depth);
-  EXPECT_HAS(frame.message, "depth_5.png: cannot be read: No such file or directory");
-
+  expect(FrameStatus::missing_depth, depth_file);
   folder_.write("joints.csv", "frame,shoulder,elbow\n5,,2\n");
-  EXPECT_EQ(read(), FrameStatus::missing_joints);
-  EXPECT_HAS(frame.message, "joints.csv:2: frame 5: column 'shoulder' is empty; ");
-  EXPECT_HAS(frame.message, "depth_5.png: cannot be read");
+  expect(FrameStatus::missing_joints, "joints.csv:2: frame 5: column 'shoulder'");
+  EXPECT_HAS(frame.message, depth_file);
   EXPECT_TRUE(frame.positions.empty());
-
   write_png(depth_file, depth(5).view());
-  EXPECT_EQ(read(), FrameStatus::missing_joints);
-  EXPECT_FALSE(is_empty());
-
+  expect(FrameStatus::missing_joints, "joints.csv:2");
   folder_.write("joints.csv", "frame,shoulder,elbow\n5,1,2\n");
   write_png(file("color_5.png"), Image<Rgb8>(3, 3).view());
-  EXPECT_EQ(read(true), FrameStatus::ok);
-  EXPECT_HAS(frame.color_message, "color_5.png: has 3 x 3 pixels; the camera has 8 x 6");
+  reader().read(0, true, frame);
+  EXPECT_EQ(frame.status, FrameStatus::ok);
+  EXPECT_HAS(frame.color_message, "color_5.png: has 3 x 3 pixels");
   EXPECT_TRUE(frame.color.empty());
 }
 
 TEST_F(RecordingFolder, SurvivesDamage) {
-  std::mt19937_64 random = test::seeded_random(1);
-  const std::string whole = minimal;
-  for (std::size_t length = 0; length < whole.size(); ++length)
-    test::only_input_errors([&] { static_cast<void>(open(whole.substr(0, length))); });
-  for (int i = 0; i < 1000; ++i) {
-    std::string damaged = whole;
-    for (int n = 0; n < 1 + i % 3; ++n)
-      damaged[random() % damaged.size()] = static_cast<char>(random());
-    test::only_input_errors([&] { static_cast<void>(open(damaged)); });
-  }
-}
-
-TEST(RealRecording, IsReadWhole) {
-  PENUMBRA_REQUIRE_DATA();
-  const Recording recording = Recording::open(test::data_folder() / "xarm7_realsense");
-  const Robot robot = Robot::load(recording.urdf, recording.robot);
-  const FrameReader frames(recording, robot);
-  ASSERT_EQ(frames.size(), 10U);
-  FrameData frame;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames.read(i, true, frame);
-    EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
-    EXPECT_EQ(frame.index, static_cast<std::int64_t>(i));
-    EXPECT_EQ(frame.stamp, std::nullopt);
-    EXPECT_EQ(frame.positions.size(), 7U);
-    EXPECT_EQ(frame.color.width(), 1280);
-  }
-  EXPECT_DOUBLE_EQ(frame.positions[robot.find_variable("joint2").value()], -0.4629654884338379);
+  test::read_damaged(minimal, 1000,
+                     [&](const std::string& text) { static_cast<void>(open(text)); });
 }
 
 }  // namespace

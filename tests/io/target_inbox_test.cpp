@@ -66,14 +66,6 @@ TEST_F(TargetInboxTest, IdsThatStandTwiceAreNone) {
   EXPECT_EQ(taken(), (Names{{"/d/7", false}, {"/d/7 2", false}, {"/d/7 2 2", false}}));
 }
 
-TEST_F(TargetInboxTest, KeypointsHaveTheirNames) {
-  const KeypointsMessage message{header_, {{.name = "left"}, {.name = ""}, {.name = "right"}}};
-  inbox_.add("/k", message);
-  EXPECT_EQ(taken(), (Names{{"/k/left", true}, {"/k/", false}, {"/k/right", true}}));
-  inbox_.add("/goal", PoseStampedMessage{.header = header_});
-  EXPECT_EQ(taken(), (Names{{"/goal", true}}));
-}
-
 /// Tracking ids that are always new, and no image that they could be judged on.
 TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   constexpr std::int64_t frame = 33'000'000, start = 1'000'000'000'000;
@@ -92,24 +84,6 @@ TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   EXPECT_EQ(all.back().name, "/k/" + names_.back());
   for (const Target& one : all)
     EXPECT_GE(*one.stamp, start + (messages - 1) * frame - TargetInbox::longest_lag);
-}
-
-TEST_F(TargetInboxTest, ThoseOfOneStampAreSoManyAtMost) {
-  for (int m = 0; m < 1000; ++m) {
-    inbox_.add("/k", tracked(7, m * 5, 5));
-    ASSERT_LE(inbox_.waiting(), TargetInbox::most_waiting + 5);
-  }
-  EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), 5000U);
-}
-
-TEST_F(TargetInboxTest, AnotherTopicsStampsAndAnotherClocksDiscardNone) {
-  inbox_.add("/a", tracked(5'000'000'000, 0, 1));
-  inbox_.add("/b", tracked(90'000'000'000, 1, 1));  // a clock that runs ahead
-  inbox_.add("/a", tracked(5'100'000'000, 2, 1));
-  EXPECT_EQ(inbox_.waiting(), 3U);
-  inbox_.add("/b", tracked(2'000'000'000, 3, 1));  // and begins anew
-  inbox_.add("/b", tracked(2'100'000'000, 4, 1));
-  EXPECT_EQ(inbox_.discarded(), 0U);
 }
 
 }  // namespace

@@ -80,16 +80,6 @@ TEST_F(TargetsFileTest, EstimatesSayHowSureTheyAre) {
   EXPECT_DOUBLE_EQ((*plain.of_frame(0)[0].estimate->covariance)(1, 1), 1e-4);
   io::TargetsFile without = open(head + "point\n  estimate: {point: [1, 2, 3]}\n");
   EXPECT_FALSE(without.of_frame(0)[0].estimate->covariance);
-
-  folder_.write("half.csv", "frame,x,y,z,qx,qy,qz,qw,position_sigma\n");
-  EXPECT_HAS(input_error([&] {
-               static_cast<void>(open(head + "pose\n  estimate: {pose: {csv: half.csv}}\n"));
-             }),
-             "half.csv:1: has some of the columns");
-  EXPECT_HAS(input_error([&] {
-               static_cast<void>(open(head + "point\n  estimate: {point: [1, 2, 3, -1]}\n"));
-             }),
-             ":5: targets[0].estimate.point: sigma");
 }
 
 /// One for all frames, and one for each: a frame without a file has no target.
@@ -127,69 +117,134 @@ TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
   }
 }
 
+// The text of target `a` behind its name, and what the error names.
 TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
-  io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 7, 1).view());
+  io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 5, 1).view());
+  io::write_png(folder_.path() / "empty.png", Image<std::uint8_t>(64, 48).view());
+  io::write_png(folder_.path() / "color.png", Image<io::Rgb8>(64, 48).view());
   folder_.write("odd.csv", "frame,u,w\n0,1,2\n");
+  folder_.write("late.csv", "u,v,frame\n1,2,0\n");
+  folder_.write("twice.csv", "frame,u,v\n0,1,2\n0,1,2\n");
   folder_.write("plain.csv", "frame,u,v\n0,1,2\n");
-  const std::string head = "targets:\n- name: a\n  ";
-  const std::pair<std::string, std::string> cases[] = {
-      {head + "box: [1, 2, 0, 4]\n", ":3: targets[0].box: has no area"},
-      {head + "box: [1, 2, .nan, 4]\n", ":3: "},
-      {head + "box: [1, 2, 3]\n", ":3: targets[0].box: has 3 values"},
-      {head + "boxx: [1, 2, 3, 4]\n", "says not where it is"},
-      {head + "box: [1, 2, 3, 4]\n  radius: 3\n", ":4: targets[0].radius: unknown key"},
-      {head + "box: [1, 2, 3, 4]\n- name: a\n  box: [1, 2, 3, 4]\n", ":4: targets[1].name: 'a'"},
-      {head + "box3d: [0, 0, 1, 0, 0, 0, 0]\n  size: [1, 1, 1]\n", "quaternion has the length 0"},
-      {head + "box3d: [0, 0, 1, 0, 0, 0, 2]\n  size: [1, 1, 1]\n", "quaternion"},
-      {head + "point: [0, 0, 1]\n  link: arm\n", ":4: targets[0].link: 'arm' is no link"},
-      {head + "mask: small.png\n", "7 x 7"},
-      {head + "mask: {files: m%d.png}\n", "no file of that name"},
-      {head + "polygon: [[1, 1], [2, 2]]\n", "fewer than 3"},
-      {head + "rle: {size: [48, 64], counts: [5]}\n", "add up to 5"},
-      {head + "keypoint: {csv: odd.csv}\n", "odd.csv:1: has no column 'v'"},
-      {head + "keypoint: [1, 1]\n  min_score: 0.5\n", ":3: targets[0].keypoint: has 2 values"},
-      {head + "keypoint: {csv: plain.csv}\n  min_score: 0.5\n",
-       "plain.csv:1: has no column 'score'"},
-      {head + "keypoint: [1, 1]\n  expected_depth: 1e30\n", ":3: targets[0].keypoint: expected"},
-      {head + "keypoint: [1, 1]\n  radius: 1e12\n", "semi-axis is 1e+12"},
-      {head + "keypoint: [1, 1e300]\n", ":3: targets[0].keypoint: pixel is 1e+300"},
-      {head + "keypoint: [1, 1]\n  radius_m: 1e9\n", "semi-axis is 1e+09"},
-      {head + "keypoint: [1, 1]\n  ellipse: [1, 1, 1e308]\n", "angle is"},
-      {head + "box: [1, 2, 3, 4]\n  depth_margin: 1e30\n", ":4: targets[0].depth_margin: "},
-      {head + "point: [0, 0, 1]\n  radius: 1e7\n", "radius is 1e+07"},
-      {head + "box3d: [0, 0, 1e7, 0, 0, 0, 1]\n  size: [1, 1, 1]\n", "1000 km away"},
-      {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1e30, 1, 1]\n", "edge of the box is 1e+30"},
-      {head + "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1, 1, 1]\n  thresholds: {min_inside: 0.5}\n",
-       ":5: targets[0].thresholds.min_inside: is not possible"},
-      {head + "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: nope.stl\n", ":4: targets[0].file: "},
-      {head + "keypoint: [1, 1]\n  handling: point\n  estimate: {point: [1e308, 0, 0]}\n",
-       ":5: targets[0].estimate.point: position is not finite, or more than"},
-      {"targets:\n- name: \"a\\nb\"\n  box: [1, 2, 3, 4]\n", ":2: targets[0].name: has a control"},
-      {head + "keypoint: [1, 1]\n  handling: hold\n", ":4: targets[0].handling: is 'hold'"},
-      {head + "keypoint: [1, 1]\n  thresholds: {partial_enter: 2}\n", "partial_enter"},
-      {head + "keypoint: [1, 1]\n  estimate: {point: [0, 0, 1]}\n", "not handled"}};
-  for (const auto& [text, told] : cases) {
-    const std::string message = input_error([&, &yaml = text] { static_cast<void>(open(yaml)); });
-    EXPECT_HAS(message, told);
-  }
+  folder_.write("half.csv", "frame,x,y,z,qx,qy,qz,qw,position_sigma\n");
+  folder_.write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto open_target = [&](const std::string& text) {
+    static_cast<void>(open("targets:\n- name: a\n  " + text));
+  };
+  const std::string pose = "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0.1, 0.1]\n";
+  const std::string mesh = "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: ", size = "\n  size: [1, 1, 1]\n";
+  const std::string keypoint = "keypoint: [5, 5]\n  ", box = "box: [1, 2, 3, 4]\n  ";
+  test::expect_refused({{"box: [1, 2, 0, 4]\n", ":3: targets[0].box: "},
+                        {"box: [1, 2, -3, 4]\n", ":3: targets[0].box: "},
+                        {"box: [1, .nan, 3, 4]\n", ":3: targets[0].box"},
+                        {"box: [1e300, 2, 3, 4]\n", ":3: targets[0].box"},
+                        {"box: [1, 2, 3]\n", "width, height"},
+                        {"polygon:\n    frames:\n      0: [[1, 1], [20, 1], [20, 20]]\n"
+                         "      1: [[1, 1], [20, 20], [9, 9]]\n",
+                         ":6: targets[0].polygon.frames.1"},
+                        {"polygon: [[1, 1], [2, 2]]\n", ":3: targets[0].polygon"},
+                        {"polygon: [[1, .inf], [2, 2], [3, 1]]\n", "finite"},
+                        {"mask: no.png\n", "no.png"},
+                        {"mask: small.png\n", "64 x 48"},
+                        {"mask: empty.png\n", "without any pixel"},
+                        {"mask: color.png\n", "color.png"},
+                        {"mask: {files: m%d.png}\n", ":3: targets[0].mask.files"},
+                        {"rle: {size: [64, 48], counts: [3072]}\n", "another size"},
+                        {"rle: {size: [48, 64], counts: [5]}\n", "add up to 5"},
+                        {"rle: {size: [48, 64], counts: [3072]}\n", "without any pixel"}},
+                       open_target);
+  test::expect_refused({{keypoint + "radius: 0\n", ":4: targets[0].radius"},
+                        {keypoint + "radius: 1e12\n", "1e+12"},
+                        {keypoint + "radius_m: 1e9\n", "1e+09"},
+                        {keypoint + "ellipse: [1, 1, 1e308]\n", "angle"},
+                        {keypoint + "min_score: 0.5\n", ":3: targets[0].keypoint"},
+                        {keypoint + "expected_depth: 1e30\n", ":3: targets[0].keypoint: expected"},
+                        {"keypoint: [1, 1e300]\n", "1e+300"},
+                        {"keypoint: {csv: no.csv}\n", "no.csv"},
+                        {"keypoint: {csv: odd.csv}\n", "odd.csv:1: has no column 'v'"},
+                        {"keypoint: {csv: late.csv}\n", "late.csv:1"},
+                        {"keypoint: {csv: twice.csv}\n", "twice.csv:3"},
+                        {"keypoint: {csv: plain.csv}\n  min_score: 0.5\n", "'score'"},
+                        {"box3d: [0, 0, 1, 0, 0, 0, 0]" + size, ":3: targets[0].box3d: quaternion"},
+                        {"box3d: [0, 0, 1, 0, 0, 0.5, 1]" + size, "length 1"},
+                        {"box3d: [0, 0, .nan, 0, 0, 0, 1]" + size, "finite"},
+                        {"box3d: [0, 0, 1e7, 0, 0, 0, 1]" + size, "1000 km"},
+                        {"box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0, 0.1]\n", ":4: "},
+                        {"box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [1e30, 1, 1]\n", "1e+30"},
+                        {"point: [0, .nan, 1]\n", ":3: targets[0].point"},
+                        {"point: [0, 0, 1]\n  radius: 1e7\n", "1e+07"},
+                        {"point: [0, 0, 1]\n  link: arm\n", ":4: targets[0].link: 'arm'"},
+                        {mesh + "solid.obj\n  scale: 1e30\n", ":5: targets[0].scale"},
+                        {mesh + "solid.obj\n  scale: 1e-30\n", ":5: targets[0].scale"},
+                        {mesh + "solid.obj\n  scale: 1e300\n", ":5: targets[0].scale"},
+                        {mesh + "nope.stl\n", ":4: targets[0].file: "},
+                        {"boxx: [1, 2, 3, 4]\n", ":2: targets[0]"},
+                        {box + "radius: 3\n", ":4: targets[0].radius"},
+                        {box + "extend: modal\n", "extent"},
+                        {box + "point: [0, 0, 1]\n", "point"},
+                        {"box: [1, 2, 3, 4]\n- name: a\n  box: [1, 2, 3, 4]\n", ":4: targets[1]"}},
+                       open_target);
+  const std::string along = "{pose: {motion: along_direction, direction: [1, 0, 0], speed: 0.1, ";
+  test::expect_refused(
+      {{box + "frame_id: other\n", ":4: targets[0].frame_id"},
+       {box + "expected_depth: -1\n", ":4: targets[0].expected_depth"},
+       {box + "depth_margin: 1e30\n", ":4: targets[0].depth_margin"},
+       {box + "thresholds: {partial_enter: 0.1, partial_leave: 0.2}\n", "targets[0].thresholds"},
+       {pose + "  thresholds: {min_inside: 0.5}\n", ":5: targets[0].thresholds.min_inside"},
+       {box + "handling: hold\n", ":4: targets[0].handling: is 'hold'"},
+       {box + "handling: pose\n", ":4: targets[0].handling"},
+       {box + "handling: {point: {timeout: -1}}\n", "timeout"},
+       {keypoint + "handling: {pose: {motion: still}}\n", ":4: targets[0].handling"},
+       {"point: [0, 0, 1]\n  handling: pose\n", ":4: targets[0].handling"},
+       {pose + "  handling: pose\n  estimate: {point: [0, 0, 1]}\n", "orientation"},
+       {"point: [0, 0, 1]\n  handling: {point: {motion: hold, acceleration: 3}}\n", "acceleration"},
+       {"point: [0, 0, 1]\n  handling: {point: {motion: constant_velocity, held_speed: 3}}\n",
+        "held_speed"},
+       {pose + "  handling: {pose: {motion: still, acceleration: 3}}\n", "acceleration"},
+       {pose + "  handling: {pose: {drift: 3}}\n", "drift"},
+       {pose + "  handling: " + along + "acceleration: 3}}\n", "acceleration"},
+       {keypoint + "estimate: {point: [0, 0, 1]}\n", "not handled"},
+       {keypoint + "handling: pose\n  estimate: {pose: [0, 0, 1, 0, 0, 0, 0]}\n", "quaternion"},
+       {keypoint + "handling: point\n  estimate: {point: [0, 0, 0]}\n", "from the camera"},
+       {keypoint + "handling: point\n  estimate: {point: [1e308, 0, 0]}\n", ":5: "},
+       {keypoint + "handling: point\n  estimate: {point: [1, 2, 3, -1]}\n", "sigma"},
+       {keypoint + "handling: pose\n  estimate: {pose: {csv: half.csv}}\n", "half.csv:1"}},
+      open_target);
+  test::expect_refused({{"- name: a\n", "targets.yaml:1"},
+                        {"", "targets.yaml"},
+                        {"goals: []\n", "targets.yaml:1: goals"},
+                        {"targets:\n- {box: [1, 2, 3, 4]}\n", "targets.yaml:2"},
+                        {"targets:\n- name: \"a\\nb\"\n  box: [1, 2, 3, 4]\n", "control"},
+                        {"targets: []\nhistory: 61\n", "targets.yaml:2: history"},
+                        {"targets: []\nimage: bent\n", "targets.yaml:2: image"}},
+                       [&](const std::string& text) { static_cast<void>(open(text)); });
 }
 
+/// What a motion uses is taken.
+TEST_F(TargetsFileTest, SettingsOfTheMotionAreTaken) {
+  for (const char* const settings :
+       {"{pose: {acceleration: 1, angular_acceleration: 1, speed_sigma: 1}}",
+        "{pose: {motion: constant_velocity, acceleration: 1, speed_sigma: 1, angular_drift: 1}}",
+        "{pose: {motion: along_direction, direction: [1, 0, 0], acceleration: 1, drift: 1}}",
+        "{pose: {motion: along_direction, direction: [1, 0, 0], speed: 1, drift: 1}}",
+        "{pose: {motion: still, drift: 1, angular_drift: 1}}", "{point: {held_speed: 1}}",
+        "{point: {motion: constant_velocity, acceleration: 1, speed_sigma: 1}}"})
+    EXPECT_EQ(
+        open("targets:\n- {name: a, box3d: [0, 0, 1, 0, 0, 0, 1], size: [1, 1, 1], handling: " +
+             std::string(settings) + "}\n")
+            .size(),
+        1U)
+        << settings;
+}
+
+/// Pixels are of one image; what has none is of any.
 TEST_F(TargetsFileTest, PixelsOfAnotherImageAreRefused) {
-  const std::string text = "targets:\n- name: a\n  box: [1, 2, 3, 4]\n";
-  EXPECT_HAS(input_error([&] { static_cast<void>(open(text, ImageSpace::rectified, true)); }),
-             "raw image");
-  EXPECT_EQ(open("image: rectified\n" + text, ImageSpace::rectified, true).size(), 1U);
-}
-
-TEST_F(TargetsFileTest, TargetsWithoutPixelsAreOfAnyImage) {
-  const std::string text = "targets:\n- name: a\n  point: [0, 0, 1]\n  radius: 0.1\n";
-  EXPECT_EQ(open(text, ImageSpace::rectified, true).size(), 1U);
-  EXPECT_EQ(open("image: rectified\n" + text, ImageSpace::raw, true).size(), 1U);
-  EXPECT_HAS(input_error([&] {
-               static_cast<void>(open(text + "- name: b\n  keypoint: [1, 2]\n  radius: 3\n",
-                                      ImageSpace::rectified, true));
-             }),
-             "raw image");
+  const std::string box = "targets:\n- {name: a, box: [1, 2, 3, 4]}\n";
+  const std::string point = "targets:\n- {name: a, point: [0, 0, 1], radius: 0.1}\n";
+  EXPECT_HAS(test::message_of([&] { return open(box, ImageSpace::rectified, true); }), "raw image");
+  EXPECT_EQ(open("image: rectified\n" + box, ImageSpace::rectified, true).size(), 1U);
+  EXPECT_EQ(open(point, ImageSpace::rectified, true).size(), 1U);
+  EXPECT_EQ(open("image: rectified\n" + point, ImageSpace::raw, true).size(), 1U);
 }
 
 }  // namespace

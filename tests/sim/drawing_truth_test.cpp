@@ -22,9 +22,7 @@ using sim::Simulation;
 
 // Float depth with 24 bits between 0.08 m and 12 m: 4e-6 m at 2 m, and as much again for single
 // precision in MuJoCo's matrices and the rasteriser.
-constexpr double depth_tolerance = 5e-5;  // metres
-// Balls are drawn as polyhedra of 40 x 14 sides: 1 - cos(pi / 28) of the radius is missing.
-constexpr double ball_sagitta = 0.0065;
+constexpr double depth_tolerance = 5e-5;      // metres
 constexpr double least_union = 0.999;         // of robot pixels drawn by both
 constexpr double surface_tolerance = 0.5e-3;  // metres: round parts have other facets there
 constexpr int silhouette = 2;                 // pixels that tell nothing beside a depth step
@@ -81,64 +79,6 @@ TEST(DrawingTruth, ParcelLiesWhereItsPoseSays) {
     EXPECT_NEAR(static_cast<double>(covered), static_cast<double>(parcel.pixels_alone),
                 0.003 * static_cast<double>(covered));
   }
-}
-
-TEST(DrawingTruth, PrintLiesOnTheParcelAsTheModelImageSays) {
-  PENUMBRA_REQUIRE_SIMULATION();
-  Simulation simulation("conveyor", without_noise(5));
-  SimFrame frame;
-  ASSERT_TRUE(simulation.next(frame));
-  const Image<io::Rgb8>& model = simulation.model_image();
-  const Vector3d size = simulation.object_size();
-  const Isometry3d T_camera_box =
-      simulation.T_base_camera().inverse() * frame.objects.at(0).T_base_object;
-  // Correlation of brightness over a grid; a turned or mirrored print gives about 0.
-  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  for (int j = 4; j < model.height() - 4; j += 3)
-    for (int i = 4; i < model.width() - 4; i += 3) {
-      const Vector3d p(((i + 0.5) / model.width() - 0.5) * size.x(),
-                       (0.5 - (j + 0.5) / model.height()) * size.y(), 0.5 * size.z());
-      const Eigen::Vector2d pixel = simulation.camera().intrinsics.project(T_camera_box * p);
-      const int u = static_cast<int>(std::lround(pixel.x())),
-                v = static_cast<int>(std::lround(pixel.y()));
-      if (u < 0 || v < 0 || u >= frame.color.width() || v >= frame.color.height()) continue;
-      const io::Rgb8 a = model(i, j), b = frame.color(u, v);
-      const double x = a.r + a.g + a.b, y = b.r + b.g + b.b;
-      n += 1, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
-    }
-  const double correlation =
-      (n * sab - sa * sb) / std::sqrt((n * saa - sa * sa) * (n * sbb - sb * sb));
-  std::cout << "correlation " << correlation << '\n';
-  EXPECT_GT(correlation, 0.75);  // smoothed by the distance
-}
-
-TEST(DrawingTruth, BallsLieWhereTheirPosesSay) {
-  PENUMBRA_REQUIRE_SIMULATION();
-  Simulation simulation("handover", without_noise(2));
-  SimFrame frame;
-  ASSERT_TRUE(simulation.next(frame));
-  const ObjectTruth& wrist = frame.objects.at(0);
-  ASSERT_EQ(wrist.name, "wrist");
-  const Intrinsics& k = simulation.camera().intrinsics;
-  const Vector3d centre = simulation.T_base_camera().inverse() * wrist.T_base_object.translation();
-  constexpr double radius = 0.036;
-  std::size_t compared = 0;
-  for (int v = 0; v < frame.ids.height(); ++v)
-    for (int u = 0; u < frame.ids.width(); ++u) {
-      if (frame.ids(u, v) != wrist.id) continue;
-      const Vector3d ray = k.ray(u, v);
-      const double b = ray.dot(centre), c = centre.squaredNorm() - radius * radius;
-      const double under = b * b - ray.squaredNorm() * c;
-      ASSERT_GT(under, 0.0) << "a polyhedron inside the ball reaches no farther";
-      // Where the ray is steep on the surface what is missing counts little.
-      const double z = (b - std::sqrt(under)) / ray.squaredNorm();
-      const double facing = std::sqrt(under) / (ray.norm() * radius);
-      if (facing < 0.3) continue;
-      EXPECT_NEAR(static_cast<double>(frame.true_depth(u, v)), z,
-                  2.0 * ball_sagitta * radius / facing + depth_tolerance);
-      ++compared;
-    }
-  EXPECT_GT(compared, 100U);
 }
 
 /// Whether all depths around are of one surface that is not so steep that the facets of round

@@ -88,9 +88,9 @@ using Tallies = std::array<Tally, ways>;
 
 class ModalBench {
  public:
-  ModalBench(std::uint64_t seed, bool noisy)
+  explicit ModalBench(std::uint64_t seed)
       : random_(seeded_random(seed)),
-        simulation_("random", without_color(seed, noisy)),
+        simulation_("random", without_color(seed, true)),
         pipeline_(visual_robot(simulation_), simulation_.camera(), config_of(simulation_)),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
@@ -165,11 +165,12 @@ class ModalBench {
   TargetJudge judge_;
 };
 
-void judge_all(bool noisy) {
+TEST(ModalTruth, WithADepthCamerasNoise) {
+  PENUMBRA_REQUIRE_SIMULATION();
   const int frames = measures_in_full() ? 1000 : 60;
   Tallies tallies;
   for (int seed = 0; seed < seeds; ++seed) {
-    ModalBench bench(static_cast<std::uint64_t>(seed) + 200, noisy);
+    ModalBench bench(static_cast<std::uint64_t>(seed) + 200);
     bench.run(frames / seeds, tallies);
   }
   std::cout << frames << " frames\n";
@@ -183,16 +184,6 @@ void judge_all(bool noisy) {
     EXPECT_GT(tally.visible, least_visible[way]);
     EXPECT_LT(tally.missed, most_hidden);
   }
-}
-
-TEST(ModalTruth, WithoutNoise) {
-  PENUMBRA_REQUIRE_SIMULATION();
-  judge_all(false);
-}
-
-TEST(ModalTruth, WithADepthCamerasNoise) {
-  PENUMBRA_REQUIRE_SIMULATION();
-  judge_all(true);
 }
 
 }  // namespace

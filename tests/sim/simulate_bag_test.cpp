@@ -253,33 +253,10 @@ TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
   }
 }
 
-TEST_F(SimulateBag, ASecondCameraIsChosenByName) {
-  ASSERT_EQ(simulate(scenes[0], "bag.mcap", {"--second-camera"}).status, 0);
-  const Outcome either = penumbra({"run", path("bag.mcap"), "-o", path("out")});
-  EXPECT_EQ(either.status, 2);
-  EXPECT_NE(either.err.find("--depth-topic"), std::string::npos) << either.err;
-  for (const char* topic :
-       {"/camera/depth/image_rect_raw", "/second_camera/depth/image_rect_raw"}) {
-    const Outcome run =
-        penumbra({"run", path("bag.mcap"), "-o", path("out"), "--depth-topic", topic});
-    EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.out.find("4 frames, 0 bad"), std::string::npos) << run.out;
-  }
-}
-
 TEST_F(SimulateBag, SameSeedGivesTheSameBytes) {
   ASSERT_EQ(simulate(scenes[1], "one.mcap").status, 0);
   ASSERT_EQ(simulate(scenes[1], "two.mcap").status, 0);
   EXPECT_EQ(read_file(path("one.mcap")), read_file(path("two.mcap")));
-}
-
-TEST_F(SimulateBag, MeshesAreFoundInTheWorkingFolder) {
-  ASSERT_EQ(simulate(scenes[0], "bag.mcap").status, 0);
-  const fs::path before = fs::current_path();
-  fs::current_path(folder_.path());
-  const Outcome run = penumbra({"run", "bag.mcap", "-o", "out"});
-  fs::current_path(before);
-  EXPECT_EQ(run.status, 0) << run.err;
 }
 
 TEST_F(SimulateBag, RefusesBadOutput) {

@@ -187,16 +187,6 @@ TEST_F(ViewLive, ACameraThatEndsIsToldBySession) {
   EXPECT_TRUE(live.get_json("/api/session")["diagnostics"].is_array());
 }
 
-TEST_F(ViewLive, WithoutACameraThePageSaysWhatIsMissing) {
-  const ViewerProcess live = start();
-  std::string missing;
-  for (const auto end = Clock::now() + patience;
-       missing.find("depth images") == std::string::npos && Clock::now() < end;
-       std::this_thread::sleep_for(100ms))
-    missing = live.get_json("/api/session")["missing"].dump();
-  EXPECT_NE(missing.find("depth images are needed"), std::string::npos) << missing;
-}
-
 TEST_F(ViewLive, EachCameraHasAPage) {
   const Outcome live =
       penumbra({"live", "--camera", "left=/left/depth", "--camera", "right=/right/depth", "--port",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra view OUT`: nothing else is shown than what the run judged.
-#include "../apps/program.hpp"
-#include "../apps/tiny_recording.hpp"
+#include "../apps/fixtures.hpp"
 #include "viewer_process.hpp"
 
 #include <filesystem>
@@ -13,24 +12,14 @@
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t tiny_frames = 3;
 
-class ViewRunTest : public testing::Test {
+class ViewRunTest : public TinyTest {
  protected:
-  ViewRunTest() {
-    fs::create_directories(recording());
-    write_tiny_recording(recording());
-  }
-
-  fs::path recording() const { return folder_.path() / "recording"; }
-  fs::path out() const { return folder_.path() / "out"; }
-  void run(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"run", recording(), "-o", out()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = penumbra(arguments);
+  void run_well(const Words& options = {}) const {
+    const Outcome outcome = run(options);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   static Packet packet(const ViewerProcess& viewer, std::size_t i) {
@@ -39,14 +28,11 @@ class ViewRunTest : public testing::Test {
                            "/packet?with=labels,links,vdi,depth,overlay,cloud")
                       .body);
   }
-
- private:
-  TemporaryFolder folder_;
 };
 
 TEST_F(ViewRunTest, ShowsTheReport) {
-  run({"--labels", "paper", "--frames", "1:3", "--save", "overlay,labels,links,vdi"});
-  fs::remove_all(recording());  // it is not needed
+  run_well({"--labels", "paper", "--frames", "1:3", "--save", "overlay,labels,links,vdi"});
+  fs::remove(path("recording.yaml"));  // it is not needed
   const ViewerProcess viewer({out()});
   const json session = viewer.complete_session();
   EXPECT_EQ(session["frames"], 2);
@@ -63,7 +49,7 @@ TEST_F(ViewRunTest, ShowsTheReport) {
 }
 
 TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAre) {
-  run({"--save", "labels"});
+  run_well({"--save", "labels"});
   Image<std::uint8_t> painted(tiny_width, tiny_height, 4);
   io::write_png(out() / "labels" / "000001.png", std::as_const(painted).view());
   const ViewerProcess viewer({out() / "report.json"});
@@ -72,7 +58,7 @@ TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAre) {
 }
 
 TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
-  run({"--save", "labels,overlay"});
+  run_well({"--save", "labels,overlay"});
   const ViewerProcess viewer({out()});
   const json session = viewer.complete_session();
   EXPECT_EQ(session["parts"], json({"overlay", "labels"}));
@@ -81,12 +67,12 @@ TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
   EXPECT_NE(unsaved.find("links, vdi"), std::string::npos) << unsaved;
   EXPECT_NE(unsaved.find("--save overlay,labels,links,vdi"), std::string::npos) << unsaved;
   const std::string input = session["missing"][1];
-  EXPECT_NE(input.find("penumbra view " + recording().string()), std::string::npos) << input;
+  EXPECT_NE(input.find("penumbra view " + path().string()), std::string::npos) << input;
   EXPECT_EQ(packet(viewer, 2).parts.size(), 2U);
 }
 
 TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {
-  run({"--save", "labels,overlay"});
+  run_well({"--save", "labels,overlay"});
   const TemporaryFolder elsewhere;
   fs::copy_file(out() / "overlay/000000.png", elsewhere.path() / "secret.png");
   fs::remove(out() / "overlay/000000.png");
@@ -105,29 +91,18 @@ TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {
   EXPECT_EQ(viewer.client().get("/api/frames/1/packet?with=overlay").status, 200);
 }
 
-TEST_F(ViewRunTest, ChoicesOfItsOwnAreRefused) {
-  run();
-  for (const std::vector<std::string>& choice : {std::vector<std::string>{"--labels", "paper"},
-                                                 {"--geometry", "visual"},
-                                                 {"--frames", "0:1"},
-                                                 {"--renderer", "reference"},
-                                                 {"--robot", "arm.urdf"},
-                                                 {"--targets", "none"}}) {
-    const Outcome outcome = penumbra({"view", out(), choice[0], choice[1]});
-    EXPECT_EQ(outcome.status, 2) << choice[0];
-    EXPECT_NE(outcome.err.find(choice[0]), std::string::npos) << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  }
-}
-
-TEST_F(ViewRunTest, AReportThatIsNoneIsRefused) {
-  run();
+TEST_F(ViewRunTest, ChoicesOfItsOwnAndOtherReportsAreRefused) {
+  run_well();
+  for (const Words& choice : {Words{"--labels", "paper"},
+                              {"--geometry", "visual"},
+                              {"--frames", "0:1"},
+                              {"--renderer", "reference"},
+                              {"--robot", "arm.urdf"},
+                              {"--targets", "none"}})
+    expect_refused(penumbra({"view", out(), choice[0], choice[1]}), {choice[0]});
   for (const char* const text : {"{}", "", "{\"penumbra\": ", "[1, 2]", "{\"input\": 3}"}) {
     write_file(out() / "report.json", text);
-    const Outcome outcome = penumbra({"view", out()});
-    EXPECT_EQ(outcome.status, 2) << text;
-    EXPECT_NE(outcome.err.find("no report of penumbra run"), std::string::npos) << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+    expect_refused(penumbra({"view", out()}), {"report.json"});
   }
 }
 
