@@ -2,7 +2,6 @@
 #include "../support/random.hpp"
 #include "lens_samples.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <numeric>

@@ -41,16 +41,6 @@ class QueueTest : public testing::Test {
     return frame_.stamp / ms;
   }
 
-  void expect_dropped(const std::vector<std::int64_t>& stamps_ms, DropReason reason) {
-    std::vector<std::int64_t> seen;
-    for (const DroppedFrame& frame : dropped_) {
-      EXPECT_EQ(frame.reason, reason);
-      seen.push_back(frame.stamp / ms);
-    }
-    EXPECT_EQ(seen, stamps_ms);
-    dropped_.clear();
-  }
-
   Robot robot_ = slab_robot();
   PoseHistory history_{robot_, {.joints = {.max_gap = 0.1}}};
   std::optional<FrameQueue> queue_;
@@ -110,10 +100,6 @@ TEST_P(EveryPolicy, DisagreementIsKnownAtOnce) {
   EXPECT_TRUE(frame.joints.positions.empty());
   EXPECT_TRUE(frame.T_root_link.empty());
 }
-
-class NewestQueue : public QueueTest {};
-
-class EveryQueue : public QueueTest {};
 
 TEST_F(QueueTest, TwoCamerasShareAHistory) {
   make(DropPolicy::newest);

@@ -9,7 +9,6 @@ namespace penumbra::test {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
 class ClosedForm : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(ClosedForm, 2);

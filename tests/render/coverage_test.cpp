@@ -12,7 +12,6 @@ namespace penumbra::test {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3f;
 
 class Coverage : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(Coverage, 2);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -12,12 +11,7 @@
 namespace penumbra::test {
 namespace {
 
-using std::numbers::pi;
-
 constexpr std::int64_t kMs = 1'000'000;
-
-// One rounding of sums and products of about 1.
-constexpr double kTolerance = 1e-14;
 
 Robot arm(const std::string& second_type = "revolute", const std::string& body = "") {
   return parse(robot_xml(link_xml("a") + link_xml("b") + link_xml("c") +

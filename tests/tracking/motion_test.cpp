@@ -4,8 +4,6 @@
 #include "../support/random.hpp"
 #include "tracks.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 namespace penumbra::test {
