@@ -190,11 +190,11 @@ made_again='^Example[.]IsReproducible$'
 # tests, and narrower vectors say no more.
 scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
 many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
-many+='|cpu_SSE4|RenderersAreMadeAndDropped|RenderersMadeAndDropped|OffsetGrid.RealLinks'
+many+='|cpu_SSE4|RenderersMadeAndDropped|OffsetGrid.RealLinks'
 # Where one thread of ours runs there is no race to find; one robot's threads are like another's.
-one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest|Isas[.]'
+one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest'
 one_thread+='|GlEnvironment|GlFaults.LetARendererFail|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'
-one_thread+='|RenderersAreMadeAndDropped|RenderersMadeAndDropped|RobotThreads'
+one_thread+='|RenderersMadeAndDropped'
 if $full; then many=$made_again one_thread=$made_again; fi
 ! $asan_is_built || run_tests asan -E "$many"
 ! $tsan_is_built || run_tests tsan -L threaded -E "$one_thread"

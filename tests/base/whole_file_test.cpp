@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/errors.hpp"
 #include "../support/temporary_folder.hpp"
 
 #include <filesystem>
@@ -6,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
 namespace penumbra {
@@ -15,14 +15,10 @@ namespace {
 class WholeFile : public testing::Test {
  protected:
   static void expect_refused(const std::filesystem::path& file, const std::string& why) {
-    try {
-      static_cast<void>(read_whole_file(file, FileLimit::text));
-      ADD_FAILURE() << file << " was read";
-    } catch (const InputError& error) {
-      const std::string message = error.what();
-      EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
-      EXPECT_NE(message.find(why), std::string::npos) << message;
-    }
+    const std::string message =
+        test::message_of([&] { static_cast<void>(read_whole_file(file, FileLimit::text)); });
+    EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
+    EXPECT_TRUE(test::holds(message, why));
   }
 
   test::TemporaryFolder folder_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "closed_form_scene.hpp"
 
+#include "../support/shapes.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -36,42 +36,6 @@ double box_depth(const Solid& box, const Eigen::Vector3d& ray) {
   return enter < leave ? enter : 0;
 }
 
-TriangleMesh box_mesh(const Eigen::Vector3d& half) {
-  TriangleMesh mesh;
-  for (unsigned i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back(Eigen::Vector3d((i & 1U) != 0 ? half.x() : -half.x(),
-                                               (i & 2U) != 0 ? half.y() : -half.y(),
-                                               (i & 4U) != 0 ? half.z() : -half.z())
-                                   .cast<float>());
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-TriangleMesh sphere_mesh(double radius) {
-  constexpr std::uint32_t rings = 96;
-  constexpr std::uint32_t sectors = 192;
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i <= rings; ++i)
-    for (std::uint32_t j = 0; j < sectors; ++j) {
-      const double polar = std::numbers::pi * i / rings;
-      const double round = 2 * std::numbers::pi * j / sectors;
-      mesh.vertices.emplace_back(
-          (radius * Eigen::Vector3d(std::sin(polar) * std::cos(round),
-                                    std::sin(polar) * std::sin(round), std::cos(polar)))
-              .cast<float>());
-    }
-  for (std::uint32_t i = 0; i < rings; ++i)
-    for (std::uint32_t j = 0; j < sectors; ++j) {
-      const std::uint32_t next = (j + 1) % sectors;
-      const std::uint32_t a = i * sectors + j;
-      const std::uint32_t b = i * sectors + next;
-      mesh.triangles.push_back({a, a + sectors, b});
-      mesh.triangles.push_back({b, a + sectors, b + sectors});
-    }
-  return mesh;
-}
-
 }  // namespace
 
 double Solid::depth(const Eigen::Vector2d& ray) const {
@@ -85,7 +49,8 @@ double Solid::reach() const { return std::max(radius, half_extents.norm()); }
 double Solid::farthest() const { return T_camera_solid.translation().z() + reach(); }
 
 TriangleMesh Solid::mesh() const {
-  return radius > 0 ? sphere_mesh(radius) : box_mesh(half_extents);
+  constexpr int rings = 96;  // for sphere_error
+  return radius > 0 ? sphere(static_cast<float>(radius), rings) : box(half_extents.cast<float>());
 }
 
 Hit nearest_hit(const std::vector<Solid>& solids, const Eigen::Vector2d& ray) {

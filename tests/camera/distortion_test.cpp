@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/errors.hpp"
 #include "../support/random.hpp"
 #include "lens_samples.hpp"
 
@@ -11,7 +12,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/camera/distortion.hpp>
 
 namespace penumbra {
@@ -36,14 +36,6 @@ void expect_round_trip(const Lens& sample, const Distortion& lens, const Eigen::
       << sample.name << ' ' << p.transpose();
 }
 
-TEST(Distortion, NoneChangesNothing) {
-  const Distortion none;
-  EXPECT_TRUE(none.is_none());
-  EXPECT_EQ(none.distort({3, -4}), Eigen::Vector2d(3, -4));
-  EXPECT_EQ(none.undistort({3, -4}).value(), Eigen::Vector2d(3, -4));
-  EXPECT_EQ(none.max_radius(), std::numeric_limits<double>::infinity());
-}
-
 TEST(Distortion, KnowsRosNames) {
   const std::vector<double> five(5, 0.1), eight(8, 0.1), four(4, 0.1);
   EXPECT_EQ(Distortion("plumb_bob", five).model(), DistortionModel::plumb_bob);
@@ -52,6 +44,7 @@ TEST(Distortion, KnowsRosNames) {
   for (const char* name : {"equidistant", "fisheye", "kannala_brandt4"})
     EXPECT_EQ(Distortion(name, four).model(), DistortionModel::equidistant) << name;
   EXPECT_TRUE(Distortion("", {}).is_none());
+  EXPECT_TRUE(Distortion().is_none());
   EXPECT_TRUE(Distortion("none", std::vector<double>(5, 0.0)).is_none());
   EXPECT_TRUE(Distortion("plumb_bob", std::vector<double>(5, 0.0)).is_none());
   EXPECT_TRUE(Distortion("rational_polynomial", std::vector<double>(14, 0.0)).is_none());
@@ -61,53 +54,26 @@ TEST(Distortion, KnowsRosNames) {
   EXPECT_EQ(to_string(DistortionModel::rational_polynomial), "rational_polynomial");
 }
 
-TEST(Distortion, CoefficientsOfOpenCvBeyondTheEighthMayBeZero) {
-  const std::vector<double> eight{0.1, 0.2, 0.01, 0.02, 0.3, 0.1, 0.1, 0.1};
-  std::vector<double> fourteen = eight;
-  fourteen.resize(14, 0.0);
-  const Eigen::Vector2d p(0.3, 0.2);
-  EXPECT_EQ(Distortion("rational_polynomial", fourteen).distort(p),
-            Distortion("rational_polynomial", eight).distort(p));
-}
-
-std::string message_of(const std::string& model, const std::vector<double>& k) {
-  try {
-    const Distortion lens(model, k);
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << model << " was accepted";
-  return {};
-}
-
 TEST(Distortion, RefusesWhatItDoesNotKnow) {
-  const auto has = [](const std::string& text, const std::string& part) {
-    return testing::AssertionResult(text.find(part) != std::string::npos) << text;
-  };
-  const std::string unknown = message_of("division", {0.1});
-  EXPECT_TRUE(has(unknown, "division"));
-  for (const char* known : {"plumb_bob", "rational_polynomial", "equidistant"})
-    EXPECT_TRUE(has(unknown, known));
-  EXPECT_TRUE(has(message_of("plumb_bob", {0.1, 0.2}), "2 coefficients"));
-  EXPECT_TRUE(has(message_of("plumb_bob", {}), "0 coefficients"));
-  EXPECT_TRUE(has(message_of("rational_polynomial", std::vector<double>(5, 0.1)), "needs 8"));
-  EXPECT_TRUE(has(message_of("equidistant", std::vector<double>(5, 0.1)), "needs 4"));
-  EXPECT_TRUE(has(message_of("", {0.1}), "no coefficients"));
   std::vector<double> thin_prism(12, 0.0);
   thin_prism[9] = 0.01;
-  EXPECT_TRUE(has(message_of("rational_polynomial", thin_prism), "thin prism"));
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
-    EXPECT_TRUE(has(message_of("plumb_bob", {0.1, bad, 0, 0, 0}), "coefficient 2"));
-}
-
-TEST(Distortion, FollowsItsFormula) {
-  // x' = x (1 + k1 r^2) / (1 + k4 r^2) + 2 p1 x y + p2 (r^2 + 2 x^2), by hand for (1, 2), r^2 = 5
-  const Distortion lens("rational_polynomial",
-                        std::vector<double>{0.2, 0, 0.1, 0.01, 0, 0.6, 0, 0});
-  const Eigen::Vector2d p = lens.distort({1, 2});
-  EXPECT_DOUBLE_EQ(p.x(), 1 * 2.0 / 4.0 + 2 * 0.1 * 2 + 0.01 * 7);
-  EXPECT_DOUBLE_EQ(p.y(), 2 * 2.0 / 4.0 + 0.1 * (5 + 8) + 2 * 0.01 * 2);
+  struct Bad {
+    std::string model;
+    std::vector<double> coefficients;
+    std::string part;  // of the message
+  };
+  for (const Bad& bad :
+       {Bad{"division", {0.1}, "plumb_bob"},
+        {"division", {0.1}, "division"},
+        {"plumb_bob", {0.1, 0.2}, "2 coefficients"},
+        {"plumb_bob", {}, "0 coefficients"},
+        {"rational_polynomial", std::vector<double>(5, 0.1), "needs 8"},
+        {"equidistant", std::vector<double>(5, 0.1), "needs 4"},
+        {"", {0.1}, "no coefficients"},
+        {"rational_polynomial", thin_prism, "thin prism"},
+        {"plumb_bob", {0.1, std::nan(""), 0, 0, 0}, "coefficient 2"},
+        {"plumb_bob", {0.1, std::numeric_limits<double>::infinity(), 0, 0, 0}, "coefficient 2"}})
+    test::expect_refused([&] { const Distortion lens(bad.model, bad.coefficients); }, {bad.part});
 }
 
 TEST(Distortion, DerivativeAgreesWithDifferences) {
@@ -141,15 +107,6 @@ TEST(Distortion, IdealFisheyeHasAClosedFormInverse) {
   }
   EXPECT_FALSE(lens.undistort({std::numbers::pi / 2 + 1e-12, 0}));
   EXPECT_FALSE(lens.undistort({0, -2}));
-}
-
-TEST(Distortion, BarrelFoldsWhereItsDerivativeIsZero) {
-  // d/dr (r - 0.3 r^3) = 0 at r = sqrt(1 / 0.9), where the image reaches 2/3 of that radius
-  const Distortion lens("plumb_bob", std::vector<double>{-0.3, 0, 0, 0, 0});
-  const double fold = std::sqrt(1 / 0.9);
-  EXPECT_NEAR(lens.max_radius(), fold, 2e-9);
-  EXPECT_TRUE(lens.undistort({0, fold * 2 / 3 - 1e-8}));
-  EXPECT_FALSE(lens.undistort({0, fold * 2 / 3 + 1e-8}));
 }
 
 TEST(Distortion, MonotoneRadiusIsFoundWhereRootsHide) {
@@ -195,25 +152,14 @@ TEST(Distortion, AbsurdCoefficientsMapNothingOrSomethingButDoNotHang) {
       Distortion("plumb_bob", std::vector<double>{0.1, 0, 0, 0, 0}).undistort({std::nan(""), 0}));
 }
 
-TEST(Distortion, UndistortUndoesDistortOnTypicalLenses) {
+TEST(Distortion, UndistortUndoesDistort) {
   auto random = test::seeded_random(3);
-  for (const Lens& sample : test::typical_lenses()) {
+  std::vector<Lens> lenses = test::typical_lenses();
+  for (int i = 0; i < 500; ++i) lenses.push_back(test::random_lens(random));
+  for (const Lens& sample : lenses) {
     const Distortion lens = sample.distortion();
-    std::cout << sample.name << ": maps up to "
-              << std::atan(lens.max_radius()) * 180 / std::numbers::pi << " degrees\n";
     EXPECT_EQ(lens.undistort({0, 0}).value(), Eigen::Vector2d(0, 0));
-    for (int i = 0; i < 2000; ++i)
-      expect_round_trip(sample, lens, test::random_point_inside(lens, near_the_edge, random));
-  }
-}
-
-TEST(Distortion, UndistortUndoesDistortOnRandomLenses) {
-  auto random = test::seeded_random(4);
-  for (int i = 0; i < 2000; ++i) {
-    const Lens sample = test::random_lens(random);
-    const Distortion lens = sample.distortion();
-    ASSERT_GT(lens.max_radius(), 0.1);
-    for (int j = 0; j < 20; ++j)
+    for (int i = 0; i < 100; ++i)
       expect_round_trip(sample, lens, test::random_point_inside(lens, near_the_edge, random));
   }
 }

@@ -15,11 +15,11 @@ namespace penumbra {
 namespace {
 
 constexpr double same_px = 1e-9;  // both compute the same formula in double, in another order
-constexpr double focal = 1000;
+constexpr double opencv_focal = 1000;
 
 std::vector<cv::Point2d> project_by_opencv(const test::Lens& sample, const Distortion& lens,
                                            const std::vector<cv::Point3d>& points) {
-  const cv::Mat k = (cv::Mat_<double>(3, 3) << focal, 0, 0, 0, focal, 0, 0, 0, 1);
+  const cv::Mat k = (cv::Mat_<double>(3, 3) << opencv_focal, 0, 0, 0, opencv_focal, 0, 0, 0, 1);
   const cv::Vec3d none(0, 0, 0);
   std::vector<cv::Point2d> pixels;
   if (lens.model() == DistortionModel::equidistant)
@@ -39,8 +39,9 @@ void compare(const test::Lens& sample, std::mt19937_64& random) {
   }
   const auto expected = project_by_opencv(sample, lens, points);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Eigen::Vector2d pixel = focal * lens.distort(rays[i]);
-    const double scale = std::max(1.0, pixel.norm() / focal);  // beside a pole pixels are far away
+    const Eigen::Vector2d pixel = opencv_focal * lens.distort(rays[i]);
+    const double scale =
+        std::max(1.0, pixel.norm() / opencv_focal);  // beside a pole pixels are far away
     EXPECT_LT((pixel - Eigen::Vector2d(expected[i].x, expected[i].y)).norm(), same_px * scale)
         << sample.name << ' ' << sample.model << ' ' << rays[i].transpose();
   }

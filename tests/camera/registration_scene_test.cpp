@@ -267,17 +267,5 @@ TEST(Registration, SeesTheSceneAsTheOtherCameraDoes) {
   }
 }
 
-TEST(Registration, IsTheSameImageInTheSameCamera) {
-  const Camera camera = plain_camera(160, 120, 130);
-  const Image<float> depth = wall_and_solids().depth(camera);
-  DepthRegistration registration(camera, camera);
-  const auto warped = std::get<ImageView<const float>>(
-      registration.warp(depth.view(), Eigen::Isometry3d::Identity()));
-  std::size_t changed = 0;
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) changed += warped(u, v) != depth(u, v) ? 1 : 0;
-  EXPECT_EQ(changed, 0U);
-}
-
 }  // namespace
 }  // namespace penumbra

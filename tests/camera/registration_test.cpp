@@ -63,25 +63,6 @@ TEST(Registration, MillimetresThatDoNotFitAreNone) {
   EXPECT_EQ(at(-66.0), 0) << "behind the camera";
 }
 
-TEST(Registration, TheNearerSurfaceHidesTheFarther) {
-  const Camera camera = plain_camera(160, 120, 130);
-  Image<float> depth(160, 120, 2.0F);
-  for (int v = 40; v < 80; ++v)
-    for (int u = 60; u < 100; ++u) depth(u, v) = 1.0F;
-  DepthRegistration registration(camera, camera);
-  // The near square moves by 13 pixels, the wall by 6.5: beside the square there are holes.
-  const auto seen =
-      std::get<ImageView<const float>>(registration.warp(depth.view(), pose(0.1, 0, 0)));
-  EXPECT_EQ(seen(72, 60), 0.0F) << "uncovered by the square, seen by neither";
-  EXPECT_EQ(seen(74, 60), 1.0F);
-  EXPECT_EQ(seen(112, 60), 1.0F) << "the wall behind it is there too";
-  EXPECT_EQ(seen(114, 60), 2.0F);
-  EXPECT_EQ(seen(64, 60), 2.0F);
-  for (int u = 0; u < 160; ++u)
-    EXPECT_TRUE(seen(u, 60) == 0.0F || seen(u, 60) == 1.0F || seen(u, 60) == 2.0F)
-        << "depths are not mixed";
-}
-
 TEST(Registration, StridesAreFollowedAndRubbishIsSafe) {
   auto random = test::seeded_random(9);
   const Camera from = plain_camera(64, 48, 50);

@@ -34,7 +34,7 @@ class Bags : public testing::Test {
     return folder_.path() / name;
   }
   std::string refusal(const std::filesystem::path& file) {
-    return test::message_of([&] { static_cast<void>(open_bag(file)); });
+    return test::refusal([&] { static_cast<void>(open_bag(file)); });
   }
   static std::string times(const BagContent& all) {
     std::string text;

@@ -17,7 +17,7 @@ class SqliteBags : public testing::Test {
   BagContent read(const std::string& bytes) {
     folder_.write("b.db3", bytes);
     BagContent all;
-    test::message_of([&] { all = test::read_bag(folder_.path() / "b.db3"); });
+    test::refusal([&] { all = test::read_bag(folder_.path() / "b.db3"); });
     return all;
   }
 
@@ -118,7 +118,7 @@ TEST_F(SqliteBags, TellWhatRowsAreWrong) {
 TEST_F(SqliteBags, RefuseWhatIsNoBag) {
   const auto refusal = [&](const std::string& tables) {
     { BagDatabase(file_).run(tables); }
-    return test::message_of([&] { static_cast<void>(open_bag(file_)); });
+    return test::refusal([&] { static_cast<void>(open_bag(file_)); });
   };
   EXPECT_HAS(refusal("CREATE TABLE other(x)"), "has no table 'topics'");
   EXPECT_HAS(refusal("CREATE TABLE topics(id, name, type, serialization_format);"
@@ -127,7 +127,7 @@ TEST_F(SqliteBags, RefuseWhatIsNoBag) {
   EXPECT_HAS(refusal("CREATE TABLE topics(id, name); CREATE TABLE messages(timestamp)"),
              "is not a bag that can be read: no such column: type");
   folder_.write("c.db3", "SQLite format 2");
-  EXPECT_HAS(test::message_of([&] { static_cast<void>(open_bag(folder_.path() / "c.db3")); }),
+  EXPECT_HAS(test::refusal([&] { static_cast<void>(open_bag(folder_.path() / "c.db3")); }),
              "c.db3: is not an SQLite database, as *.db3 bags are");
 }
 
@@ -166,7 +166,7 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
   }
   folder_.write("b.db3", whole.substr(0, 2 * page + 7));
   EXPECT_HAS(
-      test::message_of([&] { static_cast<void>(open_bag(folder_.path() / "b.db3")); }),
+      test::refusal([&] { static_cast<void>(open_bag(folder_.path() / "b.db3")); }),
       "b.db3: is cut inside of a page; what stands before is readable after 'truncate -s 8192'");
 }
 

@@ -154,7 +154,7 @@ void expect_refused(const std::string& text, std::initializer_list<Edit> edits,
                     bool is_rectified = false) {
   for (const auto& [piece, by, named] : edits) {
     const std::string bad = with(text, piece, by);
-    const std::string message = test::message_of([&] { return parse(bad, is_rectified); });
+    const std::string message = test::refusal([&] { return parse(bad, is_rectified); });
     EXPECT_TRUE(message.starts_with("cam.yaml")) << message << " of " << by;
     EXPECT_HAS(message, named);
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;

@@ -22,7 +22,7 @@ using BadInputs = std::initializer_list<std::pair<std::string, std::string>>;
 template <class Read>
 void expect_refused(const BadInputs& inputs, const Read& read) {
   for (const auto& [input, named] : inputs) {
-    const std::string message = message_of([&, &text = input] { read(text); });
+    const std::string message = refusal([&, &text = input] { read(text); });
     EXPECT_NE(message, "") << "read: " << input;
     EXPECT_HAS(message, named) << input;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -36,7 +36,7 @@ void read_damaged(const std::string& whole, int rounds, const Read& read) {
   using namespace std::string_literals;
   const std::string special = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\r\t ~?=\\<\xff\x01\0"s;
   for (std::size_t length = 0; length < whole.size(); ++length)
-    message_of([&] { read(whole.substr(0, length)); });
+    refusal([&] { read(whole.substr(0, length)); });
   std::mt19937_64 random = seeded_random(31);
   for (int i = 0; i < rounds; ++i) {
     std::string text = whole;
@@ -49,7 +49,7 @@ void read_damaged(const std::string& whole, int rounds, const Read& read) {
       if (kind == 1) text.insert(at, 1, letter);
       if (kind > 1) text[at] = letter;
     }
-    message_of([&] { read(text); });
+    refusal([&] { read(text); });
   }
 }
 

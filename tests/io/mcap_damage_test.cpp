@@ -34,7 +34,7 @@ class McapDamage : public testing::TestWithParam<Compression> {
     folder_.write("a.mcap", bytes);
     const test::MemoryShortage none(large_memory, 0);
     ToldFile all;
-    test::message_of([&] { all = test::read_mcap(file_); });
+    test::refusal([&] { all = test::read_mcap(file_); });
     return all;
   }
 

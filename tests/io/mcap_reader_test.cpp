@@ -144,13 +144,13 @@ TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
 
 TEST_F(McapReader, RefusesWhatIsNoMcap) {
   const auto refusal = [&](const std::string& bytes) {
-    return test::message_of([&] { read(bytes); });
+    return test::refusal([&] { read(bytes); });
   };
   for (const char* const bytes : {"", "#ROSBAG V2.0\n"})
     EXPECT_HAS(refusal(bytes), "a.mcap: is not an MCAP file");
   EXPECT_HAS(refusal("\x89MCAP1\r\n"), "version 0 is read");
-  EXPECT_HAS(test::message_of([&] { Reader reader(folder_.path() / "none.mcap"); }), "none.mcap");
-  EXPECT_HAS(test::message_of([&] { Reader reader(folder_.path()); }), "regular file");
+  EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path() / "none.mcap"); }), "none.mcap");
+  EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path()); }), "regular file");
 }
 
 // However little may be held, the messages and their order stay.

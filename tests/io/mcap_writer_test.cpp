@@ -86,14 +86,14 @@ TEST_F(McapWriter, RefusesToGoOnWhenTheDiskIsFull) {
   Writer writer(file_, {.compression = Compression::none, .chunk_size = 1000, .profile = ""});
   const auto channel = writer.add_channel("/a", "cdr", 0);
   const auto put = [&] { writer.write(channel, 1, 1, 0, test::as_bytes(std::string(900, 'a'))); };
-  const std::string first = test::message_of([&] {
+  const std::string first = test::refusal([&] {
     for (int i = 0; i < 100; ++i) put();
   });
   EXPECT_EQ(first, file_.string() + ": cannot be written: File too large");
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
   std::signal(SIGXFSZ, ignored);
-  EXPECT_HAS(test::message_of(put), "could not be written to before");
-  EXPECT_HAS(test::message_of([&] { writer.close(); }), "could not be written to before");
+  EXPECT_HAS(test::refusal(put), "could not be written to before");
+  EXPECT_HAS(test::refusal([&] { writer.close(); }), "could not be written to before");
   const auto all = test::read_mcap(file_);
   EXPECT_GT(all.messages.size(), 15U);
   EXPECT_EQ(all.faults.size(), 1U);

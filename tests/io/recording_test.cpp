@@ -176,7 +176,7 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {"", ":1: "},
        {"text", ":1: "}},
       [&](const std::string& text) { static_cast<void>(open(text)); });
-  EXPECT_HAS(test::message_of([&] { return Recording::open(file("nowhere")); }), "nowhere: ");
+  EXPECT_HAS(test::refusal([&] { return Recording::open(file("nowhere")); }), "nowhere: ");
 }
 
 TEST_F(RecordingFolder, ReadsFrames) {

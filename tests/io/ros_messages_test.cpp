@@ -13,7 +13,7 @@ namespace penumbra::io {
 namespace {
 
 using test::encoded;
-using test::message_of;
+using test::refusal;
 using test::sample;
 
 constexpr double turn_rounding = 1e-15;  // a rotation to a quaternion and back
@@ -118,7 +118,7 @@ TEST(RosMessages, FieldsAreFoundByName) {
 
 TEST(RosMessages, DefinitionsThatDoNotFitAreRefusedByName) {
   const auto fault = [](const std::string& text) {
-    return message_of([&] { Decoder<JointStateMessage>("sensor_msgs/msg/JointState", text); });
+    return refusal([&] { Decoder<JointStateMessage>("sensor_msgs/msg/JointState", text); });
   };
   const std::string header = "===\nMSG: std_msgs/Header\ntime stamp\nstring frame_id\n";
   EXPECT_HAS(fault("std_msgs/Header header\nstring[] name\nfloat32[] position\n"
@@ -130,7 +130,7 @@ TEST(RosMessages, DefinitionsThatDoNotFitAreRefusedByName) {
                    "===\nMSG: std_msgs/Header\nuint32 stamp\n"),
              "header.stamp");
   EXPECT_HAS(fault("wstring[] name\n"), "wstring");
-  EXPECT_HAS(message_of([] { Decoder<ImageMessage>("sensor_msgs/msg/PointCloud2", ""); }),
+  EXPECT_HAS(refusal([] { Decoder<ImageMessage>("sensor_msgs/msg/PointCloud2", ""); }),
              "sensor_msgs/Image");
 }
 
@@ -220,7 +220,7 @@ TEST(RosMessages, StampsThatRosCannotHoldAreRefused) {
   for (const std::int64_t stamp :
        {std::int64_t{2'147'483'648'000'000'000}, std::int64_t{-2'147'483'648'000'000'001}}) {
     pose.header.stamp = stamp;
-    EXPECT_HAS(message_of([&] { encode(pose, payload); }), "32 bits for seconds");
+    EXPECT_HAS(refusal([&] { encode(pose, payload); }), "32 bits for seconds");
   }
 }
 

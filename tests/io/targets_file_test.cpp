@@ -241,7 +241,7 @@ TEST_F(TargetsFileTest, SettingsOfTheMotionAreTaken) {
 TEST_F(TargetsFileTest, PixelsOfAnotherImageAreRefused) {
   const std::string box = "targets:\n- {name: a, box: [1, 2, 3, 4]}\n";
   const std::string point = "targets:\n- {name: a, point: [0, 0, 1], radius: 0.1}\n";
-  EXPECT_HAS(test::message_of([&] { return open(box, ImageSpace::rectified, true); }), "raw image");
+  EXPECT_HAS(test::refusal([&] { return open(box, ImageSpace::rectified, true); }), "raw image");
   EXPECT_EQ(open("image: rectified\n" + box, ImageSpace::rectified, true).size(), 1U);
   EXPECT_EQ(open(point, ImageSpace::rectified, true).size(), 1U);
   EXPECT_EQ(open("image: rectified\n" + point, ImageSpace::raw, true).size(), 1U);

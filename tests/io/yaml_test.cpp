@@ -9,7 +9,7 @@
 namespace penumbra::io {
 namespace {
 
-using test::message_of;
+using test::refusal;
 
 YamlNode parse(const std::string& text) { return YamlNode::parse(text, "f.yaml"); }
 
@@ -42,7 +42,7 @@ TEST(Yaml, ErrorsNameFileLineAndKey) {
       "  long: 1.5\n");
   const YamlNode& a = root.at("a");
   const auto expect = [](const std::string& place, const auto& call) {
-    const std::string message = message_of(call);
+    const std::string message = refusal(call);
     EXPECT_TRUE(message.starts_with("f.yaml:" + place)) << message;
   };
   expect("2: a.b: ", [&] { return a.at("b").number(); });
@@ -63,7 +63,7 @@ TEST(Yaml, ReadsEveryDocument) {
   ASSERT_EQ(documents.size(), 3U);
   EXPECT_EQ(documents[0].at("a").integer(), 1);
   EXPECT_TRUE(documents[2].is_null());
-  EXPECT_HAS(message_of([&] { return documents[1].at("b").boolean(); }), "f.yaml:3: b: ");
+  EXPECT_HAS(refusal([&] { return documents[1].at("b").boolean(); }), "f.yaml:3: b: ");
 }
 
 TEST(Yaml, RefusesWhatItCannotBeSureOf) {
@@ -81,23 +81,23 @@ TEST(Yaml, RefusesWhatItCannotBeSureOf) {
                         {"a: " + std::string(17, '[') + std::string(17, ']'), "16 deep"}},
                        parse);
   const YamlNode zero = parse("a: \"x\\0y\"\n");
-  EXPECT_HAS(message_of([&] { return zero.at("a").text(); }), "character 0");
+  EXPECT_HAS(refusal([&] { return zero.at("a").text(); }), "character 0");
 }
 
 /// Without a bound each of these takes gigabytes or minutes.
 TEST(Yaml, BoundsItsWork) {
   const test::TemporaryFolder folder;
   const auto big = folder.write("big.yaml", std::string(20'000'000, '#'));
-  EXPECT_HAS(message_of([&] { return YamlNode::read(big); }), "big.yaml: has 20000000 bytes");
+  EXPECT_HAS(refusal([&] { return YamlNode::read(big); }), "big.yaml: has 20000000 bytes");
   for (const char* part : {"[", "{", "- ", "? ", "a: [", "{a: ", "[],", "{a: 1},", "a:\n"}) {
     std::string many;
     for (int i = 0; i < 1'000'001; ++i) many += part;
-    EXPECT_HAS(message_of([&] { return parse(many); }), "f.yaml: has more than 1000000 lines");
+    EXPECT_HAS(refusal([&] { return parse(many); }), "f.yaml: has more than 1000000 lines");
   }
   std::string keys;
   for (int i = 0; i < 100'000; ++i) keys += std::to_string(i) + ": 1\n";
   EXPECT_EQ(parse(keys).entries().size(), 100'000U);
-  EXPECT_HAS(message_of([&] { return parse(keys + "5: 1\n"); }), "f.yaml:100001: key '5'");
+  EXPECT_HAS(refusal([&] { return parse(keys + "5: 1\n"); }), "f.yaml:100001: key '5'");
 }
 
 TEST(Yaml, SurvivesDamage) {

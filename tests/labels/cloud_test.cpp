@@ -57,10 +57,6 @@ TEST_F(RealCloud, KeepsObjectsThatTouchTheOutlineAtATrueStep) {
   EXPECT_GE(kept_at_a_true_step(0.0).core_percent(), 98.0);
 }
 
-TEST_F(RealCloud, KeepsObjectsNearTheOutlineAtATrueStep) {
-  EXPECT_GE(kept_at_a_true_step(10.0).core_percent(), 99.0);
-}
-
 TEST_F(RealCloud, FringeIsTakenFromClearPixelsAlone) {
   Classifier with(frames[0].robot.width(), frames[0].robot.height(), LabelRule{});
   Classifier without(frames[0].robot.width(), frames[0].robot.height(), without_fringe());

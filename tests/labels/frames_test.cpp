@@ -48,18 +48,6 @@ TEST_P(Frames, MayChangeTheirTiles) {
   EXPECT_EQ(counts, used.classify(all, scene.metres.view()).pixels);
 }
 
-TEST_P(Frames, WithoutARobotAreClear) {
-  auto random = test::seeded_random(43);
-  Classifier classifier(300, 70, LabelRule{}, GetParam());
-  const test::Scene scene = test::random_scene(300, 70, random);
-  (void)classifier.classify(scene.view(), scene.metres.view());
-  const test::Scene empty(300, 70);
-  const LabelView view = classifier.classify(empty.view(), scene.metres.view());
-  EXPECT_EQ(view.pixels[0], 300u * 70u);
-  for (int v = 0; v < 70; ++v)
-    for (int u = 0; u < 300; ++u) ASSERT_EQ(view.labels(u, v), 0);
-}
-
 TEST_P(Frames, AllocateNothing) {
   auto random = test::seeded_random(44);
   Classifier classifier(300, 70, LabelRule{}, GetParam());

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/labels/labels.hpp>
 
 namespace penumbra {
@@ -82,13 +81,6 @@ TEST_P(Fringe, EndsAtTheReach) {
   EXPECT_EQ(fringe_columns(classify(scene, LabelRule::paper()), 48), std::pair(0, 0));
 }
 
-TEST_P(Fringe, FollowsDepthThatFadesWithoutAStep) {
-  Scene scene = robot_before_wall();
-  for (int i = 0; i < 20; ++i)
-    see(scene, robot_end + i, robot_end + i + 1, robot_z + 0.002f * static_cast<float>(i));
-  EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end + 20));
-}
-
 TEST_P(Fringe, EndsWhereTheDepthHasLeftTheRobots) {
   Scene scene = robot_before_wall();
   for (int i = 0; i < 40; ++i)
@@ -132,27 +124,6 @@ TEST_P(Fringe, DoesNotSpreadFromWhereTheSensorSeesPastTheModel) {
   EXPECT_EQ(view.pixels[static_cast<std::size_t>(Label::fringe)], 0u);
 }
 
-TEST_P(Fringe, OfTheLastImageIsForgotten) {
-  Scene scene = robot_before_wall();
-  Classifier classifier(image_width, image_height, {}, GetParam());
-  see(scene, robot_end, robot_end + 40, robot_z);
-  static_cast<void>(classifier.classify(scene.view(), scene.metres.view()));
-  see(scene, robot_end, robot_end + 40, wall_z);
-  const LabelView view = classifier.classify(scene.view(), scene.metres.view());
-  for (int v = 0; v < image_height; ++v)
-    for (int u = robot_end; u < image_width; ++u) ASSERT_EQ(view.labels(u, v), 0) << u << ' ' << v;
-}
-
-TEST_P(Fringe, IsTheSameOfMillimetres) {
-  Scene scene = robot_before_wall();
-  see(scene, robot_end, robot_end + 30, robot_z + 0.004f);
-  const Image<std::uint16_t> millimetres = scene.millimetres();
-  Classifier classifier(image_width, image_height, {}, GetParam());
-  const LabelView view =
-      classifier.classify(scene.view(), ImageView<const std::uint16_t>(millimetres.view()));
-  EXPECT_EQ(view.pixels[static_cast<std::size_t>(Label::fringe)], 30u * 56u);
-}
-
 TEST_P(Fringe, ReachesTheImagesBorder) {
   Scene scene(image_width, image_height);
   std::fill_n(scene.metres.data(), scene.metres.size(), robot_z);
@@ -166,19 +137,6 @@ TEST_P(Fringe, ReachesTheImagesBorder) {
 
 INSTANTIATE_TEST_SUITE_P(, Fringe, testing::ValuesIn(test::every_isa()),
                          [](const auto& tested) { return tested.param; });
-
-TEST(FringeRule, RefusesAReachThatIsNone) {
-  for (const int reach : {-1, LabelRule::max_fringe_reach + 1}) {
-    EXPECT_THROW(with_reach(reach).check(), InputError) << reach;
-  }
-}
-
-TEST(FringeRule, KnowsSensors) {
-  EXPECT_EQ(LabelRule::for_sensor("none").fringe_reach, 0);
-  for (const char* name : {"realsense_d4xx", "zed", "tof", "structured_light", "none"})
-    EXPECT_NO_THROW(LabelRule::for_sensor(name).check()) << name;
-  EXPECT_THROW(static_cast<void>(LabelRule::for_sensor("kinect")), InputError);
-}
 
 }  // namespace
 }  // namespace penumbra

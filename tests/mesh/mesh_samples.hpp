@@ -5,8 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,13 @@ inline constexpr double tetrahedron_volume = 4.0;
 inline TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}},
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+/// The text with one place changed.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) throw std::logic_error("no " + what);
+  return text.replace(at, what.size(), by);
 }
 
 template <typename T>
@@ -105,28 +111,6 @@ inline std::string collada(const std::string& asset, const std::string& nodes) {
          nodes +
          "</visual_scene></library_visual_scenes>\n"
          "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
-}
-
-/// A Collada file of a mesh with whole coordinates.
-inline std::string collada_of(const TriangleMesh& mesh) {
-  const auto replace = [](std::string& text, const std::string& what, const std::string& by) {
-    text.replace(text.find(what), what.size(), by);
-  };
-  std::string positions;
-  for (const auto& v : mesh.vertices)
-    for (int axis = 0; axis < 3; ++axis)
-      positions += std::to_string(static_cast<long>(v[axis])) + " ";
-  std::string corners;
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t corner : t) corners += std::to_string(corner) + " ";
-  std::string text = collada("", "<node><instance_geometry url=\"#tet\"/></node>");
-  replace(text, "count=\"12\"", "count=\"" + std::to_string(3 * mesh.vertices.size()) + "\"");
-  replace(text, "count=\"4\" stride",
-          "count=\"" + std::to_string(mesh.vertices.size()) + "\" stride");
-  replace(text, "count=\"4\"", "count=\"" + std::to_string(mesh.triangles.size()) + "\"");
-  replace(text, "0 0 0 2 0 0 0 3 0 0 0 4", positions);
-  replace(text, "0 2 1 0 1 3 0 3 2 1 2 3", corners);
-  return text;
 }
 
 inline std::string collada_node(const std::string& transform = "", const std::string& id = "n") {

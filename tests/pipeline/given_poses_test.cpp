@@ -86,20 +86,5 @@ TEST_F(GivenPoses, ThatArePoorAreRefused) {
   EXPECT_EQ(pipeline_.process(frame()).status, FrameStatus::ok) << "the stream goes on";
 }
 
-TEST_F(GivenPoses, TheirFaultsAreStatusesWithoutAPose) {
-  for (const FrameStatus status : {FrameStatus::stale_transform, FrameStatus::poses_disagree}) {
-    Frame faulty = frame();
-    faulty.source_status = status;
-    faulty.source_message = "because";
-    const FrameReport& report = pipeline_.process(faulty);
-    EXPECT_EQ(report.status, status);
-    EXPECT_EQ(report.message, "because");
-    EXPECT_FALSE(has_pose(report.status));
-    EXPECT_FALSE(report.pixels.robot);
-  }
-  EXPECT_EQ(to_string(FrameStatus::stale_transform), "stale_transform");
-  EXPECT_EQ(to_string(FrameStatus::poses_disagree), "poses_disagree");
-}
-
 }  // namespace
 }  // namespace penumbra::test

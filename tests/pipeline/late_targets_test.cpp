@@ -26,41 +26,6 @@ Target late(const char* name, std::int64_t stamp, Extent extent = Extent::amodal
   return {.name = name, .shape = RegionTarget{{PixelBox{101, 47, 5, 8}}, extent}, .stamp = stamp};
 }
 
-TEST_F(LateTargetsTest, AreJudgedOnTheFrameOfTheirStamp) {
-  frame_at(0, 0.0, {});
-  frame_at(100 * ms, -0.3, {});
-  frame_at(200 * ms, 0.0, {});
-  const std::vector<Target> targets{late("first", 0), late("second", 100 * ms),
-                                    late("now", 300 * ms), late("never", 150 * ms)};
-  const FrameReport& report = frame_at(300 * ms, 0.0, targets);
-  EXPECT_EQ(report.targets[0].verdict, Verdict::visible) << report.targets[0].reason;
-  EXPECT_EQ(report.targets[1].verdict, Verdict::hidden) << report.targets[1].reason;
-  EXPECT_EQ(report.targets[2].verdict, Verdict::visible);
-  EXPECT_EQ(report.targets[3].verdict, Verdict::unknown);
-  EXPECT_NE(report.targets[3].reason.find("no frame of its stamp"), std::string_view::npos);
-  EXPECT_EQ(report.targets[1].stamp, 100 * ms);
-}
-
-TEST_F(LateTargetsTest, SeeWhatTheLiveFrameSaw) {
-  std::vector<Judgement> live;
-  std::vector<std::optional<Eigen::Vector3d>> points;
-  for (int i = 0; i < 5; ++i) {
-    const Target target = region("live", PixelBox{100, 40, 30, 40});
-    const FrameReport& report = frame_at(i * 50 * ms, -0.05 * i, {&target, 1});
-    live.push_back(*report.targets[0].judgement);
-    points.push_back(report.targets[0].point);
-  }
-  for (int i = 0; i < 4; ++i) {
-    Target target = region("late", PixelBox{100, 40, 30, 40});
-    target.stamp = i * 50 * ms;
-    const TargetReport& report = frame_at(200 * ms, -0.2, {&target, 1}).targets[0];
-    ASSERT_TRUE(report.judgement) << report.reason;
-    EXPECT_EQ(report.judgement->occluded, live[static_cast<std::size_t>(i)].occluded);
-    EXPECT_EQ(report.judgement->clear, live[static_cast<std::size_t>(i)].clear);
-    EXPECT_EQ(report.point, points[static_cast<std::size_t>(i)]);
-  }
-}
-
 /// A detector 100 ms late, with every kind of target: what is said of each frame is the same, and
 /// so are verdicts with their hysteresis and the accepted estimates.
 TEST_F(LateTargetsTest, SayWhatTargetsInTimeDo) {
@@ -123,14 +88,6 @@ TEST_F(LateTargetsTest, FramesBeyondTheSpanAreGone) {
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
 }
 
-TEST_F(LateTargetsTest, AFrameWithoutDepthStaysUnknown) {
-  pipeline_.process({.stamp = 0, .depth = {}, .joints = positions_});
-  const Target target = late("target", 0);
-  const TargetReport& report = frame_at(100 * ms, 0.0, {&target, 1}).targets[0];
-  EXPECT_EQ(report.verdict, Verdict::unknown);
-  EXPECT_EQ(report.reason, "missing_depth: no depth image");
-}
-
 TEST_F(LateTargetsTest, AFrameWithoutDepthStillShowsWhatTheRobotHides) {
   positions_[0] = -0.3;
   pipeline_.process({.stamp = 0, .depth = {}, .joints = positions_});
@@ -159,16 +116,6 @@ TEST_F(LateTargetsTest, StampsThatGoBackLeaveHysteresisAlone) {
       << "judged as if for the first time";
   EXPECT_EQ(frame_at(200 * ms, 0.0, {&next, 1}).targets[0].verdict, Verdict::partial)
       << "it has not left that yet";
-}
-
-TEST_F(LateTargetsTest, AModalTargetIsJudgedInOrderOnly) {
-  frame_at(0, 0.0, {});
-  const Target now = late("mask", 100 * ms, Extent::modal);
-  EXPECT_NE(frame_at(100 * ms, 0.0, {&now, 1}).targets[0].reason.find("robot"),
-            std::string_view::npos);
-  const Target back = late("mask", 0, Extent::modal);
-  const TargetReport& report = frame_at(200 * ms, 0.0, {&back, 1}).targets[0];
-  EXPECT_EQ(report.verdict, Verdict::unknown);
 }
 
 TEST(TargetHistory, OutsideOfItsBoundsIsRefused) {

@@ -234,34 +234,6 @@ TEST_F(RectifiedTargetsTest, WhereTheCameraSawNothingAreOutOfView) {
   EXPECT_EQ(black.judgement->clear, 0.0);
 }
 
-/// What the camera did not see is no robot that is not drawn.
-TEST_F(RectifiedTargetsTest, AtItsEdgeAreFirstSeenAsAtTheImagesBorder) {
-  Pipeline rectified = pipeline(ImageSpace::rectified);
-  const auto to_raw = rectified.rectification()->pinhole_to_raw();
-  const int row = to_raw.height - 5;
-  int first = 0;
-  while (to_raw(first, row) == Rectification::no_pixel) ++first;
-  ASSERT_GT(first, 1);
-  Target modal = region("modal", PixelBox{first + 6.0, row - 2.0, 6, 4});
-  std::get<RegionTarget>(modal.shape).extent = Extent::modal;
-  const TargetReport report = judge(rectified, modal);
-  EXPECT_EQ(report.verdict, Verdict::visible) << report.reason;
-  EXPECT_TRUE(report.point);
-}
-
-TEST_F(RectifiedTargetsTest, AtItsEdgeAreJudgedByWhatTheCameraSaw) {
-  Pipeline rectified = pipeline(ImageSpace::rectified);
-  const auto to_raw = rectified.rectification()->pinhole_to_raw();
-  const PixelBox whole{0, 0, 1.0 * to_raw.width, 1.0 * to_raw.height};
-  const TargetReport all = judge(rectified, region("all", whole));
-  ASSERT_TRUE(all.judgement);
-  std::size_t seen = 0;
-  for (int v = 0; v < to_raw.height; ++v)
-    for (int u = 0; u < to_raw.width; ++u) seen += to_raw(u, v) >= 0 ? 1 : 0;
-  EXPECT_LT(seen, all.judgement->covered);
-  EXPECT_EQ(all.judgement->inside, seen);
-}
-
 TEST_F(RectifiedTargetsTest, AreInViewWhereTheyAreInTheRawImage) {
   Pipeline raw = pipeline(ImageSpace::raw), rectified = pipeline(ImageSpace::rectified);
   int in_view = 0, out_of_view = 0;

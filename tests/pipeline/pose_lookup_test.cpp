@@ -184,41 +184,6 @@ TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
   EXPECT_EQ(answer_.status, FrameStatus::poses_disagree);
 }
 
-TEST_F(PoseLookupTest, LinksOfWhichNothingIsDrawnMayBeElsewhereByTF) {
-  const Robot robot = Robot::parse(slab_urdf(R"(<link name="tray"/>
-    <joint name="lift" type="prismatic"><parent link="base"/><child link="tray"/></joint>)"),
-                                   ".");
-  PoseHistory history(robot);
-  const std::string names[] = {"slide", "lift"};
-  const double positions[] = {0.1, 0.2};
-  history.add_joints(10 * ms, names, positions);
-  history.add_transform(10 * ms, "base", "slab", shift(0, 0, 1.1));
-  history.add_transform(10 * ms, "base", "tray", shift(0.2, 0, 0));
-  PoseLookup lookup(robot, {.source = PoseSource::both});
-  lookup.at(history, 10 * ms, answer_);
-  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
-  EXPECT_TRUE(answer_.doubted_links.empty()) << answer_.doubt;
-  history.add_joints(20 * ms, names, positions);
-  history.add_transform(20 * ms, "base", "slab", shift(0, 0, 1.1));
-  history.add_transform(20 * ms, "base", "tray", shift(0.21, 0, 0));
-  lookup.at(history, 20 * ms, answer_);
-  EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
-  EXPECT_EQ(answer_.doubted_links, (std::vector<std::size_t>{*robot.find_link("tray")}));
-  EXPECT_NE(answer_.doubt.find("'tray' 10 mm apart"), std::string::npos) << answer_.doubt;
-}
-
-TEST_F(PoseLookupTest, ATurnDisagreesByItsArc) {
-  add_joint(10 * ms, 0.0);
-  Eigen::Isometry3d turned = shift(0, 0, 1);
-  turned.rotate(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY()));
-  history_.add_transform(10 * ms, "base", "slab", turned);
-  at(10 * ms, {.source = PoseSource::both, .agreement = 0.0051});
-  EXPECT_EQ(answer_.status, FrameStatus::ok);
-  EXPECT_NEAR(answer_.disagreement->distance, 0.01 * Disagreement::lever, 1e-9);
-  at(10 * ms, {.source = PoseSource::both, .agreement = 0.0049});
-  expect(FrameStatus::poses_disagree, "'slab'");
-}
-
 TEST_F(PoseLookupTest, OfTheCameraInTF) {
   const PoseOptions options{.camera_parent = "slab", .camera_frame = "optical"};
   add_joint(10 * ms, 0.0);
@@ -311,10 +276,6 @@ TEST_F(PoseHistoryTest, WhatIsRefusedSaysNothingOfTheClock) {
   EXPECT_EQ(history.add_joints(2000 * ms, slide, none), 0U);
   EXPECT_EQ(history.clock_jumps(), 0U);
   EXPECT_TRUE(history.joints().complete_until());
-}
-
-TEST_F(PoseHistoryTest, RefusesFaultyOptions) {
-  EXPECT_THROW(PoseHistory(robot_, {.transforms = {.max_depth = 0}}), InputError);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/errors.hpp"
+#include "../support/nanoseconds.hpp"
+
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -72,18 +77,17 @@ Lines notes_of_positions(const std::vector<std::vector<double>>& frames) {
   return notes.lines();
 }
 
-TEST(SequenceNotes, ARobotInNoFrameIsTold) {
-  ASSERT_EQ(notes_of({0, std::nullopt, 0}).size(), 1U);
-  EXPECT_NE(notes_of({0, std::nullopt, 0})[0].find("in no frame"), std::string::npos);
-  ASSERT_EQ(notes_of({0}).size(), 1U);
-  EXPECT_NE(notes_of({0})[0].find("not in the image"), std::string::npos);
+/// Expects one note with these parts.
+void expect_note(const Lines& lines, std::initializer_list<std::string_view> parts) {
+  ASSERT_EQ(lines.size(), 1U);
+  for (const std::string_view part : parts) EXPECT_TRUE(holds(lines[0], part));
 }
 
-TEST(SequenceNotes, ARobotInOneFrameOrOfUnknownPoseIsNot) {
+TEST(SequenceNotes, ARobotInNoFrameIsTold) {
+  expect_note(notes_of({0, std::nullopt, 0}), {"in no frame"});
+  expect_note(notes_of({0}), {"not in the image"});
   EXPECT_EQ(notes_of({0, 1, 0}), Lines{});
-  EXPECT_EQ(notes_of({std::nullopt, std::nullopt}), Lines{})
-      << "what is missing there is said elsewhere";
-  EXPECT_EQ(notes_of({}), Lines{});
+  EXPECT_EQ(notes_of({std::nullopt}), Lines{}) << "what is missing there is said elsewhere";
 }
 
 /// The notes of frames that are labelled so.
@@ -116,20 +120,16 @@ TEST(SequenceNotes, APoseOrDepthThatFitsNowhereIsAsked) {
   const PixelCounts good = counts_of(200, 600, 100, 100);
   EXPECT_EQ(notes_of_labels({good, good}), Lines{});
   const PixelCounts off = counts_of(50, 90, 260, 600);
-  const Lines pose = notes_of_labels({off, off});
-  ASSERT_EQ(pose.size(), 1U) << "a pose off by 15 cm";
-  EXPECT_NE(pose[0].find("6.8 % are front and 81.1 % beyond"), std::string::npos) << pose[0];
-  EXPECT_NE(pose[0].find("camera's pose"), std::string::npos) << pose[0];
-  EXPECT_NE(pose[0].find("millimetres"), std::string::npos) << pose[0];
+  // A pose off by 15 cm.
+  expect_note(notes_of_labels({off, off}),
+              {"6.8 % are front", "81.1 % beyond", "camera's pose", "millimetres"});
   EXPECT_EQ(notes_of_labels({counts_of(980, 10, 10, 0)}).size(), 1U) << "cm";
   EXPECT_EQ(notes_of_labels({off, good, good, good}), Lines{}) << "one frame is not the sequence";
 }
 
 TEST(SequenceNotes, ARobotWithoutMeasurementIsTold) {
   const PixelCounts blind = counts_of(1, 30, 969, 0);
-  const Lines lines = notes_of_labels({blind});
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("measured on 3.1 % of the robot's pixels"), std::string::npos);
+  expect_note(notes_of_labels({blind}), {"3.1 %"});
   EXPECT_EQ(notes_of_labels({counts_of(0, 60, 940, 0)}), Lines{});
   EXPECT_EQ(notes_of_labels({blind}, FrameStatus::missing_depth), Lines{}) << "said elsewhere";
   EXPECT_EQ(notes_of_labels({blind}, FrameStatus::bad_depth), Lines{}) << "likewise";
@@ -138,55 +138,20 @@ TEST(SequenceNotes, ARobotWithoutMeasurementIsTold) {
   EXPECT_EQ(notes_of_labels({blind}, FrameStatus::ok, {.has_sensor = false}), Lines{});
 }
 
-TEST(SequenceNotes, RawPixelsThatTheLensModelDoesNotReachAreTold) {
-  PixelCounts pixels = counts_of(0, 10, 0, 0);
-  pixels.uncovered = 38;
-  const Lines lines = notes_of_labels({pixels});
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("does not reach 38 pixels"), std::string::npos) << lines[0];
-  EXPECT_EQ(notes_of_labels({pixels}, FrameStatus::ok, {.image = ImageSpace::rectified}), Lines{})
-      << "every rectified image has a rim that the camera did not see";
-}
-
-TEST(SequenceNotes, LinksBeforeTheNearPlaneAreTold) {
-  const Robot any = robot();
-  SequenceNotes notes(any);
-  const std::vector<std::size_t> one = {*any.find_link("a")};
-  const std::vector<std::size_t> two = {*any.find_link("base"), *any.find_link("a")};
-  FrameReport report;
-  for (const auto& near : {std::span<const std::size_t>(one), std::span<const std::size_t>(two),
-                           std::span<const std::size_t>()}) {
-    report.near_links = near;
-    notes.add(report, {});
-  }
-  const std::string why = ": what it hides is labelled as if it were not there";
-  EXPECT_EQ(
-      notes.lines(),
-      (Lines{
-          "part of link 'base' lies within 1 cm of the camera and is not drawn in 1 frame" + why,
-          "part of link 'a' lies within 1 cm of the camera and is not drawn in 2 frames" + why}));
-}
-
 TEST(SequenceNotes, StampsThatDoNotRiseAreTold) {
   EXPECT_EQ(notes_of_stamps({5 * ms, 6 * ms, 7 * ms}), Lines{});
   EXPECT_EQ(notes_of_stamps({std::nullopt, std::nullopt}), Lines{});
-  EXPECT_EQ(notes_of_stamps({5 * ms, 5 * ms, 6 * ms}),
-            Lines{"1 stamp not after the frame's before, first in frame 11 (5000000 ns after "
-                  "5000000 ns): are frames doubled or out of order?"});
-  EXPECT_EQ(notes_of_stamps({5 * ms, 9 * ms, std::nullopt, 8 * ms, 7 * ms}),
-            Lines{"2 stamps not after the frame's before, first in frame 13 (8000000 ns after "
-                  "9000000 ns): are frames doubled or out of order?"})
-      << "a frame without a stamp is passed over";
+  expect_note(notes_of_stamps({5 * ms, 5 * ms, 6 * ms}), {"1 stamp ", "frame 11", "5000000 ns"});
+  // A frame without a stamp is passed over.
+  expect_note(notes_of_stamps({5 * ms, 9 * ms, std::nullopt, 8 * ms, 7 * ms}),
+              {"2 stamps ", "frame 13", "8000000 ns", "9000000 ns"});
 }
 
 TEST(SequenceNotes, StampsOfAnotherUnitAreTold) {
-  const auto expect_asked = [](const Lines& lines, const std::string& longest) {
-    EXPECT_EQ(lines, Lines{"stamps rise by " + longest +
-                           " ns at most from frame to frame: are stamps in nanoseconds?"});
-  };
-  expect_asked(notes_of_stamps({1700000000'000000, 1700000000'033333, 1700000000'066667}), "33334");
-  expect_asked(notes_of_stamps({1700000000'000, std::nullopt, 1700000000'033}), "33");
-  expect_asked(notes_of_stamps({1700000000, 1700000001}), "1");
+  expect_note(notes_of_stamps({1700000000'000000, 1700000000'033333, 1700000000'066667}),
+              {"33334 ns", "nanoseconds"});
+  expect_note(notes_of_stamps({1700000000'000, std::nullopt, 1700000000'033}), {"33 ns"});
+  expect_note(notes_of_stamps({1700000000, 1700000001}), {"1 ns"});
   const std::int64_t least = std::numeric_limits<std::int64_t>::min();
   EXPECT_EQ(notes_of_stamps({least, std::numeric_limits<std::int64_t>::max()}), Lines{});
   EXPECT_EQ(notes_of_stamps({5, 5 + ms, 6 + ms}), Lines{}) << "not throughout";
@@ -213,28 +178,19 @@ TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
   notes.add(report, {});
   const Lines lines = notes.lines();
   ASSERT_EQ(lines.size(), 3U);
-  EXPECT_EQ(lines[1],
-            "stamps went back by more than a second in 1 frame with targets: what was known of "
-            "them until then was forgotten");
-  EXPECT_EQ(lines[2],
-            "targets that want handling in 2 frames without a stamp: none is handled there");
+  for (const char* part : {"1 frame", "forgotten"}) EXPECT_TRUE(holds(lines[1], part));
+  for (const char* part : {"2 frames", "handle"}) EXPECT_TRUE(holds(lines[2], part));
 }
 
 TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {
   EXPECT_EQ(notes_of_positions({{1.57, 0.025, 1000.0, 3.0}, {-1.579, 0.0025, -1000.0, 0.0}, {}}),
             Lines{})
       << "rounded limits, joints without any, frames without positions";
-  EXPECT_EQ(notes_of_positions({{90.0, 0.01, 0.0, 0.0}, {1.6, 0.01, 0.0, 0.0}, {0, 0.01, 0, 0}}),
-            Lines{"joint 'turn' beyond its limits in 2 frames: are the positions in radians and "
-                  "metres?"});
-  EXPECT_EQ(notes_of_positions({{0.0, 0.03, 0.0, 0.0}}),
-            Lines{"joint 'follower' beyond its limits in 1 frame: are the positions in radians and "
-                  "metres?"})
-      << "4 x 0.03 - 0.01 = 0.11";
-  EXPECT_EQ(notes_of_positions({{-1.59, 0.042, 0.0, 0.0}}),
-            Lines{"joint 'turn' beyond its limits in 1 frame, joint 'slide' beyond its limits in 1 "
-                  "frame, joint 'follower' beyond its limits in 1 frame: are the positions in "
-                  "radians and metres?"});
+  expect_note(notes_of_positions({{90.0, 0.01, 0.0, 0.0}, {1.6, 0.01, 0.0, 0.0}, {0, 0.01, 0, 0}}),
+              {"'turn'", "2 frames", "radians"});
+  // The follower is at 4 x 0.03 - 0.01 = 0.11.
+  expect_note(notes_of_positions({{0.0, 0.03, 0.0, 0.0}}), {"'follower'", "1 frame"});
+  expect_note(notes_of_positions({{-1.59, 0.042, 0.0, 0.0}}), {"'turn'", "'slide'", "'follower'"});
 }
 
 }  // namespace

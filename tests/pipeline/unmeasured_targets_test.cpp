@@ -98,18 +98,6 @@ TEST_F(TargetsWithinARange, NoEstimateIsTakenWhereNothingIsMeasured) {
   EXPECT_EQ(judge(2 * ms, target).estimate, penumbra::Outcome::accepted) << "asked for";
 }
 
-TEST_F(TargetsWithinARange, KeypointsInMetresTakeNoDepthOutOfIt) {
-  const KeypointTarget shape{.pixel = {20, 85}, .semi_axes = {0.05, 0.05}, .in_metres = true};
-  for (const float depth : {0.03F, 1.7F}) {
-    depth_(20, 85) = depth;
-    const TargetReport& report = judge(1 * ms, {.name = "k", .shape = shape});
-    EXPECT_EQ(report.verdict, Verdict::unknown) << depth;
-    EXPECT_NE(report.reason.find("no depth is measured"), std::string_view::npos) << report.reason;
-  }
-  depth_(20, 85) = 1.5F;
-  EXPECT_EQ(judge(2 * ms, {.name = "k", .shape = shape}).verdict, Verdict::visible);
-}
-
 class TargetsWithoutALink : public testing::Test {
  protected:
   Robot robot = Robot::parse(
@@ -122,27 +110,6 @@ class TargetsWithoutALink : public testing::Test {
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   const std::vector<double> positions{0.0};
 };
-
-/// What is partly hidden may be wholly so.
-TEST_F(TargetsWithoutALink, AreNotPartialAndNoEstimateIsTaken) {
-  PoseTrackerConfig any;
-  any.worst = Verdict::hidden;
-  const PixelBox half_behind{88, 50, 20, 12};
-  std::vector<Target> targets{region("half", half_behind), region("hidden", behind_slab)};
-  for (Target& target : targets) {
-    target.handling = any;
-    target.estimate = TargetEstimate{.frame = ""};
-  }
-  const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
-  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
-  EXPECT_GT(report.targets[0].judgement->occluded, 0.3);
-  EXPECT_EQ(report.targets[1].verdict, Verdict::hidden);
-  for (const TargetReport& target : report.targets) {
-    EXPECT_EQ(target.estimate, penumbra::Outcome::refused_verdict);
-    EXPECT_EQ(target.handled->source, Source::lost);
-  }
-}
 
 TEST_F(TargetsWithoutALink, AreNeverVisible) {
   const PixelBox half_behind{40, 50, 20, 12}, outside{-50, 50, 20, 12};

@@ -8,6 +8,7 @@
 #include "shapes.hpp"
 
 #include <random>
+#include <utility>
 #ifdef PENUMBRA_HAS_EMBREE
 #include "embree_oracle.hpp"
 #endif
@@ -54,33 +55,30 @@ TEST_F(AgreementTest, TheSameImageAgrees) {
   EXPECT_LT(agreement.worst_interior, 1e-7);
 }
 
-TEST_F(AgreementTest, FindsAHole) {
-  depth_(sphere_u, sphere_v) = 0.0F;
-  links_(sphere_u, sphere_v) = 0;
-  EXPECT_EQ(judge().errors, 1U);
-}
-
-TEST_F(AgreementTest, FindsRobotWhereThereIsNone) {
+TEST_F(AgreementTest, FindsEveryKindOfFault) {
+  struct Fault {
+    const char* what;
+    int u, v;
+    float times;  // of the depth
+    std::uint16_t link;
+  };
+  constexpr float no_depth = 0.0F, more = 1.0F + 2e-4F, less = 1.0F - 2e-4F;
+  for (const auto& [what, u, v, times, link] :
+       {Fault{"hole", sphere_u, sphere_v, no_depth, 0},
+        {"too far", sphere_u, sphere_v, more, 1},
+        {"too near", box_u, box_v, less, 2},
+        {"wrong link", sphere_u, sphere_v, 1.0F, 2},
+        {"depth without link", sphere_u, sphere_v, 1.0F, 0},
+        {"link without depth", box_u, box_v, no_depth, 2}}) {
+    const float depth = std::exchange(depth_(u, v), times * depth_(u, v));
+    const std::uint16_t right = std::exchange(links_(u, v), link);
+    EXPECT_EQ(judge().errors, 1U) << what;
+    depth_(u, v) = depth;
+    links_(u, v) = right;
+  }
   depth_(5, 5) = 1.0F;
   links_(5, 5) = 1;
-  EXPECT_EQ(judge().errors, 1U);
-}
-
-TEST_F(AgreementTest, FindsAWrongDepth) {
-  depth_(sphere_u, sphere_v) *= 1.0F + 2e-4F;
-  depth_(box_u, box_v) *= 1.0F - 2e-4F;
-  EXPECT_EQ(judge().errors, 2U);
-}
-
-TEST_F(AgreementTest, FindsAWrongLink) {
-  links_(sphere_u, sphere_v) = 2;
-  EXPECT_EQ(judge().errors, 1U);
-}
-
-TEST_F(AgreementTest, FindsDepthWithoutLink) {
-  links_(sphere_u, sphere_v) = 0;
-  depth_(box_u, box_v) = 0.0F;
-  EXPECT_EQ(judge().errors, 2U);
+  EXPECT_EQ(judge().errors, 1U) << "robot where there is none";
 }
 
 TEST_F(AgreementTest, CountsCoverageThatDiffersAtSilhouettes) {

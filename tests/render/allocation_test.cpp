@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "allocations.hpp"
+#include "errors.hpp"
 #include "random.hpp"
 #include "render_test.hpp"
 #include "shapes.hpp"
 
 #include <random>
-
-#include <penumbra/base/error.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -61,14 +60,8 @@ class ShortMemory : public ::testing::Test {
 
 TEST_F(ShortMemory, IsTheUsersFaultAndSaysWhatIsLarge) {
   const MemoryShortage shortage(large, 0);
-  try {
-    static_cast<void>(make(opengl_, camera_, scene_.bodies()));
-    FAIL() << shortage.asked();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find(" triangles"), std::string::npos) << message;
-    EXPECT_NE(message.find("32 x 24"), std::string::npos) << message;
-  }
+  expect_refused([&] { static_cast<void>(make(opengl_, camera_, scene_.bodies())); },
+                 {" triangles", "32 x 24"});
 }
 
 }  // namespace

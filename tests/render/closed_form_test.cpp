@@ -9,7 +9,6 @@ namespace penumbra::test {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 
 class ClosedForm : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(ClosedForm, 2);
@@ -34,19 +33,6 @@ TEST_P(ClosedForm, FacingPlaneFillsTheImage) {
   const Frame frame = render(small_camera, scene);
   EXPECT_EQ(frame.covered(), frame.depth.size());
   expect_depth(frame, small_camera, [](const Vector3d&) { return 1.5; });
-}
-
-TEST_P(ClosedForm, TriangleCoversWhatItsEdgesEnclose) {
-  Scene scene;
-  const auto corner = [](double u, double v, double z) -> Vector3f {
-    return (small_camera.ray(u, v) * z).cast<float>();
-  };
-  scene.add(triangle(corner(20.3, 10.1, 1.0), corner(140.2, 33.3, 2.0), corner(61.7, 110.9, 1.4)));
-  const Agreement agreement =
-      expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
-  // Half of the cross product of two edges in the image.
-  const double area = 0.5 * (119.9 * 100.8 - 41.4 * 23.2);
-  EXPECT_NEAR(static_cast<double>(agreement.robot_pixels), area, 0.01 * area);
 }
 
 TEST_P(ClosedForm, TiltedPlanes) {
@@ -94,46 +80,6 @@ TEST_P(ClosedForm, SphereFollowsItsFormula) {
       EXPECT_LE(frame.depth(u, v), (z + sagitta / steepness) * (1 + interior_tolerance))
           << u << ' ' << v;
     }
-  }
-}
-
-TEST_P(ClosedForm, BoxShowsItsFrontFace) {
-  Scene scene;
-  scene.add(box({0.2F, 0.1F, 0.3F}), at(0.0, 0.0, 1.3));
-  const Frame frame = render(small_camera, scene);
-  // The camera sees the front face at 1.0 m only: its image encloses those of the others.
-  expect_depth(frame, small_camera, [](const Vector3d& ray) {
-    return std::abs(ray.x()) <= 0.2 && std::abs(ray.y()) <= 0.1 ? 1.0 : 0.0;
-  });
-}
-
-TEST_P(ClosedForm, PrincipalPointMayLieAnywhere) {
-  for (const auto& [cx, cy] :
-       {std::pair{0.0, 0.0}, {-300.0, 40.0}, {1000.5, -700.25}, {80.0, 5000.0}}) {
-    const Intrinsics shifted(160, 120, 150.0, 155.0, cx, cy);
-    const Vector3d middle = shifted.ray(80, 60) * 1.2;
-    Scene scene;
-    scene.add(
-        box({0.15F, 0.2F, 0.1F}),
-        Eigen::Translation3d(middle) * Eigen::AngleAxisd(0.5, Vector3d(0.3, 1, 0.2).normalized()));
-    const Agreement agreement =
-        expect_agrees_with_brute_force(render(shifted, scene).view(), scene, shifted);
-    EXPECT_GT(agreement.robot_pixels, 1000U);
-  }
-}
-
-TEST_P(ClosedForm, NearestSurfaceWinsInAnyOrder) {
-  for (const bool near_first : {true, false}) {
-    Scene scene;
-    const double first = near_first ? 1.0 : 2.0;
-    scene.add(image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, first));
-    scene.add(image_rectangle(small_camera, 60.5, 60.5, 140.5, 110.5, 3.0 - first));
-    const Frame frame = render(small_camera, scene);
-    EXPECT_NEAR(frame.depth(70, 70), 1.0, interior_tolerance);
-    EXPECT_EQ(frame.links(70, 70), near_first ? 1 : 2);
-    EXPECT_EQ(frame.links(30, 30), 1);
-    EXPECT_EQ(frame.links(130, 100), 2);
-    EXPECT_EQ(frame.links(10, 10), 0);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing a backend, a SIMD target and threads.
-#include "brute_force_oracle.hpp"
+#include "errors.hpp"
 #include "random.hpp"
 #include "render_test.hpp"
 #include "shapes.hpp"
@@ -8,7 +8,6 @@
 #include <random>
 #include <thread>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
 
 namespace penumbra::test {
@@ -30,38 +29,18 @@ Scene crowded_scene() {
 }
 
 TEST(RendererOptions, UnknownIsaIsRefusedWithTheListOfThoseThatAre) {
-  const Scene scene = crowded_scene();
-  try {
-    const auto renderer = make({Backend::cpu, "MMX", 1}, camera, scene.bodies());
-    FAIL() << "made a renderer for " << renderer->info().isa;
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("MMX"), std::string::npos) << message;
-    for (const std::string& isa : simd_target_names()) {
-      EXPECT_NE(message.find(isa), std::string::npos) << message;
-    }
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  }
-}
-
-TEST(RendererOptions, BestIsaIsTheDefault) {
-  const std::vector<std::string> isas = simd_target_names();
-  ASSERT_FALSE(isas.empty());
-  const auto renderer = make({Backend::cpu, "", 1}, camera, {});
-  EXPECT_EQ(renderer->info().isa, isas.front());
-  EXPECT_EQ(renderer->info().backend, Backend::cpu);
+  const std::string message = message_of([] {
+    static_cast<void>(make({Backend::cpu, "MMX", 1}, camera, {}));
+  });
+  EXPECT_TRUE(holds(message, "MMX"));
+  for (const std::string& isa : simd_target_names()) EXPECT_TRUE(holds(message, isa));
+  EXPECT_EQ(make({Backend::cpu, "", 1}, camera, {})->info().isa, simd_target_names().front());
 }
 
 TEST(RendererOptions, ThreadsBelowOneAreRefused) {
   for (const int threads : {0, -1, RendererOptions::max_threads + 1}) {
     EXPECT_THROW(static_cast<void>(make({Backend::cpu, "", threads}, camera, {})), InputError);
   }
-}
-
-TEST(RendererOptions, BackendsHaveNames) {
-  EXPECT_EQ(to_string(Backend::cpu), "cpu");
-  EXPECT_EQ(to_string(Backend::gl), "gl");
-  EXPECT_EQ(to_string(Backend::reference), "reference");
 }
 
 TEST(Threads, AnyNumberGivesTheSameBits) {
@@ -96,39 +75,6 @@ TEST(Threads, RenderersSideBySideDoNotDisturbEachOther) {
   std::thread two(work, BackendChoice{Backend::cpu, "", 2});
   one.join();
   two.join();
-}
-
-TEST(Threads, RenderersAreMadeAndDroppedWithoutRendering) {
-  const Scene scene = crowded_scene();
-  for (int threads = 1; threads <= most_threads; ++threads) {
-    for (int i = 0; i < 5; ++i) {
-      EXPECT_NE(make({Backend::cpu, "", threads}, camera, scene.bodies()), nullptr);
-    }
-  }
-}
-
-TEST(Isas, AgreeWithEachOtherAndTheReferenceAsWithAnOracle) {
-  const Intrinsics small(81, 55, 70.0, 70.0, 40.0, 25.0);
-  std::mt19937_64 random = seeded_random(73);
-  Scene scene;
-  for (int i = 0; i < 6; ++i) {
-    scene.add(sphere(0.1F, 6));
-    scene.add(box({0.2F, 0.05F, 0.1F}));
-    scene.add(triangle_soup(random, 3, 0.5F));
-  }
-  std::vector<BackendChoice> choices = usable_backend_choices(1);
-  for (int round = 0; round < 4; ++round) {
-    for (auto& pose : scene.poses) {
-      pose = random_pose(random, {-0.5, -0.3, 0.3}, {0.5, 0.3, 1.5});
-    }
-    const BruteForceOracle oracle(scene.bodies(), scene.poses);
-    const OracleImage expected = cast_image(oracle, small);
-    for (const BackendChoice& choice : choices) {
-      const auto renderer = make(choice, small, scene.bodies());
-      const Agreement agreement = compare(renderer->render(scene.poses), oracle, expected, small);
-      EXPECT_EQ(agreement.errors, 0U) << choice << ": " << agreement;
-    }
-  }
 }
 
 }  // namespace

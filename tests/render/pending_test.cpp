@@ -90,10 +90,5 @@ TEST_P(Pending, MisuseIsALogicError) {
   EXPECT_GT(Frame(renderer->render(poses)).covered(), 0U);
 }
 
-TEST_P(Pending, FramesThatNobodyCollectsAreDropped) {
-  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
-  renderer->submit(random_frames(1).front());
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -7,7 +7,6 @@
 #include "robot_views.hpp"
 #include "run_length.hpp"
 
-#include <cstdlib>
 #include <iostream>
 
 namespace penumbra::test {
@@ -94,25 +93,6 @@ INSTANTIATE_TEST_SUITE_P(Robots, RobotAgainstEmbree,
                                            RobotCase{"xarm7", Geometry::collision},
                                            RobotCase{"xarm7", Geometry::visual}),
                          ::testing::PrintToStringParamName());
-
-TEST(RobotThreads, AnyNumberGivesTheSameBits) {
-  PENUMBRA_REQUIRE_DATA();
-  const Robot robot = load_robot("xarm7", Geometry::collision);
-  const std::vector<Body> bodies = bodies_of(robot);
-  std::mt19937_64 random = seeded_random(102);
-  const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
-  for (const BackendChoice& choice : usable_backend_choices(1)) {
-    std::vector<std::unique_ptr<DepthRenderer>> renderers;
-    for (int threads = 1; threads <= 4; ++threads) {
-      renderers.push_back(make({choice.backend, choice.isa, threads}, intrinsics, bodies));
-    }
-    for (int view = 0; view < views_per_camera; ++view) {
-      const auto poses = random_view(random, robot, bodies, intrinsics, kind_of(view));
-      const VirtualDepthView expected = renderers[0]->render(poses);
-      for (const auto& renderer : renderers) expect_same_bits(renderer->render(poses), expected);
-    }
-  }
-}
 
 }  // namespace
 }  // namespace penumbra::test

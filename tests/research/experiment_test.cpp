@@ -129,7 +129,7 @@ TEST(Experiment, IsRefusedAtOnce) {
            {.experiment = "conveyor", .first_seed = 3, .end_seed = 3, .output = {}},
            {.experiment = "handover", .end_seed = 1, .duration = 0.2, .output = folder.path()}}) {
     std::size_t steps = 0;
-    EXPECT_NE(message_of([&] { research::run_experiment(options, [&](std::size_t) { ++steps; }); }),
+    EXPECT_NE(refusal([&] { research::run_experiment(options, [&](std::size_t) { ++steps; }); }),
               "");
     EXPECT_EQ(steps, 0U);
   }

@@ -14,19 +14,6 @@ namespace {
 
 using detail::glob_match;
 
-TEST(Glob, MatchesTheWholeText) {
-  EXPECT_TRUE(glob_match("finger_*", "finger_left"));
-  EXPECT_FALSE(glob_match("finger", "finger_left"));
-  EXPECT_TRUE(glob_match("*", ""));
-  EXPECT_TRUE(glob_match("", ""));
-  EXPECT_FALSE(glob_match("", "a"));
-  EXPECT_TRUE(glob_match("link_[0-9]", "link_7"));
-  EXPECT_FALSE(glob_match("link_[!0-9]", "link_7"));
-  EXPECT_TRUE(glob_match("l?nk", "link"));
-  EXPECT_TRUE(glob_match("a[", "a["));
-  EXPECT_TRUE(glob_match("a/*", "a/b/c"));
-}
-
 // A star, a question mark, a letter, or a set of up to three members and ranges.
 std::string random_item(Random& random) {
   const std::string letters = "abc-]";

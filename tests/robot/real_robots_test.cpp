@@ -58,20 +58,6 @@ TEST(RealRobots, Xarm7IsDrawnWhole) {
   expect_sound(robot, 8);
 }
 
-TEST(RealRobots, StartUpIsReported) {
-  PENUMBRA_REQUIRE_DATA();
-  const auto start = std::chrono::steady_clock::now();
-  const Robot robot = load("ur5e", Geometry::visual);
-  const double ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  double sum = 0.0;
-  for (const LinkReport& report : robot.report()) sum += report.load_ms;
-  std::cout << "UR5e, visual: " << ms << " ms\n";
-  RecordProperty("load_ms", std::to_string(ms));
-  EXPECT_GT(sum, 0.0);
-  EXPECT_LE(sum, ms);
-}
-
 TEST(RealRobots, VisualUr5eLoadsInLessThanASecond) {
   PENUMBRA_REQUIRE_DATA();
 #ifndef NDEBUG

@@ -31,23 +31,7 @@ const std::string kEverything = robot_xml(
 
 // Whether it was read. Meshes are not at hand: only their absence may be forgiven.
 bool survives(const std::string& xml) {
-  try {
-    (void)parse(xml, {.allow_missing_meshes = true});
-    return true;
-  } catch (const InputError& error) {
-    EXPECT_STRNE(error.what(), "");
-    EXPECT_EQ(std::string_view(error.what()).find_first_of("\n\r"), std::string_view::npos);
-    return false;
-  }
-}
-
-TEST(UrdfErrors, StandInOneLineWhateverTheFileHolds) {
-  try {
-    (void)parse("<robot name=\"r\"><link name=\"a\n\tb\"/><link name=\"a\n\tb\"/></robot>", {});
-    FAIL() << "it was read";
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string_view(error.what()).find_first_of("\n\r\t"), std::string_view::npos);
-  }
+  return refusal([&] { (void)parse(xml, {.allow_missing_meshes = true}); }).empty();
 }
 
 std::string mutated(Random& random, std::string xml) {

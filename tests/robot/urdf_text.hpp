@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../support/errors.hpp"
 #include "../support/temporary_folder.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include <iterator>
 #include <string>
-#include <string_view>
 
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::test {
@@ -42,22 +38,16 @@ inline Robot parse(const std::string& xml, const RobotOptions& options = {}) {
   return Robot::parse(xml, ".", options);
 }
 
-/// The message of the InputError that f throws; a failure of the test if it throws none.
-template <typename F>
-std::string message_of(F&& f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no InputError";
-  return "";
-}
-
-inline ::testing::AssertionResult holds(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << '"' << part << "\" is not in: " << text;
+/// A chain of links l0, l1, ... with joints j0, j1, ... of every type; j2 and j5 float.
+inline Robot every_kind() {
+  std::string body = link_xml("l0");
+  const char* types[] = {"revolute", "continuous", "floating", "prismatic",
+                         "planar",   "floating",   "fixed"};
+  for (std::size_t i = 0; i < std::size(types); ++i)
+    body += link_xml("l" + std::to_string(i + 1)) +
+            joint_xml("j" + std::to_string(i), types[i], "l" + std::to_string(i),
+                      "l" + std::to_string(i + 1), "<axis xyz=\"0 0 1\"/>");
+  return parse(robot_xml(body));
 }
 
 /// An ASCII STL of the tetrahedron (0,0,0), (size,0,0), (0,size,0), (0,0,size), wound outwards.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What TargetJudge refuses, and in which words.
+// What TargetJudge refuses.
+#include "../support/errors.hpp"
 #include "target_frame.hpp"
 
-#include <limits>
+#include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 
 namespace penumbra {
 namespace {
@@ -21,59 +22,44 @@ std::string fault_of(const TargetView& target) {
   TargetFrame frame;
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(frame.images());
-  try {
-    (void)judge.judge(target);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
+  return test::refusal([&] { (void)judge.judge(target); });
 }
 
-const double nan = std::numeric_limits<double>::quiet_NaN();
-
-TEST(BadTargets, AreRefusedByName) {
-  EXPECT_EQ(fault_of(box_target("cup", {1, 2, 0, 3})),
-            "box 1, 2, 0 x 3: has no area: width and height must be above 0");
-  EXPECT_EQ(fault_of(box_target("", middle_box)), "needs a name");
-}
-
-TEST(BadTargets, NumbersOutOfBounds) {
-  const auto fault = [](const auto& change) {
+TEST(BadTargets, AreRefused) {
+  const double nan = std::nan("");
+  const std::pair<const char*, std::function<void(TargetView&)>> bad[] = {
+      {"has no area",
+       [](TargetView& t) {
+         t.region = PixelBox{1, 2, 0, 3};
+       }},
+      {"needs a name", [](TargetView& t) { t.name = ""; }},
+      {"expected depth -1 m", [](TargetView& t) { t.expected_depth = -1; }},
+      {"expected depth nan", [=](TargetView& t) { t.expected_depth = nan; }},
+      {"nan", [=](TargetView& t) { t.depth_margin = nan; }},
+      {"-0.1", [](TargetView& t) { t.depth_margin = -0.1; }},
+      {"point pixel",
+       [=](TargetView& t) {
+         t.point_pixel = {nan, 3};
+       }},
+      {"motion",
+       [=](TargetView& t) {
+         t.motion = {nan, 3};
+       }},
+      {"partial_enter 1.1", [](TargetView& t) { t.thresholds.partial_enter = 1.1; }},
+      {"partial_leave 0.06", [](TargetView& t) { t.thresholds.partial_leave = 0.06; }},
+      {"partial_enter 0.95", [](TargetView& t) { t.thresholds.partial_enter = 0.95; }},
+      {"hidden_leave 0.95", [](TargetView& t) { t.thresholds.hidden_leave = 0.95; }},
+      {"hidden_leave 0.01", [](TargetView& t) { t.thresholds.hidden_leave = 0.01; }},
+      {"unknown_limit nan", [=](TargetView& t) { t.thresholds.unknown_limit = nan; }},
+      {"min_inside -1", [](TargetView& t) { t.thresholds.min_inside = -1; }},
+      {"min_measured nan", [=](TargetView& t) { t.thresholds.min_measured = nan; }},
+      {"point_min_fraction 2", [](TargetView& t) { t.thresholds.point_min_fraction = 2; }}};
+  EXPECT_EQ(fault_of(box_target("cup", middle_box)), "");
+  for (const auto& [part, change] : bad) {
     TargetView target = box_target("cup", middle_box);
     change(target);
-    return fault_of(target);
-  };
-  EXPECT_EQ(fault([](TargetView&) {}), "no fault");
-  EXPECT_EQ(fault([](TargetView& t) { t.expected_depth = -1; }),
-            "expected depth -1 m: must be above 0 and up to 1e+06");
-  EXPECT_NE(fault([](TargetView& t) { t.expected_depth = nan; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.depth_margin = nan; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.depth_margin = -0.1; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.point_pixel = {nan, 3}; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.motion = {nan, 3}; }), "no fault");
-  EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_enter = 1.1; }),
-            "partial_enter 1.1: must be 0 to 1");
-  EXPECT_EQ(fault([](TargetView& t) { t.thresholds.partial_leave = 0.06; }),
-            "partial_leave 0.06: must not exceed partial_enter 0.05");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.partial_enter = 0.95; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.95; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.hidden_leave = 0.01; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.unknown_limit = nan; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.min_inside = -1; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.min_measured = nan; }), "no fault");
-  EXPECT_NE(fault([](TargetView& t) { t.thresholds.point_min_fraction = 2; }), "no fault");
-}
-
-TEST(BadTargets, RenderedOnesHaveTheirOwnDepthAndExtent) {
-  const Image<float> depth(TargetFrame::width, TargetFrame::height, 1.0f);
-  TargetView target = box_target("cup", middle_box);
-  target.region = RenderedRegion{depth.view(), nullptr};
-  target.expected_depth = 1.0;
-  EXPECT_NE(fault_of(target), "no fault");
-  target.expected_depth = {};
-  EXPECT_EQ(fault_of(target), "no fault");
-  target.extent = Extent::modal;
-  EXPECT_NE(fault_of(target), "no fault");
+    EXPECT_TRUE(test::holds(fault_of(target), part));
+  }
 }
 
 TEST(BadTargets, ANameTwiceInAFrame) {
@@ -85,19 +71,6 @@ TEST(BadTargets, ANameTwiceInAFrame) {
   EXPECT_THROW((void)judge.judge(box_target("cup", middle_box)), InputError);
   judge.begin(frame.images());
   EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::visible);
-}
-
-TEST(BadTargets, ImagesOfAnotherSize) {
-  TargetFrame frame;
-  const Image<float> small(10, 10);
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  LabelledImages images = frame.images();
-  images.measured = small.view();
-  EXPECT_THROW(judge.begin(images), InputError);
-  images = frame.images();
-  images.virtual_depth.depth = small.view();
-  EXPECT_THROW(judge.begin(images), InputError);
-  EXPECT_THROW(judge.begin({}), InputError);
 }
 
 }  // namespace

@@ -74,21 +74,5 @@ TEST(Measured, HolesLeftOfWhatTheRobotHidesAreNotPartial) {
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::hidden);
 }
 
-/// Thin air before a wall that the sensor does not reach.
-TEST(Measured, WhatIsOutOfTheSensorsRangeIsNotMeasured) {
-  LabelRule rule = TargetFrame::without_cleanup();
-  rule.range = {0.3, 1.6};
-  TargetFrame frame(rule);
-  TargetView target = box_target("air", middle_box);
-  target.expected_depth = 1.5;
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
-  frame.see(40, 40, 60, 60, 1.5f);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
-  frame.see(40, 40, 60, 60, 0.1f);
-  const Judgement near = judge_once(frame, target);
-  EXPECT_EQ(near.verdict, Verdict::unknown);
-  EXPECT_EQ(*near.hidden_by_other, 0.0);
-}
-
 }  // namespace
 }  // namespace penumbra

@@ -54,14 +54,6 @@ TEST_F(ModalTargets, AreJudgedByTheirLastGoodExtentToo) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
 }
 
-TEST_F(ModalTargets, DoNotCreepOutOfSight) {
-  // The robot advances slower than the threshold from frame to frame.
-  for (int robot = 100; robot > 21; --robot) {
-    const bool hides_much = robot < 58;
-    EXPECT_EQ(see(20, robot).verdict != Verdict::visible, hides_much) << robot;
-  }
-}
-
 /// The target moves, and it is not said how far: its last whole extent is free of robot.
 TEST_F(ModalTargets, DoNotSlipBehindTheRobot) {
   constexpr int robot = 100;
@@ -140,16 +132,6 @@ TEST_F(ModalTargets, ThatMoveAreBlamedRightlyWhereMotionIsKnown) {
   EXPECT_EQ(half.unknown, 0);
 }
 
-TEST_F(ModalTargets, KeepTheirPlaceThroughFramesBesideTheRobot) {
-  constexpr int robot = 100;
-  EXPECT_EQ(see(20, robot).verdict, Verdict::visible);
-  // Visible, yet two columns smaller next to the robot: the extent stays, and moves with the
-  // target.
-  EXPECT_EQ(see(62, robot, 42.0).verdict, Verdict::visible);
-  const Judgement half = see(80, robot, 18.0);
-  EXPECT_NEAR(half.occluded, 0.5, share_rounding);
-}
-
 TEST_F(ModalTargets, FirstSeenBesideTheRobotAreUnknown) {
   const Judgement first = see(70, 100);
   EXPECT_EQ(first.verdict, Verdict::unknown);
@@ -161,30 +143,12 @@ TEST_F(ModalTargets, FirstSeenBesideTheRobotAreUnknown) {
   EXPECT_EQ(see(60, 100).verdict, Verdict::visible) << "all of it is seen";
 }
 
-TEST_F(ModalTargets, AreJudgedByTheirLastExtentHoweverLong) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  for (int i = 0; i < many_frames; ++i) ASSERT_EQ(see(20, 40).verdict, Verdict::partial) << i;
-}
-
 TEST_F(ModalTargets, ThatAMaskShowsFarFromTheRobotStayHiddenHoweverLong) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
   for (int i = 0; i < many_frames; ++i)
     ASSERT_NE(see(20, 45, {}, wide_gap).verdict, Verdict::visible) << i;
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
   EXPECT_EQ(see(20, 40).verdict, Verdict::partial) << "the last whole extent is remembered";
-}
-
-TEST_F(ModalTargets, DoNotCreepOutOfSightFarFromTheRobot) {
-  for (int robot = 120; robot > 21 + wide_gap; --robot) {
-    const Verdict verdict = see(20, robot, {}, wide_gap).verdict;
-    EXPECT_TRUE(verdict != Verdict::visible || robot >= 58) << robot;
-  }
-}
-
-/// The mask, 24 px from the robot, shows 10 of 40 columns; the next ones may be behind the robot.
-TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsAwayFromTheRobot) {
-  EXPECT_EQ(see(90, 145).verdict, Verdict::visible);
-  EXPECT_EQ(see(90, 124, -60.0, 24).verdict, Verdict::unknown);
 }
 
 /// Masks of 39 to 41 columns are the same size; a target that moves away from the camera is not.
@@ -236,12 +200,6 @@ TEST_F(ModalTargets, ThatLeaveTheImageAreOutOfView) {
   EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
 }
 
-TEST_F(ModalTargets, BesideTheRobotAreUnknownWhereTheyWereNotExpected) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  // Said to have left the image, yet a small part of it is seen next to the robot.
-  EXPECT_EQ(see(95, 100, -500.0).verdict, Verdict::unknown);
-}
-
 /// What is left of the extent in the image, 8 columns, is less than the mask shows.
 TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsOutOfTheImage) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
@@ -249,16 +207,6 @@ TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsOutOfTheImage) {
   judge.forget("cup");
   EXPECT_EQ(see(5, 100).verdict, Verdict::visible);
   EXPECT_EQ(see(0, 15, -37.0, 3).verdict, Verdict::unknown) << "the mask is larger than that";
-}
-
-TEST_F(ModalTargets, ThatLeaveTheImageBesideTheRobotStayVisible) {
-  EXPECT_EQ(see(5, 100).verdict, Verdict::visible);
-  TargetFrame frame;
-  frame.add_robot(22, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-  TargetView target = box_target("cup", {-28, 40, 40, 20}, Extent::modal);
-  target.motion = Eigen::Vector2d(-33, 0);
-  judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(target).verdict, Verdict::visible);
 }
 
 /// It comes into the image, of which its border shows 10 of 40 columns, and goes behind the robot.
@@ -275,34 +223,6 @@ TEST_F(ModalTargets, OfWhichTheBorderCutsSomeAreNotKnownWhole) {
     EXPECT_EQ(see(5, 46, 0.0).verdict, Verdict::visible);
     EXPECT_EQ(see(5, 30, 0.0).verdict, Verdict::partial);
   }
-}
-
-TEST_F(ModalTargets, AreCutByEachBorder) {
-  depth = behind;
-  const auto after = [&](const PixelBox& first) {
-    judge.forget("cup");
-    for (const bool with_robot : {false, true}) {
-      TargetFrame frame;
-      if (with_robot) frame.add_robot(90, 40, 100, 60, 1.0f, 1);
-      judge.begin(frame.images());
-      const PixelBox seen = with_robot ? PixelBox{60, 40, 30, 20} : first;
-      TargetView target = box_target("cup", seen, Extent::modal);
-      target.expected_depth = depth;
-      const Verdict verdict = judge.judge(target).verdict;
-      if (with_robot) return verdict;
-      EXPECT_EQ(verdict, Verdict::visible);
-    }
-    return Verdict::visible;
-  };
-  EXPECT_EQ(after({60, 50, 20, 20}), Verdict::visible);
-  constexpr int margin = 4;  // a mask of a quarter of the image's size ends so far from the border
-  EXPECT_EQ(after({margin, margin, 20, 20}), Verdict::visible);
-  EXPECT_EQ(after({margin - 1, 40, 20, 20}), Verdict::unknown);
-  EXPECT_EQ(after({60, margin - 1, 20, 20}), Verdict::unknown);
-  const int u = TargetFrame::width - 20 - margin, v = TargetFrame::height - 20 - margin;
-  EXPECT_EQ(after({1.0 * u, 1.0 * v, 20, 20}), Verdict::visible);
-  EXPECT_EQ(after({u + 1.0, 40, 20, 20}), Verdict::unknown);
-  EXPECT_EQ(after({60, v + 1.0, 20, 20}), Verdict::unknown);
 }
 
 /// A rectified image whose left part the camera did not see.
@@ -322,12 +242,6 @@ TEST_F(ModalTargets, AreCutWhereTheCameraSawNothing) {
 TEST_F(ModalTargets, ThatTheBorderCutsAreVisibleAwayFromTheRobot) {
   for (int u = -30; u <= 60; u += 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
   for (int u = 60; u >= -30; u -= 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
-}
-
-TEST_F(ModalTargets, AreForgottenOnRequest) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  judge.forget("cup");
-  EXPECT_EQ(see(20, 40).verdict, Verdict::unknown);
 }
 
 }  // namespace

@@ -83,28 +83,47 @@ class TargetOracle : public testing::Test {
     test::Corners corners;
     std::vector<std::uint32_t> counts;
     Image<float> depth;
+    std::size_t covered = 0;   // pixels by geometry, outside of the image too
+    double covered_error = 0;  // by which the count may be off
   };
 
   /// A region, and its pixels by geometry.
   void choose_shape(Shape& shape, int width, int height) {
     const Eigen::Vector2d centre(number(0, width), number(0, height));
     const auto paint = [&](const auto& place) {
+      constexpr int margin = 50;  // pixels around the image that hold all of it
       shape.mask = Image<std::uint8_t>(width, height);
-      for (int v = 0; v < height; ++v)
-        for (int u = 0; u < width; ++u)
-          shape.mask(u, v) = place(Eigen::Vector2d(u, v)) == test::Place::inside ? 1 : 0;
+      for (int v = -margin; v < height + margin; ++v) {
+        for (int u = -margin; u < width + margin; ++u) {
+          if (place(Eigen::Vector2d(u, v)) != test::Place::inside) continue;
+          ++shape.covered;
+          if (u >= 0 && v >= 0 && u < width && v < height) shape.mask(u, v) = 1;
+        }
+      }
     };
-    const std::size_t kind = below(5);
+    const std::size_t kind = below(7);
     if (kind == 0) {
       const PixelBox box{centre.x() - 8, centre.y() - 9, number(2, 40), number(2, 40)};
       shape.region = box;
       paint([&](const auto& p) { return test::place_in_box(box, p); });
       return;
     }
+    if (kind >= 5) {  // a star, or an outline that crosses itself
+      if (kind == 5)
+        shape.corners = test::random_star(random, centre, number(5, 40), 3 + below(30));
+      for (std::size_t n = kind == 5 ? 0 : 4 + below(8); n > 0; --n)
+        shape.corners.emplace_back(number(-30, width + 30), number(-30, height + 30));
+      shape.region = PixelPolygon{shape.corners};
+      paint([&](const auto& p) { return test::place_in_polygon(shape.corners, p); });
+      return;
+    }
     const PixelEllipse ellipse{centre, {number(2, 25), number(2, 25)}, number(0, 3)};
     shape.region = ellipse;
     paint([&](const auto& p) { return test::place_in_ellipse(ellipse, p); });
+    shape.covered_error = test::area_error(ellipse, width, height);
     if (kind == 1) return;
+    shape.covered = 0;
+    shape.covered_error = 0;
     shape.mask(static_cast<int>(below(static_cast<std::size_t>(width))), 0) = 1;
     if (kind == 2) shape.region = PixelMask{shape.mask.view()};
     if (kind == 3) {
@@ -157,6 +176,10 @@ class TargetOracle : public testing::Test {
     const test::NaiveJudgement truth = naive.judge();
     const Judgement judged = judge.judge(target);
     expect_same(judged, truth);
+    const std::size_t covered =
+        std::max<std::size_t>(shape.covered > 0 ? shape.covered : truth.inside, 1);
+    EXPECT_NEAR(static_cast<double>(judged.covered), static_cast<double>(covered),
+                shape.covered_error);
     expect_same_point(judged, truth);
     points += judged.point ? 1 : 0;
     others += truth.other > 0 ? 1 : 0;

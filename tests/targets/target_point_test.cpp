@@ -52,48 +52,6 @@ TEST(TargetPoints, UndoLensDistortion) {
   EXPECT_LT((*judgement.point - 2.0 * Eigen::Vector3d(truth.x(), truth.y(), 1)).norm(), metres);
 }
 
-TEST(TargetPoints, AreMediansWithTheirSpread) {
-  TargetFrame frame;
-  auto random = test::seeded_random(43);
-  constexpr double sigma = 0.004;
-  std::normal_distribution<double> noise(1.2, sigma);
-  for (int v = 20; v < 80; ++v)
-    for (int u = 20; u < 80; ++u) frame.measured(u, v) = static_cast<float>(noise(random));
-  frame.see(20, 20, 80, 35, 0.4f);  // a quarter is something else
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  TargetView target = box_target("cup", {20, 20, 60, 60});
-  target.expected_depth = 1.2;
-  target.thresholds.others_hide = false;
-  const Judgement judgement = judge.judge(target);
-  ASSERT_TRUE(judgement.point);
-  // One pixel in four is asked. Five standard errors of 675 values: of a median 1.25 sigma /
-  // sqrt(n), of a MAD about as much.
-  constexpr double error = 5 * 1.25 * sigma / 26;
-  EXPECT_NEAR(judgement.point->z(), 1.2, error);
-  EXPECT_NEAR(judgement.point_spread, sigma, error);
-  constexpr double missed = 60;  // one pixel in each of the 60 rows
-  EXPECT_NEAR(static_cast<double>(judgement.point_pixels), 2700, missed);
-}
-
-TEST(TargetPoints, LeaveOutWhatIsNotAsFarAsExpected) {
-  TargetFrame frame;
-  frame.see(40, 40, 51, 60, 1.0f);  // the others are of the wall
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  TargetView target = box_target("cup", {40, 40, 20, 20});
-  target.expected_depth = 1.01;
-  Judgement judgement = judge.judge(target);
-  ASSERT_TRUE(judgement.point);
-  EXPECT_NEAR(judgement.point->z(), 1.0, metres);
-  EXPECT_EQ(judgement.point_pixels, 220u);
-  target.name = "elsewhere";
-  target.expected_depth = 1.5;
-  target.thresholds.others_hide = false;
-  judgement = judge.judge(target);
-  EXPECT_FALSE(judgement.point);
-}
-
 TEST(TargetPoints, NeedEnoughTrustedPixels) {
   TargetFrame frame;
   std::fill_n(frame.measured.data(), frame.measured.size(), 0.0f);
@@ -129,57 +87,6 @@ TEST(TargetPoints, AreNotOfTheRobotsBody) {
     EXPECT_EQ(judgement.verdict, Verdict::visible);
     EXPECT_FALSE(judgement.point) << seen;
   }
-}
-
-TEST(TargetPoints, OfThingsBeforeOrBehindTheRobotAreKept) {
-  for (const float seen : {0.7f, 1.3f}) {
-    TargetFrame frame;
-    frame.add_robot(60, 0, 100, TargetFrame::height, 1.0f, 1);
-    frame.see(45, 30, 60, 60, seen);
-    TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-    judge.begin(frame.images());
-    const Judgement judgement = judge.judge(box_target("cup", {50, 40, 10, 10}));
-    ASSERT_TRUE(judgement.point) << seen;
-    EXPECT_NEAR(judgement.point->z(), static_cast<double>(seen), metres);
-  }
-}
-
-TEST(TargetPoints, OfAHandBeforeTheArmAreTheHands) {
-  TargetFrame frame{LabelRule{}};
-  frame.add_robot(40, 0, 120, TargetFrame::height, 1.0f, 1);
-  frame.see(60, 40, 90, 70, 0.8f);
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  const Judgement judgement = judge.judge(box_target("hand", {65, 45, 20, 20}));
-  EXPECT_EQ(judgement.verdict, Verdict::visible);
-  EXPECT_EQ(judgement.front, 1.0);
-  ASSERT_TRUE(judgement.point);
-  EXPECT_NEAR(judgement.point->z(), 0.8, metres);
-}
-
-TEST(TargetPoints, AreNotGivenWhereTheRobotHides) {
-  TargetFrame frame;
-  frame.add_robot(40, 40, 60, 58, 1.0f, 1);
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  TargetView target = box_target("cup", {40, 40, 20, 20});
-  target.thresholds.hidden_enter = 0.85;
-  target.thresholds.point_min_fraction = 0;
-  const Judgement judgement = judge.judge(target);
-  EXPECT_EQ(judgement.verdict, Verdict::hidden);
-  EXPECT_FALSE(judgement.point);
-}
-
-TEST(TargetPoints, OfMillimetresAreThoseOfMetres) {
-  TargetFrame frame;
-  Image<std::uint16_t> depth(TargetFrame::width, TargetFrame::height, 1234);
-  LabelledImages images = frame.images();
-  images.measured = depth.view();
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(images);
-  const Judgement judgement = judge.judge(box_target("cup", {40, 40, 20, 20}));
-  ASSERT_TRUE(judgement.point);
-  EXPECT_NEAR(judgement.point->z(), 1.234, metres);
 }
 
 }  // namespace

@@ -50,6 +50,19 @@ inline Place place_in_ellipse(const PixelEllipse& ellipse, const Eigen::Vector2d
   return r < 1 ? Place::inside : Place::outside;
 }
 
+/// How far the number of pixels in an ellipse can be from its area: half the length of a convex
+/// outline and 1 (Nosarzewska 1948), and half a pixel that rounding adds. 0 if all of the ellipse
+/// lies in the image: then its pixels are counted.
+inline double area_error(const PixelEllipse& ellipse, int width, int height) {
+  const double c = std::cos(ellipse.angle), s = std::sin(ellipse.angle);
+  const double a = ellipse.semi_axes.x(), b = ellipse.semi_axes.y();
+  const Eigen::Array2d reach(std::hypot(a * c, b * s), std::hypot(a * s, b * c));
+  const Eigen::Array2d low = ellipse.centre.array() - reach, high = ellipse.centre.array() + reach;
+  if (low.minCoeff() >= 0 && high.x() <= width - 1 && high.y() <= height - 1) return 0;
+  const double longest_outline = std::numbers::pi * std::sqrt(2 * (a * a + b * b));
+  return longest_outline / 2 + 1.5;
+}
+
 inline Place place_in_box(const PixelBox& box, const Eigen::Vector2d& p) {
   const bool inside =
       box.u <= p.x() && p.x() < box.u + box.width && box.v <= p.y() && p.y() < box.v + box.height;

@@ -43,49 +43,47 @@ Count count(bool with_robot, float measured, std::optional<double> expected, boo
 
 constexpr double behind_robot = 1.3, at_robot = 1.01, before_robot = 0.8;
 
-TEST(TargetPixels, WithoutExpectedDepthGoByTheirLabels) {
-  EXPECT_EQ(count(false, 2.0f, {}), Count::clear);
-  EXPECT_EQ(count(false, hole, {}), Count::clear);
-  EXPECT_EQ(count(true, 0.8f, {}), Count::front);
-  EXPECT_EQ(count(true, 1.0f, {}), Count::occluded);
-  EXPECT_EQ(count(true, hole, {}), Count::unknown);
-  EXPECT_EQ(count(true, 1.1f, {}), Count::occluded);
-  EXPECT_EQ(count(true, 1.1f, {}, false), Count::clear);
-}
-
-TEST(TargetPixels, RobotBeforeTheTargetHidesItWithoutMeasurement) {
-  EXPECT_EQ(count(true, 0.8f, behind_robot), Count::occluded);
-  EXPECT_EQ(count(true, 1.0f, behind_robot), Count::occluded);
-  EXPECT_EQ(count(true, hole, behind_robot), Count::occluded);
-  EXPECT_EQ(count(true, 1.3f, behind_robot), Count::occluded);
-  EXPECT_EQ(count(true, 1.3f, behind_robot, false), Count::clear);
-  EXPECT_EQ(count(true, 1.1f, behind_robot, false), Count::other);
-}
-
-TEST(TargetPixels, RobotAtTheTargetIsNotToldFromIt) {
-  EXPECT_EQ(count(true, 0.98f, at_robot), Count::occluded);
-  EXPECT_EQ(count(true, 0.9785f, 0.99), Count::front);
-  EXPECT_EQ(count(true, 1.0f, at_robot), Count::unknown);
-  EXPECT_EQ(count(true, hole, at_robot), Count::unknown);
-  EXPECT_EQ(count(true, 1.1f, at_robot), Count::unknown);
-  EXPECT_EQ(count(true, 1.1f, at_robot, false), Count::clear);
-  EXPECT_EQ(count(true, 0.8f, at_robot), Count::other);
-}
-
-TEST(TargetPixels, RobotBehindTheTargetHidesNothing) {
-  EXPECT_EQ(count(true, 0.8f, before_robot), Count::front);
-  EXPECT_EQ(count(true, 1.0f, before_robot), Count::clear);
-  EXPECT_EQ(count(true, hole, before_robot), Count::clear);
-  EXPECT_EQ(count(true, 1.1f, before_robot), Count::clear);
-  EXPECT_EQ(count(true, 0.6f, before_robot), Count::other);
-}
-
-TEST(TargetPixels, BesideTheRobotOthersMayHide) {
-  EXPECT_EQ(count(false, 0.8f, 0.8), Count::clear);
-  EXPECT_EQ(count(false, 0.79f, 0.8), Count::clear);
-  EXPECT_EQ(count(false, 0.7f, 0.8), Count::other);
-  EXPECT_EQ(count(false, 2.0f, 0.8), Count::clear);
-  EXPECT_EQ(count(false, hole, 0.8), Count::clear);
+TEST(TargetPixels, CountByRobotMeasurementAndExpectedDepth) {
+  using enum Count;
+  struct Case {
+    bool with_robot;
+    float measured;
+    std::optional<double> expected;
+    Count count, beyond_is_seen;  // as by default, and where what is beyond does not hide
+  };
+  for (const Case& each :
+       std::initializer_list<Case>{{false, 2.0f, {}, clear, clear},
+                                   {false, hole, {}, clear, clear},
+                                   {true, 0.8f, {}, front, front},
+                                   {true, 1.0f, {}, occluded, occluded},
+                                   {true, hole, {}, unknown, unknown},
+                                   {true, 1.1f, {}, occluded, clear},
+                                   // A robot before the target hides it, whatever is measured.
+                                   {true, 0.8f, behind_robot, occluded, occluded},
+                                   {true, 1.0f, behind_robot, occluded, occluded},
+                                   {true, hole, behind_robot, occluded, occluded},
+                                   {true, 1.3f, behind_robot, occluded, clear},
+                                   {true, 1.1f, behind_robot, occluded, other},
+                                   // A robot at the target's depth is not told from it.
+                                   {true, 0.98f, at_robot, occluded, occluded},
+                                   {true, 1.0f, at_robot, unknown, unknown},
+                                   {true, hole, at_robot, unknown, unknown},
+                                   {true, 1.1f, at_robot, unknown, clear},
+                                   {true, 0.8f, at_robot, other, other},
+                                   // A robot behind the target hides nothing.
+                                   {true, 0.8f, before_robot, front, front},
+                                   {true, 1.0f, before_robot, clear, clear},
+                                   {true, hole, before_robot, clear, clear},
+                                   {true, 0.6f, before_robot, other, other},
+                                   // Beside the robot other things may hide.
+                                   {false, 0.79f, before_robot, clear, clear},
+                                   {false, 0.7f, before_robot, other, other},
+                                   {false, hole, before_robot, clear, clear}}) {
+    SCOPED_TRACE(testing::Message() << each.with_robot << ", measured " << each.measured
+                                    << ", expected " << each.expected.value_or(0));
+    EXPECT_EQ(count(each.with_robot, each.measured, each.expected), each.count);
+    EXPECT_EQ(count(each.with_robot, each.measured, each.expected, false), each.beyond_is_seen);
+  }
 }
 
 TEST(TargetPixels, AMarginWidensWhereTheTargetMayLie) {
@@ -179,29 +177,8 @@ TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
   target.depth_margin = 0;
   target.thresholds.past_limit = 0.4;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
-  target.thresholds.past_limit = 1;
-  frame.see(40, 40, 60, 60, 2.0f);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible) << "however much";
-  target.thresholds.past_limit = 0;
-  frame.see(40, 40, 60, 60, 1.5f);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
-  frame.see(40, 45, 41, 46, 2.0f);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "one is above the limit";
-  frame.see(40, 40, 60, 60, hole);
-  EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
   target.expected_depth = {};
   EXPECT_FALSE(judge_once(frame, target).seen_past) << "no depth is expected";
-}
-
-/// Half hidden, the rest in thin air: nothing of it was seen.
-TEST(Judging, WhatTheSensorLooksPastIsNotPartialButMayBeHidden) {
-  TargetFrame frame;
-  frame.add_robot(40, 40, 60, 50, 1.0f, 1);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = 1.5;
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
-  frame.add_robot(40, 50, 60, 59, 1.0f, 1);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::hidden);
 }
 
 TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
@@ -218,46 +195,6 @@ TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
   frame.see(40, 40, 60, 46, 1.0f);
   frame.see(40, 46, 60, 60, hole);
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "partial: none of it is seen";
-}
-
-TEST(Judging, WithoutTheRobotsPoseAllIsUnknown) {
-  TargetFrame frame;
-  LabelledImages images = frame.images();
-  images.virtual_depth = {};
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(images);
-  TargetView target = box_target("cup", middle_box);
-  target.thresholds.unknown_limit = 1;
-  target.expected_depth = 1.0;
-  const Judgement judgement = judge.judge(target);
-  EXPECT_EQ(judgement.verdict, Verdict::unknown);
-  EXPECT_EQ(judgement.unknown, 1.0);
-  EXPECT_FALSE(judgement.hidden_by_other);
-  EXPECT_FALSE(judgement.point);
-  EXPECT_EQ(judgement.reason, "the robot's pose is not known in this frame");
-  EXPECT_EQ(judge.judge(box_target("away", {-50, 0, 20, 20})).verdict, Verdict::out_of_view);
-}
-
-TEST(Judging, WithoutDepthOnlyWhatIsRobotIsUnknown) {
-  TargetFrame frame;
-  frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
-  std::fill_n(frame.measured.data(), frame.measured.size(), hole);
-  LabelledImages images = frame.images();
-  images.measured = {};
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(images);
-  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::unknown);
-  const Judgement beside = judge.judge(box_target("plate", {80, 80, 9, 9}));
-  EXPECT_EQ(beside.verdict, Verdict::visible);
-  EXPECT_FALSE(beside.point);
-  TargetView behind = box_target("pan", middle_box);
-  behind.expected_depth = behind_robot;
-  TargetView known = box_target("lid", {80, 80, 9, 9});
-  known.expected_depth = behind_robot;
-  EXPECT_EQ(judge.judge(known).verdict, Verdict::unknown) << "nothing says that it is there";
-  const Judgement hidden = judge.judge(behind);
-  EXPECT_EQ(hidden.verdict, Verdict::hidden);
-  EXPECT_FALSE(hidden.hidden_by_other);
 }
 
 TEST(Verdicts, TooMuchUnknownIsUnknownUnlessTheRestDecides) {
@@ -332,14 +269,6 @@ TEST(Verdicts, OutOfView) {
   TargetView rendered = box_target("rendered", middle_box);
   rendered.region = RenderedRegion{nothing.view(), nullptr};
   EXPECT_EQ(judge.judge(rendered).verdict, Verdict::out_of_view);
-}
-
-TEST(Verdicts, HaveNames) {
-  EXPECT_EQ(to_string(Verdict::visible), "visible");
-  EXPECT_EQ(to_string(Verdict::partial), "partial");
-  EXPECT_EQ(to_string(Verdict::hidden), "hidden");
-  EXPECT_EQ(to_string(Verdict::unknown), "unknown");
-  EXPECT_EQ(to_string(Verdict::out_of_view), "out_of_view");
 }
 
 }  // namespace

@@ -76,17 +76,6 @@ std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t
   return a;
 }
 
-Robot every_kind() {
-  std::string body = link_xml("l0");
-  const char* types[] = {"revolute", "continuous", "floating", "prismatic",
-                         "planar",   "floating",   "fixed"};
-  for (std::size_t i = 0; i < std::size(types); ++i)
-    body += link_xml("l" + std::to_string(i + 1)) +
-            joint_xml("j" + std::to_string(i), types[i], "l" + std::to_string(i),
-                      "l" + std::to_string(i + 1), "<axis xyz=\"0 0 1\"/>");
-  return parse(robot_xml(body));
-}
-
 bool turns(const std::string& name) { return name == "j1" || name.ends_with("/yaw"); }
 
 class Fuzz {

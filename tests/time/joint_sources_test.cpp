@@ -226,15 +226,6 @@ TEST(JointSources, ASuccessorIsComparedSinceItBegan) {
   EXPECT_EQ(answer_at(1400, {driver, second, elsewhere}).status, JointStatus::disputed);
 }
 
-TEST(JointSources, OnOneStampTheLastValueOfASourceCounts) {
-  OneJoint joint;
-  joint.add(10 * ms, 0.3, "driver");
-  joint.add(10 * ms, 0.4, "driver");
-  EXPECT_EQ(joint.at(10 * ms).positions[0], 0.4);
-  joint.add(10 * ms, 0.0, "sliders");
-  EXPECT_EQ(joint.at(10 * ms).status, JointStatus::disputed);
-}
-
 TEST(JointSources, WheelsAgreeWhetherTurnsAreCountedOrNot) {
   // 12 rad/s, from encoders that are read at half the rate.
   const auto read = [](double step) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -45,62 +44,14 @@ class Transforms : public testing::Test {
   TransformAnswer answer_;
 };
 
-TEST_F(Transforms, MovesStraightAndTurnsAtConstantSpeed) {
-  buffer_.insert(100 * kMs, "base", "arm", shift(1, 2, 3) * turn_z(0.2));
-  buffer_.insert(180 * kMs, "base", "arm", shift(2, 2, 1) * turn_z(1.0));
-  const TransformAnswer& answer = at(120 * kMs, "base", "arm");
-  ASSERT_EQ(answer.status, TransformStatus::ok);
-  EXPECT_TRUE(answer.T_target_source.isApprox(shift(1.25, 2, 2.5) * turn_z(0.4), kTolerance));
-  EXPECT_EQ(answer.age, 60 * kMs);
-  EXPECT_FALSE(answer.is_static);
-}
-
-TEST_F(Transforms, TurnsTheShortWayWhateverTheSignOfTheQuaternion) {
-  const double pi = std::numbers::pi;
-  buffer_.insert(1 * kMs, "base", "arm", turn_z(pi - 0.1));
-  buffer_.insert(3 * kMs, "base", "arm", turn_z(-pi + 0.3));
-  EXPECT_TRUE(at(2 * kMs, "base", "arm").T_target_source.isApprox(turn_z(pi + 0.1), kTolerance));
-}
-
-TEST_F(Transforms, NothingIsExtrapolated) {
-  buffer_.insert(100 * kMs, "base", "arm", shift(1));
-  EXPECT_EQ(at(100 * kMs, "base", "arm").status, TransformStatus::ok);
-  EXPECT_EQ(answer_.age, 0);
-  for (const std::int64_t stamp : {100 * kMs - 1, 100 * kMs + 1, std::int64_t{0}})
-    EXPECT_EQ(at(stamp, "base", "arm").status, TransformStatus::stale) << stamp;
-  buffer_.insert(200 * kMs, "base", "arm", shift(2));
-  EXPECT_EQ(at(150 * kMs, "base", "arm").status, TransformStatus::ok);
-  buffer_.insert(300 * kMs + 1, "base", "arm", shift(3));
-  EXPECT_EQ(at(250 * kMs, "base", "arm").status, TransformStatus::stale);
-  EXPECT_TRUE(holds(answer_.message, "'arm' in 'base'"));
-  EXPECT_TRUE(holds(answer_.message, "100 ms apart"));
-}
-
-TEST_F(Transforms, ATurnOfMoreThanARightAngleIsNotGuessed) {
-  buffer_.insert(1 * kMs, "base", "arm", turn_z(0.0));
-  buffer_.insert(2 * kMs, "base", "arm", turn_z(1.57));
-  buffer_.insert(3 * kMs, "base", "arm", turn_z(1.57 + 1.58));
-  EXPECT_EQ(at(1 * kMs + 1, "base", "arm").status, TransformStatus::ok);
-  EXPECT_EQ(at(2 * kMs + 1, "base", "arm").status, TransformStatus::stale);
-  EXPECT_TRUE(holds(answer_.message, "right angle"));
-}
-
-TEST_F(Transforms, GoesUpAndDownTheTree) {
-  buffer_.insert_static("base", "pole", shift(0, 0, 1));
-  buffer_.insert_static("/pole", "/camera", turn_z(0.5));
+TEST_F(Transforms, OnlyWhatLiesBetweenCountsForIsStatic) {
+  buffer_.insert_static("/base", "/pole", shift(0, 0, 1));
   buffer_.insert(1 * kMs, "base", "arm", turn_z(0.7));
   buffer_.insert_static("arm", "tool", shift(0.3));
-  const Eigen::Isometry3d T_base_camera = shift(0, 0, 1) * turn_z(0.5);
-  const Eigen::Isometry3d T_base_tool = turn_z(0.7) * shift(0.3);
-  EXPECT_TRUE(at(1 * kMs, "camera", "tool")
-                  .T_target_source.isApprox(T_base_camera.inverse() * T_base_tool, kTolerance));
-  EXPECT_TRUE(at(1 * kMs, "tool", "camera")
-                  .T_target_source.isApprox(T_base_tool.inverse() * T_base_camera, kTolerance));
-  EXPECT_TRUE(at(9 * kMs, "base", "camera").T_target_source.isApprox(T_base_camera, kTolerance));
-  EXPECT_TRUE(answer_.is_static);
-  EXPECT_TRUE(at(9 * kMs, "arm", "tool").is_static) << "only what lies between counts";
+  EXPECT_FALSE(at(1 * kMs, "pole", "tool").is_static);
+  EXPECT_TRUE(at(9 * kMs, "base", "pole").is_static);
+  EXPECT_TRUE(at(9 * kMs, "arm", "tool").is_static);
   EXPECT_EQ(at(9 * kMs, "tool", "tool").status, TransformStatus::ok);
-  EXPECT_TRUE(answer_.T_target_source.isApprox(Eigen::Isometry3d::Identity(), kTolerance));
 }
 
 TEST_F(Transforms, WhatIsMissingIsNamed) {
@@ -220,7 +171,7 @@ TEST(TransformOptions, AreChecked) {
        {TransformBufferOptions{.max_gap = -1.0}, TransformBufferOptions{.history = 1e12},
         TransformBufferOptions{.max_states = 0}, TransformBufferOptions{.max_frames = 0},
         TransformBufferOptions{.max_depth = 0}})
-    EXPECT_TRUE(holds(message_of([&] { TransformBuffer buffer(options); }), "transform buffer"));
+    expect_refused([&] { TransformBuffer buffer(options); }, {"transform buffer"});
 }
 
 TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {

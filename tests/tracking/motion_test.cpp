@@ -4,8 +4,6 @@
 #include "../support/random.hpp"
 #include "tracks.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 namespace penumbra::test {
@@ -46,29 +44,6 @@ TEST(PoseMotion, ConstantTwistIsCarriedOnExactly) {
   }
 }
 
-TEST(PoseMotion, ManyTurnsAreCarriedOn) {
-  Twisting truth;
-  truth.turning = {0, 0, 4.0};  // 8 rad until the end
-  PoseTrackerConfig config;
-  config.angular_speed_sigma = 5;
-  const auto pose = follow(config, [&](double t) { return truth.at(t); });
-  EXPECT_LT(difference(pose.pose, truth.at(seen_until + hidden)).norm(), converged);
-}
-
-TEST(PoseMotion, AStepIsNoLongerThanItsParts) {
-  PoseTrackerConfig config;
-  config.position_sigma = 1e-6;  // twist as good as known after two estimates
-  config.orientation_sigma = 1e-6;
-  PoseTracker tracker(config);
-  Twisting truth;
-  truth.velocity = {0.2, -0.1, 0.05};
-  truth.turning = {0.4, 0.2, -0.6};
-  tracker.update({stamp_at(0), truth.at(0), {}}, Verdict::visible);
-  tracker.update({stamp_at(frame), truth.at(frame), {}}, Verdict::visible);
-  const double far = 1e-2;  // process noise is larger than the estimates': velocity is a difference
-  EXPECT_LT(difference(tracker.at(stamp_at(2)).pose, truth.at(2)).norm(), far);
-}
-
 TEST(PoseMotion, ConveyorKeepsItsDirection) {
   Twisting truth;
   truth.start.linear() = turn({0.1, 0.2, 0.3});
@@ -99,49 +74,6 @@ TEST(PoseMotion, ConveyorOfKnownSpeedIsRightFromOneEstimate) {
             1e-12);
 }
 
-TEST(PoseMotion, AcrossTheConveyorNoVelocityIsLearnt) {
-  Twisting truth;
-  truth.velocity = {0.2, 0.02, 0};
-  PoseTrackerConfig config;
-  config.motion = Motion::along_direction;
-  config.direction = {1, 0, 0};
-  const auto pose = follow(config, [&](double t) { return truth.at(t); });
-  EXPECT_NEAR(pose.twist[0], 0.2, converged);
-  EXPECT_EQ(pose.twist[1], 0);
-  EXPECT_LT(pose.pose.translation().y(), truth.at(seen_until).translation().y());
-}
-
-TEST(PoseMotion, ConstantVelocityKeepsOrientation) {
-  Twisting truth;
-  truth.start.linear() = turn({-0.3, 0.9, 0.1});
-  truth.velocity = {0.1, 0.2, -0.3};
-  PoseTrackerConfig config;
-  config.motion = Motion::constant_velocity;
-  const auto pose = follow(config, [&](double t) { return truth.at(t); });
-  EXPECT_LT(difference(pose.pose, truth.at(seen_until + hidden)).norm(), converged);
-  EXPECT_EQ(pose.twist.tail<3>().norm(), 0);
-}
-
-TEST(PoseMotion, StillAveragesAndIsHeld) {
-  auto random = seeded_random(402);
-  PoseTrackerConfig config;
-  config.motion = Motion::still;
-  config.drift = 0;
-  config.angular_drift = 0;
-  config.gate = 1e6;
-  const Eigen::Isometry3d truth = random_pose(random);
-  const Vector6d noise = sigmas(config.position_sigma, 0);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const auto pose = follow(config, [&](double) {
-    auto seen = moved(truth, noise.cwiseProduct(normal<6>(random)));
-    sum += seen.translation();
-    return seen;
-  });
-  EXPECT_LT((pose.pose.translation() - sum / frames).norm(), 1e-12);  // the mean is the best
-  EXPECT_NEAR(pose.covariance(0, 0), config.position_sigma * config.position_sigma / frames, 1e-12);
-  EXPECT_EQ(pose.source, Source::held);
-}
-
 // On a circle of radius r at angular speed w the acceleration is w^2 r: a prediction of T seconds
 // that went on straight is off by r |e^(iwT) - 1 - iwT|, to which comes the lag of the velocity.
 TEST(PoseMotion, CircleIsLeftOnItsTangent) {
@@ -160,20 +92,6 @@ TEST(PoseMotion, CircleIsLeftOnItsTangent) {
   EXPECT_NEAR(off, tangent, lag * tangent);
   const Eigen::Matrix3d turned = circle(seen_until + hidden).linear();
   EXPECT_LT(turn_vector(pose.pose.linear() * turned.transpose()).norm(), converged);
-}
-
-TEST(PointMotion, ConstantVelocityIsCarriedOn) {
-  PointTrackerConfig config;
-  config.motion = PointMotion::constant_velocity;
-  PointTracker tracker(config);
-  const Eigen::Vector3d start(1, 2, 3), velocity(0.5, -0.4, 0.1);
-  for (int i = 0; i < frames; ++i) {
-    tracker.update({stamp_at(i * frame), start + i * frame * velocity, {}}, Verdict::visible);
-  }
-  const auto point = tracker.at(stamp_at(seen_until + hidden));
-  EXPECT_LT((point.position - start - (seen_until + hidden) * velocity).norm(), converged);
-  EXPECT_LT((point.velocity - velocity).norm(), converged);
-  EXPECT_EQ(point.source, Source::predicted);
 }
 
 TEST(PointMotion, HeldPointIsTheLastOneAndItsSigmaGrowsWithTime) {

@@ -124,39 +124,6 @@ TEST(Late, WithinTheMemoryIsTakenAndBeyondItNot) {
   EXPECT_EQ(tracker.update(at_x(-1, 0), Verdict::visible), Outcome::refused_late);
 }
 
-TEST(Late, AsOldAsTheMemoryIsTakenUpFromTheOneBefore) {
-  PoseTrackerConfig longer;
-  longer.memory = 100;
-  PoseTracker tracker, all(longer);
-  for (PoseTracker* one : {&tracker, &all}) {
-    for (int i = 0; i <= 30; ++i) {
-      if (i != 20) one->update(at_x(0.1 * i, 0.001 * i), Verdict::visible);
-    }
-    EXPECT_EQ(one->update(at_x(2.0, 0.025), Verdict::visible), Outcome::accepted);
-  }
-  for (const double t : {2.0, 2.5, 3.0, 4.0}) {
-    expect_same(tracker.at(stamp_at(t)), all.at(stamp_at(t)));
-  }
-}
-
-TEST(Late, EstimateBeforeTheFirstBecomesTheFirst) {
-  PoseTracker tracker;
-  tracker.update(at_x(1.0, 0.1), Verdict::visible);
-  EXPECT_EQ(tracker.at(stamp_at(0.9)).source, Source::lost);
-  EXPECT_EQ(tracker.update(at_x(0.5, 0), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(tracker.at(stamp_at(0.9)).source, Source::predicted);
-  EXPECT_NEAR(tracker.at(stamp_at(1.0)).twist[0], 0.2, 0.05);
-}
-
-TEST(Late, EstimateTellsThatALaterOneIsAnOutlier) {
-  PoseTrackerConfig config;
-  PoseTracker tracker(config);
-  EXPECT_EQ(tracker.update(at_x(0.9, 4), Verdict::visible), Outcome::accepted);
-  for (int i = 0; i < 8; ++i) tracker.update(at_x(0.1 * i, 0), Verdict::visible);
-  EXPECT_EQ(tracker.at(stamp_at(0.9)).source, Source::predicted);
-  EXPECT_NEAR(tracker.at(stamp_at(0.9)).pose.translation().x(), 0, 1e-3);
-}
-
 TEST(Late, TheSameStampTwiceIsRefused) {
   PoseTracker tracker;
   for (int i = 0; i < 5; ++i) tracker.update(at_x(0.1 * i, 0), Verdict::visible);

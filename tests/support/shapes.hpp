@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -29,6 +31,18 @@ namespace penumbra::test {
 /// A sphere about the origin, its corners on the surface: `rings` from pole to pole, twice as many
 /// around.
 [[nodiscard]] TriangleMesh sphere(float radius, int rings);
+
+/// A closed ring of tube about z, of rows x columns quads.
+[[nodiscard]] TriangleMesh torus(std::uint32_t rows, std::uint32_t columns, double ring,
+                                 double tube);
+
+/// A surface of revolution about z, wound outwards where the profile (radius, z) runs upwards with
+/// the body on its inner side. Open where the profile ends off the axis.
+[[nodiscard]] TriangleMesh revolved(const std::vector<Eigen::Vector2f>& profile,
+                                    std::uint32_t around);
+
+/// Adds the triangles of another mesh.
+void append(TriangleMesh& mesh, const TriangleMesh& other);
 
 /// The mesh as a mirror shows it: x negated, corners in the order they had, so wound inwards.
 [[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);

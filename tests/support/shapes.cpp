@@ -66,6 +66,52 @@ TriangleMesh sphere(float radius, int rings) {
   return mesh;
 }
 
+TriangleMesh torus(std::uint32_t rows, std::uint32_t columns, double ring, double tube) {
+  TriangleMesh mesh;
+  const auto index = [&](std::uint32_t i, std::uint32_t j) {
+    return (i % rows) * columns + j % columns;
+  };
+  for (std::uint32_t i = 0; i < rows; ++i) {
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const double a = 2 * M_PI * i / rows;
+      const double b = 2 * M_PI * j / columns;
+      const double r = ring + tube * std::cos(b);
+      mesh.vertices.push_back(
+          Vector3d(r * std::cos(a), r * std::sin(a), tube * std::sin(b)).cast<float>());
+      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh revolved(const std::vector<Eigen::Vector2f>& profile, std::uint32_t around) {
+  TriangleMesh mesh;
+  for (const Eigen::Vector2f& p : profile) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double a = 2 * M_PI * i / around;
+      mesh.vertices.emplace_back(p.x() * static_cast<float>(std::cos(a)),
+                                 p.x() * static_cast<float>(std::sin(a)), p.y());
+    }
+  }
+  for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t a = row * around + i;
+      const std::uint32_t b = row * around + (i + 1) % around;
+      mesh.triangles.push_back({a, b, b + around});
+      mesh.triangles.push_back({a, b + around, a + around});
+    }
+  }
+  return mesh;
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({a + first, b + first, c + first});
+}
+
 TriangleMesh mirrored(TriangleMesh mesh) {
   for (Vector3f& vertex : mesh.vertices) vertex.x() = -vertex.x();
   return mesh;

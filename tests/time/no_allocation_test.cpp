@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "allocations.hpp"
-#include "urdf_text.hpp"
+#include "../robot/urdf_text.hpp"
+#include "../support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +9,6 @@
 
 namespace penumbra::test {
 namespace {
-
-Robot every_kind() {
-  std::string body = link_xml("l0");
-  const char* types[] = {"revolute", "continuous", "floating", "prismatic", "planar"};
-  for (std::size_t i = 0; i < std::size(types); ++i)
-    body += link_xml("l" + std::to_string(i + 1)) +
-            joint_xml("j" + std::to_string(i), types[i], "l" + std::to_string(i),
-                      "l" + std::to_string(i + 1), "<axis xyz=\"0 0 1\"/>");
-  return parse(robot_xml(body));
-}
 
 TEST(NoAllocation, InKinematics) {
   const Robot robot = every_kind();
