@@ -19,10 +19,9 @@ namespace {
 void bind_intrinsics(py::module_& m) {
   py::class_<Intrinsics> intrinsics(
       m, "Intrinsics",
-      "A pinhole camera's image size and projection, pixels. Pixel (u, v) has its centre at "
-      "integer "
-      "coordinates; its ray is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y "
-      "down, z forward.");
+      "A pinhole camera's image size and projection, pixels. The centre of pixel (u, v) has "
+      "integer coordinates; its ray is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x "
+      "right, y down, z forward.");
   intrinsics
       .def(py::init<int, int, double, double, double, double>(), py::arg("width"),
            py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"),

@@ -107,14 +107,14 @@ void bind_classifier(py::module_& m) {
             "Label values, (H, W): a read-only copy, made when it is first read. Raises ValueError "
             "if it was not read before the classifier's next call."},
       Field{"pixels", &Labels::pixels, "How many pixels have each Label."});
+  bind_repr(labels, {"pixels"});
   py::class_<Labeller, std::shared_ptr<Labeller>> classifier(
       m, "Classifier", "Labels depth images of one size. Serves one thread at a time.");
   classifier
       .def(py::init<int, int, const LabelRule&, const std::string&>(), py::arg("width"),
            py::arg("height"), py::arg("rule"), py::arg("isa") = std::string(),
            "isa: a SIMD target by name, scalar, or empty: the best there is. Raises InputError for "
-           "a "
-           "rule or a size that is none.")
+           "a rule or a size out of bounds.")
       // The first one is taken for what a renderer gave alone; all else gets the array's errors.
       .def("classify", &classify_rendered, py::arg("virtual_depth"), py::arg("measured"),
            "Labels every pixel. virtual_depth: metres, 0 where no robot is; measured: millimetres "

@@ -155,6 +155,9 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
                   Field{"pixels", &C::pixels, "uint32 (N,): v * width + u of each point."},
                   Field{"colors", &C::colors, "uint8 (N, 3); (0, 3) without a colour image."});
   cloud.def("__len__", [](const C& c) { return c.pixels.size(); });
+  cloud.def("__repr__", [](const C& c) {
+    return "<penumbra.PointCloud: " + std::to_string(c.pixels.size()) + " points>";
+  });
   report
       .def(
           "filtered_depth",

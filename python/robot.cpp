@@ -74,6 +74,10 @@ void bind_mesh(py::module_& m) {
                         "float32 (N, 3), metres. Read-only view."},
                   Field{"triangles", &rows_array<TriangleArray, &TriangleMesh::triangles>,
                         "uint32 (M, 3), indices of vertices. Read-only view."});
+  mesh.def("__repr__", [](const Mesh& of) {
+    return "<penumbra.TriangleMesh: " + std::to_string(of.triangles->triangles.size()) +
+           " triangles>";
+  });
   py::class_<OwnedBody> body(m, "Body", "A rigid thing to draw.");
   bind_fields<2>(body, Field{"name", &OwnedBody::name, "Its name."},
                  Field{"meshes", &OwnedBody::meshes, "In the body's frame; may be empty."});

@@ -145,14 +145,19 @@ OwnedEstimate estimate_of(const ValueSource& value, std::optional<std::int64_t> 
 }
 
 void bind_estimate(py::module_& m) {
-  py::class_<OwnedEstimate>(m, "TargetEstimate",
-                            "What the perception system says of a target's whereabouts.")
-      .def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
-           py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = FrameName(),
-           py::arg("covariance") = TargetEstimate{}.covariance,
-           "value: a pose (4, 4), a position (3,), metres, or None: it found none in this frame. "
-           "stamp: of its image, nanoseconds; None: the target's. covariance: of position and "
-           "rotation vector along the axes of frame.");
+  using E = OwnedEstimate;
+  py::class_<E> estimate(m, "TargetEstimate",
+                         "What the perception system says of a target's whereabouts.");
+  estimate.def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
+               py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = FrameName(),
+               py::arg("covariance") = TargetEstimate{}.covariance);
+  show_fields(estimate,
+              Field{"value", &E::value,
+                    "A pose (4, 4), a position (3,), metres, or None: not found in this frame."},
+              Field{"stamp", &E::stamp, "Of its image, nanoseconds; None: the target's."},
+              Field{"frame", &E::frame, frame_doc},
+              Field{"covariance", &E::covariance,
+                    "Of position and rotation vector along the axes of frame."});
 }
 
 std::vector<std::string> names_of(const SourceTargets& targets) {

@@ -300,5 +300,6 @@ def test_objects_tell_what_they_are(opened):
                         (opened.camera, "fx="), (opened.robot, "7 variables"),
                         (opened.frames[4], "index=4"), (opened.frames[4].frame, "index=4"),
                         (opened.config, "camera_parent='base_link'"),
-                        (opened.frames, "12 frames")):
+                        (opened.frames, "12 frames"), (penumbra.open_input(SHIPPED), "six_axis_arm"),
+                        (report.points(), "points"), (penumbra.TargetEstimate([1, 2, 3]), "1., 2., 3.")):
         assert says in repr(thing) and len(repr(thing)) < 2000
