@@ -45,6 +45,7 @@ py::array read_only(py::array array) {
 }
 
 py::object keeper_of(std::shared_ptr<const void> owner) {
+  if (!owner) return {};
   auto* const kept = new std::shared_ptr<const void>(std::move(owner));
   return py::capsule(kept, [](void* of) { delete static_cast<std::shared_ptr<const void>*>(of); });
 }
@@ -60,7 +61,12 @@ std::size_t check_image(py::handle source, const char* argument, std::span<const
   const py::dtype dtype = array.dtype();
   std::size_t type = 0;
   while (type < types.size() && !is_native(dtype, types[type].number)) ++type;
-  if (type == types.size()) throw py::type_error(complain(""));
+  const bool takes_float = std::any_of(types.begin(), types.end(), [](const PixelType& of) {
+    return of.number == pixel_type<float>.number;
+  });
+  const bool is_double = is_native(dtype, py::detail::npy_api::NPY_DOUBLE_);
+  if (type == types.size())
+    throw py::type_error(complain(takes_float && is_double ? ": take .astype(np.float32)" : ""));
   if (array.ndim() != 2 || array.shape(0) < 1 || array.shape(1) < 1 ||
       std::max(array.shape(0), array.shape(1)) > std::numeric_limits<int>::max())
     throw py::value_error(complain(""));
@@ -69,34 +75,23 @@ std::size_t check_image(py::handle source, const char* argument, std::span<const
   return type;
 }
 
-void check_size(const py::array& image, const char* argument, int width, int height) {
-  if (image.shape(0) == height && image.shape(1) == width) return;
-  throw py::value_error(std::string(argument) + ": expected shape (" + std::to_string(height) +
-                        ", " + std::to_string(width) + "); got " + description_of(image));
+void check_size(const char* argument, py::ssize_t width, py::ssize_t height, int expected_width,
+                int expected_height) {
+  if (width == expected_width && height == expected_height) return;
+  const auto shape = [](auto rows, auto columns) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(columns) + ")";
+  };
+  throw py::value_error(std::string(argument) + ": expected shape " +
+                        shape(expected_height, expected_width) + "; got " + shape(height, width));
 }
 
-ColorResult array_of(ImageView<io::Rgb8> view, py::object base) {
+ColorResult array_of(ImageView<io::Rgb8> view, std::shared_ptr<const void> owner) {
   static_assert(sizeof(io::Rgb8) == 3);
   return {py::array(
       py::dtype::of<std::uint8_t>(),
       {static_cast<py::ssize_t>(view.height), static_cast<py::ssize_t>(view.width), py::ssize_t{3}},
-      {3 * view.stride, py::ssize_t{3}, py::ssize_t{1}}, &view.data->r, base)};
-}
-
-void Lease::end(const char* call, const char* images) const {
-  if (token_.expired()) return;
-  throw py::value_error(std::string(call) + ": an array upon " + images +
-                        " is still in use and would be overwritten: keep a copy of it (.copy()), "
-                        "or del it, before the next call");
-}
-
-py::object Lease::base(const std::shared_ptr<const void>& owner) {
-  auto token = token_.lock();
-  if (!token) {
-    token = std::make_shared<Token>(Token{owner});
-    token_ = token;
-  }
-  return keeper_of(std::move(token));
+      {3 * view.stride, py::ssize_t{3}, py::ssize_t{1}}, &view.data->r,
+      keeper_of(std::move(owner)))};
 }
 
 OneThread::Use::Use(OneThread& object, const char* what) : lock_(object.mutex_, std::try_to_lock) {

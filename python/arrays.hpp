@@ -32,7 +32,8 @@ namespace py = pybind11;
 
 [[nodiscard]] py::array read_only(py::array array);
 
-/// A Python object that keeps `owner`: the base of arrays upon its memory.
+/// Returns a Python object that keeps `owner`: the base of arrays on its memory. Null: an array
+/// without base is a copy.
 [[nodiscard]] py::object keeper_of(std::shared_ptr<const void> owner);
 
 /// A pixel's type in NumPy.
@@ -67,23 +68,41 @@ template <typename... T>
 struct ImageResult {
   py::object array;
 };
+using DepthResult = ImageResult<std::uint16_t, float>;
 /// Likewise of shape (H, W, 3), uint8: red, green, blue.
 struct ColorResult {
   py::object array;
 };
 
-/// An array upon an image of `base`; `T` const: it cannot be written to.
+/// Returns an array on an image that `owner` keeps, or a copy if there is no owner. If `T` is
+/// const, it cannot be written to.
 template <typename T>
-[[nodiscard]] ImageResult<std::remove_const_t<T>> array_of(ImageView<T> view, py::object base) {
+[[nodiscard]] ImageResult<std::remove_const_t<T>> array_of(ImageView<T> view,
+                                                           std::shared_ptr<const void> owner) {
   using Pixel = std::remove_const_t<T>;
   constexpr auto size = static_cast<py::ssize_t>(sizeof(Pixel));
   py::array array(py::dtype::of<Pixel>(),
                   {static_cast<py::ssize_t>(view.height), static_cast<py::ssize_t>(view.width)},
-                  {view.stride * size, size}, view.data, base);
+                  {view.stride * size, size}, view.data, keeper_of(std::move(owner)));
   if constexpr (std::is_const_v<T>) array = read_only(std::move(array));
   return {std::move(array)};
 }
-[[nodiscard]] ColorResult array_of(ImageView<io::Rgb8> view, py::object base);
+[[nodiscard]] ColorResult array_of(ImageView<io::Rgb8> view, std::shared_ptr<const void> owner);
+
+/// An image that the next call of its maker overwrites: copied when it is first read, then kept.
+template <typename T>
+class ReadImage {
+ public:
+  /// `find` returns the image, or throws if it is overwritten.
+  template <typename Find>
+  [[nodiscard]] ImageResult<T> read(Find find) const {
+    if (!array_) array_ = array_of(find(), nullptr).array;
+    return {array_};
+  }
+
+ private:
+  mutable py::object array_;
+};
 
 /// Name of an argument, as a template's parameter.
 template <std::size_t N>
@@ -104,25 +123,11 @@ template <Name Argument>
 using DepthArgument = ImageArgument<Argument, std::uint16_t, float>;
 
 /// Throws ValueError, which names the argument, for an image of another size.
-void check_size(const py::array& image, const char* argument, int width, int height);
-
-/// The rule of arrays upon images that the next call overwrites: while one of them is in use, that
-/// call is refused; once it has happened, no more are given out. So none changes in silence.
-class Lease {
- public:
-  /// Before a call that overwrites the images. Throws ValueError, which names `call` and `images`,
-  /// while arrays upon them are in use.
-  void end(const char* call, const char* images) const;
-
-  /// A base for arrays upon the images, which keeps `owner`.
-  [[nodiscard]] py::object base(const std::shared_ptr<const void>& owner);
-
- private:
-  struct Token {
-    std::shared_ptr<const void> owner;
-  };
-  std::weak_ptr<Token> token_;
-};
+void check_size(const char* argument, py::ssize_t width, py::ssize_t height, int expected_width,
+                int expected_height);
+inline void check_size(const py::array& image, const char* argument, int width, int height) {
+  check_size(argument, image.shape(1), image.shape(0), width, height);
+}
 
 /// Refuses a second thread: an object that serves one at a time says so instead of breaking.
 class OneThread {

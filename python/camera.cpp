@@ -19,20 +19,13 @@ namespace {
 void bind_intrinsics(py::module_& m) {
   py::class_<Intrinsics> intrinsics(
       m, "Intrinsics",
-      "A pinhole camera's image size and projection, pixels. Pixel (u, v) has its centre at "
-      "integer "
-      "coordinates; its ray is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y "
-      "down, z forward.");
+      "A pinhole camera's image size and projection, pixels. The centre of pixel (u, v) has "
+      "integer coordinates; its ray is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x "
+      "right, y down, z forward.");
   intrinsics
       .def(py::init<int, int, double, double, double, double>(), py::arg("width"),
            py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"),
            "Raises InputError for sizes or focal lengths out of bounds.")
-      .def_property_readonly("width", method(&Intrinsics::width), "Pixels.")
-      .def_property_readonly("height", method(&Intrinsics::height), "Pixels.")
-      .def_property_readonly("fx", method(&Intrinsics::fx), "Focal length, pixels.")
-      .def_property_readonly("fy", method(&Intrinsics::fy), "Focal length, pixels.")
-      .def_property_readonly("cx", method(&Intrinsics::cx), "Principal point, pixels.")
-      .def_property_readonly("cy", method(&Intrinsics::cy), "Principal point, pixels.")
       .def("binned", &Intrinsics::binned, py::arg("bx"), py::arg("by"),
            "The camera whose pixels each cover bx x by of this one's.")
       .def("cropped", &Intrinsics::cropped, py::arg("x"), py::arg("y"), py::arg("width"),
@@ -43,34 +36,36 @@ void bind_intrinsics(py::module_& m) {
            "Image point (u, v) of a point in the optical frame, metres; z must not be 0.")
       .def(
           "__eq__", [](const Intrinsics& a, const Intrinsics& b) { return a == b; },
-          py::is_operator())
-      .def("__repr__", [](const Self<Intrinsics>& self) {
-        return repr_of(self, {"width", "height", "fx", "fy", "cx", "cy"});
-      });
+          py::is_operator());
   intrinsics.attr("__hash__") = py::none();
+  using K = Intrinsics;
+  show_fields(intrinsics, Field{"width", &K::width, "Pixels."},
+              Field{"height", &K::height, "Pixels."}, Field{"fx", &K::fx, "Focal length, pixels."},
+              Field{"fy", &K::fy, "Focal length, pixels."},
+              Field{"cx", &K::cx, "Principal point, pixels."},
+              Field{"cy", &K::cy, "Principal point, pixels."});
 }
 
 void bind_distortion(py::module_& m) {
-  py::class_<Distortion>(
-      m, "Distortion", "How a lens bends rays. Points are on the plane z = 1 of the optical frame.")
-      .def(py::init<>(), "None.")
+  py::class_<Distortion> distortion(
+      m, "Distortion",
+      "How a lens bends rays. Points are on the plane z = 1 of the optical frame.");
+  distortion.def(py::init<>(), "None.")
       .def(py::init([](const std::string& name, const std::vector<double>& coefficients) {
              return Distortion(name, coefficients);
            }),
            py::arg("name"), py::arg("coefficients"),
            "By ROS's names: plumb_bob (4 or 5 coefficients), rational_polynomial (8), equidistant "
            "(4). Raises InputError for an unknown name or a wrong number of coefficients.")
-      .def_property_readonly("model", method(&Distortion::model), "The lens model.")
-      .def_property_readonly("is_none", method(&Distortion::is_none), "Whether rays stay straight.")
-      .def_property_readonly("max_radius", method(&Distortion::max_radius),
-                             "Largest undistorted radius up to which the model is one-to-one.")
       .def("distort", &Distortion::distort, py::arg("undistorted"),
            "Where the lens puts the ray through the point.")
       .def("undistort", &Distortion::undistort, py::arg("distorted"),
-           "The point that the lens puts there; None where there is none.")
-      .def("__repr__", [](const Self<Distortion>& self) {
-        return repr_of(self, {"model", "max_radius"});
-      });
+           "The point that the lens puts there; None where there is none.");
+  using D = Distortion;
+  show_fields(distortion, Field{"model", &D::model, "The lens model."},
+              Field{"is_none", &D::is_none, "Whether rays stay straight."},
+              Field{"max_radius", &D::max_radius,
+                    "Largest undistorted radius up to which the model is one-to-one."});
 }
 
 /// By how many coefficients there are, as OpenCV does.
@@ -131,72 +126,60 @@ void bind_files(py::module_& m) {
         "anything that is no rigid transform.");
 }
 
-ImageResult<std::int32_t> map_array(const std::shared_ptr<Rectification>& self,
-                                    ImageView<const std::int32_t> indices) {
-  return array_of(indices, keeper_of(self));
-}
-
 void bind_rectification(py::module_& m) {
-  py::class_<Rectification, std::shared_ptr<Rectification>>(
+  using R = Rectification;
+  py::class_<R, std::shared_ptr<R>> rectification(
       m, "Rectification",
       "Maps between a camera's raw, distorted image and a pinhole image that covers it. Both ways "
-      "take the nearest pixel: depths are never mixed.")
+      "take the nearest pixel: depths are never mixed.");
+  rectification
       .def(py::init([](const Camera& raw) {
              const py::gil_scoped_release others;
-             return std::make_shared<Rectification>(raw);
+             return std::make_shared<R>(raw);
            }),
            py::arg("raw"), "Raises InputError if the lens reaches no pixel.")
-      .def_property_readonly("pinhole", method(&Rectification::pinhole), "Size and projection.")
-      .def_property_readonly(
-          "half_angle", method(&Rectification::half_angle),
-          "Rays farther than this from the optical axis, radians, are not covered.")
       .def_property_readonly(
           "raw_to_pinhole",
-          [](const std::shared_ptr<Rectification>& self) {
-            return map_array(self, present(self, "Rectification")->raw_to_pinhole());
+          [](const std::shared_ptr<R>& self) {
+            return array_of(present(self, "Rectification")->raw_to_pinhole(), self);
           },
           "Of the raw image's size: index v * width + u of each "
           "pixel's pinhole pixel, -1 where there is none. Read-only view.")
       .def_property_readonly(
           "pinhole_to_raw",
-          [](const std::shared_ptr<Rectification>& self) {
-            return map_array(self, present(self, "Rectification")->pinhole_to_raw());
+          [](const std::shared_ptr<R>& self) {
+            return array_of(present(self, "Rectification")->pinhole_to_raw(), self);
           },
           "Of the pinhole image's size: index v * width + u of each "
           "pixel's raw pixel, -1 where there is none. Read-only view.");
+  show_properties(rectification, Field{"pinhole", &R::pinhole, "Size and projection."},
+                  Field{"half_angle", &R::half_angle,
+                        "Rays farther than this from the optical axis, radians, are not covered."});
 }
 
-/// A registration and the rule of its result.
 struct Registration {
   Registration(const Camera& from_, const Camera& to)
       : warp(from_, to), width(from_.intrinsics.width()), height(from_.intrinsics.height()) {}
   DepthRegistration warp;
   int width, height;
-  Lease lease;
   OneThread thread;
 };
 
-ImageResult<std::uint16_t, float> warped(const std::shared_ptr<Registration>& self,
-                                         const DepthArgument<"depth">& depth,
-                                         const Eigen::Isometry3d& T_to_from) {
-  const OneThread::Use use(self->thread, "DepthRegistration.warp");
-  self->lease.end("DepthRegistration.warp", "its result");
-  check_size(depth.array, "depth", self->width, self->height);
+DepthResult warped(Registration& self, const DepthArgument<"depth">& depth,
+                   const Eigen::Isometry3d& T_to_from) {
+  const OneThread::Use use(self.thread, "DepthRegistration.warp");
+  check_size(depth.array, "depth", self.width, self.height);
   DepthView result;
   {
     const py::gil_scoped_release others;
-    result = self->warp.warp(depth.view, T_to_from);
+    result = self.warp.warp(depth.view, T_to_from);
   }
-  const py::object base = self->lease.base(self);
-  return std::visit(
-      [&](const auto& view) {
-        return ImageResult<std::uint16_t, float>{array_of(view, base).array};
-      },
-      result);
+  return std::visit([](const auto& view) -> DepthResult { return {array_of(view, nullptr).array}; },
+                    result);
 }
 
 void bind_registration(py::module_& m) {
-  py::class_<Registration, std::shared_ptr<Registration>>(
+  py::class_<Registration>(
       m, "DepthRegistration",
       "Brings depth images of one camera into the image of another: what that would measure of the "
       "surfaces that the first one sees.")
@@ -204,8 +187,8 @@ void bind_registration(py::module_& m) {
       .def(
           "warp", &warped, py::arg("depth"), py::arg("T_to_from"),
           "depth: of the first camera's size, millimetres (uint16) or metres (float32). The result "
-          "is of the second camera's size and of the same dtype, 0 where nothing is measured; a "
-          "read-only view: while it is in use the next call raises ValueError.");
+          "is a new array of the second camera's size and the same dtype, 0 where nothing is "
+          "measured.");
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,53 +17,61 @@
 
 namespace penumbra::python {
 
-template <typename T, typename M>
+/// A property: a data member, or a function of the object.
+template <typename Get>
 struct Field {
   const char* name;
-  M T::*member;
+  Get get;
   const char* doc;
 };
-template <typename T, typename M>
-Field(const char*, M T::*, const char*) -> Field<T, M>;
+template <typename Get>
+Field(const char*, Get, const char*) -> Field<Get>;
 
 /// A mapping of any kind, as an argument.
 template <typename V>
 struct Mapping {
   std::map<std::string, V> values;
+  operator std::map<std::string, V>() && { return std::move(values); }  // NOLINT
 };
-/// A list that is not to be changed, as a result.
+/// A list that cannot be changed, as a result.
 template <typename V>
 struct Frozen {
   std::vector<V> values;
 };
 
-/// How a member comes in, and how it is shown.
+/// The type of a member as an argument.
 template <typename M>
-struct Passed {
-  using In = M;
-  static In in(const M& m) { return m; }
-  static M out(const M& m) { return m; }
-  static M member(In&& m) { return std::move(m); }
+struct GivenAs {
+  using type = M;
 };
 template <typename V>
-struct Passed<std::map<std::string, V>> {
-  using In = Mapping<V>;
-  static In in(const std::map<std::string, V>& m) { return {m}; }
-  static Mapping<V> out(const std::map<std::string, V>& m) { return {m}; }
-  static std::map<std::string, V> member(In&& m) { return std::move(m.values); }
+struct GivenAs<std::map<std::string, V>> {
+  using type = Mapping<V>;
 };
+template <typename M>
+using Given = typename GivenAs<M>::type;
+
+/// The value of a property, as Python gets it.
+template <typename M>
+M shown(const M& value) {
+  return value;
+}
 template <typename V>
-struct Passed<std::vector<V>> {
-  using In = std::vector<V>;
-  static In in(const std::vector<V>& m) { return m; }
-  static Frozen<V> out(const std::vector<V>& m) { return {m}; }
-  static std::vector<V> member(In&& m) { return std::move(m); }
-};
-/// Shown alone.
+Mapping<V> shown(const std::map<std::string, V>& values) {
+  return {values};
+}
+template <typename V>
+Frozen<V> shown(const std::vector<V>& values) {
+  return {values};
+}
 template <typename V, std::size_t n>
-struct Passed<std::array<V, n>> {
-  static Frozen<V> out(const std::array<V, n>& m) { return {{m.begin(), m.end()}}; }
-};
+Frozen<V> shown(const std::array<V, n>& values) {
+  return {{values.begin(), values.end()}};
+}
+template <typename V>
+Frozen<V> shown(std::span<const V> values) {
+  return {{values.begin(), values.end()}};
+}
 
 /// "Name(field=value, ...)".
 inline std::string repr_of(const py::object& self, const std::vector<const char*>& names) {
@@ -80,16 +91,24 @@ inline py::object replaced(const py::object& self, const std::vector<const char*
   return py::type::of(self)(**all);
 }
 
-/// Properties that show the members of a value.
-template <typename T, typename... M>
-void show_fields(py::class_<T>& of, Field<T, M>... fields) {
+template <typename T, typename... Options, typename... Get>
+void show_properties(py::class_<T, Options...>& of, Field<Get>... fields) {
   (of.def_property_readonly(
-       fields.name,
-       [member = fields.member](const T& self) { return Passed<M>::out(self.*member); },
+       fields.name, [get = fields.get](const T& self) { return shown(std::invoke(get, self)); },
        fields.doc),
    ...);
-  const std::vector<const char*> names{fields.name...};
+}
+
+template <typename T, typename... Options>
+void bind_repr(py::class_<T, Options...>& of, const std::vector<const char*>& names) {
   of.def("__repr__", [names](const Self<T>& self) { return repr_of(self, names); });
+}
+
+/// Properties, all of which are in the repr.
+template <typename T, typename... Options, typename... Get>
+void show_fields(py::class_<T, Options...>& of, Field<Get>... fields) {
+  show_properties(of, fields...);
+  bind_repr(of, {fields.name...});
 }
 
 template <typename T, typename... Options>
@@ -102,18 +121,41 @@ void bind_replace(py::class_<T, Options...>& of, const std::vector<const char*>&
       "The same with other values.");
 }
 
-/// Properties, a constructor by keywords and replace().
-template <typename T, typename... M>
-void bind_fields(py::class_<T>& of, Field<T, M>... fields) {
+/// A constructor from members: the first `positional` ones must be given, the others are keywords
+/// whose defaults are the aggregate's.
+template <std::size_t positional, typename T, typename... M>
+void bind_init(py::class_<T>& of, Field<M T::*>... fields) {
   const T defaults{};
-  of.def(py::init([fields...](typename Passed<M>::In... values) {
-           T made{};
-           ((made.*fields.member = Passed<M>::member(std::move(values))), ...);
-           return made;
-         }),
-         py::kw_only(), (py::arg(fields.name) = Passed<M>::in(defaults.*fields.member))...);
-  show_fields(of, fields...);
+  const std::tuple all(fields...);
+  const auto make = [fields...](Given<M>... values) {
+    T made{};
+    ((made.*fields.get = std::move(values)), ...);
+    return made;
+  };
+  const auto keyword = [&]<typename V>(const Field<V T::*>& field) {
+    return py::arg(field.name) = Given<V>{defaults.*field.get};
+  };
+  [&]<std::size_t... First, std::size_t... Rest>(std::index_sequence<First...>,
+                                                 std::index_sequence<Rest...>) {
+    of.def(py::init(make), py::arg(std::get<First>(all).name)..., py::kw_only(),
+           keyword(std::get<positional + Rest>(all))...);
+  }
+  (std::make_index_sequence<positional>(), std::make_index_sequence<sizeof...(M) - positional>());
+}
+
+/// A constructor as bind_init(), properties and replace().
+template <std::size_t positional = 0, typename T, typename... M>
+void bind_members(py::class_<T>& of, Field<M T::*>... fields) {
+  bind_init<positional>(of, fields...);
+  show_properties(of, fields...);
   bind_replace(of, {fields.name...});
+}
+
+/// Likewise with all members in the repr.
+template <std::size_t positional = 0, typename T, typename... M>
+void bind_fields(py::class_<T>& of, Field<M T::*>... fields) {
+  bind_members<positional>(of, fields...);
+  bind_repr(of, {fields.name...});
 }
 
 }  // namespace penumbra::python

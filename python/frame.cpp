@@ -37,7 +37,7 @@ Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   } else if (const auto* answer = std::get_if<JointAnswer>(&joints)) {
     frame.joints = *answer;
   }
-  frame.T_root_link = T_root_link;
+  if (T_root_link) frame.T_root_link = *T_root_link;
   frame.T_parent_camera = T_parent_camera;
   if (const auto* own = std::get_if<0>(&targets)) {
     for (const auto& target : *own) parts.targets.push_back(target_of(target));
@@ -52,116 +52,36 @@ Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   return frame;
 }
 
-namespace {
-
-OwnedFrame make_frame(std::optional<DepthArgument<"depth">> depth, OwnedJoints joints,
-                      std::optional<std::int64_t> stamp, OwnedTargets targets,
-                      std::optional<Poses> T_root_link,
-                      std::optional<Eigen::Isometry3d> T_parent_camera, FrameStatus source_status,
-                      std::string source_message, std::optional<std::size_t> index,
-                      std::optional<std::int64_t> joint_age, std::vector<std::size_t> doubted_links,
-                      std::string doubt) {
-  return {std::move(depth),
-          std::move(joints),
-          joint_age,
-          stamp,
-          std::move(T_root_link).value_or(Poses()),
-          T_parent_camera,
-          std::move(targets),
-          source_status,
-          std::move(source_message),
-          index,
-          std::move(doubted_links),
-          std::move(doubt)};
-}
-
-const std::vector<const char*>& arguments() {
-  static const std::vector<const char*> names{
-      "depth",         "joints",         "stamp", "targets",   "T_root_link",   "T_parent_camera",
-      "source_status", "source_message", "index", "joint_age", "doubted_links", "doubt"};
-  return names;
-}
-
-using FrameClass = py::class_<OwnedFrame>;
-
-void bind_constructor(FrameClass& frame) {
-  const Frame defaults;
-  frame.def(
-      py::init(&make_frame), py::arg("depth"), py::arg("joints"), py::kw_only(),
-      py::arg("stamp") = defaults.stamp, py::arg("targets") = OwnedTargets(),
-      py::arg("T_root_link") = std::optional<Poses>(),
-      py::arg("T_parent_camera") = defaults.T_parent_camera,
-      py::arg("source_status") = defaults.source_status, py::arg("source_message") = std::string(),
-      py::arg("index") = defaults.index, py::arg("joint_age") = std::optional<std::int64_t>(),
-      py::arg("doubted_links") = std::vector<std::size_t>(), py::arg("doubt") = std::string(),
-      "depth: of the camera's size, millimetres (uint16) or metres (float32), 0 = no "
-      "measurement; None: there is none. joints: a dict of positions by name, or an array in the "
-      "order "
-      "of Robot.variables, rad and m, or what JointBuffer.at() says; None: not known. stamp: of "
-      "the depth image, "
-      "nanoseconds. T_root_link: poses of the links, metres, that are known otherwise than by "
-      "joints. T_parent_camera: the camera's pose in its parent link in this frame; None: the "
-      "configuration's. source_status, source_message: what is known to be wrong with the frame. "
-      "joint_age: of positions, nanoseconds. doubted_links, doubt: indices of links that are not "
-      "drawn and whose place is not known, and one line that says why: targets and estimates in "
-      "them are not judged.");
-}
-
-void bind_values(FrameClass& frame) {
-  using F = OwnedFrame;
-  frame
-      .def_property_readonly(
-          "depth",
-          [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
-            if (!f.depth) return std::nullopt;
-            return ImageResult<std::uint16_t, float>{f.depth->array};
-          },
-          "The array itself.")
-      .def_property_readonly(
-          "joints", [](const F& f) { return f.joints; }, "As they were given.")
-      .def_property_readonly(
-          "stamp", [](const F& f) { return f.stamp; }, "Nanoseconds.")
-      .def_property_readonly(
-          "targets", [](const F& f) { return f.targets; }, "To be judged.")
-      .def_property_readonly(
-          "T_root_link",
-          [](const F& f) -> std::optional<Poses> {
-            if (f.T_root_link.empty()) return std::nullopt;
-            return f.T_root_link;
-          },
-          "Metres; None: by joints.")
-      .def_property_readonly(
-          "T_parent_camera", [](const F& f) { return f.T_parent_camera; },
-          "Metres; None: the configuration's.")
-      .def_property_readonly(
-          "source_status", [](const F& f) { return f.source_status; },
-          "What its source knows to be wrong.")
-      .def_property_readonly(
-          "source_message", [](const F& f) { return f.source_message; }, "One line that says so.")
-      .def_property_readonly(
-          "index", [](const F& f) { return f.index; }, "In its source.")
-      .def_property_readonly(
-          "joint_age", [](const F& f) { return f.joint_age; }, "Nanoseconds.")
-      .def_property_readonly(
-          "doubted_links", [](const F& f) { return f.doubted_links; },
-          "Indices of links whose place is not known.")
-      .def_property_readonly(
-          "doubt", [](const F& f) { return f.doubt; }, "One line that says why.");
-}
-
-}  // namespace
-
 void bind_frame(py::module_& m) {
-  FrameClass frame(
-      m, "Frame",
-      "What goes into Pipeline.process. The depth image is looked at where it lies: do "
-      "not change it while it is judged.");
-  bind_constructor(frame);
-  bind_values(frame);
-  bind_replace(frame, arguments());
-  frame.def("__repr__", [](const Self<OwnedFrame>& self) {
-    return repr_of(self, {"index", "stamp", "source_status"});
-  });
+  using F = OwnedFrame;
+  py::class_<F> frame(m, "Frame",
+                      "What goes into Pipeline.process. The depth image is read where it is: do "
+                      "not change it while it is judged.");
+  bind_members<2>(
+      frame,
+      Field{"depth", &F::depth,
+            "Of the camera's size, millimetres (uint16) or metres (float32), 0 = no measurement; "
+            "None: there is none."},
+      Field{"joints", &F::joints,
+            "A dict of positions by name, or an array in the order of Robot.variables, rad and m, "
+            "or what JointBuffer.at() returns; None: not known."},
+      Field{"stamp", &F::stamp, "Of the depth image, nanoseconds."},
+      Field{"targets", &F::targets, "To be judged."},
+      Field{
+          "T_root_link", &F::T_root_link,
+          "Poses of the links, metres, that are known otherwise than by joints; None: by joints."},
+      Field{"T_parent_camera", &F::T_parent_camera,
+            "The camera's pose in its parent link in this frame, metres; None: the "
+            "configuration's."},
+      Field{"source_status", &F::source_status, "What its source knows to be wrong with it."},
+      Field{"source_message", &F::source_message, "One line that says so."},
+      Field{"index", &F::index, "In its source."},
+      Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
+      Field{"doubted_links", &F::doubted_links,
+            "Indices of links that are not drawn and whose place is not known: targets and "
+            "estimates in them are not judged."},
+      Field{"doubt", &F::doubt, "One line that says why."});
+  bind_repr(frame, {"index", "stamp", "source_status"});
 }
 
 }  // namespace penumbra::python

@@ -23,14 +23,14 @@ using OwnedTargets = std::variant<std::vector<OwnedTarget>, SourceTargets>;
 struct OwnedFrame {
   std::optional<DepthArgument<"depth">> depth;
   OwnedJoints joints;
-  std::optional<std::int64_t> joint_age;  ///< of Numbers, nanoseconds
   std::optional<std::int64_t> stamp;
-  Poses T_root_link;
-  std::optional<Eigen::Isometry3d> T_parent_camera;
   OwnedTargets targets;
-  FrameStatus source_status;
+  std::optional<Poses> T_root_link;
+  std::optional<Eigen::Isometry3d> T_parent_camera;
+  FrameStatus source_status = FrameStatus::ok;
   std::string source_message;
   std::optional<std::size_t> index;
+  std::optional<std::int64_t> joint_age;  ///< of Numbers, nanoseconds
   std::vector<std::size_t> doubted_links;
   std::string doubt;
 

@@ -140,6 +140,7 @@ void bind_input_classes(py::module_& m) {
              return std::make_shared<Frames>(present(self, "Input"));
            })
       .def("__len__", &size_of)
+      .def("__repr__", [](const Input& of) { return "<Input: " + of.input.robot.name() + ">"; })
       .def("__getitem__", &frame_at, py::arg("i"), "Reads the frames before it, too.")
       .def_property_readonly(
           "robot", [](const Input& self) { return self.input.robot; }, "The robot.")

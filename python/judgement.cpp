@@ -6,9 +6,9 @@
 namespace penumbra::python {
 
 OwnedJudgement::OwnedJudgement(const Judgement& of, std::span<const std::string> links)
-    : judgement(of) {
-  for (const Blame& link : of.blame) blame.push_back({links[link.link], link.fraction});
-  judgement.blame = {};
+    : Judgement(of) {
+  for (const Blame& link : of.blame) blamed.push_back({links[link.link], link.fraction});
+  blame = {};
 }
 
 OwnedTargetReport::OwnedTargetReport(const TargetReport& of, std::span<const std::string> links)
@@ -24,46 +24,30 @@ OwnedTargetReport::OwnedTargetReport(const TargetReport& of, std::span<const std
 
 namespace {
 
-/// A number of a judgement.
-template <auto Member>
-auto of_judgement(const OwnedJudgement& judgement) {
-  return judgement.judgement.*Member;
-}
-
 void bind_judgements(py::module_& m) {
   py::class_<OwnedBlame> blame(m, "Blame", "A link that hides a target.");
   show_fields(blame, Field{"link", &OwnedBlame::link, "Its name."},
               Field{"fraction", &OwnedBlame::fraction, "Of the pixels inside the image."});
-  using J = Judgement;
-  py::class_<OwnedJudgement>(m, "Judgement",
-                             "What is said of a target's pixels. Fractions are of those inside the "
-                             "image and add up to 1, together with hidden_by_other.")
-      .def_property_readonly("covered", &of_judgement<&J::covered>,
-                             "Pixels of the extent, those outside the image too.")
-      .def_property_readonly("inside", &of_judgement<&J::inside>, "Pixels inside the image.")
-      .def_property_readonly("occluded", &of_judgement<&J::occluded>,
-                             "Fraction hidden by the robot.")
-      .def_property_readonly("front", &of_judgement<&J::front>, "Fraction before the robot.")
-      .def_property_readonly("unknown", &of_judgement<&J::unknown>, "Fraction not known.")
-      .def_property_readonly("clear", &of_judgement<&J::clear>, "Fraction beside the robot.")
-      .def_property_readonly("hidden_by_other", &of_judgement<&J::hidden_by_other>,
-                             "Fraction hidden by something else; None: not known.")
-      .def_property_readonly("measured", &of_judgement<&J::measured>,
-                             "Fraction that is seen and measured; None: not known.")
-      .def_property_readonly("seen_past", &of_judgement<&J::seen_past>,
-                             "Fraction measured past the expected depth; None: not known.")
-      .def_property_readonly(
-          "blame", [](const OwnedJudgement& j) { return Frozen<OwnedBlame>{j.blame}; },
-          "Links that hide it, largest first.")
-      .def_property_readonly("point_pixels", &of_judgement<&J::point_pixels>,
-                             "Trusted pixels, as far as they were asked.")
-      .def_property_readonly("point_spread", &of_judgement<&J::point_spread>,
-                             "Metres: 1.4826 * median absolute deviation.")
-      .def("__repr__", [](const Self<OwnedJudgement>& self) {
-        return repr_of(
-            self, {"covered", "inside", "occluded", "front", "unknown", "clear", "hidden_by_other",
-                   "measured", "seen_past", "blame", "point_pixels", "point_spread"});
-      });
+  using J = OwnedJudgement;
+  py::class_<J> judgement(m, "Judgement",
+                          "What is said of a target's pixels. Fractions are of those inside the "
+                          "image and add up to 1, together with hidden_by_other.");
+  show_fields(
+      judgement,
+      Field{"covered", &J::covered, "Pixels of the extent, those outside the image too."},
+      Field{"inside", &J::inside, "Pixels inside the image."},
+      Field{"occluded", &J::occluded, "Fraction hidden by the robot."},
+      Field{"front", &J::front, "Fraction before the robot."},
+      Field{"unknown", &J::unknown, "Fraction not known."},
+      Field{"clear", &J::clear, "Fraction beside the robot."},
+      Field{"hidden_by_other", &J::hidden_by_other,
+            "Fraction hidden by something else; None: not known."},
+      Field{"measured", &J::measured, "Fraction that is seen and measured; None: not known."},
+      Field{"seen_past", &J::seen_past,
+            "Fraction measured past the expected depth; None: not known."},
+      Field{"blame", &J::blamed, "Links that hide it, largest first."},
+      Field{"point_pixels", &J::point_pixels, "Trusted pixels, as far as they were asked."},
+      Field{"point_spread", &J::point_spread, "Metres: 1.4826 * median absolute deviation."});
 }
 
 void bind_reports(py::module_& m) {

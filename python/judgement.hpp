@@ -15,10 +15,10 @@ struct OwnedBlame {
   double fraction;
 };
 
-struct OwnedJudgement {
+/// A judgement whose `blame` is in `blamed`.
+struct OwnedJudgement : Judgement {
   OwnedJudgement(const Judgement& of, std::span<const std::string> links);
-  Judgement judgement;  ///< but for its views
-  std::vector<OwnedBlame> blame;
+  std::vector<OwnedBlame> blamed;
 };
 
 struct OwnedTargetReport {

@@ -42,14 +42,12 @@ void bind_rule(py::module_& m) {
            "Raises InputError, with the values, for a rule that is none.");
 }
 
-/// A classifier and the rule of its result.
 struct Labeller {
   Labeller(int width_, int height_, const LabelRule& rule, const std::string& isa)
       : classifier(width_, height_, rule, isa), width(width_), height(height_) {}
   Classifier classifier;
   int width, height;
   std::uint64_t calls = 0;
-  Lease lease;
   OneThread thread;
 };
 
@@ -57,14 +55,17 @@ struct Labeller {
 struct Labels {
   std::shared_ptr<Labeller> labeller;
   std::uint64_t call;
-  LabelView view;
+  LabelView view{};
+  ReadImage<std::uint8_t> image{};
 
   [[nodiscard]] ImageResult<std::uint8_t> labels() const {
-    if (labeller->calls != call)
-      throw py::value_error(
-          "Labels: the classifier has labelled another image since; take a copy "
-          "of what is needed longer");
-    return array_of(view.labels, labeller->lease.base(labeller));
+    return image.read([&] {
+      if (labeller->calls != call)
+        throw py::value_error(
+            "Labels: the classifier has labelled another image since: read "
+            "labels before that");
+      return view.labels;
+    });
   }
   [[nodiscard]] std::map<Label, std::size_t> pixels() const {
     std::map<Label, std::size_t> counts;
@@ -76,23 +77,11 @@ struct Labels {
 Labels classify(const std::shared_ptr<Labeller>& self, const VirtualDepthView& virtual_depth,
                 const DepthArgument<"measured">& measured) {
   const OneThread::Use use(self->thread, "Classifier.classify");
-  self->lease.end("Classifier.classify", "the last labels");
   check_size(measured.array, "measured", self->width, self->height);
-  Labels labels{self, ++self->calls, {}};
+  Labels labels{self, ++self->calls};
   const py::gil_scoped_release others;
   labels.view = self->classifier.classify(virtual_depth, measured.view);
   return labels;
-}
-
-Labels classify_rendered(const std::shared_ptr<Labeller>& self, const VirtualDepth& virtual_depth,
-                         const DepthArgument<"measured">& measured) {
-  const auto [view, kept] = virtual_depth.view();
-  if (view.depth.width != self->width || view.depth.height != self->height)
-    throw py::value_error("virtual_depth: expected shape (" + std::to_string(self->height) + ", " +
-                          std::to_string(self->width) + "); got (" +
-                          std::to_string(view.depth.height) + ", " +
-                          std::to_string(view.depth.width) + ")");
-  return classify(self, view, measured);
 }
 
 Labels classify_array(const std::shared_ptr<Labeller>& self,
@@ -102,30 +91,40 @@ Labels classify_array(const std::shared_ptr<Labeller>& self,
   return classify(self, {.depth = std::get<0>(virtual_depth.view), .links = {}}, measured);
 }
 
+Labels classify_rendered(const std::shared_ptr<Labeller>& self, const VirtualDepth& virtual_depth,
+                         const DepthArgument<"measured">& measured) {
+  const OneThread::Use held = virtual_depth.renderer->hold();
+  const VirtualDepthView& view = virtual_depth.view();
+  check_size("virtual_depth", view.depth.width, view.depth.height, self->width, self->height);
+  return classify(self, view, measured);
+}
+
 void bind_classifier(py::module_& m) {
-  py::class_<Labels>(m, "Labels", "What a classifier said of an image.")
-      .def_property_readonly(
-          "labels", method(&Labels::labels),
-          "Label values. A read-only view: while it is in use the classifier's next call raises "
-          "ValueError, and after that call it is not to be had any more.")
-      .def_property_readonly("pixels", method(&Labels::pixels), "How many pixels have each Label.");
-  py::class_<Labeller, std::shared_ptr<Labeller>>(
-      m, "Classifier", "Labels depth images of one size. Serves one thread at a time.")
+  py::class_<Labels> labels(m, "Labels", "What a classifier said of an image.");
+  show_properties(
+      labels,
+      Field{"labels", &Labels::labels,
+            "Label values, (H, W): a read-only copy, made when it is first read. Raises ValueError "
+            "if it was not read before the classifier's next call."},
+      Field{"pixels", &Labels::pixels, "How many pixels have each Label."});
+  bind_repr(labels, {"pixels"});
+  py::class_<Labeller, std::shared_ptr<Labeller>> classifier(
+      m, "Classifier", "Labels depth images of one size. Serves one thread at a time.");
+  classifier
       .def(py::init<int, int, const LabelRule&, const std::string&>(), py::arg("width"),
            py::arg("height"), py::arg("rule"), py::arg("isa") = std::string(),
            "isa: a SIMD target by name, scalar, or empty: the best there is. Raises InputError for "
-           "a "
-           "rule or a size that is none.")
+           "a rule or a size out of bounds.")
       // The first one is taken for what a renderer gave alone; all else gets the array's errors.
       .def("classify", &classify_rendered, py::arg("virtual_depth"), py::arg("measured"),
            "Labels every pixel. virtual_depth: metres, 0 where no robot is; measured: millimetres "
            "(uint16) or metres (float32).")
       .def("classify", &classify_array, py::arg("virtual_depth"), py::arg("measured"),
-           "The same of a virtual depth image from elsewhere.")
-      .def_property_readonly(
-          "rule", [](const Labeller& l) { return l.classifier.rule(); }, "The rule in use.")
-      .def_property_readonly(
-          "isa", [](const Labeller& l) { return l.classifier.isa(); }, "The SIMD target in use.");
+           "The same of a virtual depth image from elsewhere.");
+  show_fields(classifier,
+              Field{"rule", [](const Labeller& l) { return l.classifier.rule(); }, "In use."},
+              Field{"isa", [](const Labeller& l) { return l.classifier.isa(); },
+                    "The SIMD target in use."});
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ std::shared_ptr<State> make_pipeline(const Robot& robot, const Camera& camera,
 
 Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
   const OneThread::Use use(self->thread, "Pipeline.process");
-  self->lease.end("Pipeline.process", "the last report's labels, virtual_depth or link_image");
+  if (frame.depth)
+    check_size(frame.depth->array, "depth", self->depth_size.width(), self->depth_size.height());
   std::optional<OneThread::Use> held;
   if (const auto* given = std::get_if<SourceTargets>(&frame.targets)) held.emplace(given->hold());
   OwnedFrame::Parts parts;
@@ -44,6 +45,8 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
   {
     const py::gil_scoped_release others;
     report = &self->pipeline.process(view);
+    self->sequence->add(*report, view.joints.positions);
+    self->missing_parts->add(*report);
   }
   return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
@@ -56,31 +59,12 @@ void forget(State& self, const std::string& name) {
 void forget_all(State& self) {
   const OneThread::Use use(self.thread, "Pipeline.forget_targets");
   self.pipeline.forget_targets();
+  self.begin_sequence();
 }
 
-/// What holds for all frames.
-void bind_pipeline_facts(py::class_<State, std::shared_ptr<State>>& pipeline) {
-  pipeline
-      .def_property_readonly(
-          "robot", [](const State& s) { return s.pipeline.robot(); }, "The robot.")
-      .def_property_readonly(
-          "renderer", [](const State& s) { return s.pipeline.renderer(); }, "What draws.")
-      .def_property_readonly(
-          "triangle_count", [](const State& s) { return s.pipeline.triangle_count(); },
-          "Of all links.")
-      .def_property_readonly(
-          "rule", [](const State& s) { return s.pipeline.rule(); },
-          "The rule that labels are made by.")
-      .def_property_readonly(
-          "intrinsics", [](const State& s) { return s.pipeline.intrinsics(); },
-          "Size and projection of the report's images.")
-      .def_property_readonly(
-          "missing_links",
-          [](const State& s) {
-            const auto links = s.pipeline.missing_links();
-            return Frozen<std::string>{{links.begin(), links.end()}};
-          },
-          "Links whose geometry could not be read.");
+std::vector<std::string> notes(State& self) {
+  const OneThread::Use use(self.thread, "Pipeline.notes");
+  return self.notes();
 }
 
 }  // namespace
@@ -94,17 +78,31 @@ void bind_pipeline(py::module_& m) {
   pipeline
       .def(py::init(&make_pipeline), py::arg("robot"), py::arg("camera"),
            py::arg("config") = PipelineConfig(),
-           "Raises InputError for a robot of which nothing is drawn, a camera parent that is no "
-           "link, "
-           "a pose that is not rigid, and what the parts refuse.")
+           "Raises InputError for a robot without geometry, a camera parent that is no link, a "
+           "pose that is not rigid, and what the parts refuse.")
       .def("process", &process, py::arg("frame"),
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
-           "while an array upon the last report's images is in use, DeviceError if a graphics "
-           "device fails.")
+           "for a depth image of another size than the camera's, KeyError for joint names that are "
+           "not the robot's, DeviceError if a graphics device fails.")
       .def("forget_target", &forget, py::arg("name"),
            "Forgets a target's verdict, extent and track: the name stands for something new.")
-      .def("forget_targets", &forget_all, "Forgets all of them, and the kept frames.");
-  bind_pipeline_facts(pipeline);
+      .def("forget_targets", &forget_all,
+           "Forgets all targets, the kept frames and the notes: a new sequence begins.")
+      .def_property_readonly(
+          "notes", [](State& s) { return Frozen<std::string>{notes(s)}; },
+          "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
+          "prints it: for example, degrees for radians or millimetres for metres.");
+  const auto of = [](auto member) {
+    return [member](const State& s) { return std::invoke(member, s.pipeline); };
+  };
+  using P = Pipeline;
+  show_fields(
+      pipeline, Field{"robot", of(&P::robot), "The robot."},
+      Field{"renderer", of(&P::renderer), "What draws."},
+      Field{"triangle_count", of(&P::triangle_count), "Of all links."},
+      Field{"rule", of(&P::rule), "The rule that labels are made by."},
+      Field{"intrinsics", of(&P::intrinsics), "Size and projection of report images."},
+      Field{"missing_links", of(&P::missing_links), "Links whose geometry could not be read."});
 }
 
 }  // namespace penumbra::python

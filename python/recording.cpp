@@ -28,7 +28,7 @@ std::optional<DepthArgument<"depth">> depth_of(const std::shared_ptr<io::FrameDa
       [&](auto& image) -> std::optional<DepthArgument<"depth">> {
         if (image.empty()) return std::nullopt;
         using Pixel = std::remove_pointer_t<decltype(image.data())>;
-        return DepthArgument<"depth">{array_of(image.view(), keeper_of(data)).array,
+        return DepthArgument<"depth">{array_of(image.view(), data).array,
                                       ImageView<const Pixel>(image.view())};
       },
       data->depth);
@@ -54,16 +54,18 @@ RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
   std::visit([&](const auto& view) { take_depth(*data, view); }, frame.depth);
   OwnedFrame owned{.depth = depth_of(data),
                    .joints = joints_of(frame.joints),
-                   .joint_age = frame.joints.age,
                    .stamp = frame.stamp,
-                   .T_root_link = {frame.T_root_link.begin(), frame.T_root_link.end()},
-                   .T_parent_camera = frame.T_parent_camera,
                    .targets = std::move(targets),
+                   .T_root_link = {},
+                   .T_parent_camera = frame.T_parent_camera,
                    .source_status = frame.source_status,
                    .source_message = std::string(frame.source_message),
                    .index = frame.index,
+                   .joint_age = frame.joints.age,
                    .doubted_links = {frame.doubts.links.begin(), frame.doubts.links.end()},
                    .doubt = std::string(frame.doubts.why)};
+  if (!frame.T_root_link.empty())
+    owned.T_root_link.emplace(frame.T_root_link.begin(), frame.T_root_link.end());
   return {std::move(data), std::move(owned)};
 }
 
@@ -125,44 +127,29 @@ RecordedFrame read(const Reader& self, std::ptrdiff_t i) {
 
 void bind_recorded_frames(py::module_& m) {
   using F = RecordedFrame;
-  py::class_<F>(m, "RecordedFrame",
-                "A recorded frame. It keeps its images: arrays upon them stay as they are.")
-      .def_property_readonly(
-          "frame", [](const F& f) { return f.frame; }, "What Pipeline.process takes.")
-      .def_property_readonly(
-          "index", [](const F& f) { return f.data->index; }, "Its number.")
-      .def_property_readonly(
-          "stamp", [](const F& f) { return f.data->stamp; }, "Nanoseconds.")
-      .def_property_readonly(
-          "status", [](const F& f) { return f.data->status; }, "What is wrong with its data.")
-      .def_property_readonly(
-          "message", [](const F& f) { return f.data->message; },
-          "One line that names the file; empty if ok.")
-      .def_property_readonly(
-          "depth",
-          [](const F& f) -> std::optional<ImageResult<std::uint16_t, float>> {
-            if (!f.frame.depth) return std::nullopt;
-            return ImageResult<std::uint16_t, float>{f.frame.depth->array};
-          },
-          "Millimetres (uint16) or metres (float32), 0 = no measurement; None: there is none.")
-      .def_property_readonly(
-          "color",
-          [](const F& f) -> std::optional<ColorResult> {
-            if (f.data->color.empty()) return std::nullopt;
-            return array_of(f.data->color.view(), keeper_of(f.data));
-          },
-          "Red, green, blue; None: not asked for, not recorded or not usable.")
-      .def_property_readonly(
-          "color_message", [](const F& f) { return f.data->color_message; },
-          "Why a recorded colour image is not usable; empty if it is.")
-      .def("__repr__", [](const Self<F>& self) {
-        return repr_of(self, {"index", "stamp", "status"});
-      });
+  py::class_<F> frame(m, "RecordedFrame", "A recorded frame. Its images stay as they are.");
+  const auto of = [](auto member) { return [member](const F& f) { return (*f.data).*member; }; };
+  using D = io::FrameData;
+  show_properties(
+      frame, Field{"frame", &F::frame, "What Pipeline.process takes."},
+      Field{"index", of(&D::index), "Its number."}, Field{"stamp", of(&D::stamp), "Nanoseconds."},
+      Field{"status", of(&D::status), "What is wrong with its data."},
+      Field{"message", of(&D::message), "One line that names the file; empty if ok."},
+      Field{"depth", [](const F& f) { return f.frame.depth; },
+            "Millimetres (uint16) or metres (float32), 0 = no measurement; None: there is none."},
+      Field{"color",
+            [](const F& f) {
+              return f.data->color.empty() ? std::nullopt
+                                           : std::optional(array_of(f.data->color.view(), f.data));
+            },
+            "Red, green, blue; None: not asked for, not recorded or not usable."},
+      Field{"color_message", of(&D::color_message),
+            "Why a recorded colour image is not usable; empty if it is."});
+  bind_repr(frame, {"index", "stamp", "status", "message"});
   py::class_<Reader, std::shared_ptr<Reader>>(
       m, "FrameReader",
-      "A recording's frames, by their places in the joint file: len(), [i], iteration. May be used "
-      "by "
-      "several threads; other threads run while a frame is read.")
+      "A recording's frames, in the order of the joint file: len(), [i], iteration. Several "
+      "threads may use it; other threads run while a frame is read.")
       .def(py::init([](const io::Recording& recording, const Robot& robot, bool color) {
              const py::gil_scoped_release others;
              return std::make_shared<Reader>(recording, robot, color);
@@ -171,6 +158,10 @@ void bind_recorded_frames(py::module_& m) {
            "color: read colour images, too. Raises InputError for a joint file that is none.")
       .def("__len__", [](const Reader& self) { return self.reader.size(); })
       .def("__getitem__", &read, py::arg("i"))
+      .def("__repr__",
+           [](const Reader& self) {
+             return "<penumbra.FrameReader: " + std::to_string(self.reader.size()) + " frames>";
+           })
       .def("__iter__", [](const Self<Reader>& self) {
         return py::reinterpret_steal<FrameIterator>(PySeqIter_New(self.ptr()));
       });

@@ -35,36 +35,33 @@ Mask mask_of(const py::object& source) {
 }
 
 void bind_masks(py::module_& m) {
-  py::class_<Mask>(m, "PixelMask", "The pixels that are not 0 in an image of the report's size.")
-      .def(py::init([](const MaskSource& mask) { return mask_of(mask); }), py::arg("mask"),
+  py::class_<Mask> mask(m, "PixelMask",
+                        "The pixels that are not 0 in an image of the report's size.");
+  mask.def(py::init([](const MaskSource& of) { return mask_of(of); }), py::arg("mask"),
            "The mask is looked at where it lies, whenever a frame is judged: do not change it "
-           "meanwhile.")
-      .def_property_readonly(
-          "mask", [](const Mask& mask) { return ImageResult<std::uint8_t>{mask.array}; },
-          "The array itself, as uint8.");
+           "meanwhile.");
+  show_properties(mask,
+                  Field{"mask", [](const Mask& of) { return ImageResult<std::uint8_t>{of.array}; },
+                        "The array itself, as uint8."});
   py::class_<RunLengths> runs(
       m, "RunLengthMask",
       "COCO's run-length mask: columns from top to bottom, from left to right; runs of pixels "
       "outside and inside by turns, the first of them outside.");
-  runs.def(py::init([](int width, int height, std::vector<std::uint32_t> counts) {
-             return RunLengths{width, height, std::move(counts)};
-           }),
-           py::arg("width"), py::arg("height"), py::arg("counts"),
-           "Pixels; of the report's images.");
-  show_fields(runs, Field{"width", &RunLengths::width, "Pixels."},
-              Field{"height", &RunLengths::height, "Pixels."},
-              Field{"counts", &RunLengths::counts, "Pixels of each run."});
-  py::class_<Rendered>(
+  using R = RunLengths;
+  bind_fields<3>(runs, Field{"width", &R::width, "Pixels, of the report's images."},
+                 Field{"height", &R::height, "Pixels, of the report's images."},
+                 Field{"counts", &R::counts, "Pixels of each run."});
+  py::class_<Rendered> rendered(
       m, "RenderedRegion",
       "An object that was rendered alone: where its depth is > 0, which is also its "
-      "expected depth, metres.")
-      .def(py::init([](const ImageArgument<"depth", float>& depth) {
-             return Rendered{depth.array, std::get<0>(depth.view)};
-           }),
-           py::arg("depth"), "Of the report's size; looked at where it lies.")
-      .def_property_readonly(
-          "depth", [](const Rendered& r) { return ImageResult<float>{r.array}; },
-          "The array itself.");
+      "expected depth, metres.");
+  rendered.def(py::init([](const ImageArgument<"depth", float>& depth) {
+                 return Rendered{depth.array, std::get<0>(depth.view)};
+               }),
+               py::arg("depth"), "Of the report's size; looked at where it lies.");
+  show_properties(rendered,
+                  Field{"depth", [](const Rendered& of) { return ImageResult<float>{of.array}; },
+                        "The array itself."});
 }
 
 std::vector<Eigen::Vector2d> corners_of(const py::object& source) {
@@ -79,13 +76,9 @@ std::vector<Eigen::Vector2d> corners_of(const py::object& source) {
 void bind_outlines(py::module_& m) {
   py::class_<PixelBox> box(m, "PixelBox",
                            "The pixels whose centres lie in [u, u + width) x [v, v + height).");
-  box.def(py::init([](double u, double v, double width, double height) {
-            return PixelBox{u, v, width, height};
-          }),
-          py::arg("u"), py::arg("v"), py::arg("width"), py::arg("height"), "Pixels.");
-  show_fields(box, Field{"u", &PixelBox::u, "Pixels."}, Field{"v", &PixelBox::v, "Pixels."},
-              Field{"width", &PixelBox::width, "Pixels."},
-              Field{"height", &PixelBox::height, "Pixels."});
+  using B = PixelBox;
+  bind_fields<4>(box, Field{"u", &B::u, "Pixels."}, Field{"v", &B::v, "Pixels."},
+                 Field{"width", &B::width, "Pixels."}, Field{"height", &B::height, "Pixels."});
   py::class_<Polygon>(
       m, "PixelPolygon",
       "The pixels whose centres the outline winds around, in either direction. It may cross "

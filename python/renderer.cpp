@@ -27,7 +27,7 @@ std::unique_ptr<DepthRenderer> make_bodies_renderer(Backend backend, const Intri
 Renderer::Renderer(Backend backend, const Intrinsics& intrinsics,
                    const std::vector<OwnedBody>& bodies, const RendererOptions& options)
     : renderer_(make_bodies_renderer(backend, intrinsics, bodies, options)),
-      slots_(static_cast<std::size_t>(renderer_->max_pending())) {}
+      frames_(static_cast<std::size_t>(renderer_->max_pending())) {}
 
 void Renderer::submit(const Poses& T_camera_body) {
   const OneThread::Use use(thread_, "Renderer.submit");
@@ -43,39 +43,34 @@ void Renderer::submit(const Poses& T_camera_body) {
   if (renderer_->pending() == renderer_->max_pending())
     throw py::value_error("Renderer.submit: " + std::to_string(renderer_->pending()) +
                           " frames are pending, as many as may be: collect() one first");
-  Slot& slot = slot_of(submitted_);
-  slot.lease.end("Renderer.submit", "an earlier frame's depth or links");
-  slot.number = submitted_++;
+  ++submitted_;
   const py::gil_scoped_release others;
   renderer_->submit(T_camera_body);
 }
 
-std::uint64_t Renderer::collect(VirtualDepthView& view) {
+std::uint64_t Renderer::collect() {
   const OneThread::Use use(thread_, "Renderer.collect");
   if (renderer_->pending() == 0)
     throw py::value_error("Renderer.collect: no frame is pending: submit() one first");
   {
     const py::gil_scoped_release others;
-    view = renderer_->collect();
+    frames_[collected_ % frames_.size()] = renderer_->collect();
   }
   return collected_++;
 }
 
-py::object Renderer::base_of(std::uint64_t number, const std::shared_ptr<const void>& owner) {
-  Slot& slot = slot_of(number);
-  if (slot.number != number)
+const VirtualDepthView& Renderer::images(std::uint64_t number) const {
+  if (submitted_ > number + frames_.size())
     throw py::value_error(
-        "VirtualDepth: the renderer has drawn another frame in its place; take a "
-        "copy of what is needed longer");
-  return slot.lease.base(owner);
+        "VirtualDepth: the renderer has drawn another frame in its place: read "
+        "depth and links before that");
+  return frames_[number % frames_.size()];
 }
 
 namespace {
 
 VirtualDepth collected(const std::shared_ptr<Renderer>& self) {
-  VirtualDepthView view;
-  const std::uint64_t number = present(self, "Renderer")->collect(view);
-  return {self, number, view};
+  return {self, present(self, "Renderer")->collect()};
 }
 
 VirtualDepth rendered(const std::shared_ptr<Renderer>& self, const Poses& T_camera_body) {
@@ -118,20 +113,21 @@ std::shared_ptr<Renderer> make_renderer(Backend backend, const Intrinsics& intri
 }
 
 void bind_renderer_classes(py::module_& m) {
-  py::class_<VirtualDepth>(
+  py::class_<VirtualDepth> shown_depth(
       m, "VirtualDepth",
-      "What the camera would measure if only the bodies were there. Its arrays are read-only "
-      "views: "
-      "while one is in use, the call that would overwrite it raises ValueError; after that call "
-      "they are not to be had any more.")
-      .def_property_readonly("depth", method(&VirtualDepth::depth),
-                             "Metres along the optical axis; 0: no body on the ray.")
-      .def_property_readonly("links", method(&VirtualDepth::links),
-                             "Body index + 1 of the nearest surface; 0: none.");
-  py::class_<Renderer, std::shared_ptr<Renderer>>(
+      "What the camera would measure if only the bodies were there. Its arrays, (H, W), are "
+      "read-only copies, made when they are first read. Raises ValueError for one that was not "
+      "read before max_pending later frames were submitted.");
+  show_properties(
+      shown_depth,
+      Field{"depth", &VirtualDepth::depth, "Metres along the optical axis; 0: no body on the ray."},
+      Field{"links", &VirtualDepth::links, "Body index + 1 of the nearest surface; 0: none."});
+  using R = Renderer;
+  py::class_<R, std::shared_ptr<R>> renderer(
       m, "Renderer",
       "Renders bodies to metric z-depth at pixel centres, with which body is seen at each pixel. "
-      "Clips at 1 cm and has no far cut. Serves one thread at a time.")
+      "Clips at 1 cm and has no far cut. Serves one thread at a time.");
+  renderer
       .def(py::init(&make_renderer), py::arg("backend"), py::arg("intrinsics"), py::arg("bodies"),
            py::arg("options") = RendererOptions(),
            "bodies: Robot.bodies, say. Raises InputError for what the backend, this build or this "
@@ -139,23 +135,19 @@ void bind_renderer_classes(py::module_& m) {
       .def("render", &rendered, py::arg("T_camera_body"),
            "Draws the bodies at their poses in the optical frame, metres, one for each.")
       .def(
-          "submit", [](Renderer& self, const Poses& poses) { self.submit(poses); },
+          "submit", [](R& self, const Poses& poses) { self.submit(poses); },
           py::arg("T_camera_body"), "Begins a frame, for collect() to wait for.")
-      .def("collect", &collected, "The oldest pending frame.")
-      .def_property_readonly(
-          "pending", [](const Renderer& r) { return r.renderer().pending(); },
-          "Frames submitted and not collected.")
-      .def_property_readonly(
-          "max_pending", [](const Renderer& r) { return r.renderer().max_pending(); },
-          "The images of a frame last until so many more are submitted.")
-      .def_property_readonly(
-          "intrinsics", [](const Renderer& r) { return r.renderer().intrinsics(); },
-          "Of its images.")
-      .def_property_readonly(
-          "triangle_count", [](const Renderer& r) { return r.renderer().triangle_count(); },
-          "Of all bodies.")
-      .def_property_readonly(
-          "info", [](const Renderer& r) { return r.renderer().info(); }, "What draws.");
+      .def("collect", &collected, "The oldest pending frame.");
+  const auto of = [](auto member) {
+    return [member](const R& r) { return std::invoke(member, r.renderer()); };
+  };
+  using D = DepthRenderer;
+  show_fields(renderer, Field{"info", of(&D::info), "What draws."},
+              Field{"intrinsics", of(&D::intrinsics), "Of its images."},
+              Field{"triangle_count", of(&D::triangle_count), "Of all bodies."},
+              Field{"pending", of(&D::pending), "Frames submitted and not collected."},
+              Field{"max_pending", of(&D::max_pending),
+                    "The images of a frame last until so many more are submitted."});
 }
 
 }  // namespace

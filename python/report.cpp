@@ -6,6 +6,40 @@
 
 namespace penumbra::python {
 
+namespace {
+
+/// The camera whose images the reports are of.
+Camera judged_camera(const Camera& camera, const Pipeline& pipeline) {
+  if (pipeline.rectification() == nullptr) return camera;
+  return {.intrinsics = pipeline.intrinsics(),
+          .distortion = {},
+          .range = camera.range,
+          .frame_id = camera.frame_id};
+}
+
+}  // namespace
+
+PipelineState::PipelineState(const Robot& robot, const Camera& camera, const PipelineConfig& config)
+    : pipeline(robot, camera, config),
+      depth_size(camera.intrinsics),
+      image(config.image),
+      cloud_maker(judged_camera(camera, pipeline)) {
+  begin_sequence();
+}
+
+void PipelineState::begin_sequence() {
+  sequence.emplace(pipeline.robot(), SequenceNotes::Source{.image = image});
+  missing_parts.emplace(pipeline.robot(), pipeline.rule().fringe_reach);
+}
+
+std::vector<std::string> PipelineState::notes() const {
+  const auto of_robot = pipeline.robot().notes();
+  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
+  for (auto& line : sequence->lines()) notes.push_back(line);
+  for (auto& line : missing_parts->lines()) notes.push_back(line);
+  return notes;
+}
+
 Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth)
     : state_(std::move(state)),
       call_(state_->calls),
@@ -23,14 +57,17 @@ Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, 
 void Report::check_is_last() const {
   if (state_->calls != call_)
     throw py::value_error(
-        "FrameReport: the pipeline has judged another frame since, in whose images "
-        "those of frame " +
-        std::to_string(report_.index) + " are gone; take a copy of what is needed longer");
+        "FrameReport: the pipeline has judged another frame since: read the "
+        "images of frame " +
+        std::to_string(report_.index) + " before the next call");
 }
 
-py::object Report::base() const {
-  check_is_last();
-  return state_->lease.base(state_);
+ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, report_.labels); }
+std::optional<ImageResult<float>> Report::virtual_depth() const {
+  return read(virtual_depth_, report_.virtual_depth.depth);
+}
+std::optional<ImageResult<std::uint16_t>> Report::link_image() const {
+  return read(link_image_, report_.virtual_depth.links);
 }
 
 DepthImage Report::filtered_depth() const {
@@ -52,11 +89,6 @@ PointCloud Report::points(const std::optional<std::string>& frame) const {
 
 namespace {
 
-template <auto Member>
-auto number(const Report& report) {
-  return report.numbers().*Member;
-}
-
 void bind_report_parts(py::module_& m) {
   py::class_<PixelCounts> pixels(
       m, "PixelCounts",
@@ -77,21 +109,6 @@ void bind_report_parts(py::module_& m) {
               Field{"render", &T::render, "Virtual depth."},
               Field{"classify", &T::classify, "Labels."},
               Field{"targets", &T::targets, "Verdicts and handling."});
-}
-
-void bind_report_images(py::class_<Report>& report) {
-  report
-      .def_property_readonly(
-          "virtual_depth", [](const Report& r) { return r.image(r.numbers().virtual_depth.depth); },
-          "Metres along the optical axis, 0 where no robot is; None where the robot's pose is not "
-          "known. A read-only view: while it is in use the pipeline's next call raises "
-          "ValueError, and after that call it is not to be had any more.")
-      .def_property_readonly(
-          "link_image", [](const Report& r) { return r.image(r.numbers().virtual_depth.links); },
-          "Index into links + 1 of the nearest surface, 0: none. As virtual_depth.")
-      .def_property_readonly(
-          "labels", [](const Report& r) { return r.image(r.numbers().labels).value(); },
-          "Label values; all unknown where the robot's pose is not known. As virtual_depth.");
 }
 
 /// A cloud as arrays.
@@ -132,26 +149,22 @@ CloudArrays points_of(const Report& report, const std::optional<std::string>& fr
 }
 
 void bind_without_robot(py::module_& m, py::class_<Report>& report) {
-  py::class_<CloudArrays>(m, "PointCloud",
-                          "Points without the robot, in the order of their pixels.")
-      .def_property_readonly(
-          "points", [](const CloudArrays& c) { return c.points; }, "float32 (N, 3), metres.")
-      .def_property_readonly(
-          "pixels", [](const CloudArrays& c) { return c.pixels; },
-          "uint32 (N,): v * width + u of each point.")
-      .def_property_readonly(
-          "colors", [](const CloudArrays& c) { return c.colors; },
-          "uint8 (N, 3) of the colour image; (0, 3) without one.")
-      .def("__len__", [](const CloudArrays& c) { return c.pixels.size(); });
+  using C = CloudArrays;
+  py::class_<C> cloud(m, "PointCloud", "Points without the robot, in the order of their pixels.");
+  show_properties(cloud, Field{"points", &C::points, "float32 (N, 3), metres."},
+                  Field{"pixels", &C::pixels, "uint32 (N,): v * width + u of each point."},
+                  Field{"colors", &C::colors, "uint8 (N, 3); (0, 3) without a colour image."});
+  cloud.def("__len__", [](const C& c) { return c.pixels.size(); });
+  cloud.def("__repr__", [](const C& c) {
+    return "<penumbra.PointCloud: " + std::to_string(c.pixels.size()) + " points>";
+  });
   report
       .def(
           "filtered_depth",
-          [](const Report& r) -> ImageResult<std::uint16_t, float> {
+          [](const Report& r) {
             const auto image = std::make_shared<DepthImage>(r.filtered_depth());
             return std::visit(
-                [&](auto& depth) -> ImageResult<std::uint16_t, float> {
-                  return {array_of(depth.view(), keeper_of(image)).array};
-                },
+                [&](auto& depth) -> DepthResult { return {array_of(depth.view(), image).array}; },
                 *image);
           },
           "A copy of the frame's depth without the robot: 0 (uint16) or NaN (float32) where depth "
@@ -163,62 +176,55 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
            "InputError for a name that is no link.");
 }
 
-void bind_report_numbers(py::class_<Report>& report) {
+void bind_report_properties(py::class_<Report>& report) {
   using F = FrameReport;
-  report.def_property_readonly("index", &number<&F::index>, "In its source.")
-      .def_property_readonly("stamp", &number<&F::stamp>, "Nanoseconds.")
-      .def_property_readonly("joint_age", &number<&F::joint_age>, "Nanoseconds.")
-      .def_property_readonly("status", &number<&F::status>, "Whether the frame can be relied on.")
-      .def_property_readonly("message", &number<&F::message>, "One line for every status but ok.")
-      .def_property_readonly("nothing_measured", &number<&F::nothing_measured>,
-                             "No pixel of the depth image is within the sensor's range.")
-      .def_property_readonly("pixels", &number<&F::pixels>, "Pixels by label.")
-      .def_property_readonly("timing", &number<&F::timing>, "Milliseconds by stage.")
-      .def_property_readonly("T_root_camera", &number<&F::T_root_camera>,
-                             "The optical frame in the root link's; None: not known.")
-      .def_property_readonly(
-          "T_root_link",
-          [](const Report& r) -> std::optional<Poses> {
-            if (r.T_root_link().empty()) return std::nullopt;
-            return r.T_root_link();
-          },
-          "Poses of the links, metres; None: not known.")
-      .def_property_readonly(
-          "near_links", [](const Report& r) { return Frozen<std::string>{r.near_links()}; },
-          "Links of which a part lies nearer than 1 cm and is not drawn.")
-      .def_property_readonly(
-          "targets", [](const Report& r) { return Frozen<OwnedTargetReport>{r.targets()}; },
-          "One for each of the frame's targets, in their order.")
-      .def_property_readonly(
-          "links",
-          [](const Report& r) {
-            const auto links = r.state().pipeline.robot().links();
-            return Frozen<std::string>{{links.begin(), links.end()}};
-          },
-          "Names: links[i] stands as i + 1 in link images.")
-      .def_property_readonly(
-          "missing_links",
-          [](const Report& r) {
-            const auto links = r.state().pipeline.missing_links();
-            return Frozen<std::string>{{links.begin(), links.end()}};
-          },
-          "Links drawn without all of their geometry.");
+  using R = Report;
+  const auto of = [](auto member) { return [member](const R& r) { return r.numbers().*member; }; };
+  show_properties(
+      report, Field{"index", of(&F::index), "In its source."},
+      Field{"stamp", of(&F::stamp), "Nanoseconds."},
+      Field{"joint_age", of(&F::joint_age), "Nanoseconds."},
+      Field{"status", of(&F::status), "Whether the frame can be relied on."},
+      Field{"message", of(&F::message), "One line for every status but ok."},
+      Field{"nothing_measured", of(&F::nothing_measured),
+            "No pixel of the depth image is within the sensor's range."},
+      Field{"pixels", of(&F::pixels), "Pixels by label."},
+      Field{"timing", of(&F::timing), "Milliseconds by stage."},
+      Field{"T_root_camera", of(&F::T_root_camera),
+            "The optical frame in the root link's frame, metres; None: not known."},
+      Field{"T_root_link",
+            [](const R& r) {
+              return r.T_root_link().empty() ? std::nullopt : std::optional(r.T_root_link());
+            },
+            "Poses of the links, metres; None: not known."},
+      Field{"near_links", &R::near_links,
+            "Links of which a part lies nearer than 1 cm and is not drawn."},
+      Field{"targets", &R::targets, "One for each of the frame's targets, in their order."},
+      Field{"links", [](const R& r) { return r.state().pipeline.robot().links(); },
+            "Names: links[i] has the number i + 1 in link images."},
+      Field{"missing_links", [](const R& r) { return r.state().pipeline.missing_links(); },
+            "Links drawn without all of their geometry."},
+      Field{"labels", &R::labels,
+            "Label values, (H, W); all unknown if the robot's pose is not known. A read-only copy, "
+            "made when it is first read. Raises ValueError if it was not read before the "
+            "pipeline's next call."},
+      Field{"virtual_depth", &R::virtual_depth,
+            "Metres along the optical axis, 0 where no robot is; None: the robot's pose is not "
+            "known. As labels."},
+      Field{"link_image", &R::link_image,
+            "Index into links + 1 of the nearest surface, 0: none. As virtual_depth."});
+  bind_repr(report, {"index", "status", "message", "pixels", "targets"});
 }
 
 }  // namespace
 
 void bind_report(py::module_& m) {
   bind_report_parts(m);
-  py::class_<Report> report(
-      m, "FrameReport",
-      "What the pipeline says of one frame. Numbers, verdicts and poses stay; "
-      "images lie in the pipeline until its next call.");
-  bind_report_numbers(report);
-  bind_report_images(report);
+  py::class_<Report> report(m, "FrameReport",
+                            "What the pipeline says of one frame. Read its images before the "
+                            "pipeline's next call; everything else stays.");
+  bind_report_properties(report);
   bind_without_robot(m, report);
-  report.def("__repr__", [](const Self<Report>& self) {
-    return repr_of(self, {"index", "status", "message"});
-  });
 }
 
 }  // namespace penumbra::python

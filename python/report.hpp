@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,31 +11,32 @@
 #include <python/judgement.hpp>
 
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
+#include <penumbra/tuning/missing_parts.hpp>
 
 namespace penumbra::python {
 
-/// The camera whose images a pipeline's reports are of.
-[[nodiscard]] inline Camera judged_camera(const Camera& camera, const Pipeline& pipeline) {
-  if (pipeline.rectification() == nullptr) return camera;
-  return {.intrinsics = pipeline.intrinsics(),
-          .distortion = {},
-          .range = camera.range,
-          .frame_id = camera.frame_id};
-}
-
-/// A pipeline, and whose images lie in it.
+/// A pipeline with what is noted of its frames.
 struct PipelineState {
-  PipelineState(const Robot& robot, const Camera& camera, const PipelineConfig& config)
-      : pipeline(robot, camera, config), cloud_maker(judged_camera(camera, pipeline)) {}
+  PipelineState(const Robot& robot, const Camera& camera, const PipelineConfig& config);
+
+  /// Forgets the frames that were noted.
+  void begin_sequence();
+  /// What is doubtful of the robot and of the frames, a line each.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
   Pipeline pipeline;
+  Intrinsics depth_size;  ///< of depth images as they come
+  ImageSpace image;
   CloudMaker cloud_maker;
+  std::optional<SequenceNotes> sequence;
+  std::optional<MissingParts> missing_parts;
   std::uint64_t calls = 0;
-  Lease lease;
   OneThread thread;
 };
 
-/// A report whose numbers are its own; images and poses lie in the pipeline.
+/// A report whose numbers are its own. Images lie in the pipeline until the next frame.
 class Report {
  public:
   /// `depth`: the frame's image, which the report may refer to.
@@ -43,24 +45,26 @@ class Report {
   [[nodiscard]] const FrameReport& numbers() const { return report_; }
   [[nodiscard]] const std::vector<OwnedTargetReport>& targets() const { return targets_; }
   [[nodiscard]] const Poses& T_root_link() const { return T_root_link_; }
-  [[nodiscard]] std::vector<std::string> near_links() const { return near_links_; }
+  [[nodiscard]] const std::vector<std::string>& near_links() const { return near_links_; }
   [[nodiscard]] const PipelineState& state() const { return *state_; }
 
-  /// Of an image of the report; nothing where the report has none. Throws ValueError once the
-  /// pipeline has judged another frame.
-  template <typename T>
-  [[nodiscard]] std::optional<ImageResult<T>> image(ImageView<const T> view) const {
-    if (view.empty()) return std::nullopt;
-    return array_of(view, base());
-  }
-
-  /// Copies of the depth and its points without the robot. Throw ValueError as image() does.
+  /// Images. All throw ValueError once the pipeline has judged another frame, if they were not
+  /// read before.
+  [[nodiscard]] ImageResult<std::uint8_t> labels() const;
+  [[nodiscard]] std::optional<ImageResult<float>> virtual_depth() const;
+  [[nodiscard]] std::optional<ImageResult<std::uint16_t>> link_image() const;
   [[nodiscard]] DepthImage filtered_depth() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
 
  private:
   void check_is_last() const;
-  [[nodiscard]] py::object base() const;
+  /// Nothing if the report has none.
+  template <typename T>
+  [[nodiscard]] std::optional<ImageResult<T>> read(const ReadImage<T>& image,
+                                                   ImageView<const T> view) const {
+    if (view.empty()) return std::nullopt;
+    return image.read([&] { return check_is_last(), view; });
+  }
 
   std::shared_ptr<PipelineState> state_;
   std::uint64_t call_;
@@ -69,6 +73,9 @@ class Report {
   std::vector<OwnedTargetReport> targets_;
   Poses T_root_link_;
   std::vector<std::string> near_links_;
+  ReadImage<std::uint8_t> labels_;
+  ReadImage<float> virtual_depth_;
+  ReadImage<std::uint16_t> link_image_;
 };
 
 }  // namespace penumbra::python

@@ -52,40 +52,35 @@ Mesh mesh_of(const VertexArray& given_vertices, const TriangleArray& given_trian
   return {std::move(mesh)};
 }
 
-template <typename Result, typename T>
-Result rows_array(const T* first, std::size_t count, const Mesh& mesh) {
-  return read_only(py::array(py::dtype::of<T>(), {static_cast<py::ssize_t>(count), py::ssize_t{3}},
-                             {}, first, keeper_of(mesh.triangles)));
+/// A read-only view of rows of three numbers in a mesh.
+template <typename Result, auto Rows>
+Result rows_array(const Mesh& mesh) {
+  const auto& rows = (*mesh.triangles).*Rows;
+  using T = std::remove_cvref_t<decltype(rows[0][0])>;
+  return read_only(py::array(py::dtype::of<T>(),
+                             {static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}}, {},
+                             rows.data(), keeper_of(mesh.triangles)));
 }
 
 void bind_mesh(py::module_& m) {
-  py::class_<Mesh>(m, "TriangleMesh",
-                   "Triangles over shared vertices, metres. Seen from outside, corners run "
-                   "counter-clockwise.")
-      .def(py::init(&mesh_of), py::arg("vertices"), py::arg("triangles"),
+  py::class_<Mesh> mesh(m, "TriangleMesh",
+                        "Triangles over shared vertices, metres. Seen from outside, corners run "
+                        "counter-clockwise.");
+  mesh.def(py::init(&mesh_of), py::arg("vertices"), py::arg("triangles"),
            "vertices: float32 (N, 3), metres; triangles: uint32 (M, 3), indices of vertices. The "
-           "mesh keeps a copy.")
-      .def_property_readonly(
-          "vertices",
-          [](const Mesh& mesh) {
-            const auto& of = mesh.triangles->vertices;
-            return rows_array<VertexArray>(of.empty() ? nullptr : of[0].data(), of.size(), mesh);
-          },
-          "float32 (N, 3), metres. Read-only view.")
-      .def_property_readonly(
-          "triangles",
-          [](const Mesh& mesh) {
-            const auto& of = mesh.triangles->triangles;
-            return rows_array<TriangleArray>(of.empty() ? nullptr : of[0].data(), of.size(), mesh);
-          },
-          "uint32 (M, 3), indices of vertices. Read-only view.");
+           "mesh keeps a copy.");
+  show_properties(mesh,
+                  Field{"vertices", &rows_array<VertexArray, &TriangleMesh::vertices>,
+                        "float32 (N, 3), metres. Read-only view."},
+                  Field{"triangles", &rows_array<TriangleArray, &TriangleMesh::triangles>,
+                        "uint32 (M, 3), indices of vertices. Read-only view."});
+  mesh.def("__repr__", [](const Mesh& of) {
+    return "<penumbra.TriangleMesh: " + std::to_string(of.triangles->triangles.size()) +
+           " triangles>";
+  });
   py::class_<OwnedBody> body(m, "Body", "A rigid thing to draw.");
-  body.def(py::init([](std::string name, std::vector<Mesh> meshes) {
-             return OwnedBody{std::move(name), std::move(meshes)};
-           }),
-           py::arg("name"), py::arg("meshes"), "meshes: in the body's frame; may be empty.");
-  show_fields(body, Field{"name", &OwnedBody::name, "Its name."},
-              Field{"meshes", &OwnedBody::meshes, "In the body's frame."});
+  bind_fields<2>(body, Field{"name", &OwnedBody::name, "Its name."},
+                 Field{"meshes", &OwnedBody::meshes, "In the body's frame; may be empty."});
 }
 
 void bind_options(py::module_& m) {
@@ -140,11 +135,6 @@ void bind_robot_parts(py::module_& m) {
               Field{"mimics", &J::mimics, "Whether it follows another joint."});
 }
 
-template <typename T>
-Frozen<std::remove_const_t<T>> frozen(std::span<T> values) {
-  return {{values.begin(), values.end()}};
-}
-
 /// Meshes are kept by the robot that they are of.
 std::vector<Mesh> meshes_of(const Robot& robot, std::size_t link) {
   if (link >= robot.links().size())
@@ -181,7 +171,9 @@ std::size_t find_variable(const Robot& robot, const std::string& name) {
 }
 
 void bind_robot_class(py::module_& m) {
-  py::class_<Robot>(m, "Robot", "A URDF's links, joints and geometry. Immutable.")
+  using R = Robot;
+  py::class_<R> robot(m, "Robot", "A URDF's links, joints and geometry. Immutable.");
+  robot
       .def_static("load", &Robot::load, py::arg("urdf"), py::arg("options") = RobotOptions(),
                   WithoutGil(),
                   "Reads a URDF and its meshes. Raises InputError with file, line and element.")
@@ -191,24 +183,6 @@ void bind_robot_class(py::module_& m) {
              const RobotOptions& options) { return Robot::parse(xml, folder, options); },
           py::arg("xml"), py::arg("folder"), py::arg("options") = RobotOptions(), WithoutGil(),
           "The same from text; relative mesh paths start at folder.")
-      .def_property_readonly("name", method(&Robot::name), "The URDF's name.")
-      .def_property_readonly(
-          "links", [](const Robot& r) { return frozen(r.links()); },
-          "Names, parents before children; index 0 is the root.")
-      .def_property_readonly(
-          "joints", [](const Robot& r) { return frozen(r.joints()); }, "joints[i].child == i + 1.")
-      .def_property_readonly(
-          "variables", [](const Robot& r) { return frozen(r.variables()); },
-          "Names of the position values, in their order.")
-      .def_property_readonly(
-          "report", [](const Robot& r) { return frozen(r.report()); },
-          "What became of each link's geometry.")
-      .def_property_readonly(
-          "notes", [](const Robot& r) { return frozen(r.notes()); },
-          "What one should know though nothing is wrong, a line each.")
-      .def_property_readonly(
-          "bodies", [](const Robot& r) { return Frozen<OwnedBody>{bodies_of(r)}; },
-          "The links with their meshes, to draw.")
       .def("find_link", &Robot::find_link, py::arg("name"), "Its index, or None.")
       .def("find_variable", &find_variable, py::arg("name"),
            "Its index. Raises KeyError for an unknown name.")
@@ -225,6 +199,14 @@ void bind_robot_class(py::module_& m) {
         return "<penumbra.Robot '" + r.name() + "': " + std::to_string(r.links().size()) +
                " links, " + std::to_string(r.variables().size()) + " variables>";
       });
+  show_properties(
+      robot, Field{"name", &R::name, "The URDF's name."},
+      Field{"links", &R::links, "Names, parents before children; index 0 is the root."},
+      Field{"joints", &R::joints, "joints[i].child == i + 1."},
+      Field{"variables", &R::variables, "Names of the position values, in their order."},
+      Field{"report", &R::report, "What became of each link's geometry."},
+      Field{"notes", &R::notes, "What is doubtful though nothing is wrong, a line each."},
+      Field{"bodies", &bodies_of, "The links with their meshes, to draw."});
 }
 
 }  // namespace

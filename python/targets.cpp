@@ -94,18 +94,12 @@ void bind_thresholds(py::module_& m) {
 }
 
 void bind_image_shapes(py::module_& m) {
-  py::class_<OwnedRegionTarget>(m, "RegionTarget", "Pixels of the report's images.")
-      .def(py::init([](OwnedRegion region, Extent extent, std::optional<double> expected_depth) {
-             return OwnedRegionTarget{std::move(region), extent, expected_depth};
-           }),
-           py::arg("region"), py::kw_only(), py::arg("extent") = RegionTarget{}.extent,
-           py::arg("expected_depth") = RegionTarget{}.expected_depth,
-           "expected_depth: metres; hidden then needs no measured depth.")
-      .def_property_readonly(
-          "extent", [](const OwnedRegionTarget& t) { return t.extent; },
-          "What the region covers of the target.")
-      .def_property_readonly(
-          "expected_depth", [](const OwnedRegionTarget& t) { return t.expected_depth; }, "Metres.");
+  using R = OwnedRegionTarget;
+  py::class_<R> region(m, "RegionTarget", "Pixels of the report's images.");
+  bind_fields<1>(region, Field{"region", &R::region, "Its pixels."},
+                 Field{"extent", &R::extent, "What the region covers of the target."},
+                 Field{"expected_depth", &R::expected_depth,
+                       "Metres; hidden then needs no measured depth. None: not known."});
   py::class_<KeypointTarget> keypoint(m, "KeypointTarget",
                                       "A key point of a network; an ellipse around it is judged.");
   using K = KeypointTarget;
@@ -120,36 +114,21 @@ void bind_image_shapes(py::module_& m) {
 }
 
 void bind_space_shapes(py::module_& m) {
-  py::class_<OwnedPointTarget> point(m, "PointTarget", "A ball around a point.");
-  point.def(py::init([](const Eigen::Vector3d& position, double radius, FrameName frame) {
-              return OwnedPointTarget{position, radius, std::move(frame)};
-            }),
-            py::arg("position"), py::kw_only(), py::arg("radius") = PointTarget{}.radius,
-            py::arg("frame") = FrameName(), "Metres.");
-  show_fields(point, Field{"position", &OwnedPointTarget::position, "Metres."},
-              Field{"radius", &OwnedPointTarget::radius, "Metres."},
-              Field{"frame", &OwnedPointTarget::frame, frame_doc});
-  py::class_<OwnedBoxTarget> box(m, "BoxTarget", "A box, rendered alone.");
-  box.def(py::init([](const Eigen::Isometry3d& pose, const Eigen::Vector3d& size, FrameName frame) {
-            return OwnedBoxTarget{pose, size, std::move(frame)};
-          }),
-          py::arg("pose"), py::arg("size"), py::kw_only(), py::arg("frame") = FrameName(),
-          "pose: of its centre, axes along its edges; size: whole edges, metres.");
-  show_fields(box, Field{"pose", &OwnedBoxTarget::pose, "Of its centre, metres."},
-              Field{"size", &OwnedBoxTarget::size, "Whole edges, metres."},
-              Field{"frame", &OwnedBoxTarget::frame, frame_doc});
-  py::class_<OwnedMeshTarget> mesh(
-      m, "MeshTarget",
-      "A mesh, rendered alone. Give the same TriangleMesh again for the "
-      "same mesh: what was made ready for rendering is kept by it.");
-  mesh.def(py::init([](Mesh of, const Eigen::Isometry3d& pose, FrameName frame) {
-             return OwnedMeshTarget{std::move(of), pose, std::move(frame)};
-           }),
-           py::arg("mesh"), py::arg("pose"), py::kw_only(), py::arg("frame") = FrameName(),
-           "mesh: in the object's frame.");
-  show_fields(mesh, Field{"mesh", &OwnedMeshTarget::mesh, "In the object's frame."},
-              Field{"pose", &OwnedMeshTarget::pose, "Metres."},
-              Field{"frame", &OwnedMeshTarget::frame, frame_doc});
+  using P = OwnedPointTarget;
+  py::class_<P> point(m, "PointTarget", "A ball around a point.");
+  bind_fields<1>(point, Field{"position", &P::position, "Metres."},
+                 Field{"radius", &P::radius, "Metres."}, Field{"frame", &P::frame, frame_doc});
+  using B = OwnedBoxTarget;
+  py::class_<B> box(m, "BoxTarget", "A box, rendered alone.");
+  bind_fields<2>(box, Field{"pose", &B::pose, "Of its centre, axes along its edges, metres."},
+                 Field{"size", &B::size, "Whole edges, metres."},
+                 Field{"frame", &B::frame, frame_doc});
+  using M = OwnedMeshTarget;
+  py::class_<M> mesh(m, "MeshTarget",
+                     "A mesh, rendered alone. Give the same TriangleMesh again for the same mesh: "
+                     "it keeps what was prepared for rendering.");
+  bind_fields<2>(mesh, Field{"mesh", &M::mesh, "In the object's frame."},
+                 Field{"pose", &M::pose, "Metres."}, Field{"frame", &M::frame, frame_doc});
 }
 
 /// A pose or a position, by its shape.
@@ -166,62 +145,56 @@ OwnedEstimate estimate_of(const ValueSource& value, std::optional<std::int64_t> 
 }
 
 void bind_estimate(py::module_& m) {
-  py::class_<OwnedEstimate>(m, "TargetEstimate",
-                            "What the perception system says of a target's whereabouts.")
-      .def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
-           py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = FrameName(),
-           py::arg("covariance") = TargetEstimate{}.covariance,
-           "value: a pose (4, 4), a position (3,), metres, or None: it found none in this frame. "
-           "stamp: of its image, nanoseconds; None: the target's. covariance: of position and "
-           "rotation vector along the axes of frame.");
+  using E = OwnedEstimate;
+  py::class_<E> estimate(m, "TargetEstimate",
+                         "What the perception system says of a target's whereabouts.");
+  estimate.def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
+               py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = FrameName(),
+               py::arg("covariance") = TargetEstimate{}.covariance);
+  show_fields(estimate,
+              Field{"value", &E::value,
+                    "A pose (4, 4), a position (3,), metres, or None: not found in this frame."},
+              Field{"stamp", &E::stamp, "Of its image, nanoseconds; None: the target's."},
+              Field{"frame", &E::frame, frame_doc},
+              Field{"covariance", &E::covariance,
+                    "Of position and rotation vector along the axes of frame."});
 }
 
-/// Arguments of Target, in the order of its constructor.
+std::vector<std::string> names_of(const SourceTargets& targets) {
+  std::vector<std::string> names;
+  for (const Target& target : targets.targets()) names.emplace_back(target.name);
+  return names;
+}
+
 void bind_target(py::module_& m) {
-  const Target defaults;
-  py::class_<OwnedTarget>(
-      m, "Target",
-      "What is to be judged in a frame. Whatever is wrong with it makes its verdict unknown and is "
-      "said in the report's reason.")
-      .def(
-          py::init([](std::string name, OwnedShape shape, bool has_identity, std::string frame_id,
-                      std::optional<std::int64_t> stamp, double depth_margin,
-                      const TargetThresholds& thresholds, const TargetHandling& handling,
-                      std::optional<OwnedEstimate> estimate, std::string fault) {
-            return OwnedTarget{std::move(name),     has_identity, std::move(shape),
-                               std::move(frame_id), stamp,        depth_margin,
-                               thresholds,          handling,     std::move(estimate),
-                               std::move(fault)};
-          }),
-          py::arg("name"), py::arg("shape"), py::kw_only(),
-          py::arg("has_identity") = defaults.has_identity, py::arg("frame_id") = std::string(),
-          py::arg("stamp") = defaults.stamp, py::arg("depth_margin") = defaults.depth_margin,
-          py::arg("thresholds") = defaults.thresholds, py::arg("handling") = defaults.handling,
-          py::arg("estimate") = std::optional<OwnedEstimate>(), py::arg("fault") = std::string(),
-          "name: once per frame; by it verdicts and tracks are remembered. shape: None: not found "
-          "in "
-          "this frame. frame_id: of its image; others than the camera's are refused. stamp: of its "
-          "image, nanoseconds; None: the frame's. depth_margin: metres by which its surface may "
-          "lie "
-          "off its expected depth. handling: how it is carried on while it is hidden.")
-      .def_property_readonly(
-          "name", [](const OwnedTarget& t) { return t.name; }, "Its name.")
-      .def(
-          "check", [](const OwnedTarget& t) { check_target(target_of(t)); },
-          "Raises InputError for what can be right in no frame.");
-  py::class_<SourceTargets>(
+  using T = OwnedTarget;
+  py::class_<T> target(m, "Target",
+                       "What is to be judged in a frame. If anything is wrong with it, its verdict "
+                       "is unknown and the report's reason says why.");
+  bind_members<2>(
+      target,
+      Field{"name", &T::name, "Unique in a frame; verdicts and tracks are remembered by it."},
+      Field{"shape", &T::shape, "None: not found in this frame."},
+      Field{"has_identity", &T::has_identity,
+            "False: the name may be another object's in the next frame."},
+      Field{"frame_id", &T::frame_id, "Of its image; others than the camera's are refused."},
+      Field{"stamp", &T::stamp, "Of its image, nanoseconds; None: the frame's."},
+      Field{"depth_margin", &T::depth_margin,
+            "Metres by which its surface may be off its expected depth."},
+      Field{"thresholds", &T::thresholds, "From where on it counts as hidden."},
+      Field{"handling", &T::handling, "How it is followed while it is hidden; None: not at all."},
+      Field{"estimate", &T::estimate, "What the perception system says; None: nothing."},
+      Field{"fault", &T::fault, "What its source knows to be wrong with it; empty: nothing."});
+  bind_repr(target, {"name", "shape"});
+  target.def(
+      "check", [](const T& t) { check_target(target_of(t)); },
+      "Raises InputError for what can be right in no frame.");
+  py::class_<SourceTargets> source(
       m, "SourceTargets",
-      "The targets of a frame as a file or a bag has them. They go into a Frame "
-      "of that frame; once the next one is read they raise ValueError.")
-      .def("__len__", [](const SourceTargets& s) { return s.targets().size(); })
-      .def_property_readonly(
-          "names",
-          [](const SourceTargets& s) {
-            Frozen<std::string> names;
-            for (const Target& target : s.targets()) names.values.emplace_back(target.name);
-            return names;
-          },
-          "Their names, in their order.");
+      "The targets of a frame in a file or a bag. Put them into the Frame of that frame; once the "
+      "next frame is read they raise ValueError.");
+  source.def("__len__", [](const SourceTargets& s) { return s.targets().size(); });
+  show_fields(source, Field{"names", &names_of, "Their names, in their order."});
 }
 
 }  // namespace

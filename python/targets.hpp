@@ -52,12 +52,12 @@ using FrameName = std::optional<std::string>;
 
 struct OwnedRegionTarget {
   OwnedRegion region;
-  Extent extent;
+  Extent extent = RegionTarget{}.extent;
   std::optional<double> expected_depth;
 };
 struct OwnedPointTarget {
   Eigen::Vector3d position;
-  double radius;
+  double radius = PointTarget{}.radius;
   FrameName frame;
 };
 struct OwnedBoxTarget {
@@ -82,11 +82,11 @@ struct OwnedEstimate {
 
 struct OwnedTarget {
   std::string name;
-  bool has_identity;
   OwnedShape shape;
+  bool has_identity = Target{}.has_identity;
   std::string frame_id;
   std::optional<std::int64_t> stamp;
-  double depth_margin;
+  double depth_margin = Target{}.depth_margin;
   TargetThresholds thresholds;
   TargetHandling handling;
   std::optional<OwnedEstimate> estimate;

@@ -88,21 +88,24 @@ Poses poses_of(py::handle source) {
   return poses;
 }
 
-std::vector<double> vector_of(py::handle source) {
+Numbers vector_of(py::handle source) {
   constexpr py::ssize_t shape[] = {-1};
   const auto array = numbers_of(source, shape, "numbers");
-  return {array.data(), array.data() + array.size()};
+  return {{array.data(), array.data() + array.size()}};
 }
 
 py::array array_of(const Eigen::Isometry3d& pose) { return array_of_matrix(pose.matrix()); }
 
-py::array array_of(Poses poses) {
+py::array array_of(const Numbers& numbers) {
+  return copied(numbers.values, {static_cast<py::ssize_t>(numbers.values.size())});
+}
+
+py::array array_of(const Poses& poses) {
   const auto count = static_cast<py::ssize_t>(poses.size());
-  const auto kept = std::make_shared<const Poses>(std::move(poses));
   constexpr auto number = static_cast<py::ssize_t>(sizeof(double));
-  // Eigen's matrices lie by columns.
+  // Eigen's matrices lie by columns. Without a base the array is a copy.
   return read_only(py::array(py::dtype::of<double>(), {count, py::ssize_t{4}, py::ssize_t{4}},
-                             {16 * number, number, 4 * number}, kept->data(), keeper_of(kept)));
+                             {16 * number, number, 4 * number}, poses.data()));
 }
 
 }  // namespace penumbra::python

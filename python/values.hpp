@@ -42,11 +42,10 @@ inline constexpr const char* mask_fault = ": its mask would be lost: take .fille
 
 [[nodiscard]] Eigen::Isometry3d pose_of(py::handle source);
 [[nodiscard]] Poses poses_of(py::handle source);
-[[nodiscard]] std::vector<double> vector_of(py::handle source);
+[[nodiscard]] Numbers vector_of(py::handle source);
 [[nodiscard]] py::array array_of(const Eigen::Isometry3d& pose);
-
-/// An array of shape (N, 4, 4) upon the poses themselves, which it keeps.
-[[nodiscard]] py::array array_of(Poses poses);
+[[nodiscard]] py::array array_of(const Poses& poses);
+[[nodiscard]] py::array array_of(const Numbers& numbers);
 
 /// A vector or matrix whose size is known.
 template <typename M>
@@ -84,16 +83,17 @@ struct ValueCaster {
   operator T&&() && { return std::move(value); }  // NOLINT(google-explicit-constructor)
 };
 
-template <typename M>
-struct MatrixCaster : ValueCaster<M> {
+/// A value that is copied from and to an array.
+template <typename T, T (*from)(py::handle), py::array (*to)(const T&)>
+struct ArrayCaster : ValueCaster<T> {
   bool load(py::handle source, bool /*convert*/) {
     if (source.is_none()) return false;
-    this->value = matrix_of<M>(source);
+    this->value = from(source);
     return true;
   }
-  static py::handle cast(const M& matrix, py::return_value_policy /*policy*/,
+  static py::handle cast(const T& value, py::return_value_policy /*policy*/,
                          py::handle /*parent*/) {
-    return array_of_matrix(matrix).release();
+    return to(value).release();
   }
 };
 
@@ -101,39 +101,36 @@ struct MatrixCaster : ValueCaster<M> {
 
 namespace pybind11::detail {
 
-template <>
-struct type_caster<Eigen::Vector2d> : penumbra::python::MatrixCaster<Eigen::Vector2d> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(2,)']");
+template <int rows, int columns, int options>
+struct type_caster<Eigen::Matrix<double, rows, columns, options, rows, columns>>
+    : penumbra::python::ArrayCaster<
+          Eigen::Matrix<double, rows, columns, options, rows, columns>,
+          &penumbra::python::matrix_of<
+              Eigen::Matrix<double, rows, columns, options, rows, columns>>,
+          &penumbra::python::array_of_matrix<
+              Eigen::Matrix<double, rows, columns, options, rows, columns>>> {
+  static constexpr auto name =
+      const_name("Annotated[NDArray[float64], '(") + const_name<rows>() + const_name(",") +
+      const_name<columns == 1>(const_name(""), const_name(" ") + const_name<columns>()) +
+      const_name(")']");
 };
 template <>
-struct type_caster<Eigen::Vector3d> : penumbra::python::MatrixCaster<Eigen::Vector3d> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(3,)']");
-};
-template <>
-struct type_caster<Eigen::Matrix3d> : penumbra::python::MatrixCaster<Eigen::Matrix3d> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(3, 3)']");
-};
-template <>
-struct type_caster<penumbra::Vector6d> : penumbra::python::MatrixCaster<penumbra::Vector6d> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(6,)']");
-};
-template <>
-struct type_caster<penumbra::Matrix6d> : penumbra::python::MatrixCaster<penumbra::Matrix6d> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(6, 6)']");
-};
-
-template <>
-struct type_caster<Eigen::Isometry3d> : penumbra::python::ValueCaster<Eigen::Isometry3d> {
+struct type_caster<Eigen::Isometry3d>
+    : penumbra::python::ArrayCaster<Eigen::Isometry3d, &penumbra::python::pose_of,
+                                    &penumbra::python::array_of> {
   static constexpr auto name = const_name("Annotated[NDArray[float64], '(4, 4)']");
-  bool load(handle source, bool /*convert*/) {
-    if (source.is_none()) return false;
-    value = penumbra::python::pose_of(source);
-    return true;
-  }
-  static handle cast(const Eigen::Isometry3d& pose, return_value_policy /*policy*/,
-                     handle /*parent*/) {
-    return penumbra::python::array_of(pose).release();
-  }
+};
+template <>
+struct type_caster<penumbra::python::Poses>
+    : penumbra::python::ArrayCaster<penumbra::python::Poses, &penumbra::python::poses_of,
+                                    &penumbra::python::array_of> {
+  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N, 4, 4)']");
+};
+template <>
+struct type_caster<penumbra::python::Numbers>
+    : penumbra::python::ArrayCaster<penumbra::python::Numbers, &penumbra::python::vector_of,
+                                    &penumbra::python::array_of> {
+  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N,)']");
 };
 
 /// In the order x, y, z, w.
@@ -143,37 +140,6 @@ struct type_caster<Eigen::Quaterniond> : penumbra::python::ValueCaster<Eigen::Qu
   static handle cast(const Eigen::Quaterniond& q, return_value_policy /*policy*/,
                      handle /*parent*/) {
     return penumbra::python::array_of_matrix(q.coeffs()).release();
-  }
-};
-
-template <>
-struct type_caster<penumbra::python::Poses>
-    : penumbra::python::ValueCaster<penumbra::python::Poses> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N, 4, 4)']");
-  bool load(handle source, bool /*convert*/) {
-    if (source.is_none()) return false;
-    value = penumbra::python::poses_of(source);
-    return true;
-  }
-  static handle cast(penumbra::python::Poses poses, return_value_policy /*policy*/,
-                     handle /*parent*/) {
-    return penumbra::python::array_of(std::move(poses)).release();
-  }
-};
-
-template <>
-struct type_caster<penumbra::python::Numbers>
-    : penumbra::python::ValueCaster<penumbra::python::Numbers> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N,)']");
-  bool load(handle source, bool /*convert*/) {
-    if (source.is_none()) return false;
-    value.values = penumbra::python::vector_of(source);
-    return true;
-  }
-  static handle cast(const penumbra::python::Numbers& numbers, return_value_policy /*policy*/,
-                     handle /*parent*/) {
-    const auto size = static_cast<ssize_t>(numbers.values.size());
-    return penumbra::python::copied(numbers.values, {size}).release();
   }
 };
 

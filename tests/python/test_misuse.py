@@ -19,7 +19,7 @@ BAD_DEPTHS = [
     ([[1, 2], [3, 4]], TypeError, "got list"),
     ("depth", TypeError, "got str"),
     (GOOD.astype(np.int32), TypeError, "got numpy.ndarray of int32"),
-    (GOOD.astype(np.float64), TypeError, "got numpy.ndarray of float64"),
+    (GOOD.astype(np.float64), TypeError, ".astype(np.float32)"),
     (GOOD.astype(">u2"), TypeError, "got numpy.ndarray of >u2"),
     (GOOD.astype(object), TypeError, "object"),
     (GOOD.ravel(), ValueError, "shape (H, W)"),
@@ -132,9 +132,12 @@ def test_rows_may_lie_apart_and_run_upwards(opened):
                               expected)
 
 
-def test_images_of_another_size_are_the_frames_status(opened):
-    report = opened.pipeline.process(opened.frames[0].frame.replace(depth=GOOD[:10].copy()))
-    assert report.status is penumbra.FrameStatus.bad_depth and "640" in report.message
+def test_images_of_another_size_raise(opened):
+    for wrong in (GOOD[:10].copy(), GOOD[:, :10].copy(), np.zeros((640, 480), np.float32)):
+        with pytest.raises(ValueError) as raised:
+            opened.pipeline.process(opened.frames[0].frame.replace(depth=wrong))
+        assert "(480, 640)" in str(raised.value) and str(wrong.shape) in str(raised.value)
+    assert opened.pipeline.process(opened.frames[0].frame).status is penumbra.FrameStatus.ok
 
 
 BAD_CALLS = [

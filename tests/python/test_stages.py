@@ -172,7 +172,7 @@ def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
     link = shipped.robot.links[-1]
     target = penumbra.Target("t", penumbra.PointTarget([0, 0, 0.2], frame=link))
     frame = shipped.frames[0].frame.replace(targets=[target])
-    assert frame.doubted_links == [] and frame.doubt == ""
+    assert frame.doubted_links == () and frame.doubt == ""
     assert shipped.pipeline.process(frame).targets[0].judgement is not None
     doubted = frame.replace(doubted_links=[len(shipped.robot.links) - 1], doubt="two tell it")
     for given in (doubted, doubted.replace(index=7)):
@@ -276,3 +276,30 @@ def test_an_inputs_frames_have_numbers():
     assert given[3].index == 3
     with pytest.raises(IndexError, match="frame 12"):
         given[12]
+
+
+def test_what_the_command_line_notes_is_noted(opened):
+    pipeline = opened.pipeline
+    for frame in opened.frames:
+        pipeline.process(frame.frame)
+    assert pipeline.notes == opened.robot.notes
+    degrees = np.rad2deg(opened.frames[4].frame.joints)
+    pipeline.process(opened.frames[4].frame.replace(joints=degrees))
+    assert any("radians" in note for note in pipeline.notes)
+    pipeline.forget_targets()
+    assert pipeline.notes == opened.robot.notes
+    millimetres = opened.frames[4].depth.astype(np.float32)
+    pipeline.process(opened.frames[4].frame.replace(depth=millimetres))
+    assert any("millimetres" in note for note in pipeline.notes)
+
+
+def test_objects_tell_what_they_are(opened):
+    report = opened.pipeline.process(opened.frames[4].frame)
+    target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelBox(1, 2, 3, 4)))
+    for thing, says in ((opened.pipeline, "arm"), (report, "FrameStatus.ok"), (target, "PixelBox"),
+                        (opened.camera, "fx="), (opened.robot, "7 variables"),
+                        (opened.frames[4], "index=4"), (opened.frames[4].frame, "index=4"),
+                        (opened.config, "camera_parent='base_link'"),
+                        (opened.frames, "12 frames"), (penumbra.open_input(SHIPPED), "six_axis_arm"),
+                        (report.points(), "points"), (penumbra.TargetEstimate([1, 2, 3]), "1., 2., 3.")):
+        assert says in repr(thing) and len(repr(thing)) < 2000
