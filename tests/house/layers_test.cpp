@@ -116,8 +116,7 @@ TEST(Layers, IncludesPointDown) {
         EXPECT_TRUE(may) << file.path << " includes " << include;
       }
       if (include.starts_with("apps/")) {
-        const bool may = file.path.starts_with("apps/") || file.path.starts_with("python/") ||
-                         file.path.starts_with("research/");
+        const bool may = file.path.starts_with("apps/") || file.path.starts_with("research/");
         EXPECT_TRUE(may) << file.path << " includes " << include;
       }
       if (include.starts_with("python/")) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/nanoseconds.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -7,11 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/pipeline/sequence_notes.hpp>
+#include <io/files/sequence_notes.hpp>
 
-namespace penumbra::test {
+namespace penumbra::io {
 namespace {
 
+using test::ms;
 using Lines = std::vector<std::string>;
 
 constexpr const char* urdf = R"(<robot name="limits">
@@ -238,4 +241,4 @@ TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {
 }
 
 }  // namespace
-}  // namespace penumbra::test
+}  // namespace penumbra::io

@@ -6,10 +6,11 @@
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/frame_check-inl.hpp>
-#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
-namespace penumbra {
+#include <io/files/sequence_notes.hpp>
+
+namespace penumbra::io {
 namespace {
 
 bool is_beyond(const Joint& joint, std::span<const double> positions) {
@@ -167,4 +168,4 @@ std::string SequenceNotes::limit_line() const {
   return line;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::io
