@@ -37,7 +37,7 @@ def read_help(program: str, *command: str) -> Help:
     groups: dict[str, list[Option]] = {}
     at += 1
     while at < len(lines):
-        heading = re.fullmatch(r"(\S[^:]*):", lines[at])
+        heading = re.fullmatch(r"([A-Z][a-z]+( [a-z]+)?):", lines[at])
         if heading and heading[1] != "Examples":
             options = groups.setdefault(heading[1], [])
         elif entry := re.fullmatch(r"  (\S+)((?: \S+)*)(?:  +(\S.*))?", lines[at]):
