@@ -133,8 +133,8 @@ void write_text(const fs::path& file, const std::string& text) {
 
 int execute(const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
-  make_folder(folder);
   io::Judging judging(arguments.judging, print_line);
+  make_folder(folder);
   const Pipeline& pipeline = judging.pipeline();
   KeptFrames kept(pipeline.rule().range);
   {

@@ -25,6 +25,12 @@ bool is_bag(const std::filesystem::path& input) {
 
 void check_is_recording(const std::filesystem::path& input) {
   std::error_code ignored;
+  if (std::filesystem::is_regular_file(input, ignored) && input.extension() != ".yaml" &&
+      input.extension() != ".yml")
+    throw InputError(
+        input.string() +
+        ": is neither a recording (a folder, or its recording.yaml) nor a bag (*.mcap, "
+        "*.db3)");
   if (std::filesystem::is_directory(input, ignored) &&
       !std::filesystem::exists(input / "recording.yaml", ignored))
     throw InputError(input.string() +

@@ -265,6 +265,7 @@ TEST(BadCommandLine, IsOneLineAndStatus2) {
       {{"walk"}, "walk"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
+      {{"run", "/etc/passwd", "-o", "out"}, "is neither a recording"},
       {{"render"}, "--robot"},
       {{"inspect"}, "URDF"},
       {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
