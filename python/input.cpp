@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `penumbra run` takes: recording folders and bags, opened by its own code.
-#include <sstream>
-
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/recording.hpp>
 
-#include <apps/penumbra/run_input.hpp>
+#include <io/run/run_input.hpp>
 
 namespace penumbra::python {
 namespace {
 
-using app::BagArguments;
-using app::RunArguments;
-
 /// What `run` judges, as its options say.
 struct Input {
-  explicit Input(const RunArguments& arguments) : input(app::open_input(arguments, told)) {}
-  std::ostringstream told;
-  app::RunInput input;
+  explicit Input(const io::InputOptions& options)
+      : input(io::open_input(options,
+                             [this](const std::string& line) { told.values.push_back(line); })) {}
+  Frozen<std::string> told;
+  io::RunInput input;
 };
 
 /// The frames of an input, one after the other.
@@ -67,26 +64,26 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                                   std::optional<Geometry> geometry, bool geometry_fallback,
                                   bool allow_missing_meshes,
                                   std::optional<std::pair<std::int64_t, std::int64_t>> frames,
-                                  const std::optional<BagArguments>& bag) {
-  RunArguments arguments;
-  arguments.input = path;
-  arguments.saves.overlay = color;
-  arguments.geometry = geometry;
-  arguments.geometry_fallback = geometry_fallback;
-  arguments.allow_missing_meshes = allow_missing_meshes;
-  if (frames) arguments.frames = {frames->first, frames->second};
-  if (bag) {
-    arguments.bag = *bag;
-    arguments.bag.given = "bag";  // a recording folder refuses it
-  }
+                                  const std::optional<io::BagOptions>& bag) {
+  io::InputOptions options{.path = path,
+                           .with_color = color,
+                           .geometry = geometry,
+                           .geometry_fallback = geometry_fallback,
+                           .allow_missing_meshes = allow_missing_meshes,
+                           .extra = {},
+                           .frames = {},
+                           .fps = {},
+                           .bag = bag.value_or(io::BagOptions()),
+                           .bag_option = bag ? "bag" : ""};  // a recording folder refuses it
+  if (frames) options.frames = {frames->first, frames->second};
   const py::gil_scoped_release others;
-  return std::make_shared<Input>(arguments);
+  return std::make_shared<Input>(options);
 }
 
 void bind_bag_options(py::module_& m) {
-  py::class_<BagArguments> options(
+  py::class_<io::BagOptions> options(
       m, "BagOptions", "What is said of a bag. Topics are found by type and name where not given.");
-  using B = BagArguments;
+  using B = io::BagOptions;
   bind_fields(
       options, Field{"depth_topic", &B::depth_topic, "Depth images."},
       Field{"camera_info_topic", &B::camera_info_topic, "Their camera_info."},
@@ -104,13 +101,6 @@ void bind_bag_options(py::module_& m) {
       Field{"first_publisher", &B::first_publisher,
             "Publishers of one joint are not compared: the first one heard is believed."},
       Field{"time_offset", &B::time_offset, "Seconds added to an image's stamp."});
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
 }
 
 void bind_input_classes(py::module_& m) {
@@ -159,7 +149,7 @@ void bind_input_classes(py::module_& m) {
           "beyond", [](const Input& self) { return self.input.beyond; },
           "What verdicts make of beyond; None: it does not say.")
       .def_property_readonly(
-          "told", [](const Input& self) { return Frozen<std::string>{lines_of(self.told.str())}; },
+          "told", [](const Input& self) { return self.told; },
           "What of a bag is taken, a line each.");
 }
 
@@ -168,13 +158,13 @@ void bind_input_classes(py::module_& m) {
 void bind_input(py::module_& m) {
   bind_bag_options(m);
   bind_input_classes(m);
-  const RunArguments defaults;
+  const io::InputOptions defaults;
   m.def("open_input", &open_input, py::arg("path"), py::kw_only(),
-        py::arg("color") = defaults.saves.overlay, py::arg("geometry") = defaults.geometry,
+        py::arg("color") = defaults.with_color, py::arg("geometry") = defaults.geometry,
         py::arg("geometry_fallback") = defaults.geometry_fallback,
         py::arg("allow_missing_meshes") = defaults.allow_missing_meshes,
         py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),
-        py::arg("bag") = std::optional<BagArguments>(),
+        py::arg("bag") = std::optional<io::BagOptions>(),
         "Opens what `penumbra run` takes, as its options of these names say. color: read colour "
         "images, too; frames: (first, end) of those wanted; bag: of bags alone. Raises InputError "
         "that names the file.");

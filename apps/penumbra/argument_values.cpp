@@ -77,11 +77,11 @@ int to_count(const std::string& option, const std::string& text, int least, int 
   return static_cast<int>(*value);
 }
 
-FrameRange to_range(const std::string& text) {
+io::FrameRange to_range(const std::string& text) {
   const auto parts = split(text, ':');
   const char* const wanted = "A:B, the frames from A up to but without B (either may be left out)";
   if (parts.size() != 2) refuse_option("--frames", text, wanted);
-  FrameRange range;
+  io::FrameRange range;
   for (auto [part, bound] : {std::pair(&parts[0], &range.first), {&parts[1], &range.end}}) {
     if (part->empty()) continue;
     *bound = io::parse_number<std::int64_t>(*part);
@@ -90,8 +90,8 @@ FrameRange to_range(const std::string& text) {
   return range;
 }
 
-Saves to_saves(const std::string& text) {
-  Saves saves;
+io::Saves to_saves(const std::string& text) {
+  io::Saves saves;
   for (const std::string& part : split(text, ',')) {
     if (part == "vdi") {
       saves.vdi = true;

@@ -24,8 +24,8 @@ namespace penumbra::app {
 [[nodiscard]] bool to_paper(const std::string& name);
 [[nodiscard]] Tolerance to_tolerance(const std::string& text);
 [[nodiscard]] int to_count(const std::string& option, const std::string& text, int least, int most);
-[[nodiscard]] FrameRange to_range(const std::string& text);
-[[nodiscard]] Saves to_saves(const std::string& text);
+[[nodiscard]] io::FrameRange to_range(const std::string& text);
+[[nodiscard]] io::Saves to_saves(const std::string& text);
 
 /// Splits NAME=VALUE at the first '='.
 [[nodiscard]] std::pair<std::string, std::string> to_pair(const std::string& option,

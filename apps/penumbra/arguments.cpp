@@ -50,12 +50,16 @@ void add_render(CLI::App& app, RenderArguments& render) {
                if (text.empty()) refuse_option("--links", text, "a path");
                render.links = text;
              });
-  add_renderer(app, render.renderer);
+  add_renderer(app, render.backend, render.renderer);
   add_option(app, "--repeat", "render N times and print the times", "N",
              [&](const std::string& text) {
                render.repeat = to_count("--repeat", text, 1, most_repeats);
              });
   app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
+}
+
+void check_render(const CLI::App&, const RenderArguments& render) {
+  check_renderer(render.backend, render.renderer);
 }
 
 void add_inspect(CLI::App& app, InspectArguments& inspect) {
@@ -70,7 +74,7 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
   app.add_flag("--json", doctor.json, "print JSON instead of text");
 }
 
-/// Where the options are told: the command's own help, if one is given.
+/// Names the help that lists the options: the command's own, if one is given.
 std::string help_hint(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
@@ -95,21 +99,28 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
   app.require_subcommand(0, 1);
   std::vector<std::pair<const CLI::App*, std::function<Command()>>> commands;
-  const auto add = [&](const char* name, const char* what, auto& arguments, auto add_options) {
+  const auto add = [&](const char* name, const char* what, auto& arguments, auto add_options,
+                       auto check) {
     CLI::App* const of = app.add_subcommand(name, what);
     add_options(*of, arguments);
-    commands.emplace_back(of, [&arguments] { return Command(arguments); });
+    commands.emplace_back(of, [&arguments, of, check] {
+      check(*of, arguments);
+      return Command(arguments);
+    });
   };
-  add("run", "label every frame of a recording", run, add_run);
-  add("tune", "measure the sensor: tolerance, fringe, what the URDF lacks", tune, add_tune);
-  add("render", "render one virtual depth image", render, add_render);
-  add("inspect", "tell what of a URDF is drawn", inspect, add_inspect);
-  add("doctor", "tell what this machine offers", doctor, add_doctor);
-  add("simulate", "record a simulated scene with its truth", simulate, add_simulate);
-  add("topics", "list the live topics of ROS 2's graph", topics, add_topics);
-  add("play", "publish a bag on ROS 2's graph", play, add_play);
-  add("live", "label ROS 2's live topics, and publish the results", live, add_live);
-  add("view", "show a recording in the browser: 3-D, images, timeline", view, add_view);
+  const auto any = [](const CLI::App&, const auto&) {};
+  add("run", "label every frame of a recording or bag", run, add_run, check_run);
+  add("tune", "measure the sensor: tolerance, fringe, missing parts of the URDF", tune, add_tune,
+      check_tune);
+  add("render", "render one virtual depth image", render, add_render, check_render);
+  add("inspect", "list which links of a URDF are drawn", inspect, add_inspect, any);
+  add("doctor", "print what this machine offers", doctor, add_doctor, any);
+  add("simulate", "record a simulated scene with its truth", simulate, add_simulate, any);
+  add("topics", "list the live topics of ROS 2's graph", topics, add_topics, any);
+  add("play", "publish a bag on ROS 2's graph", play, add_play, any);
+  add("live", "label live topics of ROS 2 and publish the results", live, add_live, check_live);
+  add("view", "show a recording or bag in the browser: 3-D, images, timeline", view, add_view,
+      check_view);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -118,11 +129,6 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::Error& error) {
     throw InputError(std::string(error.what()) + help_hint(app));
   }
-  check_run(run);
-  check_live(live);
-  check_view(view);
-  check_renderer(render.renderer);
-  check_renderer(tune.judging.renderer);
   for (const auto& [command, made] : commands)
     if (command->parsed()) return made();
   throw InputError(

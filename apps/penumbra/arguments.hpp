@@ -10,86 +10,20 @@
 #include <variant>
 #include <vector>
 
-#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <io/dds/participant.hpp>
+#include <io/run/judging.hpp>
+#include <io/run/output_folder.hpp>
 #include <io/web/web_server.hpp>
 #include <sim/simulation.hpp>
 
 namespace penumbra::app {
 
-/// Which images `run` writes beside the report.
-struct Saves {
-  bool vdi = false, labels = false, links = false, overlay = false, filtered = false,
-       points = false;
-  bool operator==(const Saves&) const = default;
-};
-
-/// Frames first <= index < end; what is not set is the recording's own end.
-struct FrameRange {
-  std::optional<std::int64_t> first, end;
-};
-
-struct RendererArguments {
-  Backend backend = Backend::cpu;
-  bool is_named = false;  ///< the backend, by --renderer
-  RendererOptions options;
-};
-
-/// What is said of a bag on the command line. Topics are found by type and name where not given.
-struct BagArguments {
-  std::optional<std::string> depth_topic, camera_info_topic, color_topic;
-  std::vector<std::string> joint_topics, target_topics;
-  std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
-  std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
-  std::map<std::string, std::filesystem::path> packages;
-  std::string frame_prefix;                   ///< before link names in tf, without a leading "/"
-  std::optional<std::string> camera_frame;    ///< in place of the images' frame_id
-  std::optional<std::string> parent;          ///< link that the camera sits on
-  std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
-  bool rectified = false;
-  bool first_publisher = false;  ///< publishers of one joint are not compared
-  double time_offset = 0.0;      ///< FrameQueueOptions::time_offset
-  std::string given;             ///< one of the options that were given; empty: none
-  // What --help says of these options.
-  std::string group = "Of bags";
-  std::string joints_default = "/joint_states, or the only one";
-  std::string poses_default = "joints, else tf";
-};
-
 struct RunArguments {
-  std::filesystem::path input;
-  std::filesystem::path output;
-  RendererArguments renderer;
-  std::optional<Geometry> geometry;
-  std::string geometry_default = "the recording's, else collision";  ///< in --help
-  bool geometry_fallback = false;     ///< as in RobotOptions, on top of the recording's
-  bool allow_missing_meshes = false;  ///< likewise
-  std::vector<ExtraMesh> extra;       ///< likewise
-  std::optional<Tolerance> tolerance;
-  std::optional<int> front_min_width;  ///< pixels
-  std::optional<int> fringe_reach;     ///< pixels
-  std::optional<std::string> sensor;   ///< of LabelRule::for_sensor
-  bool paper_labels = false;
-  ImageSpace image = ImageSpace::raw;
-  FrameRange frames;
-  std::optional<double> fps;  ///< of a recording without stamps, 1/s
-  Saves saves;
-  std::string points_frame;  ///< link that points are given in; empty: the optical frame
-  std::optional<std::filesystem::path> targets;  ///< in place of the recording's
-  bool no_targets = false;                       ///< not the recording's either
-  bool report_page = false;                      ///< report.html, too
-  bool force = false;                            ///< into a folder that holds other files, too
-  bool is_shown = false;                         ///< in the viewer
-  BagArguments bag;
-
-  /// Whether pictures are made, which want the recorded colour.
-  [[nodiscard]] bool needs_color() const {
-    return saves.overlay || saves.points || report_page || is_shown;
-  }
+  io::JudgingOptions judging;
+  io::OutputOptions output;
 };
 
 struct RenderArguments {
@@ -102,7 +36,8 @@ struct RenderArguments {
   std::vector<std::pair<std::string, double>> joints;  ///< name and value, as they were given
   std::filesystem::path output;
   std::optional<std::filesystem::path> links;
-  RendererArguments renderer;
+  Backend backend = Backend::cpu;
+  RendererOptions renderer;
   int repeat = 1;
   bool json = false;
 };
@@ -114,7 +49,8 @@ struct InspectArguments {
 };
 
 struct TuneArguments {
-  RunArguments judging;  ///< its input and output, what is drawn, the current rule
+  io::JudgingOptions judging;  ///< with the current rule
+  std::filesystem::path output;
 };
 
 struct TopicsArguments {
@@ -143,7 +79,7 @@ struct DoctorArguments {
 struct SimulateArguments {
   std::string scene;
   std::filesystem::path output;
-  FrameRange frames;
+  io::FrameRange frames;
   sim::SimulationOptions options;
 };
 
@@ -161,7 +97,7 @@ struct LiveArguments {
     std::string name, depth_topic;
   };
 
-  RunArguments judging;  ///< its renderer, what is drawn, the rule of labels, its topics
+  io::JudgingOptions judging;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
   std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name
   std::string name_space;
@@ -175,7 +111,8 @@ struct LiveArguments {
 };
 
 struct ViewArguments {
-  RunArguments judging;  ///< its input: what is shown
+  io::JudgingOptions judging;
+  std::string judging_option;  ///< the name of one that was given; empty: none was
   ServerArguments server;
 };
 

@@ -5,7 +5,10 @@
 
 namespace penumbra::app {
 
-/// Each command answers its exit status and throws InputError where the user's input is at fault.
+// Exit statuses next to 0.
+inline constexpr int device_failed = 1, nothing_judged = 2;
+
+/// Each command returns its exit status. Throws InputError where the user's input is at fault.
 [[nodiscard]] int execute(const RunArguments& arguments);
 [[nodiscard]] int execute(const RenderArguments& arguments);
 [[nodiscard]] int execute(const InspectArguments& arguments);

@@ -70,15 +70,15 @@ void add_play(CLI::App& app, PlayArguments& play) {
       app, "--start", "begin so many seconds after the first message; default 0", "S",
       [&](const std::string& text) { play.start = to_seconds("--start", text, longest_bag); });
   add_option(
-      app, "--delay", "before the first message, for others to find us; default 1", "S",
+      app, "--delay", "wait before the first message, for others to find us; default 1", "S",
       [&](const std::string& text) { play.delay = to_seconds("--delay", text, longest_wait); });
   app.add_flag("--loop", play.loop, "begin again at the end, until Ctrl-C");
   add_option(app, "--topics", "play only these, with commas between; default: all", "LIST",
              [&](const std::string& text) { play.topics = split(text, ','); });
   add_option(
       app, "--latched",
-      "topics whose last messages who comes late gets, too; default: those that were recorded "
-      "so, or, where the bag does not tell, are called tf_static or robot_description",
+      "topics whose last messages late subscribers get, too; default: those that were recorded "
+      "so, or tf_static and robot_description where the bag does not say it",
       "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
   add_remaps(app, play.remaps);
   app.add_flag("--restamp", play.restamp,

@@ -25,6 +25,6 @@ void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);
 
 /// Refuses what does not go together.
-void check_live(const LiveArguments& live);
+void check_live(const CLI::App& app, const LiveArguments& live);
 
 }  // namespace penumbra::app

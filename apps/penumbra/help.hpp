@@ -3,7 +3,7 @@
 
 namespace penumbra::app {
 
-// What --help says before and behind the options.
+// What --help prints before and after the options.
 
 inline constexpr const char* about =
     "Penumbra tells a robot which parts of its camera's view its own body hides.";
@@ -13,7 +13,7 @@ Examples:
   penumbra run recording/ -o out             label every frame of a recording
   penumbra tune recording/ -o tuned          measure your sensor: tolerance, fringe, missing tools
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
-  penumbra inspect arm.urdf                  what of a URDF is drawn, and why not
+  penumbra inspect arm.urdf                  list which links of a URDF are drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
   penumbra simulate conveyor -o belt         record a simulated scene with its truth
   penumbra topics                            list the live topics of ROS 2's graph
@@ -22,20 +22,22 @@ Examples:
   penumbra view recording/                   look at a recording in the browser
   penumbra run --help                        all options of one command
 
-Exit status: 0 done; 2 the input is at fault (one line on stderr says where); 1 our fault,
+Exit status: 0 done; 2 an error in the input (one line on stderr says where); 1 an internal error,
 or a graphics device that failed; 130 stopped by Ctrl-C.)";
 
 inline constexpr const char* run_examples = R"(
-OUT gets report.json, and with --save also vdi/000000.npy (metres, 0 = no robot, or where the lens
-model does not reach), labels/000000.png (0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond,
-5 fringe), filtered/000000.png (depth without the robot, millimetres), points/000000.pcd and .ply,
-links/000000.png (link number in the report + 1, 0 = none) and overlay/000000.png; with --report
-report.html, a page for the browser in one file. What an earlier
-run left there is removed; images of such names without its report, or behind a link, are refused.
-Faulty frames are told on stderr and in the report; the others are judged.
-Of a bag the topics that are taken are printed; each image is judged with the pose at its own stamp.
-OUT.mcap is a bag of results: virtual depth, labels, mask, depth and points without the robot,
-targets, overlays.
+OUT gets report.json. --save adds for each frame, here 0:
+  vdi/000000.npy       virtual depth in metres; 0: no robot, or the lens model does not reach
+  labels/000000.png    0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond, 5 fringe
+  links/000000.png     link number in the report + 1; 0: none
+  overlay/000000.png   labels and targets over the colour image
+  filtered/000000.png  depth without the robot, millimetres
+  points/000000.pcd    points without the robot; points/000000.ply is the same
+--report adds report.html, a page for the browser in one file. OUT.mcap is a bag of results: virtual
+depth, labels, mask, depth and points without the robot, targets, overlays.
+Results of an earlier run in OUT are replaced. A folder that holds other files is refused.
+Faulty frames are listed on stderr and in the report; the other frames are judged.
+For a bag the topics that are used are printed. Each image is judged with the pose at its own stamp.
 
 Examples:
   penumbra run recording/ -o out
@@ -47,9 +49,10 @@ Examples:
   penumbra run recording/ -o out --renderer gl)";
 
 inline constexpr const char* tune_examples = R"(
-Measures a sensor on a recording in which the arm moves through free space before a camera that
-stands still. Prints the tolerance and the fringe reach that fit it, as lines of recording.yaml and
-as options of run, and what moves with a link though the URDF lacks it: a tool, a cable, a cover.
+Measures a sensor on a recording in which the arm moves through free space in front of a camera that
+does not move. Prints the tolerance and the fringe reach that fit it, as lines of recording.yaml and
+as options of run. Prints also what moves with a link but is missing in the URDF: a tool, a cable, a
+cover.
 OUT gets tune.json (all numbers), tune.png (the frame with the most fringe: green is removed, red
 stays) and extra_LINK.stl for each link with an extra part.
 
@@ -58,10 +61,10 @@ Examples:
   penumbra tune bag.mcap -o tuned --package ur_description=/opt/ur_description)";
 
 inline constexpr const char* view_examples = R"(
-Judges a recording or a bag as run does and serves a page that shows it while that goes on: robot, camera and points
-in 3-D, images with their labels, targets along the time. The address to open is printed. Images are
-kept compressed in a temporary file in TMPDIR, else /var/tmp, which is gone with the program. Of a
-folder that run wrote its report and the images of --save are shown, and the page says how to get
+Judges a recording or a bag as run does, and serves a page that shows the result meanwhile: robot,
+camera and points in 3-D, images with their labels, targets over time. The address to open is
+printed. Images are kept in a temporary file in TMPDIR, else /var/tmp, until the program ends.
+For a folder that run wrote, its report and the images of --save are shown. The page says how to get
 the rest. penumbra live --port serves the same page. Ctrl-C ends it.
 
 Examples:
@@ -72,12 +75,12 @@ Examples:
   penumbra view recording/ --address 0.0.0.0)";
 
 inline constexpr const char* render_examples = R"(
-Joints that are not given stand at rest (0, or no rotation); --json lists every position.
-Distortion in the camera_info bends the image as the lens does; for images that were rectified
-before, as recordings with camera.rectified, add --rectified.
-Planar joints take NAME/x, NAME/y, NAME/yaw, floating ones NAME/x, y, z, qx, qy, qz, qw.
---repeat renders the same pose N times after a first one and labels each time the virtual depth
-image itself, as if the sensor saw nothing but the robot.
+Joints that are not given are at rest (0, or no rotation); --json lists every position.
+Distortion in the camera_info bends the image as the lens does. For images that are rectified
+already (recordings with camera.rectified) add --rectified.
+Planar joints take NAME/x, NAME/y, NAME/yaw; floating ones NAME/x, y, z, qx, qy, qz, qw.
+--repeat renders the same pose N more times, and labels the virtual depth image itself each time, as
+if the sensor saw only the robot.
 
 Examples:
   penumbra render --robot ur5e.urdf --package ur_description=/opt/ur_description \
@@ -92,7 +95,8 @@ Examples:
 
 inline constexpr const char* doctor_examples = R"(
 Prints versions, SIMD targets, OpenGL devices and their faults, the renderers that work on this
-machine, and whether the kernel gives sockets enough for live images. The exit status is 0 without OpenGL too.
+machine, and whether sockets can hold enough for live images. Without OpenGL the exit status is 0,
+too.
 
 Examples:
   penumbra doctor
@@ -100,12 +104,13 @@ Examples:
 
 inline constexpr const char* simulate_examples = R"(
 Scenes: conveyor (a printed parcel on a belt, an arm that sweeps over it and grasps it), handover (a
-person's hand behind and before the arm), random (targets before, behind and beside an arm in a new
-pose in every frame). MuJoCo places and draws everything. OUT is a recording for penumbra run, with
-the truth beside it: ids/000000.png (0 nothing, 1 + link number, from 10000 objects), truth.csv
-(poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. OUT.mcap is the same as a bag of
-ROS 2, the truth on /truth/..., with the arm's meshes beside it in arm_description/. The same seed
-gives the same bytes.
+person's hand behind and in front of the arm), random (targets in front of, behind and next to an
+arm in a new pose in every frame). MuJoCo places and draws everything. OUT is a recording for
+penumbra run, with the truth next to it: ids/000000.png (0 nothing, 1 + link number, from 10000
+objects), truth.csv (poses, pixels seen and hidden), true_joint_states.csv, scene.yaml. OUT.mcap is
+the same as a bag of ROS 2, with the truth on /truth/... and the arm's meshes next to it in
+arm_description/.
+The same seed gives the same bytes.
 
 Examples:
   penumbra simulate conveyor -o belt
@@ -114,14 +119,13 @@ Examples:
   penumbra simulate conveyor -o belt.mcap && penumbra run belt.mcap -o out)";
 
 inline constexpr const char* live_examples = R"(
-Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2's graph, judges each
-image with the robot's pose at its own stamp, and publishes what a bag of results holds below
-/penumbra (with --camera below /penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets,
-overlay/compressed, each only while somebody listens; and /diagnostics, once a second, which says why
-nothing is published. What is not known is published as unknown. --port serves the viewer's page of
-each camera, with the values as they were judged. Ctrl-C and SIGTERM end it; after
---duration its exit status is 2 if it judged nothing.
-ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
+Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2's graph, and judges
+each image with the robot's pose at its own stamp. Publishes below /penumbra (with --camera below
+/penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets, overlay/compressed, each only
+while somebody subscribes to it. /diagnostics says once a second why nothing is published. What is
+not known is published as unknown. --port serves the viewer's page of each camera. Ctrl-C and
+SIGTERM end it; after --duration its exit status is 2 if it judged no image.
+ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are used.
 
 Examples:
   penumbra live --package ur_description=/opt/ur_description --port 8470
@@ -130,17 +134,17 @@ Examples:
   penumbra live --namespace cell --remap /tf:=/cell/tf --publish mask,targets --summary live.json)";
 
 inline constexpr const char* topics_examples = R"(
-Lists what others publish and subscribe to, with QoS; those whose QoS or type differ do not hear each
-other. Programs on other machines and those of ROS_DOMAIN_ID are found as ROS 2 finds them;
-ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are honoured.
+Lists what other programs publish and subscribe to, with QoS. Programs whose QoS or type differ do
+not receive each other's messages. Other machines and ROS_DOMAIN_ID are handled as ROS 2 does;
+ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are used.
 
 Examples:
   penumbra topics
   penumbra topics --domain 7 --wait 5 --json)";
 
 inline constexpr const char* play_examples = R"(
-Publishes the bag's messages as they are, at the pace at which they were recorded, with QoS reliable.
-Ctrl-C ends it. Topics and what was not published are told.
+Publishes the bag's messages unchanged, at the pace at which they were recorded, with QoS reliable.
+Prints the topics, and at the end what was not published. Ctrl-C ends it.
 
 Examples:
   penumbra play bag.mcap

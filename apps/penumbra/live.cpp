@@ -22,7 +22,6 @@
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/live_pages.hpp>
 #include <apps/penumbra/live_setup.hpp>
-#include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/dds/receive_buffers.hpp>
@@ -124,13 +123,13 @@ std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
 
 /// Draws a small box with the chosen renderer: a device that cannot draw would fail every image.
 /// Throws InputError if it cannot.
-void check_draws(const RendererArguments& renderer) {
+void check_draws(const io::JudgingOptions& judging) {
   const TriangleMesh mesh = make_box({0.1, 0.1, 0.1});
   const Body box{"box", {&mesh, 1}};
   const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
   const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1));
   try {
-    static_cast<void>(make_depth_renderer(renderer.backend, small, {&box, 1}, renderer.options)
+    static_cast<void>(make_depth_renderer(judging.backend, small, {&box, 1}, judging.renderer)
                           ->render({&pose, 1}));
   } catch (const DeviceError& fault) {
     throw InputError(fault.what());
@@ -139,10 +138,11 @@ void check_draws(const RendererArguments& renderer) {
 
 PipelineConfig config_of(const LiveArguments& arguments) {
   PipelineConfig config;
-  config.backend = arguments.judging.renderer.backend;
-  config.renderer = arguments.judging.renderer.options;
-  config.rule = rule_of(arguments.judging, config.rule);
-  if (!arguments.judging.bag.target_topics.empty()) config.target_history = topic_target_history;
+  const io::JudgingOptions& judging = arguments.judging;
+  config.backend = judging.backend;
+  config.renderer = judging.renderer;
+  config.rule = judging.rule.applied_to(config.rule);
+  if (!judging.input.bag.target_topics.empty()) config.target_history = io::topic_target_history;
   return config;
 }
 
@@ -305,12 +305,12 @@ void write_summary(SummaryFile& file, Live& live, bool has_fault) {
 
 /// `fault` gets what ended it before its time, when all is told that is known until then.
 int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
-  check_draws(arguments.judging.renderer);
+  check_draws(arguments.judging);
   const io::NameResolver names = live_names(arguments);
   io::LiveOptions options = live_options(arguments, names);
   const io::LiveCameraOptions common = camera_options(arguments);
   options.cameras = named_cameras(arguments, names, common);
-  const io::TopicWishes wishes = camera_wishes(arguments, names);
+  io::BagOptions searched = searched_topics(arguments, names);
   check_remaps(names, options.cameras);
   std::optional<SummaryFile> summary;
   if (arguments.summary) summary.emplace(*arguments.summary);
@@ -323,7 +323,7 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   pages.print();
   Diagnostics diagnostics(*graph, names, pages);
   if (options.cameras.empty()) {
-    CameraSearch search(*graph, wishes);
+    CameraSearch search(*graph, std::move(searched));
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
     if (!camera) {
       if (summary) summary->tell_unwritten();

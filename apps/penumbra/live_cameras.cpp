@@ -4,7 +4,6 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/live_cameras.hpp>
-#include <apps/penumbra/run_input.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -43,9 +42,9 @@ std::optional<std::string> resolved(const io::NameResolver& names,
 }  // namespace
 
 io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
-  const BagArguments& topics = arguments.judging.bag;
+  const io::BagOptions& topics = arguments.judging.input.bag;
   io::LiveCameraOptions options;
-  options.mount = mount_wishes(topics);
+  options.mount = io::mount_options(topics);
   options.info_is_named = topics.camera_info_topic.has_value();
   options.is_rectified = topics.rectified;
   options.poses = topics.poses.value_or(PoseSource::joints);
@@ -57,7 +56,7 @@ io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
 std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
                                                  const io::NameResolver& names,
                                                  const io::LiveCameraOptions& common) {
-  const BagArguments& topics = arguments.judging.bag;
+  const io::BagOptions& topics = arguments.judging.input.bag;
   auto named = arguments.cameras;
   if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
   std::vector<io::LiveCameraOptions> cameras;
@@ -76,18 +75,15 @@ std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
   return cameras;
 }
 
-io::TopicWishes camera_wishes(const LiveArguments& arguments, const io::NameResolver& names) {
-  const BagArguments& topics = arguments.judging.bag;
-  io::TopicWishes wishes;
-  wishes.depth = resolved(names, topics.depth_topic);
-  wishes.camera_info = resolved(names, topics.camera_info_topic);
-  wishes.color = resolved(names, topics.color_topic);
-  wishes.with_color = true;
-  return wishes;
+io::BagOptions searched_topics(const LiveArguments& arguments, const io::NameResolver& names) {
+  io::BagOptions topics = arguments.judging.input.bag;
+  for (auto* const name : {&topics.depth_topic, &topics.camera_info_topic, &topics.color_topic})
+    *name = resolved(names, *name);
+  return topics;
 }
 
-CameraSearch::CameraSearch(const io::Participant& graph, const io::TopicWishes& wishes)
-    : graph_(graph), wishes_(wishes), since_(Clock::now()) {}
+CameraSearch::CameraSearch(const io::Participant& graph, io::BagOptions topics)
+    : graph_(graph), topics_(std::move(topics)), since_(Clock::now()) {}
 
 std::optional<io::BagTopics> CameraSearch::look() {
   const auto topics = published_topics(graph_);
@@ -98,7 +94,7 @@ std::optional<io::BagTopics> CameraSearch::look() {
   const auto settled = Clock::now() - since_;
   why_ = "nobody publishes depth images yet";
   try {
-    const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, wishes_);
+    const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, topics_, true);
     if (settled >= settled_after) return chosen;
     why_ = "waiting for what else is published";
   } catch (const io::AmbiguousTopics& error) {

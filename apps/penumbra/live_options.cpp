@@ -43,13 +43,13 @@ void check_camera_name(const std::string& name) {
 
 void add_graph(CLI::App& app, LiveArguments& live) {
   add_domain(app, live.graph);
-  add_option(app, "--namespace", "of the names below that have no / before them", "NS",
+  add_option(app, "--namespace", "put before names that do not begin with /", "NS",
              [&](const std::string& text) { live.name_space = text; });
   add_list(app, "--remap", "another name for a topic; may be given several times", "FROM:=TO",
            [&](const std::string& text) { live.remaps.push_back(text); });
   app.add_flag("--reliable", live.reliable,
-               "ask for QoS reliable of images, joint states and tf: nothing is lost, but a "
-               "publisher of best effort is not heard");
+               "ask for QoS reliable of images, joint states and tf: nothing is lost, but "
+               "publishers with best effort are not received");
   add_option(
       app, "--queue", "images that wait for their pose at a time; default 8", "N",
       [&](const std::string& text) { live.queue = to_count("--queue", text, 1, most_waiting); });
@@ -82,7 +82,7 @@ void add_live(CLI::App& app, LiveArguments& live) {
              [&](const std::string& text) {
                live.duration = to_seconds("--duration", text, longest_duration);
              });
-  add_option(app, "--summary", "what came of all images, at the end", "JSON",
+  add_option(app, "--summary", "write at the end what became of all images", "JSON",
              [&](const std::string& text) {
                if (text.empty()) refuse_option("--summary", text, "a path");
                live.summary = text;
@@ -91,19 +91,16 @@ void add_live(CLI::App& app, LiveArguments& live) {
              "serve the viewer's page of this camera there; of several cameras each next one's at "
              "the next port; 0: any that is free; default: no page");
   add_graph(app, live);
-  live.judging.geometry_default = "collision";
-  add_judging(app, live.judging);
-  live.judging.bag.group = "Of topics";
-  live.judging.bag.joints_default = "joint_states";
-  live.judging.bag.poses_default = "joints, never tf by itself";
-  add_bag(app, live.judging.bag);
+  add_judging(app, live.judging, "collision");
+  add_bag(app, live.judging.input.bag,
+          {.group = "Of topics", .joints = "joint_states", .poses = "joints, never tf by itself"});
 }
 
-void check_live(const LiveArguments& live) {
-  check_renderer(live.judging.renderer);
+void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
+  check_renderer(live.judging.backend, live.judging.renderer);
   if (live.server.address && !live.server.port)
     throw InputError("--address: is of the page that --port serves; give --port, too");
-  const BagArguments& topics = live.judging.bag;
+  const io::BagOptions& topics = live.judging.input.bag;
   if (live.cameras.empty()) return;
   if (topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");

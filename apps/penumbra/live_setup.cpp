@@ -7,7 +7,6 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/live_setup.hpp>
-#include <apps/penumbra/run_input.hpp>
 #include <io/files/printable.hpp>
 
 namespace penumbra::app {
@@ -46,10 +45,10 @@ void check_remaps(const io::NameResolver& names,
 }
 
 io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResolver& names) {
-  const BagArguments& topics = arguments.judging.bag;
+  const io::BagOptions& topics = arguments.judging.input.bag;
   io::LiveOptions options;
   options.robot.robot.packages = topics.packages;
-  add_robot_choices(arguments.judging, options.robot.robot);
+  arguments.judging.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;
   if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
   options.poses = topics.poses.value_or(PoseSource::joints);

@@ -9,7 +9,6 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/text.hpp>
 
 namespace {
 
@@ -38,7 +37,7 @@ int main(int argc, char** argv) {
   } catch (const penumbra::InputError& error) {
     return fail(users_fault, error.what());
   } catch (const penumbra::DeviceError& error) {
-    return fail(our_fault, penumbra::app::without_device(error));
+    return fail(our_fault, penumbra::io::without_device(error));
   } catch (const std::bad_alloc&) {
     return fail(our_fault, "out of memory");
   } catch (const std::exception& error) {

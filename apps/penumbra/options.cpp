@@ -39,20 +39,16 @@ void add_server(CLI::App& app, ServerArguments& server, const std::string& port_
              });
 }
 
-void add_renderer(CLI::App& app, RendererArguments& renderer) {
+void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer) {
   add_option(app, "--renderer", "cpu (default), gl (OpenGL) or reference", "NAME",
-             [&](const std::string& text) {
-               renderer.backend = to_backend(text);
-               renderer.is_named = true;
-             });
+             [&](const std::string& text) { backend = to_backend(text); });
   add_option(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
              [&](const std::string& text) {
-               renderer.options.gl_device = to_count("--gl-device", text, 0, most_gl_devices);
+               renderer.gl_device = to_count("--gl-device", text, 0, most_gl_devices);
              });
   add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
              [&](const std::string& text) {
-               renderer.options.threads =
-                   to_count("--threads", text, 1, RendererOptions::max_threads);
+               renderer.threads = to_count("--threads", text, 1, RendererOptions::max_threads);
              });
 }
 
@@ -73,14 +69,13 @@ void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fall
                "draw links that have only the other geometry by that; inspect says which");
 }
 
-void check_renderer(const RendererArguments& renderer) {
-  const std::string name(to_string(renderer.backend));
-  const int threads = renderer.options.threads, device = renderer.options.gl_device;
-  if (renderer.backend != Backend::cpu && threads > 1)
-    throw InputError("--threads " + std::to_string(threads) + ": the " + name +
+void check_renderer(Backend backend, const RendererOptions& options) {
+  const std::string name(to_string(backend));
+  if (backend != Backend::cpu && options.threads > 1)
+    throw InputError("--threads " + std::to_string(options.threads) + ": the " + name +
                      " renderer uses one thread; leave --threads out, or choose --renderer cpu");
-  if (renderer.backend != Backend::gl && device >= 0)
-    throw InputError("--gl-device " + std::to_string(device) + ": the " + name +
+  if (backend != Backend::gl && options.gl_device >= 0)
+    throw InputError("--gl-device " + std::to_string(options.gl_device) + ": the " + name +
                      " renderer uses no OpenGL; choose --renderer gl");
 }
 

@@ -53,22 +53,28 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
                       const std::string& value, std::filesystem::path& to);
 
 /// Options that several commands have.
-void add_renderer(CLI::App& app, RendererArguments& renderer);
+void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer);
 void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 
 /// --port and --address. `port_help`: what --port means.
 void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help);
 
-/// By what frames are judged: renderer, geometry, tolerance, labels.
-void add_judging(CLI::App& app, RunArguments& run);
-/// Which frames and targets are judged, in which image.
-void add_sequence(CLI::App& app, RunArguments& run);
-/// Which topics are taken, and what they leave open.
-void add_bag(CLI::App& app, BagArguments& bag);
+/// What the help of a bag's options says.
+struct BagHelp {
+  std::string group = "Of bags";
+  std::string joints = "/joint_states, or the only one";  ///< default of --joint-topic
+  std::string poses = "joints, else tf";                  ///< default of --poses
+};
 
-/// Options that the chosen renderer would not heed are refused.
-void check_renderer(const RendererArguments& renderer);
+/// How frames are judged: renderer, geometry, tolerance, labels.
+void add_judging(CLI::App& app, io::JudgingOptions& judging,
+                 const std::string& geometry_default = "the recording's, else collision");
+/// Which topics are used, and what they leave open.
+void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
+
+/// Refuses options that the chosen renderer does not use.
+void check_renderer(Backend backend, const RendererOptions& options);
 
 // The commands with options of many kinds.
 void add_run(CLI::App& app, RunArguments& run);
@@ -76,10 +82,9 @@ void add_tune(CLI::App& app, TuneArguments& tune);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_simulate(CLI::App& app, SimulateArguments& simulate);
 
-/// Refuses what does not go together, and fills in what follows from the rest.
-void check_run(RunArguments& run);
-void check_view(ViewArguments& view);
-/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
-void check_targets(const RunArguments& run);
+// Each refuses options of its command that exclude each other, and derives the rest from them.
+void check_run(const CLI::App& app, RunArguments& run);
+void check_tune(const CLI::App& app, TuneArguments& tune);
+void check_view(const CLI::App& app, ViewArguments& view);
 
 }  // namespace penumbra::app

@@ -12,8 +12,6 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/sequence_notes.hpp>
-#include <penumbra/pipeline/statistics.hpp>
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/text.hpp>
@@ -24,6 +22,8 @@
 #include <io/files/png.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/report_json.hpp>
+#include <io/files/sequence_notes.hpp>
+#include <io/run/judging.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -58,11 +58,11 @@ std::vector<std::string> rest_notes(const Robot& robot, const RenderArguments& a
 
 Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Camera& camera) {
   PipelineConfig config;
-  config.backend = arguments.renderer.backend;
-  config.renderer = arguments.renderer.options;
+  config.backend = arguments.backend;
+  config.renderer = arguments.renderer;
   config.camera_parent = arguments.parent;
   config.T_parent_camera = io::read_pose_csv(arguments.pose);
-  return app::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
+  return io::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
 }
 
 /// Throws where `file` is one that is read, or written otherwise.
@@ -138,9 +138,9 @@ class RenderedImages {
 void print_text(const RenderArguments& arguments, const io::RenderResult& result) {
   std::cout << arguments.output.string() << ": " << result.robot_pixels << " robot pixels of "
             << result.triangles << " triangles\n";
-  for (std::size_t i = 0; i < stages.size(); ++i)
+  for (std::size_t i = 0; i < io::stages.size(); ++i)
     if (const auto q = result.statistics.timing(i))
-      std::cout << stages[i].name << ": min " << fixed(q->min, 3) << " ms, median "
+      std::cout << io::stages[i].name << ": min " << fixed(q->min, 3) << " ms, median "
                 << fixed(q->median, 3) << " ms, p99 " << fixed(q->p99, 3) << " ms\n";
 }
 
@@ -157,14 +157,14 @@ int render(const RenderArguments& arguments) {
   RenderedImages images(arguments, first);
   tell_notes(pipeline.robot().notes());
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
-  SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
+  io::SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
   append(of_pose, doubts.lines());
   tell_notes(of_pose);
 
   const PixelCounts pixels = first.pixels;
   const Image<float> seen = copy(first.virtual_depth.depth);
-  Statistics repeats;
+  io::Statistics repeats;
   for (int i = 0; i < arguments.repeat; ++i)
     repeats.add(pipeline.process({.depth = seen.view(), .joints = positions}));
   images.finish();

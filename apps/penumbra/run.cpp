@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <csignal>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/judging.hpp>
-#include <apps/penumbra/output_bag.hpp>
-#include <apps/penumbra/output_folder.hpp>
 #include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/run_summary.hpp>
+#include <apps/penumbra/text.hpp>
 #include <io/files/pending_file.hpp>
+#include <io/run/output_bag.hpp>
+#include <io/run/output_folder.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -20,12 +21,12 @@ namespace {
 /// Throws InputError if results would take the place of anything but an earlier run's.
 void check_output(const RunArguments& arguments) {
   std::error_code error;
-  const std::filesystem::path input = std::filesystem::absolute(arguments.input);
-  const std::filesystem::path& output = arguments.output;
-  if (is_output_bag(output)) {
+  const std::filesystem::path input = std::filesystem::absolute(arguments.judging.input.path);
+  const std::filesystem::path& output = arguments.output.path;
+  if (io::is_output_bag(output)) {
     if (std::filesystem::equivalent(output, input, error))
       throw InputError("--output: " + output.string() + " is the input; choose another name");
-    return check_former_bag(output);
+    return io::check_former_bag(output);
   }
   const bool is_own = std::filesystem::equivalent(output, input, error) ||
                       (std::filesystem::is_regular_file(input, error) &&
@@ -36,23 +37,23 @@ void check_output(const RunArguments& arguments) {
   if (std::filesystem::exists(output / "recording.yaml", error))
     throw InputError("--output: " + output.string() +
                      " is a recording (it has a recording.yaml); choose another folder");
-  check_output_folder(arguments);
+  io::check_output_folder(arguments.output);
 }
 
 /// Takes the place of earlier results: in a folder now, in a bag at the end.
-std::unique_ptr<RunOutput> open_output(const RunArguments& arguments, const RunInput& input,
-                                       const Pipeline& pipeline) {
-  if (is_output_bag(arguments.output))
-    return std::make_unique<OutputBag>(arguments.output, input.camera,
-                                       pipeline.robot().links().front());
-  if (!arguments.points_frame.empty() && !pipeline.robot().find_link(arguments.points_frame))
-    throw InputError("--points-frame: no link '" + arguments.points_frame + "'; the root is '" +
-                     pipeline.robot().links().front() +
-                     "', and `penumbra inspect URDF` lists the others");
-  return std::make_unique<OutputFolder>(arguments.output, arguments, pipeline.rectification());
+std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
+                                           const io::Judging& judging) {
+  const Pipeline& pipeline = judging.pipeline();
+  const std::string& root = pipeline.robot().links().front();
+  if (io::is_output_bag(options.path))
+    return std::make_unique<io::OutputBag>(options.path, judging.camera(), root);
+  if (!options.points_frame.empty() && !pipeline.robot().find_link(options.points_frame))
+    throw InputError("--points-frame: no link '" + options.points_frame + "'; the root is '" +
+                     root + "', and `penumbra inspect URDF` lists the others");
+  return std::make_unique<io::OutputFolder>(options, pipeline.rectification());
 }
 
-volatile std::sig_atomic_t interrupted_by = 0;  // a signal's number
+std::atomic<int> interrupted_by = 0;  // a signal's number
 
 /// From now on the first Ctrl-C or SIGTERM only sets interrupted_by; a second one ends the program.
 void catch_interrupts() {
@@ -63,30 +64,39 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-int judge_all(const RunArguments& arguments) {
-  Judging judging(arguments);
-  const auto output = open_output(arguments, judging.input(), judging.pipeline());
+int status_of(const io::RunResult& result) {
+  if (result.is_stopped) return 128 + interrupted_by;
+  if (!result.device_fault.empty()) return device_failed;
+  return result.statistics.usable_frames() > 0 ? 0 : nothing_judged;
+}
+
+/// With a bar on the terminal.
+io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
+  Progress progress(judging.size().value_or(0));
+  return judging.run(output, [&] {
+    progress.step();
+    return interrupted_by == 0;
+  });
+}
+
+int run(const RunArguments& arguments, const std::filesystem::path& report) {
+  io::Judging judging(arguments.judging, print_line);
+  const auto output = open_output(arguments.output, judging);
   catch_interrupts();
   output->begin(judging.head());
-  bool is_whole = false;
-  {
-    Progress progress(judging.size().value_or(0));
-    is_whole = judging.run(*output, [&] {
-      progress.step();
-      return interrupted_by == 0;
-    });
-  }
-  judging.tell(output->where());
-  return is_whole ? judging.status() : 128 + interrupted_by;
+  const io::RunResult result = judge_all(judging, *output);
+  tell_result(result, judging.pipeline().robot(),
+              (report == arguments.output.path ? "results: " : "report: ") + report.string());
+  return status_of(result);
 }
 
 }  // namespace
 
 int execute(const RunArguments& arguments) {
   check_output(arguments);
-  const std::filesystem::path& output = arguments.output;
-  return io::run_or_say_state({is_output_bag(output) ? output : output / "report.json"},
-                              [&] { return judge_all(arguments); });
+  const std::filesystem::path& output = arguments.output.path;
+  const auto report = io::is_output_bag(output) ? output : output / "report.json";
+  return io::run_or_say_state({report}, [&] { return run(arguments, report); });
 }
 
 }  // namespace penumbra::app

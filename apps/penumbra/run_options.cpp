@@ -3,219 +3,239 @@
 
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
+#include <io/run/output_bag.hpp>
 
 namespace penumbra::app {
 namespace {
 
-/// Adds an option for bags whose text `take` reads.
-template <typename Take>
-void add_bag_option(CLI::App& app, BagArguments& bag, const std::string& name,
-                    const std::string& help, const std::string& value, Take take) {
-  const auto take_text = [&bag, name, value, take](const std::string& text) {
-    if (text.empty()) refuse_option(name, text, "a " + value);
-    bag.given = name;
-    take(text);
-  };
-  add_option(app, name, help, value, take_text)->group(bag.group);
-}
-
+/// Adds an option whose text is not empty.
 template <typename T>
-void add_bag_text(CLI::App& app, BagArguments& bag, const std::string& name,
-                  const std::string& help, const std::string& value, T& to) {
-  add_bag_option(app, bag, name, help, value, [&to](const std::string& text) { to = text; });
+CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& help,
+                      const std::string& value, T& to) {
+  return add_option(app, name, help, value, [&to, name, value](const std::string& text) {
+    if (text.empty()) refuse_option(name, text, "a " + value);
+    to = text;
+  });
 }
 
-void add_bag_flag(CLI::App& app, BagArguments& bag, const std::string& name,
-                  const std::string& help, bool& to) {
-  const auto take = [&bag, &to, name] {
-    to = true;
-    bag.given = name;
-  };
-  app.add_flag_callback(name, take, help)->group(bag.group);
-}
-
-template <typename Take>
-void add_bag_list(CLI::App& app, BagArguments& bag, const std::string& name,
-                  const std::string& help, const std::string& value, Take take) {
-  add_list(app, name, help, value, [&bag, name, take](const std::string& text) {
-    bag.given = name;
-    take(text);
-  })->group(bag.group);
-}
-
-void add_input(CLI::App& app, RunArguments& run) {
+void add_input(CLI::App& app, io::InputOptions& input) {
   add_path(app, "INPUT",
            "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
            "folder with metadata.yaml",
-           "", run.input)
+           "", input.path)
       ->required();
 }
 
-void add_frames(CLI::App& app, RunArguments& run) {
+void add_frames(CLI::App& app, io::FrameRange& frames) {
   add_option(app, "--frames", "the frames from A up to but without B", "A:B",
-             [&](const std::string& text) { run.frames = to_range(text); });
+             [&](const std::string& text) { frames = to_range(text); });
 }
 
 /// A bag holds its topics, all of them, in the camera's own image.
-void check_output_bag(RunArguments& run) {
-  if (run.output.extension() != ".mcap") return;
+void check_output_bag(const RunArguments& run) {
   const auto refuse = [](const std::string& option) {
     throw InputError(option +
                      ": a bag of results (-o *.mcap) always holds the same topics, of the " +
                      "camera's images; leave it out, or give a folder with -o");
   };
-  if (run.saves != Saves{}) refuse("--save");
-  if (!run.points_frame.empty()) refuse("--points-frame");
-  if (run.report_page) refuse("--report");
-  if (run.force) refuse("--force");
-  if (run.image == ImageSpace::rectified) refuse("--image rectified");
-  run.saves.overlay = true;
+  if (run.output.saves != io::Saves{}) refuse("--save");
+  if (!run.output.points_frame.empty()) refuse("--points-frame");
+  if (run.output.report_page) refuse("--report");
+  if (run.output.force) refuse("--force");
+  if (run.judging.image == ImageSpace::rectified) refuse("--image rectified");
+}
+
+/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
+void check_targets(const io::JudgingOptions& judging) {
+  if (judging.input.bag.target_topics.empty()) return;
+  if (judging.targets || judging.no_targets)
+    throw InputError("--target-topic: --targets is given too; leave one of them out");
+  if (judging.image == ImageSpace::rectified)
+    throw InputError(
+        "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
+}
+
+/// What recordings, bags and live topics have in common.
+void check_judging(const CLI::App& app, io::JudgingOptions& judging) {
+  check_renderer(judging.backend, judging.renderer);
+  check_targets(judging);
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0 && option->get_group() == BagHelp().group)
+      judging.input.bag_option = option->get_name();
 }
 
 }  // namespace
 
-void add_bag(CLI::App& app, BagArguments& bag) {
-  add_bag_text(app, bag, "--depth-topic", "depth images; default: the only ones called depth",
-               "TOPIC", bag.depth_topic);
-  add_bag_text(app, bag, "--camera-info-topic", "default: beside the depth images", "TOPIC",
-               bag.camera_info_topic);
-  add_bag_text(app, bag, "--color-topic",
+void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
+  std::vector<CLI::Option*> options{
+      add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
+               bag.depth_topic),
+      add_text(app, "--camera-info-topic", "default: beside the depth images", "TOPIC",
+               bag.camera_info_topic),
+      add_text(app, "--color-topic",
                "judge in this camera's image: depth is brought there by tf, if it is another's",
-               "TOPIC", bag.color_topic);
-  add_bag_list(app, bag, "--joint-topic",
-               "default: " + bag.joints_default + "; may be given several times", "TOPIC",
-               [&](const std::string& text) { bag.joint_topics.push_back(text); });
-  add_bag_list(
-      app, bag, "--target-topic",
-      "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
-      "several times",
-      "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
-  add_bag_option(
-      app, bag, "--poses",
-      "where links are: joints, tf, or both, which must agree; default: " + bag.poses_default,
-      "NAME", [&](const std::string& text) { bag.poses = to_poses(text); });
-  add_bag_text(app, bag, "--robot", "the robot, in place of the robot_description", "URDF",
-               bag.robot);
-  add_bag_list(app, bag, "--package", "where package://NAME is; may be given several times",
-               "NAME=DIR", [&](const std::string& text) { take_package(text, bag.packages); });
-  add_bag_option(app, bag, "--frame-prefix",
+               "TOPIC", bag.color_topic),
+      add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
+               "TOPIC", [&](const std::string& text) { bag.joint_topics.push_back(text); }),
+      add_list(app, "--target-topic",
+               "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be "
+               "given several times",
+               "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); }),
+      add_option(
+          app, "--poses",
+          "where the links' poses come from: joints, tf, or both, which must agree; default: " +
+              help.poses,
+          "NAME", [&](const std::string& text) { bag.poses = to_poses(text); }),
+      add_text(app, "--robot", "the robot, in place of the robot_description", "URDF", bag.robot),
+      add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
+               [&](const std::string& text) { take_package(text, bag.packages); }),
+      add_option(app, "--frame-prefix",
                  "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",
-                 [&](const std::string& text) { bag.frame_prefix = text.substr(text[0] == '/'); });
-  add_bag_text(app, bag, "--camera-frame", "the images' frame in tf, in place of their frame_id",
-               "FRAME", bag.camera_frame);
-  add_bag_text(app, bag, "--parent",
-               "link that the camera sits on; default: the first above its frame in tf", "LINK",
-               bag.parent);
-  add_bag_text(app, bag, "--pose",
+                 [&](const std::string& text) {
+                   if (text.empty()) refuse_option("--frame-prefix", text, "a TEXT");
+                   bag.frame_prefix = text.substr(text[0] == '/');
+                 }),
+      add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id",
+               "FRAME", bag.camera_frame),
+      add_text(app, "--parent",
+               "link that the camera is on; default: the first above its frame in tf", "LINK",
+               bag.parent),
+      add_text(app, "--pose",
                "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
-               bag.pose);
-  add_bag_option(app, bag, "--time-offset",
+               bag.pose),
+      add_option(app, "--time-offset",
                  "added to the images' stamps before poses are looked up; default 0", "S",
-                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); });
-  add_bag_flag(
-      app, bag, "--first-publisher",
-      "do not compare several publishers of one joint or transform: use the first one heard; "
-      "default: where they disagree, the pose is unknown",
-      bag.first_publisher);
-  add_bag_flag(app, bag, "--rectified",
-               "the images are free of distortion already, as those called image_rect... are",
-               bag.rectified);
+                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); }),
+      app.add_flag("--first-publisher", bag.first_publisher,
+                   "do not compare several publishers of one joint or transform: use the first one "
+                   "heard; default: where they disagree, the pose is unknown"),
+      app.add_flag("--rectified", bag.rectified,
+                   "the images are free of distortion already, as those called image_rect... are")};
+  for (CLI::Option* option : options) option->group(help.group);
 }
 
-void add_judging(CLI::App& app, RunArguments& run) {
-  add_renderer(app, run.renderer);
-  add_option(app, "--geometry", "collision or visual; default: " + run.geometry_default, "NAME",
-             [&](const std::string& text) { run.geometry = to_geometry(text); });
-  add_leniency(app, run.allow_missing_meshes, run.geometry_fallback);
-  add_extra(app, run.extra);
-  add_option(app, "--tolerance", "e(z) = A + B z + C z^2, metres", "A,B,C",
-             [&](const std::string& text) { run.tolerance = to_tolerance(text); });
-  add_option(app, "--front-min-width", "narrower front regions become occluded; 0: off", "PX",
-             [&](const std::string& text) {
-               run.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
+void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& geometry_default) {
+  io::InputOptions& input = judging.input;
+  io::RuleOptions& rule = judging.rule;
+  add_renderer(app, judging.backend, judging.renderer);
+  add_option(app, "--geometry", "collision or visual; default: " + geometry_default, "NAME",
+             [&](const std::string& text) { input.geometry = to_geometry(text); });
+  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_extra(app, input.extra);
+  add_option(app, "--tolerance",
+             "depth that differs by less than e(z) = A + B z + C z^2 metres is the same", "A,B,C",
+             [&](const std::string& text) { rule.tolerance = to_tolerance(text); });
+  add_option(app, "--front-min-width", "front regions narrower than this become occluded; 0: off",
+             "PX", [&](const std::string& text) {
+               rule.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
              });
   add_option(app, "--fringe-reach",
-             "pixels past the robot's outline that the sensor carries its depth; 0: off", "PX",
+             "how far past its outline the sensor shows the robot's depth; 0: off", "PX",
              [&](const std::string& text) {
-               run.fringe_reach = to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
+               rule.fringe_reach = to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
              });
   add_option(app, "--sensor",
              "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "
              "fringe reach; the two options override",
              "NAME", [&](const std::string& text) {
                static_cast<void>(LabelRule::for_sensor(text));
-               run.sensor = text;
+               rule.sensor = text;
              });
   add_option(app, "--labels",
              "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
              "--tolerance, --front-min-width and --fringe-reach override",
-             "NAME", [&](const std::string& text) { run.paper_labels = to_paper(text); });
+             "NAME", [&](const std::string& text) { rule.paper_labels = to_paper(text); });
 }
 
-void add_sequence(CLI::App& app, RunArguments& run) {
+void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
   add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
-             [&](const std::string& text) { run.image = to_image(text); });
-  add_frames(app, run);
+             [&](const std::string& text) { judging.image = to_image(text); });
+  add_frames(app, judging.input.frames);
   add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
              "YAML", [&](const std::string& text) {
                if (text.empty()) refuse_option("--targets", text, "a path, or none");
-               run.no_targets = text == "none";
-               if (!run.no_targets) run.targets = text;
+               judging.no_targets = text == "none";
+               if (!judging.no_targets) judging.targets = text;
              });
 }
 
 void add_tune(CLI::App& app, TuneArguments& tune) {
   app.footer(tune_examples);
-  RunArguments& run = tune.judging;
-  run.is_shown = true;  // the picture wants colour
-  add_input(app, run);
-  add_path(app, "-o,--output", "folder for the results, made if need be", "OUT", run.output)
+  add_input(app, tune.judging.input);
+  add_path(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
       ->required();
-  add_judging(app, run);
-  add_frames(app, run);
-  add_bag(app, run.bag);
+  add_judging(app, tune.judging);
+  add_frames(app, tune.judging.input.frames);
+  add_bag(app, tune.judging.input.bag);
 }
 
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  add_input(app, run);
+  add_input(app, run.judging.input);
   add_path(app, "-o,--output",
            "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
-           run.output)
+           run.output.path)
       ->required();
-  add_judging(app, run);
-  add_sequence(app, run);
+  add_judging(app, run.judging);
+  app.get_option("--threads")
+      ->description(
+          "threads of the cpu renderer, default 1, and of those that write images, default one per "
+          "core; results do not depend on it");
+  add_sequence(app, run.judging);
   add_option(app, "--fps",
              "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",
-             [&](const std::string& text) { run.fps = to_fps(text); });
+             [&](const std::string& text) { run.judging.input.fps = to_fps(text); });
   add_option(app, "--save",
              "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
              "filtered (depth) and points (PCD and PLY)",
-             "LIST", [&](const std::string& text) { run.saves = to_saves(text); });
+             "LIST", [&](const std::string& text) { run.output.saves = to_saves(text); });
   add_option(app, "--points-frame", "link that points are given in; default: the camera's frame",
-             "LINK", [&](const std::string& text) { run.points_frame = text; });
-  app.add_flag("--report", run.report_page,
+             "LINK", [&](const std::string& text) { run.output.points_frame = text; });
+  app.add_flag("--report", run.output.report_page,
                "write report.html, too: one file with the targets' timeline and key frames");
-  app.add_flag("--force", run.force,
+  app.add_flag("--force", run.output.force,
                "write into a folder that holds files and no report.json of penumbra");
-  add_bag(app, run.bag);
+  add_bag(app, run.judging.input.bag);
 }
 
-void check_targets(const RunArguments& run) {
-  if (run.bag.target_topics.empty()) return;
-  if (run.targets || run.no_targets)
-    throw InputError("--target-topic: --targets is given too; leave one of them out");
-  if (run.image == ImageSpace::rectified)
-    throw InputError(
-        "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
+void check_tune(const CLI::App& app, TuneArguments& tune) {
+  check_judging(app, tune.judging);
+  tune.judging.input.with_color = true;  // for the picture
+  tune.judging.no_targets = true;
+  tune.judging.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
 }
 
-void check_run(RunArguments& run) {
-  check_renderer(run.renderer);
-  check_targets(run);
-  check_output_bag(run);
-  if (!run.points_frame.empty() && !run.saves.points)
+void check_run(const CLI::App& app, RunArguments& run) {
+  check_judging(app, run.judging);
+  const io::Saves& saves = run.output.saves;
+  const bool is_bag = io::is_output_bag(run.output.path);
+  if (is_bag) check_output_bag(run);
+  if (!run.output.points_frame.empty() && !saves.points)
     throw InputError("--points-frame: no points are saved; add --save points, or leave it out");
+  if (app.get_option("--threads")->count() > 0) run.output.threads = run.judging.renderer.threads;
+  run.judging.input.with_color = is_bag || saves.overlay || saves.points || run.output.report_page;
+}
+
+void add_view(CLI::App& app, ViewArguments& view) {
+  app.footer(view_examples);
+  add_path(app, "INPUT",
+           "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
+           "", view.judging.input.path)
+      ->required();
+  add_server(app, view.server, "where the page is served; 0: any that is free; default 8470");
+  add_judging(app, view.judging);
+  add_sequence(app, view.judging);
+  add_bag(app, view.judging.input.bag);
+}
+
+void check_view(const CLI::App& app, ViewArguments& view) {
+  check_judging(app, view.judging);
+  view.judging.input.with_color = true;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "INPUT" && name != "--port" && name != "--address")
+      view.judging_option = name;
+  }
 }
 
 }  // namespace penumbra::app

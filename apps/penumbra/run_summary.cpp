@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_targets = 20;  // that are told of by a line each
 
-std::string more_reasons(const Fault& fault) {
+std::string more_reasons(const io::Fault& fault) {
   if (fault.frames == fault.reasons.front().frames) return "";
   return " (other frames for other reasons, see the report)";
 }
@@ -24,15 +24,15 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 /// None where no frame was usable: why not is said already.
-std::span<const TargetStatistics> judged_targets(const Statistics& statistics) {
+std::span<const io::TargetStatistics> judged_targets(const io::Statistics& statistics) {
   if (statistics.usable_frames() == 0) return {};
   return statistics.targets();
 }
 
 /// A line for each target; of very many, for the first.
-void tell_targets(const Statistics& statistics) {
+void tell_targets(const io::Statistics& statistics) {
   const auto targets = judged_targets(statistics);
-  for (const TargetStatistics& target : targets.first(std::min(most_targets, targets.size())))
+  for (const io::TargetStatistics& target : targets.first(std::min(most_targets, targets.size())))
     std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
               << " frames visible, " << target.frames(Verdict::partial) << " partial, "
               << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
@@ -41,30 +41,29 @@ void tell_targets(const Statistics& statistics) {
     std::cout << "and " << targets.size() - most_targets << " more targets, see the report\n";
 }
 
-}  // namespace
-
-void tell_faults(const Statistics& statistics, const ColorFaults& color) {
+void tell_faults(const io::RunResult& result) {
+  const io::Statistics& statistics = result.statistics;
   const auto frames = [&](std::size_t n) {
     return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
   };
-  for (const Fault& fault : statistics.faults())
+  for (const io::Fault& fault : statistics.faults())
     std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
               << ", first in frame " << fault.reasons.front().first << ": "
               << fault.reasons.front().message << more_reasons(fault) << '\n';
   std::size_t told = 0;
-  for (const TargetStatistics& target : judged_targets(statistics))
+  for (const io::TargetStatistics& target : judged_targets(statistics))
     if (target.frames(Verdict::unknown) > 0 && ++told <= most_targets)
       std::cerr << "penumbra: target '" << target.name << "' unknown in "
                 << frames(target.frames(Verdict::unknown)) << ", first in frame "
                 << target.first_unknown << ": " << target.reason << '\n';
   if (told > most_targets)
     std::cerr << "penumbra: " << told - most_targets << " more targets unknown in some frames\n";
-  if (color.frames > 0)
-    std::cerr << "penumbra: no colour in the overlay of " << frames(color.frames)
-              << ", first: " << color.first << '\n';
+  if (result.frames_without_color > 0)
+    std::cerr << "penumbra: no colour in the overlay of " << frames(result.frames_without_color)
+              << ", first: " << result.first_without_color << '\n';
 }
 
-void tell_summary(const Statistics& statistics, const std::string& where) {
+void tell_summary(const io::Statistics& statistics, const std::string& where) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
   const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
@@ -76,11 +75,20 @@ void tell_summary(const Statistics& statistics, const std::string& where) {
   if (pixels.uncovered > 0) std::cout << "; besides " << pixels.uncovered << " uncovered pixels";
   std::cout << '\n';
   tell_targets(statistics);
-  for (std::size_t i = 0; i < stages.size(); ++i)
+  for (std::size_t i = 0; i < io::stages.size(); ++i)
     if (const auto q = statistics.timing(i))
-      std::cout << stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
+      std::cout << io::stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
                 << fixed(q->p99, 3) << " ms, max " << fixed(q->max, 3) << " ms\n";
   std::cout << where << '\n';
+}
+
+}  // namespace
+
+void tell_result(const io::RunResult& result, const Robot& robot, const std::string& where) {
+  if (result.statistics.usable_frames() > 0) tell_notes(robot.notes());
+  tell_faults(result);
+  tell_notes(result.notes);
+  tell_summary(result.statistics, where);
 }
 
 }  // namespace penumbra::app

@@ -6,8 +6,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/output_bag.hpp>
 #include <apps/penumbra/progress.hpp>
+#include <io/run/output_bag.hpp>
 #include <sim/recording_bag.hpp>
 #include <sim/recording_folder.hpp>
 
@@ -21,7 +21,7 @@ void check_output(const std::filesystem::path& output) {
 
 std::unique_ptr<sim::RecordingSink> open_recording(const SimulateArguments& arguments,
                                                    const sim::Simulation& simulation) {
-  if (is_output_bag(arguments.output))
+  if (io::is_output_bag(arguments.output))
     return std::make_unique<sim::RecordingBag>(arguments.output, simulation, arguments.scene,
                                                arguments.options);
   return std::make_unique<sim::RecordingFolder>(arguments.output, simulation, arguments.scene,

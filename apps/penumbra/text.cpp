@@ -4,8 +4,6 @@
 #include <iostream>
 #include <utility>
 
-#include <penumbra/base/error.hpp>
-
 #include <apps/penumbra/text.hpp>
 #include <io/files/printable.hpp>
 
@@ -43,18 +41,7 @@ void print_table(std::vector<std::vector<std::string>> rows) {
   }
 }
 
-Pipeline make_pipeline(Robot robot, const Camera& camera, const PipelineConfig& config,
-                       const std::filesystem::path& camera_info) {
-  try {
-    return {std::move(robot), camera, config};
-  } catch (const LensError& error) {
-    throw InputError(camera_info.string() + ": " + error.what());
-  }
-}
-
-std::string without_device(const DeviceError& error) {
-  return std::string(error.what()) + "; run again, or with --renderer cpu";
-}
+void print_line(const std::string& line) { std::cout << line << '\n'; }
 
 void tell_notes(std::span<const std::string> notes) {
   for (const std::string& note : notes)

@@ -3,15 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/robot/robot.hpp>
 
 namespace penumbra::app {
 
@@ -28,13 +23,8 @@ namespace penumbra::app {
 /// Prints rows of equal length on stdout, columns aligned, without control characters.
 void print_table(std::vector<std::vector<std::string>> rows);
 
-/// Makes a pipeline; a fault of the lens is blamed on the camera_info file.
-[[nodiscard]] Pipeline make_pipeline(Robot robot, const Camera& camera,
-                                     const PipelineConfig& config,
-                                     const std::filesystem::path& camera_info);
-
-/// What the user may do about a graphics device that failed.
-[[nodiscard]] std::string without_device(const DeviceError& error);
+/// Prints a line on stdout.
+void print_line(const std::string& line);
 
 /// Prints on stderr, a line each.
 void tell_notes(std::span<const std::string> notes);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <span>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -13,58 +14,42 @@
 #include <penumbra/tuning/tuning.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <apps/penumbra/output_folder.hpp>
 #include <apps/penumbra/progress.hpp>
-#include <apps/penumbra/run_input.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
+#include <io/run/judging.hpp>
 
 namespace penumbra::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The kept frames, and their colour images by index.
-struct Recorded {
+/// Keeps frames to measure, and their colour images by index.
+class KeptFrames final : public io::RunOutput {
+ public:
+  explicit KeptFrames(const DepthRange& range) : frames(range) {}
+
+  void begin(const io::ReportHead& /*head*/) override {}
+  void save(const FrameReport& report, const io::FrameData& data,
+            const io::ShownTargets& /*targets*/) override {
+    frames.add(report);
+    if (!data.color.empty() && frames.holds(report.index)) colors[report.index] = data.color;
+    std::erase_if(colors, [&](const auto& color) { return !frames.holds(color.first); });
+  }
+  void finish(const io::Statistics& /*all*/, std::span<const std::string> /*notes*/) override {}
+
   TuningFrames frames;
   std::map<std::size_t, Image<io::Rgb8>> colors;
 };
 
-Pipeline open_pipeline(const RunArguments& run, RunInput& input) {
-  PipelineConfig config = input.config;
-  config.backend = run.renderer.backend;
-  config.renderer = run.renderer.options;
-  config.rule = rule_of(run, config.rule);
-  config.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
-  return app::make_pipeline(std::move(input.robot), input.camera, config, input.camera_info);
-}
-
-Recorded read_frames(const RunInput& input, Pipeline& pipeline) {
-  Recorded recorded{TuningFrames(pipeline.rule().range), {}};
-  const auto source = input.frames(pipeline.robot());
-  Progress progress(source->size().value_or(0));
-  io::FrameData data;
-  Frame frame;
-  while (source->next(data, frame)) {
-    const FrameReport& report = pipeline.process(frame);
-    recorded.frames.add(report);
-    if (!data.color.empty() && recorded.frames.holds(report.index))
-      recorded.colors[report.index] = data.color;
-    std::erase_if(recorded.colors,
-                  [&](const auto& color) { return !recorded.frames.holds(color.first); });
-    progress.step();
-  }
-  return recorded;
-}
-
 /// The colour image of a frame as the report's images are; empty if there is none.
-Image<io::Rgb8> color_of(const Recorded& recorded, std::size_t index, const Pipeline& pipeline) {
-  const auto found = recorded.colors.find(index);
+Image<io::Rgb8> color_of(const KeptFrames& kept, std::size_t index, const Pipeline& pipeline) {
+  const auto found = kept.colors.find(index);
   const Rectification* const lens = pipeline.rectification();
-  if (found == recorded.colors.end() || lens == nullptr)
-    return found == recorded.colors.end() ? Image<io::Rgb8>() : found->second;
+  if (found == kept.colors.end() || lens == nullptr)
+    return found == kept.colors.end() ? Image<io::Rgb8>() : found->second;
   Image<io::Rgb8> color(lens->pinhole().width(), lens->pinhole().height());
   remap(lens->pinhole_to_raw(), found->second.view(), io::Rgb8{}, color.view());
   return color;
@@ -110,9 +95,10 @@ void print_measured(const Tuning& tuning, std::size_t frames, const Robot& robot
 
 /// Paths of meshes are relative to the recording.yaml.
 void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& extras,
-                    const RunArguments& run) {
-  const fs::path& folder = run.output;
-  const fs::path recording = fs::is_directory(run.input) ? run.input : run.input.parent_path();
+                    const TuneArguments& arguments) {
+  const fs::path& folder = arguments.output;
+  const fs::path& input = arguments.judging.input.path;
+  const fs::path recording = fs::is_directory(input) ? input : input.parent_path();
   const Tolerance& e = tuning.rule.tolerance;
   const std::string a = short_number(e.a), c = short_number(e.c);
   const int reach = tuning.rule.fringe_reach;
@@ -146,14 +132,23 @@ void write_text(const fs::path& file, const std::string& text) {
 }  // namespace
 
 int execute(const TuneArguments& arguments) {
-  const RunArguments& run = arguments.judging;
-  const fs::path& folder = run.output;
+  const fs::path& folder = arguments.output;
+  io::Judging judging(arguments.judging, print_line);
   make_folder(folder);
-  RunInput input = open_input(run, std::cout);
-  Pipeline pipeline = open_pipeline(run, input);
-  const Recorded recorded = read_frames(input, pipeline);
-  const Tuning tuning =
-      tune(recorded.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
+  const Pipeline& pipeline = judging.pipeline();
+  KeptFrames kept(pipeline.rule().range);
+  {
+    Progress progress(judging.size().value_or(0));
+    const io::RunResult result = judging.run(kept, [&] {
+      progress.step();
+      return true;
+    });
+    if (!result.device_fault.empty()) {
+      tell_notes(std::vector{result.device_fault});
+      return device_failed;
+    }
+  }
+  const Tuning tuning = tune(kept.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
   std::vector<io::WrittenExtra> extras;
   for (const ExtraPart& part : tuning.extras) {
     const std::string& link = pipeline.robot().links()[part.link];
@@ -162,14 +157,14 @@ int execute(const TuneArguments& arguments) {
     extras.push_back({link, "extra_" + name + ".stl"});
     io::write_stl(folder / extras.back().file, part.mesh);
   }
-  const auto frames = recorded.frames.frames();
+  const auto frames = kept.frames.frames();
   const TuningFrame& shown = frames[tuning.fringe.shown_frame];
-  const Image<io::Rgb8> color = color_of(recorded, shown.index, pipeline);
+  const Image<io::Rgb8> color = color_of(kept, shown.index, pipeline);
   const Image<io::Rgb8> picture = io::draw_tuning(tuning, shown, color.view());
   io::write_png(folder / "tune.png", picture.view());
   write_text(folder / "tune.json", io::tuning_json(tuning, frames, extras) + "\n");
   print_measured(tuning, frames.size(), pipeline.robot());
-  print_settings(tuning, extras, run);
+  print_settings(tuning, extras, arguments);
   return 0;
 }
 

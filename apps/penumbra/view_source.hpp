@@ -7,7 +7,7 @@
 #include <thread>
 
 #include <apps/penumbra/arguments.hpp>
-#include <apps/penumbra/judging.hpp>
+#include <io/run/judging.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/run_folder.hpp>
 #include <io/web/stored_view.hpp>
@@ -17,7 +17,7 @@ namespace penumbra::app {
 /// What the viewer shows of files: an input, which is judged meanwhile, or the results of a run.
 class ViewSource {
  public:
-  /// Throws InputError where there is nothing to show.
+  /// `arguments` must outlive this. Throws InputError where there is nothing to show.
   explicit ViewSource(const ViewArguments& arguments);
   ~ViewSource();
   ViewSource(const ViewSource&) = delete;
@@ -32,17 +32,17 @@ class ViewSource {
   void tell();
 
  private:
-  void open_input(const RunArguments& arguments);
-  void open_run(const RunArguments& arguments);
+  void open_input(const io::JudgingOptions& options);
+  void open_run(const ViewArguments& arguments);
   void judge();
 
-  RunArguments judged_;  // the judging refers to it
-  std::optional<Judging> judging_;
+  std::optional<io::Judging> judging_;
   std::optional<io::FrameStore> store_;
   std::optional<io::RunFolder> folder_;
   std::optional<io::StoredView> view_;
   std::atomic<bool> stop_ = false, over_ = false;
   std::exception_ptr error_;
+  io::RunResult result_;
   std::thread thread_;
 };
 

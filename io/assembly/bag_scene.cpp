@@ -15,9 +15,9 @@ std::string damages_of(const BagInbox& inbox) {
   return damages;
 }
 
-BagTopics topics_of(const BagInbox& inbox, const TopicWishes& wishes) {
+BagTopics topics_of(const BagInbox& inbox, const BagOptions& options, bool with_color) {
   try {
-    return choose_topics(inbox.name(), inbox.topics(), wishes);
+    return choose_topics(inbox.name(), inbox.topics(), options, with_color);
   } catch (const InputError& error) {
     throw InputError(error.what() + damages_of(inbox));
   }
@@ -25,8 +25,9 @@ BagTopics topics_of(const BagInbox& inbox, const TopicWishes& wishes) {
 
 }  // namespace
 
-BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const TopicWishes& wishes)
-    : inbox_(bag), topics_(topics_of(inbox_, wishes)) {}
+BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const BagOptions& options,
+                               bool with_color)
+    : inbox_(bag), topics_(topics_of(inbox_, options, with_color)) {}
 
 void BagSceneReader::read_robot_and_camera() {
   if (read_until([this](const BagScene&) { return lacking().empty(); })) return;

@@ -26,7 +26,7 @@ struct BagScene {
 class BagSceneReader {
  public:
   /// Throws InputError as open_bag and choose_topics.
-  BagSceneReader(const std::filesystem::path& bag, const TopicWishes& wishes);
+  BagSceneReader(const std::filesystem::path& bag, const BagOptions& options, bool with_color);
 
   [[nodiscard]] const BagTopics& topics() const { return topics_; }
   [[nodiscard]] const BagScene& scene() const { return scene_; }

@@ -144,9 +144,10 @@ bool is_depth(const std::string& name) {
   return holds(name, {"depth"}) && !holds(last_part(image_base(name)), {"confidence"});
 }
 
-TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
+TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
   const TopicTypes types = image_types;
-  if (wishes.depth) return chooser.named("depth", "--depth-topic", *wishes.depth, types);
+  if (options.depth_topic)
+    return chooser.named("depth", "--depth-topic", *options.depth_topic, types);
   const auto candidates = chooser.of(types, is_depth);
   if (!candidates.empty())
     return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
@@ -164,10 +165,11 @@ const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
   return found.empty() ? nullptr : found.front();
 }
 
-TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const std::string& depth) {
+TopicUse choose_info(const Chooser& chooser, const BagOptions& options, const std::string& depth) {
   const char* const option = "--camera-info-topic";
-  if (wishes.camera_info)
-    return chooser.named("camera_info", option, *wishes.camera_info, TopicTypes(&info_type, 1));
+  if (options.camera_info_topic)
+    return chooser.named("camera_info", option, *options.camera_info_topic,
+                         TopicTypes(&info_type, 1));
   if (const BagTopic* beside = info_beside(chooser, depth))
     return Chooser::use("camera_info", *beside, "it stands beside the depth images");
   const auto candidates = chooser.of(TopicTypes(&info_type, 1));
@@ -179,17 +181,19 @@ TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const st
                  names_of(candidates) + "; choose one with " + option);
 }
 
-void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
+void choose_color(const Chooser& chooser, const BagOptions& options, bool with_color,
+                  BagTopics& topics) {
   const TopicTypes types = image_types;
-  if (wishes.color) {
-    topics.color = chooser.named("color", "--color-topic", *wishes.color, types);
+  if (options.color_topic) {
+    topics.color = chooser.named("color", "--color-topic", *options.color_topic, types);
     const BagTopic* info = info_beside(chooser, topics.color->name);
     if (info == nullptr)
-      chooser.refuse("--color-topic: no camera_info stands beside " + printable(*wishes.color));
+      chooser.refuse("--color-topic: no camera_info stands beside " +
+                     printable(*options.color_topic));
     topics.color_info = Chooser::use("color camera_info", *info, "it stands beside these images");
     return;
   }
-  if (!wishes.with_color) return;
+  if (!with_color) return;
   const auto candidates = chooser.of(types, [](const std::string& name) {
     return !is_depth(name) && holds(name, {"color", "colour", "rgb"});
   });
@@ -213,9 +217,9 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
   return std::nullopt;
 }
 
-void choose_joints(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
-  if (wishes.poses == PoseSource::transforms) return;
-  for (const std::string& name : wishes.joints)
+void choose_joints(const Chooser& chooser, const BagOptions& options, BagTopics& topics) {
+  if (options.poses == PoseSource::transforms) return;
+  for (const std::string& name : options.joint_topics)
     topics.joints.push_back(
         chooser.named("joints", "--joint-topic", name, TopicTypes(&joints_type, 1)));
   if (!topics.joints.empty()) return;
@@ -238,17 +242,17 @@ void choose_transforms(const Chooser& chooser, BagTopics& topics) {
       topics.transforms.push_back(std::move(*found));
 }
 
-PoseSource choose_poses(const Chooser& chooser, const TopicWishes& wishes,
+PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
                         const BagTopics& topics) {
   const PoseSource poses =
-      wishes.poses.value_or(topics.joints.empty() ? PoseSource::transforms : PoseSource::joints);
+      options.poses.value_or(topics.joints.empty() ? PoseSource::transforms : PoseSource::joints);
   if (poses != PoseSource::transforms && topics.joints.empty())
     chooser.refuse("has no joint states (sensor_msgs/msg/JointState), which --poses asks for");
   if (!topics.transforms.empty()) return poses;
   if (poses == PoseSource::transforms)
     chooser.refuse("has neither joint states nor tf: the robot's poses are not known");
   if (poses == PoseSource::both) chooser.refuse("has no tf, which --poses both asks for");
-  if (wishes.needs_transforms)
+  if (!options.pose)
     chooser.refuse("has no tf, which would say where the camera is; give --pose and --parent");
   return poses;
 }
@@ -270,25 +274,25 @@ std::string info_topic_beside(const std::string& image_topic) {
 }
 
 BagTopics choose_camera_topics(const std::string& source, std::span<const BagTopic> topics,
-                               const TopicWishes& wishes) {
+                               const BagOptions& options, bool with_color) {
   const Chooser chooser(source, topics);
   BagTopics chosen;
-  chosen.depth = choose_depth(chooser, wishes);
-  chosen.camera_info = choose_info(chooser, wishes, chosen.depth.name);
-  choose_color(chooser, wishes, chosen);
+  chosen.depth = choose_depth(chooser, options);
+  chosen.camera_info = choose_info(chooser, options, chosen.depth.name);
+  choose_color(chooser, options, with_color, chosen);
   return chosen;
 }
 
 BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
-                        const TopicWishes& wishes) {
-  BagTopics chosen = choose_camera_topics(bag, topics, wishes);
+                        const BagOptions& options, bool with_color) {
+  BagTopics chosen = choose_camera_topics(bag, topics, options, with_color);
   const Chooser chooser(bag, topics);
-  choose_joints(chooser, wishes, chosen);
+  choose_joints(chooser, options, chosen);
   choose_transforms(chooser, chosen);
-  chosen.poses = choose_poses(chooser, wishes, chosen);
-  for (const std::string& name : wishes.targets)
+  chosen.poses = choose_poses(chooser, options, chosen);
+  for (const std::string& name : options.target_topics)
     chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
-  if (!wishes.needs_description) return chosen;
+  if (options.robot) return chosen;
   chosen.description =
       usual(chooser, "robot", text_type, "robot_description", "give the URDF with --robot");
   if (!chosen.description)

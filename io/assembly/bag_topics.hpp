@@ -10,19 +10,10 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 
+#include <io/assembly/bag_options.hpp>
 #include <io/bag/bag_reader.hpp>
 
 namespace penumbra::io {
-
-/// What is wanted of a bag, and which topics the user names.
-struct TopicWishes {
-  std::optional<std::string> depth, camera_info, color;
-  std::vector<std::string> joints, targets;
-  std::optional<PoseSource> poses;
-  bool with_color = false;        ///< for pictures; if `color` is named it is judged in, too
-  bool needs_description = true;  ///< the robot is in the bag
-  bool needs_transforms = true;   ///< the camera's pose is in the bag
-};
 
 /// A topic that is taken.
 struct TopicUse {
@@ -51,17 +42,18 @@ class AmbiguousTopics : public InputError {
   using InputError::InputError;
 };
 
-/// The topics of the camera alone, as choose_topics has them.
+/// Returns the topics of the camera alone, as choose_topics does.
 [[nodiscard]] BagTopics choose_camera_topics(const std::string& source,
                                              std::span<const BagTopic> topics,
-                                             const TopicWishes& wishes);
+                                             const BagOptions& options, bool with_color);
 
 /// The camera_info that is looked for beside an image topic.
 [[nodiscard]] std::string info_topic_beside(const std::string& image_topic);
 
-/// Chooses by names and types; topics without messages are none. Throws InputError that names the
-/// bag, the candidates and the option that chooses, where there is none or more than one.
+/// Chooses by names and types; ignores topics without messages. `with_color`: pictures are drawn.
+/// Throws InputError that names the bag, the candidates and the option that chooses, where there is
+/// none or more than one.
 [[nodiscard]] BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
-                                      const TopicWishes& wishes);
+                                      const BagOptions& options, bool with_color);
 
 }  // namespace penumbra::io

@@ -6,6 +6,7 @@
 
 #include <io/assembly/camera_mount.hpp>
 #include <io/files/names.hpp>
+#include <io/files/pose_file.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -25,21 +26,33 @@ std::string link_of(const Robot& robot, const std::string& prefix, const std::st
 
 }  // namespace
 
-std::string mounted_frame(const MountWishes& wishes, const std::string& frame_of_images) {
-  return std::string(frame_name(wishes.camera_frame.value_or(frame_of_images)));
+MountOptions mount_options(const BagOptions& bag) {
+  MountOptions options{.camera_frame = bag.camera_frame,
+                       .parent = bag.parent,
+                       .pose = {},
+                       .frame_prefix = bag.frame_prefix};
+  if (!bag.pose) return options;
+  options.pose = read_pose_csv(*bag.pose);
+  options.pose_source = "--pose " + bag.pose->string();
+  return options;
 }
 
-std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+std::string mounted_frame(const MountOptions& options, const std::string& frame_of_images) {
+  return std::string(frame_name(options.camera_frame.value_or(frame_of_images)));
+}
+
+std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& options,
                                       const FrameTree& frames, const std::string& frame_of_images) {
-  if (wishes.parent) check_parent(robot, *wishes.parent);
-  if (wishes.pose)
-    return CameraMount{"", wishes.parent.value_or(robot.links().front()), *wishes.pose,
-                       wishes.pose_source};
-  const std::string frame = mounted_frame(wishes, frame_of_images);
+  if (options.parent) check_parent(robot, *options.parent);
+  if (options.pose)
+    return CameraMount{"", options.parent.value_or(robot.links().front()), *options.pose,
+                       options.pose_source};
+  const std::string frame = mounted_frame(options, frame_of_images);
   if (frame.empty())
     throw InputError("the images do not name their frame; give it with --camera-frame");
-  if (wishes.parent) return CameraMount{frame, *wishes.parent, Eigen::Isometry3d::Identity(), "tf"};
-  const std::string& prefix = wishes.frame_prefix;
+  if (options.parent)
+    return CameraMount{frame, *options.parent, Eigen::Isometry3d::Identity(), "tf"};
+  const std::string& prefix = options.frame_prefix;
   if (const std::string own = link_of(robot, prefix, frame); !own.empty())
     return CameraMount{"", own, Eigen::Isometry3d::Identity(), "a link of the robot"};
   for (const std::string& above : frames.chain(frame))
@@ -48,9 +61,9 @@ std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wis
   return std::nullopt;
 }
 
-CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                           const std::string& frame_of_images) {
-  return {mounted_frame(wishes, frame_of_images), robot.links().front(),
+  return {mounted_frame(options, frame_of_images), robot.links().front(),
           Eigen::Isometry3d::Identity(), "tf"};
 }
 

@@ -8,12 +8,13 @@
 
 #include <penumbra/robot/robot.hpp>
 
+#include <io/assembly/bag_options.hpp>
 #include <io/assembly/frame_tree.hpp>
 
 namespace penumbra::io {
 
-/// What the user says of where the camera sits.
-struct MountWishes {
+/// What the user says about where the camera is.
+struct MountOptions {
   std::optional<std::string> camera_frame;  ///< in place of the images' frame_id
   std::optional<std::string> parent;        ///< link
   std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link, in place of TF's
@@ -21,7 +22,10 @@ struct MountWishes {
   std::string frame_prefix = {};            ///< PoseOptions::frame_prefix
 };
 
-/// Where a camera sits.
+/// Returns the mount's part of these options. Throws InputError of the pose's file.
+[[nodiscard]] MountOptions mount_options(const BagOptions& bag);
+
+/// Where a camera is.
 struct CameraMount {
   std::string frame;   ///< the judged images' in TF; empty: the camera's pose is T_parent_camera
   std::string parent;  ///< link
@@ -37,16 +41,16 @@ struct CameraMount {
 /// Where the camera sits as far as the user, the robot and TF tell: at the nearest link above its
 /// frame. Nothing if no link is above it (yet). Throws InputError for a parent that is no link, and
 /// images that do not name their frame.
-[[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+[[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& options,
                                                     const FrameTree& frames,
                                                     const std::string& frame_of_images);
 
 /// The frame that find_mount looks for in TF.
-[[nodiscard]] std::string mounted_frame(const MountWishes& wishes,
+[[nodiscard]] std::string mounted_frame(const MountOptions& options,
                                         const std::string& frame_of_images);
 
 /// Beside the robot: TF has to know the way from the camera to the root link.
-[[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+[[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                                         const std::string& frame_of_images);
 
 }  // namespace penumbra::io

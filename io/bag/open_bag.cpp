@@ -16,6 +16,9 @@ std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
   if (file.extension() == ".zstd")
     throw InputError(file.string() +
                      ": is compressed as a whole; 'zstd -d --rm' makes it readable");
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw InputError(file.string() + ": cannot be read: No such file or directory");
   throw InputError(file.string() +
                    ": is no bag; *.mcap, *.db3 and folders with a metadata.yaml are");
 }

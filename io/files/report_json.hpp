@@ -13,11 +13,11 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/statistics.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <io/files/recording.hpp>
+#include <io/files/statistics.hpp>
 
 namespace penumbra::io {
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <string>
 
-#include <penumbra/pipeline/statistics.hpp>
 #include <penumbra/pipeline/target.hpp>
 
 #include <io/files/json-inl.hpp>
+#include <io/files/statistics.hpp>
 
 namespace penumbra::io {
 

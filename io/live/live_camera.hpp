@@ -28,7 +28,7 @@ struct LiveCameraOptions {
   std::string info_topic = {};
   std::string color_topic = {};       ///< empty: none
   std::string color_info_topic = {};  ///< empty: depth is judged in its own image
-  MountWishes mount = {};
+  MountOptions mount = {};
   bool info_is_named = false;  ///< CameraEvidence
   bool is_rectified = false;   ///< likewise
   PoseSource poses = PoseSource::joints;

@@ -4,11 +4,10 @@
 #include <cstdio>
 #include <utility>
 
-#include <penumbra/pipeline/statistics.hpp>
-
 #include <io/assembly/pose_messages.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/renderer_json-inl.hpp>
+#include <io/files/statistics.hpp>
 #include <io/live/live_diagnostics.hpp>
 
 namespace penumbra::io {

@@ -57,8 +57,8 @@ void FrameStore::begin(const ReportHead& head) {
   head_size_ = text_.size();
 }
 
-void FrameStore::add(const FrameReport& report, const FrameData& data,
-                     const ShownTargets& targets) {
+void FrameStore::save(const FrameReport& report, const FrameData& data,
+                      const ShownTargets& targets) {
   Entry entry;
   const std::string frame = report_frame(report);
   const std::string poses =

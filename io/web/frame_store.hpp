@@ -8,11 +8,8 @@
 
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/statistics.hpp>
 
-#include <io/files/frame_reader.hpp>
-#include <io/files/overlay_painter.hpp>
-#include <io/files/report_json.hpp>
+#include <io/files/run_output.hpp>
 #include <io/web/frame_archive.hpp>
 #include <io/web/spool_file.hpp>
 
@@ -20,16 +17,16 @@ namespace penumbra::io {
 
 /// Keeps frames as they are judged: the report in memory, the images compressed in a temporary
 /// file, so that recordings may be longer than the memory, and bags be looked at in any order.
-class FrameStore final : public FrameArchive {
+class FrameStore final : public FrameArchive, public RunOutput {
  public:
   /// `rectification` brings recorded images to the report's; null where they fit, else it must
   /// outlive this. Throws InputError where no temporary file can be made.
   explicit FrameStore(const Rectification* rectification);
 
-  // By one thread; add() throws InputError where the disk is full.
-  void begin(const ReportHead& head);
-  void add(const FrameReport& report, const FrameData& data, const ShownTargets& targets);
-  void finish(const Statistics& statistics, std::span<const std::string> notes);
+  // By one thread; save() throws InputError where the disk is full.
+  void begin(const ReportHead& head) override;
+  void save(const FrameReport& report, const FrameData& data, const ShownTargets& targets) override;
+  void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
   // By any thread.
   [[nodiscard]] std::size_t size() const override;

@@ -43,6 +43,11 @@ enum class FrameStatus {
 /// Whether the robot's pose in the camera is known in a frame of this status.
 [[nodiscard]] bool has_pose(FrameStatus status);
 
+/// Whether the depth image of a frame of this status can be compared.
+[[nodiscard]] constexpr bool has_depth(FrameStatus status) {
+  return status == FrameStatus::ok || status == FrameStatus::missing_link;
+}
+
 /// Where the joints are at the instant of the depth image. Refers to the caller's memory.
 struct JointInput {
   std::span<const double> positions;  ///< order of Robot::variables(), rad and m

@@ -43,11 +43,6 @@ struct LabelledFrame {
   [[nodiscard]] std::optional<std::int64_t> stamp() const { return poses.stamp; }
 };
 
-/// Whether the depth image of a frame of this status can be compared.
-[[nodiscard]] constexpr bool has_depth(FrameStatus status) {
-  return status == FrameStatus::ok || status == FrameStatus::missing_link;
-}
-
 /// The status that makes more of the frame unknown; the earlier one of two that make the same.
 [[nodiscard]] FrameStatus worse(FrameStatus a, FrameStatus b);
 

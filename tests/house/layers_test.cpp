@@ -42,7 +42,7 @@ const std::map<std::string, Names>& users_of_tops() {
   static const std::map<std::string, Names> tops{
       {"io", {"io", "sim", "apps", "python", "research"}},
       {"sim", {"sim", "apps", "research"}},
-      {"apps", {"apps", "python", "research"}},
+      {"apps", {"apps", "research"}},
       {"python", {"python"}},
       {"research", {"research"}}};
   return tops;

@@ -8,23 +8,29 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/run_input.hpp>
 #include <io/bag/bag_file.hpp>
 #include <io/files/names.hpp>
 #include <io/files/recording_source.hpp>
+#include <io/run/run_input.hpp>
 
-namespace penumbra::app {
+namespace penumbra::io {
 namespace {
 
 bool is_bag(const std::filesystem::path& input) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(input, ignored))
-    return io::is_bag_file(input) || input.extension() == ".zstd";
-  return io::is_bag_folder(input);
+    return is_bag_file(input) || input.extension() == ".zstd";
+  return is_bag_folder(input);
 }
 
 void check_is_recording(const std::filesystem::path& input) {
   std::error_code ignored;
+  if (std::filesystem::is_regular_file(input, ignored) && input.extension() != ".yaml" &&
+      input.extension() != ".yml")
+    throw InputError(
+        input.string() +
+        ": is neither a recording (a folder, or its recording.yaml) nor a bag (*.mcap, "
+        "*.db3)");
   if (std::filesystem::is_directory(input, ignored) &&
       !std::filesystem::exists(input / "recording.yaml", ignored))
     throw InputError(input.string() +
@@ -33,7 +39,7 @@ void check_is_recording(const std::filesystem::path& input) {
 }
 
 /// Which of the reader's frames are wanted; the range must lie inside the recording.
-std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameReader& reader) {
+std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReader& reader) {
   std::int64_t least = reader.index(0);
   std::int64_t most = reader.index(0);
   for (std::size_t i = 0; i < reader.size(); ++i) {
@@ -53,35 +59,25 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const io::FrameR
   return selected;
 }
 
-void check_parent(const io::Recording& recording, const Robot& robot) {
+void check_parent(const Recording& recording, const Robot& robot) {
   const std::string& parent = recording.camera.parent;
   if (robot.find_link(parent)) return;
   const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
   throw InputError(recording.file.string() + ": camera.parent: '" + parent +
-                   "' is no link of the robot" + io::near_names(parent, known));
+                   "' is no link of the robot" + near_names(parent, known));
 }
 
-}  // namespace
-
-void add_robot_choices(const RunArguments& arguments, RobotOptions& options) {
-  if (arguments.geometry) options.geometry = *arguments.geometry;
-  options.geometry_fallback |= arguments.geometry_fallback;
-  options.allow_missing_meshes |= arguments.allow_missing_meshes;
-  options.extra.insert(options.extra.end(), arguments.extra.begin(), arguments.extra.end());
-}
-
-RunInput open_recording_input(const RunArguments& arguments) {
-  check_is_recording(arguments.input);
-  io::Recording recording = io::Recording::open(arguments.input);
-  if (!arguments.bag.given.empty())
-    throw InputError(arguments.bag.given + ": is for bags, and " + arguments.input.string() +
+RunInput open_recording_input(const InputOptions& options) {
+  check_is_recording(options.path);
+  Recording recording = Recording::open(options.path);
+  if (!options.bag_option.empty())
+    throw InputError(options.bag_option + ": is for bags, and " + options.path.string() +
                      " is a recording folder, which says this itself; leave it out");
-  add_robot_choices(arguments, recording.robot);
+  options.apply_to(recording.robot);
   Robot robot = Robot::load(recording.urdf, recording.robot);
-  io::FrameReader reader(recording, robot);
-  std::vector<std::size_t> selected = select_frames(arguments.frames, reader);
+  FrameReader reader(recording, robot);
+  std::vector<std::size_t> selected = select_frames(options.frames, reader);
   check_parent(recording, robot);
-  const bool with_color = arguments.needs_color();
   return {.robot_options = recording.robot,
           .robot = std::move(robot),
           .camera = recording.camera.camera,
@@ -90,17 +86,27 @@ RunInput open_recording_input(const RunArguments& arguments) {
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
           .bag = {},
-          .frames = [reader = std::move(reader), selected = std::move(selected), with_color,
-                     fps = arguments.fps](const Robot&) -> std::unique_ptr<io::FrameSource> {
-            return std::make_unique<io::RecordingSource>(reader, selected, with_color, fps);
+          .frames = [reader = std::move(reader), selected = std::move(selected),
+                     with_color = options.with_color,
+                     fps = options.fps](const Robot&) -> std::unique_ptr<FrameSource> {
+            return std::make_unique<RecordingSource>(reader, selected, with_color, fps);
           }};
 }
 
-RunInput open_input(const RunArguments& arguments, std::ostream& told) {
-  if (arguments.fps && is_bag(arguments.input))
-    throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
-  return is_bag(arguments.input) ? open_bag_input(arguments, told)
-                                 : open_recording_input(arguments);
+}  // namespace
+
+void InputOptions::apply_to(RobotOptions& robot) const {
+  if (geometry) robot.geometry = *geometry;
+  robot.geometry_fallback |= geometry_fallback;
+  robot.allow_missing_meshes |= allow_missing_meshes;
+  robot.extra.insert(robot.extra.end(), extra.begin(), extra.end());
 }
 
-}  // namespace penumbra::app
+RunInput open_input(const InputOptions& options, const LineSink& tell) {
+  if (!is_bag(options.path)) return open_recording_input(options);
+  if (options.fps)
+    throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
+  return open_bag_input(options, tell);
+}
+
+}  // namespace penumbra::io

@@ -4,21 +4,22 @@
 #include <cmath>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <apps/penumbra/output_folder.hpp>
 #include <io/files/cloud_file.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/overlay.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/png.hpp>
+#include <io/run/output_folder.hpp>
 #include <io/web/report_page.hpp>
 
-namespace penumbra::app {
+namespace penumbra::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,20 +41,31 @@ constexpr std::array<ImageKind, 7> image_kinds{{{"vdi", ".npy", &Saves::vdi},
                    "); choose another with -o");
 }
 
+constexpr std::size_t most_writers = 16;  // each has images in memory
+
+std::size_t writers_of(const OutputOptions& options) {
+  if (options.threads > 0) return static_cast<std::size_t>(options.threads);
+  return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most_writers);
+}
+
+template <typename T>
+Image<T> copy_of(ImageView<const T> from) {
+  Image<T> image(from.width, from.height);
+  for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, image.view().row(v));
+  return image;
+}
+
 /// As 16-bit PNGs hold it; 0: no measurement, or one past 65 m.
-ImageView<const std::uint16_t> millimetres_of(const DepthImage& image,
-                                              Image<std::uint16_t>& converted) {
-  if (const auto* millimetres = std::get_if<Image<std::uint16_t>>(&image))
-    return millimetres->view();
+Image<std::uint16_t> millimetres_of(const DepthImage& image) {
+  if (const auto* millimetres = std::get_if<Image<std::uint16_t>>(&image)) return *millimetres;
   const auto& metres = std::get<Image<float>>(image);
-  if (converted.size() != metres.size())
-    converted = Image<std::uint16_t>(metres.width(), metres.height());
+  Image<std::uint16_t> converted(metres.width(), metres.height());
   for (std::size_t i = 0; i < metres.size(); ++i) {
     const float rounded = std::round(1000.0F * metres.data()[i]);
     const bool fits = rounded > 0.0F && rounded < static_cast<float>(saturated_depth);
     converted.data()[i] = fits ? static_cast<std::uint16_t>(rounded) : std::uint16_t{0};
   }
-  return std::as_const(converted).view();
+  return converted;
 }
 
 /// Returns `folder`, which is made if it is not there.
@@ -67,20 +79,21 @@ const fs::path& make_folder(const fs::path& folder) {
 
 bool starts_with(const fs::path& file, std::string_view start) {
   std::error_code error;
-  io::InputFile input;
+  InputFile input;
   if (!fs::is_regular_file(file, error) || !input.open(file).ok()) return false;
   std::string found(start.size(), '\0');
   return input.read(found.data(), found.size()) == start.size() && found == start;
 }
 
-bool is_report(const fs::path& file) { return starts_with(file, io::report_json_start); }
-bool is_page(const fs::path& file) { return starts_with(file, io::report_page_start); }
+bool is_report(const fs::path& file) { return starts_with(file, report_json_start); }
+bool is_page(const fs::path& file) { return starts_with(file, report_page_start); }
 
-/// Whether an earlier run wrote here. Of one that was killed, the report's part is there.
+/// Whether an earlier run wrote here. Of one that was killed, the report's part
+/// is there.
 bool is_of_a_run(const fs::path& folder) {
   const fs::path report = folder / "report.json";
   std::error_code error;
-  return is_report(report) || fs::exists(io::PendingFile::part_of(report), error);
+  return is_report(report) || fs::exists(PendingFile::part_of(report), error);
 }
 
 /// Whether there is more than empty folders, as a run that failed leaves them.
@@ -133,110 +146,124 @@ void remove_former_run(const fs::path& folder) {
 
 }  // namespace
 
-void check_output_folder(const RunArguments& arguments) {
-  const fs::path& folder = arguments.output;
+void check_output_folder(const OutputOptions& options) {
+  const fs::path& folder = options.path;
   std::error_code error;
   if (!fs::exists(folder, error)) return;
   if (!fs::is_directory(folder, error)) refuse(folder, "it is a file");
-  if (arguments.force) return;
+  if (options.force) return;
   if (!is_of_a_run(folder) && holds_files(folder))
     throw InputError(folder.string() +
-                     ": holds files, and no report.json of penumbra; choose another folder with "
+                     ": holds files, and no report.json of penumbra; choose "
+                     "another folder with "
                      "-o, or write into this one with --force");
   const fs::path page = folder / "report.html";
-  if (arguments.report_page && fs::exists(page, error) && !is_page(page))
+  if (options.report_page && fs::exists(page, error) && !is_page(page))
     throw InputError(page.string() +
                      ": is no page of a run; move it away, or replace it with --force");
 }
 
-OutputFolder::OutputFolder(const fs::path& folder, const RunArguments& arguments,
-                           const Rectification* rectification)
-    : folder_(make_folder(folder)),
-      lock_(folder_),
-      saves_(arguments.saves),
-      has_page_(arguments.report_page),
-      points_frame_(arguments.points_frame),
-      painter_(rectification) {
-  remove_former_run(folder_);
+OutputFolder::OutputFolder(const OutputOptions& options, const Rectification* rectification)
+    : options_(options), lock_(make_folder(options_.path)), painter_(rectification) {
+  writers_.emplace(writers_of(options_));
+  remove_former_run(options_.path);
   for (const ImageKind& kind : image_kinds)
-    if (saves_.*kind.wanted) make_folder(folder / kind.folder);
+    if (options_.saves.*kind.wanted) make_folder(options_.path / kind.folder);
 }
 
 OutputFolder::~OutputFolder() {
   if (finished_) return;
+  writers_.reset();
   std::error_code ignored;
   for (const std::size_t index : saved_)
     for (const ImageKind& kind : image_kinds)
-      if (saves_.*kind.wanted) fs::remove(file(kind.folder, index, kind.ending), ignored);
+      if (options_.saves.*kind.wanted) fs::remove(file(kind.folder, index, kind.ending), ignored);
 }
 
-void OutputFolder::begin(const io::ReportHead& head) { report_.emplace(report_file(), head); }
+void OutputFolder::begin(const ReportHead& head) { report_.emplace(report_file(), head); }
 
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {
+  writers_->finish();
   report_->finish(statistics, notes);
   finished_ = true;
-  if (has_page_) write_page();
+  if (options_.report_page) write_page();
 }
 
 void OutputFolder::write_page() const {
-  const fs::path page = folder_ / "report.html";
+  const fs::path page = options_.path / "report.html";
   std::error_code error;
   const auto size = fs::file_size(report_file(), error);
-  if (error || size > io::most_report_page_bytes)
+  if (error || size > most_report_page_bytes)
     throw InputError(page.string() + ": not written, as " + report_file().string() +
-                     " is larger than " + std::to_string(io::most_report_page_bytes >> 20U) +
+                     " is larger than " + std::to_string(most_report_page_bytes >> 20U) +
                      " MB; choose fewer frames with --frames");
-  const std::string text = io::report_page(
-      read_whole_file(report_file(), io::most_report_page_bytes), key_frames_.json());
-  io::PendingFile pending(page);
-  io::OutputFile file(pending.part());
+  const std::string text =
+      report_page(read_whole_file(report_file(), most_report_page_bytes), key_frames_.json());
+  PendingFile pending(page);
+  OutputFile file(pending.part());
   file.write(text.data(), text.size());
   file.close();
   pending.finish();
 }
 
-void OutputFolder::save(const FrameReport& report, const io::FrameData& frame,
-                        const io::ShownTargets& targets) {
+void OutputFolder::save(const FrameReport& report, const FrameData& frame,
+                        const ShownTargets& targets) {
   report_->add(report);
   saved_.push_back(report.index);
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
-  if (saves_.vdi && !virtual_depth.depth.empty())
-    io::write_npy(file("vdi", index, ".npy"), virtual_depth.depth);
-  if (saves_.links && !virtual_depth.links.empty())
-    io::write_png(file("links", index, ".png"), virtual_depth.links);
-  if (saves_.labels)
-    io::write_png(file("labels", index, ".png"), report.labels, io::label_palette());
-  if (saves_.filtered || saves_.points) save_without_robot(report, frame, targets.camera);
-  if (!saves_.overlay && !has_page_) return;
+  const auto plain_png = [](const auto& to, const auto& image) { write_png(to, image); };
+  const auto plain_npy = [](const auto& to, const auto& image) { write_npy(to, image); };
+  if (options_.saves.vdi && !virtual_depth.depth.empty())
+    write_later(file("vdi", index, ".npy"), virtual_depth.depth, plain_npy);
+  if (options_.saves.links && !virtual_depth.links.empty())
+    write_later(file("links", index, ".png"), virtual_depth.links, plain_png);
+  if (options_.saves.labels)
+    write_later(file("labels", index, ".png"), report.labels,
+                [](const auto& to, const auto& image) { write_png(to, image, label_palette()); });
+  if (options_.saves.filtered || options_.saves.points)
+    save_without_robot(report, frame, targets.camera);
+  if (!options_.saves.overlay && !options_.report_page) return;
   const auto overlay = painter_.draw(report, {frame.depth_view(), frame.color.view()}, targets);
-  if (saves_.overlay) io::write_png(file("overlay", index, ".png"), overlay);
-  if (has_page_) key_frames_.add(report, overlay);
+  if (options_.saves.overlay) write_later(file("overlay", index, ".png"), overlay, plain_png);
+  if (options_.report_page) key_frames_.add(report, overlay);
 }
 
-void OutputFolder::save_without_robot(const FrameReport& report, const io::FrameData& frame,
+void OutputFolder::save_without_robot(const FrameReport& report, const FrameData& frame,
                                       const Camera& camera) {
   without_robot(report, filtered_);
-  if (saves_.filtered)
-    io::write_png(file("filtered", report.index, ".png"), millimetres_of(filtered_, millimetres_));
-  if (!saves_.points) return;
+  if (options_.saves.filtered)
+    writers_->add([to = file("filtered", report.index, ".png"), image = millimetres_of(filtered_)] {
+      write_png(to, image.view());
+    });
+  if (!options_.saves.points) return;
   Eigen::Isometry3d T_frame_camera = Eigen::Isometry3d::Identity();
-  if (!points_frame_.empty()) {
-    const auto T = camera_in_link(report, points_frame_);
+  if (!options_.points_frame.empty()) {
+    const auto T = camera_in_link(report, options_.points_frame);
     if (!T) return;
     T_frame_camera = *T;
   }
   if (!cloud_maker_) cloud_maker_.emplace(camera);
-  cloud_maker_->make(filtered_, cloud_, T_frame_camera);
-  const ImageView<const io::Rgb8> color = painter_.seen_color(frame.color.view());
-  io::write_pcd(file("points", report.index, ".pcd"), cloud_, color);
-  io::write_ply(file("points", report.index, ".ply"), cloud_, color);
+  PointCloud cloud;
+  cloud_maker_->make(filtered_, cloud, T_frame_camera);
+  writers_->add([pcd = file("points", report.index, ".pcd"),
+                 ply = file("points", report.index, ".ply"), cloud = std::move(cloud),
+                 color = copy_of(painter_.seen_color(frame.color.view()))] {
+    write_pcd(pcd, cloud, color.view());
+    write_ply(ply, cloud, color.view());
+  });
+}
+
+template <typename T, typename Write>
+void OutputFolder::write_later(fs::path file, ImageView<const T> image, Write write) {
+  writers_->add(
+      [file = std::move(file), copy = copy_of(image), write] { write(file, copy.view()); });
 }
 
 fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {
   std::string digits = std::to_string(index);
   digits.insert(0, frame_digits - std::min(digits.size(), frame_digits), '0');
-  return folder_ / kind / (digits + ending);
+  return options_.path / kind / (digits + ending);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::io

@@ -12,11 +12,12 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/pipeline/sequence_notes.hpp>
+#include <io/files/sequence_notes.hpp>
 
-namespace penumbra::test {
+namespace penumbra::io {
 namespace {
 
+using test::ms;
 using Lines = std::vector<std::string>;
 
 constexpr const char* urdf = R"(<robot name="limits">
@@ -194,4 +195,4 @@ TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {
 }
 
 }  // namespace
-}  // namespace penumbra::test
+}  // namespace penumbra::io

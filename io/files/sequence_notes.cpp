@@ -5,11 +5,11 @@
 #include <utility>
 
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/pipeline/labelled_frame-inl.hpp>
-#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
-namespace penumbra {
+#include <io/files/sequence_notes.hpp>
+
+namespace penumbra::io {
 namespace {
 
 bool is_beyond(const Joint& joint, std::span<const double> positions) {
@@ -167,4 +167,4 @@ std::string SequenceNotes::limit_line() const {
   return line;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::io

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/pipeline/statistics.hpp>
+#include <io/files/statistics.hpp>
 
-namespace penumbra::test {
+namespace penumbra::io {
 namespace {
 
 TEST(Statistics, QuantilesByRank) {
@@ -55,4 +55,4 @@ TEST(Statistics, CountsFaultsByKind) {
 }
 
 }  // namespace
-}  // namespace penumbra::test
+}  // namespace penumbra::io

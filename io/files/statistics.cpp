@@ -3,9 +3,9 @@
 #include <string_view>
 #include <utility>
 
-#include <penumbra/pipeline/statistics.hpp>
+#include <io/files/statistics.hpp>
 
-namespace penumbra {
+namespace penumbra::io {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -127,4 +127,4 @@ std::optional<Quantiles> Statistics::timing(std::size_t stage) const {
   return quantiles(times_[stage]);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::io

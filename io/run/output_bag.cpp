@@ -6,11 +6,11 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/output_bag.hpp>
 #include <io/mcap/reader.hpp>
 #include <io/ros/message_definition.hpp>
+#include <io/run/output_bag.hpp>
 
-namespace penumbra::app {
+namespace penumbra::io {
 namespace {
 
 constexpr std::string_view topics_start = "/penumbra/";
@@ -18,7 +18,7 @@ constexpr std::string_view topics_start = "/penumbra/";
 /// Why what is there may not be replaced; empty: it is a bag of results.
 std::string why_kept(const std::filesystem::path& file) {
   try {
-    const io::mcap::Reader reader(file);
+    const mcap::Reader reader(file);
     const auto& channels = reader.channels();
     const bool is_ours = reader.library().starts_with("penumbra ") && !channels.empty() &&
                          std::all_of(channels.begin(), channels.end(), [](const auto& channel) {
@@ -37,21 +37,21 @@ OutputBag::OutputBag(const std::filesystem::path& file, const Camera& camera, st
       pending_(file),
       writer_(pending_.part(), {.profile = "ros2"}),
       encoder_(camera, std::move(root)) {
-  for (const io::ResultTopic& topic : io::result_topics) {
+  for (const ResultTopic& topic : result_topics) {
     const std::uint16_t schema = writer_.add_schema(std::string(topic.type), "ros2msg",
-                                                    std::string(io::definition_of(topic.type)));
+                                                    std::string(definition_of(topic.type)));
     channels_[static_cast<std::size_t>(topic.result)].id =
         writer_.add_channel(std::string(topics_start).append(topic.name), "cdr", schema);
   }
 }
 
-void OutputBag::write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) {
+void OutputBag::write(Result result, std::int64_t stamp, std::span<const std::byte> payload) {
   Channel& channel = channels_[static_cast<std::size_t>(result)];
   writer_.write(channel.id, stamp, stamp, channel.messages++, payload);
 }
 
-void OutputBag::save(const FrameReport& report, const io::FrameData& frame,
-                     const io::ShownTargets& targets) {
+void OutputBag::save(const FrameReport& report, const FrameData& frame,
+                     const ShownTargets& targets) {
   if (!report.stamp)
     throw InputError(
         "frame " + std::to_string(report.index) +
@@ -74,7 +74,7 @@ std::vector<std::string> OutputBag::notes() const {
 }
 
 void check_former_bag(const std::filesystem::path& file) {
-  io::check_is_no_folder("--output", file);
+  check_is_no_folder("--output", file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error) ||
       std::filesystem::file_size(file, error) == 0)
@@ -87,4 +87,4 @@ void check_former_bag(const std::filesystem::path& file) {
 
 bool is_output_bag(const std::filesystem::path& output) { return output.extension() == ".mcap"; }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::io

@@ -12,7 +12,7 @@
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
-namespace penumbra {
+namespace penumbra::io {
 
 /// What is doubtful of a sequence of frames though each of them may be ok.
 class SequenceNotes {
@@ -85,4 +85,4 @@ class SequenceNotes {
   std::vector<std::size_t> frames_near_;    // of each link
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::io

@@ -11,7 +11,7 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
-namespace penumbra {
+namespace penumbra::io {
 
 /// Order statistics of samples: p99 is the smallest sample that no less than 99 % do not exceed,
 /// the median of an even number is the mean of the middle two.
@@ -98,4 +98,4 @@ class Statistics {
   std::array<std::vector<double>, stages.size()> times_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::io

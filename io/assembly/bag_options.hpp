@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/pipeline/pose_lookup.hpp>
+
+namespace penumbra::io {
+
+/// How the messages of a bag or of the live topics are used. Topics are found by type and name
+/// where none is given.
+struct BagOptions {
+  std::optional<std::string> depth_topic, camera_info_topic;
+  std::optional<std::string> color_topic;  ///< depth is judged in its image
+  std::vector<std::string> joint_topics, target_topics;
+  std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
+  std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
+  std::map<std::string, std::filesystem::path> packages;
+  std::string frame_prefix;                   ///< before link names in tf, without a leading "/"
+  std::optional<std::string> camera_frame;    ///< in place of the images' frame_id
+  std::optional<std::string> parent;          ///< link that the camera is on
+  std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
+  bool rectified = false;
+  bool first_publisher = false;  ///< publishers of one joint are not compared
+  double time_offset = 0.0;      ///< FrameQueueOptions::time_offset
+};
+
+}  // namespace penumbra::io

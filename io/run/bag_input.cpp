@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/bag_scene.hpp>
+#include <io/assembly/bag_source.hpp>
+#include <io/assembly/bag_topics.hpp>
+#include <io/assembly/camera_mount.hpp>
+#include <io/assembly/judged_cameras.hpp>
+#include <io/files/printable.hpp>
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+namespace {
+
+void tell_topics(const BagTopics& topics, bool with_color, const LineSink& tell) {
+  for (const TopicUse& use : topics.all())
+    tell(use.role + ": " + printable(use.name) + " (" + use.type + "), " + use.why);
+  if (with_color && !topics.color) tell("color: no images are called color; overlays show depth");
+  tell("poses: from " + std::string(to_string(topics.poses)));
+}
+
+Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
+                 const RobotOptions& robot) {
+  if (options.bag.robot) return Robot::load(*options.bag.robot, robot);
+  try {
+    return Robot::parse(*reader.scene().description, options.path.parent_path(), robot);
+  } catch (const InputError& error) {
+    throw InputError(options.path.string() + ": " + error.what());
+  }
+}
+
+[[noreturn]] void refuse_mount(const InputOptions& options, const BagScene& scene,
+                               const std::string& frame) {
+  std::string known;
+  if (!scene.frames.has_parent(frame)) known = ", which tf does not know";
+  throw InputError(options.path.string() +
+                   ": tf does not say where the camera is: no link of the robot is above its "
+                   "frame '" +
+                   printable(frame) + "'" + known +
+                   "; name the frame with --camera-frame, or give --pose and --parent");
+}
+
+CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, const Robot& robot,
+                         const std::string& frame_of_images) {
+  const MountOptions wanted = mount_options(options.bag);
+  if (!wanted.pose && mounted_frame(wanted, frame_of_images).empty())
+    throw InputError(options.path.string() +
+                     ": the images do not name their frame; give it with --camera-frame");
+  std::optional<CameraMount> mount;
+  reader.read_until([&](const BagScene& scene) {
+    mount = find_mount(robot, wanted, scene.frames, frame_of_images);
+    return mount.has_value();
+  });
+  if (mount) return *mount;
+  // Beside the robot, below a frame that both hang from.
+  const std::string frame = mounted_frame(wanted, frame_of_images);
+  if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
+    refuse_mount(options, reader.scene(), frame);
+  return mount_by_root(robot, wanted, frame_of_images);
+}
+
+JudgedCameras cameras_of(const InputOptions& options, const BagTopics& topics,
+                         const BagScene& scene) {
+  CameraEvidence evidence{.source = options.path.string(),
+                          .depth = {*scene.camera_info, topics.camera_info.name, topics.depth.name},
+                          .color = {},
+                          .depth_frame = *scene.depth_frame,
+                          .info_is_named = options.bag.camera_info_topic.has_value(),
+                          .is_rectified = options.bag.rectified};
+  if (topics.color_info)
+    evidence.color.emplace(
+        InfoOfImages{*scene.color_info, topics.color_info->name, topics.color->name});
+  return judged_cameras(evidence);
+}
+
+UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const CameraMount& mount,
+                 const std::string& frame) {
+  UsedBag used{.topics = {},
+               .poses = std::string(to_string(topics.poses)),
+               .camera_frame = frame,
+               .camera_link = mount.parent,
+               .camera_by = mount.told,
+               .time_offset = options.bag.time_offset,
+               .first_publisher = options.bag.first_publisher};
+  for (const TopicUse& use : topics.all())
+    used.topics.push_back({use.role, use.name, use.type, use.why});
+  return used;
+}
+
+}  // namespace
+
+RunInput open_bag_input(const InputOptions& options, const LineSink& tell) {
+  BagSceneReader reader(options.path, options.bag, options.with_color);
+  tell_topics(reader.topics(), options.with_color, tell);
+  reader.read_robot_and_camera();
+  JudgedCameras cameras = cameras_of(options, reader.topics(), reader.scene());
+  RobotOptions robot_options;
+  robot_options.packages = options.bag.packages;
+  options.apply_to(robot_options);
+  Robot robot = load_robot(options, reader, robot_options);
+  const CameraMount mount = mount_in_bag(options, reader, robot, cameras.judged.frame_id);
+  tell("camera: frame '" + printable(cameras.judged.frame_id) + "' on link '" + mount.parent +
+       "', by " + mount.told);
+  if (cameras.depth)
+    reader.read_until([&](const BagScene& scene) {
+      return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);
+    });
+
+  BagSourceOptions source{.topics = reader.topics(),
+                          .scene = reader.scene(),
+                          .camera = cameras.judged,
+                          .depth_camera = cameras.depth,
+                          .poses = {.source = reader.topics().poses,
+                                    .frame_prefix = options.bag.frame_prefix,
+                                    .camera_parent = mount.parent,
+                                    .camera_frame = mount.frame},
+                          .compare_sources = !options.bag.first_publisher,
+                          .time_offset = options.bag.time_offset,
+                          .first = options.frames.first,
+                          .end = options.frames.end,
+                          .with_color = options.with_color};
+  UsedBag used = used_bag(options, reader.topics(), mount, cameras.judged.frame_id);
+  PipelineConfig config;
+  config.camera_parent = mount.parent;
+  config.T_parent_camera = mount.T_parent_camera;
+  return {.robot_options = std::move(robot_options),
+          .robot = std::move(robot),
+          .camera = std::move(cameras.judged),
+          .camera_info = options.path.string() + ": " + reader.topics().camera_info.name,
+          .config = std::move(config),
+          .beyond = {},
+          .targets = {},
+          .target_history = options.bag.target_topics.empty() ? 0.0 : topic_target_history,
+          .bag = std::move(used),
+          .frames = [source = std::move(source),
+                     input = options.path](const Robot& loaded) -> std::unique_ptr<FrameSource> {
+            return std::make_unique<BagSource>(input, loaded, source);
+          }};
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace penumbra::io {
+
+/// Runs jobs that write files on threads of its own. At most twice as many jobs as threads wait, so
+/// that memory stays bounded. After a job has failed no other one begins.
+class FileWriters {
+ public:
+  /// `threads`: how many at most; they start with the first jobs.
+  explicit FileWriters(std::size_t threads) : most_(threads) {}
+  ~FileWriters();  ///< drops the jobs that have not begun
+  FileWriters(const FileWriters&) = delete;
+  FileWriters& operator=(const FileWriters&) = delete;
+
+  /// Queues a job, and waits while the queue is full. Of the jobs that failed, throws what the
+  /// first one in the queue's order threw.
+  void add(std::function<void()> job);
+
+  /// Waits until all jobs are done. Throws as add().
+  void finish();
+
+ private:
+  struct Job {
+    std::size_t number = 0;
+    std::function<void()> run;
+  };
+  void work();
+  void rethrow_fault(std::unique_lock<std::mutex>& lock);
+
+  const std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  std::size_t added_ = 0, running_ = 0, failed_ = 0;  // failed_: number of the job of fault_
+  std::exception_ptr fault_;
+  bool ends_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/files/run_output.hpp>
+#include <io/files/targets_file.hpp>
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+
+/// Choices of the label rule in place of the recording's.
+struct RuleOptions {
+  std::optional<Tolerance> tolerance;
+  std::optional<int> front_min_width;  ///< pixels
+  std::optional<int> fringe_reach;     ///< pixels
+  std::optional<std::string> sensor;   ///< of LabelRule::for_sensor
+  bool paper_labels = false;
+
+  /// Returns `recorded` with these choices.
+  [[nodiscard]] LabelRule applied_to(const LabelRule& recorded) const;
+};
+
+/// An input, and how its frames are judged.
+struct JudgingOptions {
+  InputOptions input;
+  Backend backend = Backend::cpu;
+  RendererOptions renderer;
+  RuleOptions rule;
+  ImageSpace image = ImageSpace::raw;
+  std::optional<std::filesystem::path> targets;  ///< in place of the recording's
+  bool no_targets = false;                       ///< not the recording's either
+};
+
+/// What a run came to.
+struct RunResult {
+  Statistics statistics;
+  std::vector<std::string> notes;        ///< a line each
+  std::size_t frames_without_color = 0;  ///< whose recorded colour could not be shown
+  std::string first_without_color;       ///< why not, of the first
+  std::string device_fault;              ///< why later frames are not judged; empty: all are
+  bool is_stopped = false;               ///< by `go_on`
+};
+
+/// An input with its pipeline, judged frame by frame.
+class Judging {
+ public:
+  /// Opens the input; `tell` gets what of a bag is used. `options` must outlive this. Throws
+  /// InputError that names the file.
+  Judging(const JudgingOptions& options, const LineSink& tell);
+
+  [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
+  [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
+  [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
+  [[nodiscard]] ReportHead head() const;  ///< refers to this
+
+  /// Judges the frames into `output`, which has begun, and finishes it. Asks `go_on` after each
+  /// frame, and stops where it says no. Throws InputError where the first usable frame shows a
+  /// fault of the input, and what `output` throws.
+  [[nodiscard]] RunResult run(RunOutput& output, const std::function<bool()>& go_on);
+
+ private:
+  /// Returns what is doubtful of the frames.
+  std::vector<std::string> judge_frames(RunOutput& output, const std::function<bool()>& go_on,
+                                        RunResult& result);
+
+  const JudgingOptions& options_;
+  RunInput input_;
+  Camera camera_;
+  std::optional<TargetsFile> targets_;
+  Pipeline pipeline_;
+  std::unique_ptr<FrameSource> source_;
+};
+
+/// Makes a pipeline. Throws InputError that names the camera_info file for a fault of the lens.
+[[nodiscard]] Pipeline make_pipeline(Robot robot, const Camera& camera,
+                                     const PipelineConfig& config,
+                                     const std::filesystem::path& camera_info);
+
+/// Returns the message of a graphics device's fault, with what the user can do about it.
+[[nodiscard]] std::string without_device(const DeviceError& error);
+
+}  // namespace penumbra::io

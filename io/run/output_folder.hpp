@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
+
+#include <io/files/file_lock.hpp>
+#include <io/files/overlay_painter.hpp>
+#include <io/files/run_output.hpp>
+#include <io/run/file_writers.hpp>
+#include <io/web/key_frames.hpp>
+
+namespace penumbra::io {
+
+/// Which images `run` writes next to the report.
+struct Saves {
+  bool vdi = false, labels = false, links = false, overlay = false, filtered = false,
+       points = false;
+  bool operator==(const Saves&) const = default;
+};
+
+/// Where results go, and which.
+struct OutputOptions {
+  std::filesystem::path path;  ///< a folder, or a bag: *.mcap
+  // Of folders:
+  Saves saves;
+  std::string points_frame;  ///< link that points are given in; empty: the optical frame
+  bool report_page = false;  ///< write report.html, too
+  bool force = false;        ///< into a folder that holds other files, too
+  int threads = 0;           ///< that write images; 0: one per core
+};
+
+/// Digits of a frame's index in file names, at least.
+inline constexpr std::size_t frame_digits = 6;
+
+/// Throws InputError unless the output folder is missing, empty, holds the
+/// report of an earlier run, or the user forces it. Touches nothing.
+void check_output_folder(const OutputOptions& options);
+
+/// Where `run` writes. Files are named by the frame's index: vdi/000000.npy,
+/// labels/000000.png.
+class OutputFolder final : public RunOutput {
+ public:
+  /// Makes the folder and those of the images to save, and removes an earlier
+  /// run's report, page and images. `rectification` brings recorded images to
+  /// the report's; null where they fit, else it must outlive this. Throws
+  /// InputError if the folder cannot be used or another run writes to it.
+  OutputFolder(const OutputOptions& options, const Rectification* rectification);
+
+  /// Removes this run's images, unless it was finished.
+  ~OutputFolder() override;
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  void begin(const ReportHead& head) override;
+
+  /// Writes the frame's images on other threads. Where the robot's pose is
+  /// unknown there is no VDI and no link image, and all labels are unknown.
+  /// Throws InputError where writing these or earlier images fails.
+  void save(const FrameReport& report, const FrameData& frame,
+            const ShownTargets& targets) override;
+  void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+
+ private:
+  void write_page() const;
+  template <typename T, typename Write>
+  void write_later(std::filesystem::path file, ImageView<const T> image, Write write);
+  void save_without_robot(const FrameReport& report, const FrameData& frame, const Camera& camera);
+  [[nodiscard]] std::filesystem::path report_file() const { return options_.path / "report.json"; }
+  [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
+                                           const char* ending) const;
+
+  OutputOptions options_;
+  FileLock lock_;
+  DepthImage filtered_;
+  std::optional<CloudMaker> cloud_maker_;  // made with the first points
+  OverlayPainter painter_;
+  KeyFrames key_frames_;
+  std::vector<std::size_t> saved_;  // frames whose images may be written
+  bool finished_ = false;
+  std::optional<ReportWriter> report_;
+  std::optional<FileWriters> writers_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+
+#include <io/assembly/bag_options.hpp>
+#include <io/files/frame_source.hpp>
+#include <io/files/recording.hpp>
+#include <io/files/report_json.hpp>
+
+namespace penumbra::io {
+
+/// Frames first <= index < end; a bound that is not set is the input's own.
+struct FrameRange {
+  std::optional<std::int64_t> first, end;
+};
+
+/// A recording folder or a bag, and what of it is used.
+struct InputOptions {
+  std::filesystem::path path;
+  bool with_color = false;            ///< read colour images: pictures are drawn
+  std::optional<Geometry> geometry;   ///< in place of the recording's
+  bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
+  bool allow_missing_meshes = false;  ///< likewise
+  std::vector<ExtraMesh> extra;       ///< likewise
+  FrameRange frames;
+  std::optional<double> fps;  ///< of a recording without stamps, 1/s
+  BagOptions bag;
+  std::string bag_option;  ///< the name of one of these that was given; empty: none was
+
+  /// Adds these choices of what is drawn to the input's own.
+  void apply_to(RobotOptions& robot) const;
+};
+
+/// An opened input.
+struct RunInput {
+  RobotOptions robot_options;
+  Robot robot;
+  Camera camera;
+  std::filesystem::path camera_info;  ///< named in errors of the camera
+  PipelineConfig config;              ///< with what the input gives: camera's pose, tolerance
+  std::optional<BeyondMeans> beyond;
+  std::optional<std::filesystem::path> targets;  ///< the input's own
+  double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
+  std::optional<UsedBag> bag;
+
+  /// Opens the frames from the first one; the robot must outlive them.
+  std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
+};
+
+/// Takes a line for people.
+using LineSink = std::function<void(const std::string&)>;
+
+/// Opens a recording folder or a bag; `tell` gets what of a bag is used. Throws InputError that
+/// names the file.
+[[nodiscard]] RunInput open_input(const InputOptions& options, const LineSink& tell);
+
+/// The same for a bag.
+[[nodiscard]] RunInput open_bag_input(const InputOptions& options, const LineSink& tell);
+
+/// How late a detector's targets may come by topics, seconds.
+inline constexpr double topic_target_history = 0.5;
+
+}  // namespace penumbra::io
