@@ -28,7 +28,7 @@ PipelineState::PipelineState(const Robot& robot, const Camera& camera, const Pip
 }
 
 void PipelineState::begin_sequence() {
-  sequence.emplace(pipeline.robot(), SequenceNotes::Source{.image = image});
+  sequence.emplace(pipeline.robot(), io::SequenceNotes::Source{.image = image});
   missing_parts.emplace(pipeline.robot(), pipeline.rule().fringe_reach);
 }
 

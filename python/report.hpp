@@ -11,9 +11,10 @@
 #include <python/judgement.hpp>
 
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/sequence_notes.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/tuning/missing_parts.hpp>
+
+#include <io/files/sequence_notes.hpp>
 
 namespace penumbra::python {
 
@@ -30,7 +31,7 @@ struct PipelineState {
   Intrinsics depth_size;  ///< of depth images as they come
   ImageSpace image;
   CloudMaker cloud_maker;
-  std::optional<SequenceNotes> sequence;
+  std::optional<io::SequenceNotes> sequence;
   std::optional<MissingParts> missing_parts;
   std::uint64_t calls = 0;
   OneThread thread;
