@@ -154,15 +154,15 @@ struct RawRender {
         depth(camera.intrinsics.width(), camera.intrinsics.height()),
         links(depth.width(), depth.height()),
         touched(depth.width(), depth.height()) {
-    std::vector<TriangleMesh> meshes;
+    std::vector<PreparedMesh> meshes;
     std::vector<Eigen::Isometry3d> poses;
     for (const Solid& solid : robot) {
-      meshes.push_back(solid.mesh());
+      meshes.emplace_back(solid.mesh());
       poses.push_back(solid.T_camera_solid);
     }
     std::vector<Body> bodies;
     bodies.reserve(meshes.size());
-    for (const TriangleMesh& mesh : meshes) bodies.push_back({"solid", {&mesh, 1}});
+    for (const PreparedMesh& mesh : meshes) bodies.push_back({"solid", {&mesh, 1}});
     const auto renderer = make_depth_renderer(backend, maps.pinhole(), bodies);
     const VirtualDepthView pinhole = renderer->render(poses);
     maps.touched_raw(*pinhole.touched, touched);

@@ -5,22 +5,17 @@
 
 #include <gtest/gtest.h>
 #include <tests/mesh/mesh_samples.hpp>
+#include <tests/mesh/signed_volume.hpp>
 #include <tests/support/data.hpp>
 #include <tests/support/run_length.hpp>
 
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 namespace {
 
 constexpr double float_rounding = 1e-5;  // of volumes of a few cubic metres from float corners
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const MeshComponent& piece : connected_components(mesh)) sum += piece.signed_volume;
-  return sum;
-}
 
 Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
   Eigen::Vector3f corner = mesh.vertices.front();
@@ -32,10 +27,11 @@ Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
 void expect_tetrahedron(const TriangleMesh& mesh, double unit = 1.0) {
   EXPECT_EQ(mesh.vertices.size(), 4U);
   EXPECT_EQ(mesh.triangles.size(), 4U);
-  EXPECT_TRUE(is_watertight(mesh));
+  EXPECT_TRUE(PreparedMesh(mesh).watertight);
   const Eigen::Vector3f corner = (Eigen::Vector3d(2, 3, 4) * unit).cast<float>();
   EXPECT_TRUE(upper_corner(mesh).isApprox(corner, 1e-6F)) << upper_corner(mesh).transpose();
-  EXPECT_NEAR(volume(mesh) / (unit * unit * unit), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(mesh) / (unit * unit * unit), test::tetrahedron_volume,
+              float_rounding);
 }
 
 class MeshFile : public ::testing::Test {
@@ -83,7 +79,8 @@ TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
   std::string tiny = text;
   tiny.replace(tiny.find("0.000000"), 8, "+1.0e-60");
   EXPECT_EQ(load("tiny.stl", tiny).triangles.size(), 4U);
-  EXPECT_NEAR(volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume,
+              float_rounding);
 }
 
 TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
@@ -191,17 +188,17 @@ TEST_F(MeshFile, ColladaNodeTransformsAreAppliedParentFirst) {
   // (x, y, z) goes to (x + 10, y, z) and then to (-y, x + 10, z).
   EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(0, 12, 4), 1e-5F))
       << upper_corner(mesh).transpose();
-  EXPECT_NEAR(volume(mesh), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(mesh), test::tetrahedron_volume, float_rounding);
 }
 
 TEST_F(MeshFile, MirroredNodesAreWoundAgain) {
   const TriangleMesh mesh = load_collada("", test::collada_node("<scale>-1 1 1</scale>"));
-  EXPECT_NEAR(volume(mesh), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(mesh), test::tetrahedron_volume, float_rounding);
   EXPECT_FLOAT_EQ(upper_corner(mesh).x(), 0.0F);
   const TriangleMesh twice = load_collada("", test::collada_node("<scale>-1 -1 1</scale>"));
-  EXPECT_NEAR(volume(twice), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(twice), test::tetrahedron_volume, float_rounding);
   const TriangleMesh gltf = load("m.glb", test::glb(",\"scale\":[1,-1,1]"));
-  EXPECT_NEAR(volume(gltf), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(gltf), test::tetrahedron_volume, float_rounding);
 }
 
 TEST_F(MeshFile, InstancesAreDrawnEach) {
@@ -210,8 +207,8 @@ TEST_F(MeshFile, InstancesAreDrawnEach) {
                           "<node id=\"c\"><translate>0 20 0</translate>"
                           "<instance_node url=\"#a\"/></node>";
   const TriangleMesh mesh = load_collada("", two);
-  EXPECT_EQ(connected_components(mesh).size(), 3U);
-  EXPECT_NEAR(volume(mesh), 3 * test::tetrahedron_volume, float_rounding);
+  EXPECT_EQ(PreparedMesh(mesh).patches.size(), 3U);
+  EXPECT_NEAR(test::signed_volume(mesh), 3 * test::tetrahedron_volume, float_rounding);
   EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(12, 23, 4), 1e-6F));
 }
 

@@ -8,9 +8,11 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <tests/mesh/signed_volume.hpp>
 #include <tests/support/random.hpp>
 
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
+#include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {
 namespace {
@@ -67,33 +69,37 @@ TriangleMesh torus(std::uint32_t rows, std::uint32_t columns, double ring, doubl
   return mesh;
 }
 
-/// Slow and plain twin of connected_components: floods over a map of edges.
-std::vector<std::pair<std::vector<std::size_t>, bool>> flood(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::size_t, bool>>>
+bool is_watertight(const TriangleMesh& mesh) { return PreparedMesh(mesh).watertight; }
+
+/// Slow and plain twin of PreparedMesh::patches: floods over a map of edges.
+std::vector<std::pair<std::vector<std::uint32_t>, bool>> flood(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::uint32_t, bool>>>
       edges;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto from = mesh.triangles[i][k];
       const auto to = mesh.triangles[i][(k + 1) % 3];
       edges[std::minmax(from, to)].emplace_back(i, from < to);
     }
-  std::vector<std::set<std::size_t>> neighbours(mesh.triangles.size());
+  std::vector<std::set<std::uint32_t>> neighbours(mesh.triangles.size());
   std::vector<bool> open(mesh.triangles.size());
   for (const auto& [edge, uses] : edges)
     for (const auto& [a, forward] : uses) {
-      if (uses.size() != 2 || uses[0].second == uses[1].second) open[a] = true;
-      for (const auto& [b, ignored] : uses) neighbours[a].insert(b);
+      const bool regular = uses.size() == 2 && uses[0].second != uses[1].second;
+      if (!regular) open[a] = true;
+      for (const auto& [b, ignored] : uses)
+        if (regular) neighbours[a].insert(b);
     }
-  std::vector<std::pair<std::vector<std::size_t>, bool>> result;
+  std::vector<std::pair<std::vector<std::uint32_t>, bool>> result;
   std::vector<bool> seen(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     if (seen[i]) continue;
-    std::vector<std::size_t> members, todo{i};
+    std::vector<std::uint32_t> members, todo{i};
     seen[i] = true;
     while (!todo.empty()) {
       members.push_back(todo.back());
       todo.pop_back();
-      for (const std::size_t n : neighbours[members.back()])
+      for (const std::uint32_t n : neighbours[members.back()])
         if (!seen[n]) seen[n] = true, todo.push_back(n);
     }
     std::sort(members.begin(), members.end());
@@ -104,43 +110,39 @@ std::vector<std::pair<std::vector<std::size_t>, bool>> flood(const TriangleMesh&
   return result;
 }
 
-TEST(MeshTopology, CubeFromSoupIsOneClosedPieceOfUnitVolume) {
+TEST(Weld, CubeFromSoupIsOneClosedPieceOfUnitVolume) {
   const TriangleMesh welded = weld(soup_of(unit_cube({3, -2, 7})));
   EXPECT_EQ(welded.vertices.size(), 8U);
-  const auto pieces = connected_components(welded);
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_TRUE(pieces[0].closed);
-  EXPECT_DOUBLE_EQ(pieces[0].signed_volume, 1.0);
+  EXPECT_DOUBLE_EQ(test::signed_volume(welded), 1.0);
+  EXPECT_EQ(PreparedMesh(welded).patches.size(), 1U);
   EXPECT_TRUE(is_watertight(welded));
 }
 
-TEST(MeshTopology, InsideOutIsClosedWithNegativeVolume) {
+TEST(Weld, InsideOutIsClosedWithNegativeVolume) {
   TriangleMesh cube = unit_cube();
   for (Triangle& t : cube.triangles) std::swap(t[0], t[1]);
-  const auto pieces = connected_components(weld(cube));
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_TRUE(pieces[0].closed);
-  EXPECT_DOUBLE_EQ(pieces[0].signed_volume, -1.0);
+  EXPECT_TRUE(is_watertight(cube));
+  EXPECT_DOUBLE_EQ(test::signed_volume(weld(cube)), -1.0);
 }
 
-TEST(MeshTopology, MinusZeroEqualsZero) {
+TEST(Weld, MinusZeroEqualsZero) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0},     {1, 0, 0}, {0, 1, 0}, {-0.0F, -0.0F, -0.0F},
                    {1, -0.0F, 0}, {0, -1, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 5, 4}};
   const TriangleMesh welded = weld(mesh);
   EXPECT_EQ(welded.vertices.size(), 4U);
-  EXPECT_EQ(connected_components(welded).size(), 1U);
+  EXPECT_EQ(PreparedMesh(welded).patches.size(), 1U);
 }
 
-TEST(MeshTopology, NeighbouringFloatsStayApart) {
+TEST(Weld, NeighbouringFloatsStayApart) {
   TriangleMesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {std::nextafter(1.0F, 2.0F), 0, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 2, 1}};
   EXPECT_EQ(weld(mesh).vertices.size(), 4U);
 }
 
-TEST(MeshTopology, DegenerateTrianglesAndUnusedVerticesGo) {
+TEST(Weld, DegenerateTrianglesAndUnusedVerticesGo) {
   TriangleMesh cube = unit_cube();
   cube.vertices.emplace_back(9, 9, 9);
   cube.vertices.push_back(cube.vertices[0]);
@@ -153,7 +155,7 @@ TEST(MeshTopology, DegenerateTrianglesAndUnusedVerticesGo) {
   EXPECT_TRUE(is_watertight(welded));
 }
 
-TEST(MeshTopology, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
+TEST(Weld, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
   // The cube's edge 0-1 is cut at one and at two points, on one of its sides only; slivers close
   // it.
   for (const bool two : {false, true}) {
@@ -168,17 +170,15 @@ TEST(MeshTopology, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
       cube.triangles[4] = {0, 8, 4};
       cube.triangles.insert(cube.triangles.end(), {{8, 1, 4}, {0, 1, 8}});
     }
-    ASSERT_TRUE(connected_components(cube)[0].closed);
     const TriangleMesh welded = weld(cube);
     EXPECT_EQ(welded.triangles.size(), two ? 16U : 14U);
-    const auto pieces = connected_components(welded);
-    ASSERT_EQ(pieces.size(), 1U);
-    EXPECT_TRUE(pieces[0].closed);
-    EXPECT_DOUBLE_EQ(pieces[0].signed_volume, 1.0);
+    EXPECT_EQ(PreparedMesh(welded).patches.size(), 1U);
+    EXPECT_TRUE(is_watertight(welded));
+    EXPECT_DOUBLE_EQ(test::signed_volume(welded), 1.0);
   }
 }
 
-TEST(MeshTopology, MissingFlippedDoubledAndThirdTrianglesOpenAPiece) {
+TEST(Weld, MissingFlippedDoubledAndThirdTrianglesOpenAPiece) {
   TriangleMesh missing = unit_cube();
   missing.triangles.pop_back();
   EXPECT_FALSE(is_watertight(missing));
@@ -198,34 +198,7 @@ TEST(MeshTopology, MissingFlippedDoubledAndThirdTrianglesOpenAPiece) {
   EXPECT_FALSE(is_watertight(TriangleMesh{}));
 }
 
-TEST(MeshTopology, PiecesThatShareAVertexAreApartAndThoseThatShareAnEdgeAreOne) {
-  TriangleMesh corner = unit_cube();
-  append(corner, unit_cube({1, 1, 1}));
-  const auto two = connected_components(weld(corner));
-  ASSERT_EQ(two.size(), 2U);
-  EXPECT_TRUE(two[0].closed && two[1].closed);
-  EXPECT_EQ(two[0].triangles.front(), 0U);
-  EXPECT_EQ(two[1].triangles.front(), 12U);
-
-  TriangleMesh edge = unit_cube();
-  append(edge, unit_cube({1, 1, 0}));
-  const auto one = connected_components(weld(edge));
-  ASSERT_EQ(one.size(), 1U);
-  EXPECT_FALSE(one[0].closed);
-}
-
-TEST(MeshTopology, TorusVolumeIsTheClosedForm) {
-  constexpr double ring = 0.3;
-  constexpr double tube = 0.1;
-  const auto pieces = connected_components(weld(soup_of(torus(200, 100, ring, tube))));
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_TRUE(pieces[0].closed);
-  const double exact = 2 * std::numbers::pi * std::numbers::pi * ring * tube * tube;
-  constexpr double chord_loss = 2e-3;  // 1 - sinc(2 pi / 100) of the tube, and less of the ring
-  EXPECT_NEAR(pieces[0].signed_volume / exact, 1.0, chord_loss);
-}
-
-TEST(MeshTopology, AgreesWithAFloodOnRandomSoups) {
+TEST(Weld, AgreesWithAFloodOnRandomSoups) {
   auto random = test::seeded_random(20);
   for (int trial = 0; trial < 200; ++trial) {
     const auto vertices = static_cast<std::uint32_t>(4 + random() % 30);
@@ -238,27 +211,24 @@ TEST(MeshTopology, AgreesWithAFloodOnRandomSoups) {
                                 static_cast<std::uint32_t>(random() % vertices),
                                 static_cast<std::uint32_t>(random() % vertices)});
     if (trial % 4 == 0) append(mesh, unit_cube({20, 20, 20}));
-    const TriangleMesh welded = weld(mesh);
-    const auto expected = flood(welded);
-    const auto actual = connected_components(welded);
-    ASSERT_EQ(actual.size(), expected.size());
-    for (std::size_t i = 0; i < actual.size(); ++i) {
-      EXPECT_EQ(actual[i].triangles, expected[i].first);
-      EXPECT_EQ(actual[i].closed, expected[i].second);
+    const PreparedMesh prepared(mesh);
+    const auto expected = flood(prepared);
+    ASSERT_EQ(prepared.patches.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(prepared.patches[i].triangles, expected[i].first);
+      EXPECT_EQ(prepared.patches[i].closed, expected[i].second);
     }
   }
 }
 
-TEST(MeshTopology, TwoMillionTrianglesTakeSeconds) {
+TEST(Weld, TwoMillionTrianglesTakeSeconds) {
   const TriangleMesh soup = soup_of(torus(1000, 1000, 0.3, 0.1));
   const auto start = std::chrono::steady_clock::now();
-  const TriangleMesh welded = weld(soup);
-  const auto pieces = connected_components(welded);
+  const PreparedMesh mesh(soup);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   std::cout << soup.triangles.size() << " triangles: " << took.count() << " s\n";
-  EXPECT_EQ(welded.vertices.size(), 1000000U);
-  EXPECT_EQ(pieces.size(), 1U);
-  EXPECT_TRUE(pieces[0].closed);
+  EXPECT_EQ(mesh.vertices.size(), 1000000U);
+  EXPECT_TRUE(mesh.watertight);
   constexpr double hang = 60.0;  // tells linear from quadratic time, not fast from slow machines
   EXPECT_LT(took.count(), hang);
 }

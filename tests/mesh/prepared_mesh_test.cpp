@@ -11,8 +11,7 @@
 #include <tests/support/random.hpp>
 #include <tests/support/run_length.hpp>
 
-#include <penumbra/mesh/mesh_sheets.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 namespace {
@@ -72,30 +71,37 @@ TriangleMesh revolved(const std::vector<Eigen::Vector2f>& profile, std::uint32_t
       mesh.triangles.push_back({a, b + around, a + around});
     }
   }
-  return weld(mesh);
+  return mesh;
 }
 
-TEST(MeshSheets, ClosedSheetsFaceOneWayAndHaveNoHoles) {
+std::vector<PatchOrientation> orientations(const TriangleMesh& mesh) {
+  return PreparedMesh(mesh).orientations();
+}
+
+TEST(PreparedMesh, ClosedPatchesFaceOneWayAndHaveNoHoles) {
   TriangleMesh mesh = torus(12, 8);
   append(mesh, turned(torus(10, 7)));
-  const auto sheets = mesh_sheets(mesh);
-  ASSERT_EQ(sheets.size(), 2U);
-  EXPECT_EQ(sheets[0].facing, Facing::outwards);
-  EXPECT_EQ(sheets[1].facing, Facing::inwards);
-  EXPECT_EQ(sheets[0].triangles.size(), 2U * 12 * 8);
-  EXPECT_TRUE(sheets[0].holes.empty());
+  const PreparedMesh prepared(mesh);
+  ASSERT_EQ(prepared.patches.size(), 2U);
+  EXPECT_EQ(prepared.patches[0].triangles.size(), 2U * 12 * 8);
+  EXPECT_TRUE(prepared.watertight);
+  EXPECT_EQ(prepared.orientations()[0].facing, Facing::outwards);
+  EXPECT_EQ(prepared.orientations()[1].facing, Facing::inwards);
+  EXPECT_TRUE(prepared.orientations()[0].holes.empty());
+  const PreparedMesh copy = prepared;
+  EXPECT_EQ(&copy.orientations(), &prepared.orientations()) << "found once";
 }
 
-TEST(MeshSheets, SmallHolesAreInBallsAroundThem) {
+TEST(PreparedMesh, SmallHolesAreInBallsAroundThem) {
   TriangleMesh mesh = torus(40, 24);
   const auto [a, b, c] = mesh.triangles[100];
   mesh.triangles.erase(mesh.triangles.begin() + 100);
   for (const bool inwards : {false, true}) {
-    const auto sheets = mesh_sheets(inwards ? turned(mesh) : mesh);
-    ASSERT_EQ(sheets.size(), 1U);
-    EXPECT_EQ(sheets[0].facing, inwards ? Facing::inwards : Facing::outwards);
-    ASSERT_EQ(sheets[0].holes.size(), 1U);
-    const Ball& hole = sheets[0].holes[0];
+    const auto patches = orientations(inwards ? turned(mesh) : mesh);
+    ASSERT_EQ(patches.size(), 1U);
+    EXPECT_EQ(patches[0].facing, inwards ? Facing::inwards : Facing::outwards);
+    ASSERT_EQ(patches[0].holes.size(), 1U);
+    const Ball& hole = patches[0].holes[0];
     for (const std::uint32_t v : {a, b, c}) {
       EXPECT_LE((mesh.vertices[v].cast<double>() - hole.centre).norm(), hole.radius);
     }
@@ -103,38 +109,39 @@ TEST(MeshSheets, SmallHolesAreInBallsAroundThem) {
   }
 }
 
-TEST(MeshSheets, ATurnedTriangleIsAHoleAndASheetOfItsOwn) {
+TEST(PreparedMesh, ATurnedTriangleIsAHoleAndAPatchOfItsOwn) {
   TriangleMesh mesh = torus(40, 24);
   std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
-  const auto sheets = mesh_sheets(mesh);
-  ASSERT_EQ(sheets.size(), 2U);
-  EXPECT_EQ(sheets[0].facing, Facing::outwards);
-  EXPECT_EQ(sheets[0].holes.size(), 1U);
-  EXPECT_EQ(sheets[1].triangles, std::vector<std::size_t>{7});
-  EXPECT_EQ(sheets[1].facing, Facing::unknown);
+  const PreparedMesh prepared(mesh);
+  ASSERT_EQ(prepared.patches.size(), 2U);
+  EXPECT_EQ(prepared.patches[1].triangles, std::vector<std::uint32_t>{7});
+  EXPECT_EQ(prepared.orientations()[0].facing, Facing::outwards);
+  EXPECT_EQ(prepared.orientations()[0].holes.size(), 1U);
+  EXPECT_EQ(prepared.orientations()[1].facing, Facing::unknown);
+  EXPECT_FALSE(prepared.watertight);
 }
 
-TEST(MeshSheets, BodiesThatShareAnEdgeAreApart) {
+TEST(PreparedMesh, BodiesThatShareAnEdgeAreApart) {
   // Two tetrahedra over the edge from (0, 0, 0) to (0, 0, 1), the second wound inwards.
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
                     {0, 1, 4}, {0, 5, 1}, {0, 4, 5}, {1, 5, 4}};
-  const auto sheets = mesh_sheets(mesh);
-  ASSERT_EQ(sheets.size(), 2U);
-  EXPECT_EQ(sheets[0].triangles, (std::vector<std::size_t>{0, 1, 2, 3}));
+  const PreparedMesh prepared(mesh);
+  ASSERT_EQ(prepared.patches.size(), 2U);
+  EXPECT_EQ(prepared.patches[0].triangles, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
-TEST(MeshSheets, LargeAndManyHolesLeaveASheetOpen) {
+TEST(PreparedMesh, LargeAndManyHolesLeaveAPatchOpen) {
   TriangleMesh half = torus(20, 12);
   half.triangles.resize(half.triangles.size() / 2);
-  EXPECT_EQ(mesh_sheets(half)[0].facing, Facing::unknown);
+  EXPECT_EQ(orientations(half)[0].facing, Facing::unknown);
   TriangleMesh sieve = torus(80, 48);
   for (std::size_t i = 9; i > 0; --i) {
     sieve.triangles.erase(sieve.triangles.begin() + static_cast<std::ptrdiff_t>(700 * i));
   }
-  EXPECT_EQ(mesh_sheets(sieve)[0].facing, Facing::unknown);
-  EXPECT_TRUE(mesh_sheets({}).empty());
+  EXPECT_EQ(orientations(sieve)[0].facing, Facing::unknown);
+  EXPECT_TRUE(orientations({}).empty());
 }
 
 /// A flask 0.8 m wide whose neck of 4 cm is open, with a tube from its bottom up to `top`.
@@ -149,22 +156,22 @@ TriangleMesh flask_with_stem(float top) {
                   24);
 }
 
-TEST(MeshSheets, ASheetThatPassesThroughItsOwnHoleIsNoBody) {
+TEST(PreparedMesh, APatchThatPassesThroughItsOwnHoleIsNoBody) {
   // Outside, above the neck, the stem would show its back first.
-  EXPECT_EQ(mesh_sheets(flask_with_stem(0.5F))[0].facing, Facing::outwards);
-  EXPECT_EQ(mesh_sheets(flask_with_stem(0.9F))[0].facing, Facing::unknown);
+  EXPECT_EQ(orientations(flask_with_stem(0.5F))[0].facing, Facing::outwards);
+  EXPECT_EQ(orientations(flask_with_stem(0.9F))[0].facing, Facing::unknown);
 }
 
-TEST(MeshSheets, AClosedSheetThatShowsItsBackIsTrustedNeitherWay) {
+TEST(PreparedMesh, AClosedPatchThatShowsItsBackIsTrustedNeitherWay) {
   // A pin whose collar is turned inside out: its profile goes outwards, down and in through the
   // pin.
   const TriangleMesh pin = revolved(
       {{0.0F, -0.2F}, {0.05F, -0.2F}, {0.05F, 0.2F}, {0.15F, 0.2F}, {0.15F, 0.12F}, {0.0F, 0.12F}},
       48);
-  const auto sheets = mesh_sheets(pin);
-  ASSERT_EQ(sheets.size(), 1U);
-  EXPECT_TRUE(sheets[0].closed);
-  EXPECT_EQ(sheets[0].facing, Facing::unknown);
+  const PreparedMesh prepared(pin);
+  ASSERT_EQ(prepared.patches.size(), 1U);
+  EXPECT_TRUE(prepared.patches[0].closed);
+  EXPECT_EQ(prepared.orientations()[0].facing, Facing::unknown);
 }
 
 struct Ray {
@@ -177,9 +184,9 @@ struct Hit {
 };
 
 /// The first hit of a ray on some triangles (Moeller and Trumbore 1997), or none.
-std::optional<Hit> cast(const Ray& ray, const TriangleMesh& mesh, const MeshSheet& sheet) {
+std::optional<Hit> cast(const Ray& ray, const TriangleMesh& mesh, const SurfacePatch& patch) {
   std::optional<Hit> nearest;
-  for (const std::size_t i : sheet.triangles) {
+  for (const std::uint32_t i : patch.triangles) {
     const auto& [ia, ib, ic] = mesh.triangles[i];
     const Vector3d a = mesh.vertices[ia].cast<double>();
     const Vector3d ab = mesh.vertices[ib].cast<double>() - a;
@@ -201,7 +208,7 @@ bool passes(const Ray& ray, const Ball& ball) {
          ball.radius * ray.direction.norm();
 }
 
-TEST(MeshSheets, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
+TEST(PreparedMesh, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
   std::mt19937_64 random = test::seeded_random(311);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> near(-0.4, 0.4);
@@ -215,23 +222,25 @@ TEST(MeshSheets, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
       if (random() % 3 == 0) std::swap(t[0], t[1]);
       if (random() % 2 == 0) mesh.triangles.erase(mesh.triangles.begin() + victim);
     }
-    for (const MeshSheet& sheet : mesh_sheets(mesh)) {
-      if (sheet.facing == Facing::unknown) continue;
+    const PreparedMesh prepared(mesh);
+    for (std::size_t number = 0; number < prepared.patches.size(); ++number) {
+      const auto& [facing, holes] = prepared.orientations()[number];
+      if (facing == Facing::unknown) continue;
       ++known;
       for (int i = 0; i < 200; ++i) {
         // Half of the rays aim at a hole, where backs are to be seen.
         Vector3d aim(near(random), near(random), 0.3 * near(random));
-        if (i % 2 == 0 && !sheet.holes.empty()) {
-          const Ball& hole = sheet.holes[random() % sheet.holes.size()];
+        if (i % 2 == 0 && !holes.empty()) {
+          const Ball& hole = holes[random() % holes.size()];
           aim = hole.centre + hole.radius * aim;
         }
         const Vector3d origin =
             2.0 * Vector3d(normal(random), normal(random), normal(random)).normalized();
         const Ray ray{origin, aim - origin};
-        const auto hit = cast(ray, mesh, sheet);
-        if (!hit || hit->front == (sheet.facing == Facing::outwards)) continue;
+        const auto hit = cast(ray, prepared, prepared.patches[number]);
+        if (!hit || hit->front == (facing == Facing::outwards)) continue;
         ++backs;
-        EXPECT_TRUE(std::any_of(sheet.holes.begin(), sheet.holes.end(),
+        EXPECT_TRUE(std::any_of(holes.begin(), holes.end(),
                                 [&](const Ball& hole) { return passes(ray, hole); }));
       }
     }
