@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/mesh/surface_patches-inl.hpp>
@@ -18,17 +19,26 @@ struct EdgeUse {
   auto operator<=>(const EdgeUse&) const = default;
 };
 
+/// Returns all uses, sorted: by their lower vertices in linear time, then each vertex's few uses.
 std::vector<EdgeUse> edges_of(const TriangleMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
+  std::vector<std::uint32_t> end(mesh.vertices.size() + 1);  // of each lower vertex's uses
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++end[std::min(t[k], t[(k + 1) % 3]) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<EdgeUse> uses(3 * mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = mesh.triangles[i][k];
       const std::uint32_t to = mesh.triangles[i][(k + 1) % 3];
-      uses.push_back({std::min(from, to), std::max(from, to), i, from > to});
+      const std::uint32_t lower = std::min(from, to);
+      uses[end[lower]++] = {lower, std::max(from, to), i, from > to};
     }
   }
-  std::sort(uses.begin(), uses.end());
+  auto begin = uses.begin();
+  for (const std::uint32_t last : end) {
+    std::sort(begin, uses.begin() + last);
+    begin = uses.begin() + last;
+  }
   return uses;
 }
 
@@ -75,22 +85,27 @@ std::vector<SurfacePatch> split(const TriangleMesh& mesh, const Connections& con
 }  // namespace
 
 struct PreparedMesh::Orientations {
+  Connections connections;  // until `found`
   std::once_flag found;
   std::vector<PatchOrientation> of_patches;
 };
 
 PreparedMesh::PreparedMesh(const TriangleMesh& mesh)
     : TriangleMesh(weld(mesh)), orientations_(std::make_shared<Orientations>()) {
-  const Connections connections = connect(*this);
+  Connections& connections = orientations_->connections;
+  connections = connect(*this);
   patches = split(*this, connections);
   for (const SurfacePatch& patch : patches) bounds.extend(patch.bounds);
   watertight = !patches.empty() && connections.rim.empty();
 }
 
 const std::vector<PatchOrientation>& PreparedMesh::orientations() const {
-  std::call_once(orientations_->found,
-                 [this] { orientations_->of_patches = orient(*this, connect(*this)); });
-  return orientations_->of_patches;
+  Orientations& shared = *orientations_;
+  std::call_once(shared.found, [&] {
+    shared.of_patches = orient(*this, shared.connections);
+    shared.connections = {};
+  });
+  return shared.of_patches;
 }
 
 }  // namespace penumbra

@@ -212,6 +212,30 @@ TEST_F(MeshFile, InstancesAreDrawnEach) {
   EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(12, 23, 4), 1e-6F));
 }
 
+TEST_F(MeshFile, GltfBuffersMayLieInTheFile) {
+  const std::string buffer =
+      "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAAAAAAIBAAAACAA"
+      "EAAAABAAMAAAADAAIAAQACAAMA";
+  expect_tetrahedron(
+      load("a.gltf",
+           test::gltf_json(",\"uri\":\"data:application/octet-stream;base64," + buffer + "\"")));
+}
+
+TEST_F(MeshFile, GltfStripsAndFansAreRead) {
+  for (const std::string mode : {"5", "6"}) {
+    std::string bytes =
+        test::gltf_json(",\"uri\":\"a.bin\"", ",\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,1,0,0,1]");
+    bytes.replace(bytes.find("\"indices\":1"), 11, "\"mode\":" + mode);
+    folder_.write("a.bin", test::gltf_buffer());
+    const TriangleMesh mesh = load("a.gltf", bytes);
+    EXPECT_EQ(mesh.triangles.size(), 2U) << mode;
+    EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(1, 4, 8), 1e-6F));
+    // Four corners without indices: the strip's second triangle is 1 3 2, the fan's 0 2 3.
+    const Eigen::Vector3f last = mesh.vertices[mesh.triangles[1][0]];
+    EXPECT_TRUE(last.isApprox(mode == "5" ? Eigen::Vector3f(1, 4, 0) : Eigen::Vector3f(1, 0, 0)));
+  }
+}
+
 TEST_F(MeshFile, GltfKeepsItsYUp) { expect_tetrahedron(load("y.glb", test::glb())); }
 
 TEST_F(MeshFile, PolygonsAreTriangulatedAndLinesDropped) {
