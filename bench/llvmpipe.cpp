@@ -13,8 +13,6 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include <penumbra/mesh/mesh_topology.hpp>
-
 namespace penumbra::bench {
 namespace {
 
@@ -126,8 +124,7 @@ struct LlvmpipeRenderer::State {
     matrix_location = glGetUniformLocation(program, "clip_from_body");
   }
 
-  void upload(const TriangleMesh& raw, std::size_t body) {
-    const TriangleMesh mesh = weld(raw);
+  void upload(const TriangleMesh& mesh, std::size_t body) {
     if (mesh.triangles.empty()) return;
     std::array<GLuint, 2> buffers{};
     GLuint vertex_array = 0;
@@ -162,7 +159,7 @@ LlvmpipeRenderer::LlvmpipeRenderer(const Intrinsics& intrinsics, std::span<const
   state_->make_target(intrinsics);
   state_->make_program();
   for (std::size_t body = 0; body < bodies.size(); ++body) {
-    for (const TriangleMesh& mesh : bodies[body].meshes) state_->upload(mesh, body);
+    for (const PreparedMesh& mesh : bodies[body].meshes) state_->upload(mesh, body);
   }
   require(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
 }

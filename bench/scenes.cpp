@@ -162,7 +162,7 @@ SphereScene::SphereScene(std::size_t count, std::size_t triangles)
     : count_(count),
       mesh_{},
       radius_(0.45 / std::sqrt(static_cast<double>(count))) {  // the same area for every count
-  mesh_.push_back(sphere(radius_, triangles / count));
+  mesh_.emplace_back(sphere(radius_, triangles / count));
 }
 
 std::vector<Body> SphereScene::bodies() const { return std::vector<Body>(count_, {"ball", mesh_}); }

@@ -59,7 +59,7 @@ class SphereScene {
 
  private:
   std::size_t count_;
-  std::vector<TriangleMesh> mesh_;  // one, which all bodies share
+  std::vector<PreparedMesh> mesh_;  // one, which all bodies share
   double radius_;
 };
 

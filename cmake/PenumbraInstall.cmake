@@ -11,7 +11,8 @@ install(TARGETS penumbra EXPORT PenumbraTargets
 # are free to change.
 set(public_headers
   base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp
-  base/virtual_depth.hpp mesh/mesh_file.hpp mesh/triangle_mesh.hpp robot/robot.hpp
+  base/virtual_depth.hpp
+  mesh/mesh_file.hpp mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
   time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp time/stamped_track.hpp
   time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp

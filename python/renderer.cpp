@@ -12,10 +12,11 @@ namespace {
 std::unique_ptr<DepthRenderer> make_bodies_renderer(Backend backend, const Intrinsics& intrinsics,
                                                     const std::vector<OwnedBody>& owned,
                                                     const RendererOptions& options) {
-  std::vector<std::vector<TriangleMesh>> meshes;
+  std::vector<std::vector<PreparedMesh>> meshes;
   for (const OwnedBody& body : owned) {
     auto& of_body = meshes.emplace_back();
-    for (const Mesh& mesh : body.meshes) of_body.push_back(*mesh.triangles);
+    for (const Mesh& mesh : body.meshes)
+      of_body.push_back(mesh.prepared ? *mesh.prepared : PreparedMesh(*mesh.triangles));
   }
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < owned.size(); ++i) bodies.push_back({owned[i].name, meshes[i]});

@@ -142,8 +142,10 @@ std::vector<Mesh> meshes_of(const Robot& robot, std::size_t link) {
                           "; got " + std::to_string(link));
   const auto keeper = std::make_shared<const Robot>(robot);
   std::vector<Mesh> meshes;
-  for (const TriangleMesh& mesh : robot.meshes(link))
-    meshes.push_back({std::shared_ptr<const TriangleMesh>(keeper, &mesh)});
+  for (const PreparedMesh& mesh : robot.meshes(link)) {
+    const std::shared_ptr<const PreparedMesh> kept(keeper, &mesh);
+    meshes.push_back({kept, kept});
+  }
   return meshes;
 }
 

@@ -7,7 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {
@@ -24,6 +24,7 @@ class TriangleArray : public pybind11::object {
 /// A mesh of Python's, and what keeps it.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> triangles;
+  std::shared_ptr<const PreparedMesh> prepared{};  // the same one; null if Python made the mesh
 };
 
 /// A rigid thing to draw, with its meshes.

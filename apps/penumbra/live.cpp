@@ -124,7 +124,7 @@ std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
 /// Draws a small box with the chosen renderer: a device that cannot draw would fail every image.
 /// Throws InputError if it cannot.
 void check_draws(const io::JudgingOptions& judging) {
-  const TriangleMesh mesh = make_box({0.1, 0.1, 0.1});
+  const PreparedMesh mesh(make_box({0.1, 0.1, 0.1}));
   const Body box{"box", {&mesh, 1}};
   const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
   const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1));

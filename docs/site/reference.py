@@ -25,7 +25,7 @@ HEADERS = {
                             "targets/target_judge.hpp"],
     "Tracking": ["tracking/track.hpp", "tracking/pose_tracker.hpp", "tracking/point_tracker.hpp"],
     "Images, meshes, errors": ["base/image.hpp", "base/virtual_depth.hpp", "mesh/triangle_mesh.hpp",
-                               "base/error.hpp"],
+                               "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }
 
 

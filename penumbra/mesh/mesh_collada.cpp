@@ -178,17 +178,7 @@ class SceneReader {
     shows_geometry_ = true;
     const auto [at, is_new] = meshes_.try_emplace(&geometry);
     if (is_new) at->second = collada::read_geometry(geometry);
-    const TriangleMesh& mesh = at->second;
-    if (out_.triangles.size() + mesh.triangles.size() > most_triangles ||
-        out_.vertices.size() + mesh.vertices.size() > 3 * most_triangles)
-      throw FormatError("Collada: more than " + std::to_string(most_triangles) +
-                        " triangles; export a simplified mesh");
-    const auto first = static_cast<std::uint32_t>(out_.vertices.size());
-    const bool mirrored = pose.T_file_node.linear().determinant() < 0.0;
-    for (const auto& [a, b, c] : mesh.triangles)
-      out_.triangles.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
-    for (const Eigen::Vector3f& vertex : mesh.vertices)
-      out_.vertices.push_back((pose.T_file_node * vertex.cast<double>()).cast<float>());
+    append_placed(at->second, pose.T_file_node, out_);
   }
 
   double unit_ = 1.0;  // metres

@@ -82,25 +82,12 @@ const XmlElement& only_input(const XmlElement& parent, std::string_view semantic
   return *found;
 }
 
-/// Where X, Y and Z lie in each stride of an accessor.
-std::array<std::size_t, 3> offsets_of_xyz(const XmlElement& accessor) {
+/// Exporters write X, Y and Z first in each stride.
+void check_params(const XmlElement& accessor) {
   constexpr std::array<std::string_view, 3> axes = {"X", "Y", "Z"};
-  std::array<std::size_t, 3> offsets{};
-  std::array<int, 3> found{};
-  std::size_t place = 0;
-  for (const XmlElement& child : accessor.children) {
-    if (child.name != "param") damaged_at(child, "it stands in an <accessor>");
-    const std::string* const name = child.attribute("name");
-    for (std::size_t axis = 0; name != nullptr && axis < 3; ++axis) {
-      if (*name != axes[axis]) continue;
-      offsets[axis] = place;
-      ++found[axis];
-    }
-    ++place;
-  }
-  if (found != std::array{1, 1, 1})
-    damaged_at(accessor, "positions need one param X, one Y and one Z");
-  return offsets;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (i >= accessor.children.size() || required(accessor.children[i], "name") != axes[i])
+      damaged_at(accessor, "positions need the params X, Y and Z, in this order");
 }
 
 /// The positions of a <source>.
@@ -113,20 +100,18 @@ std::vector<Eigen::Vector3f> read_positions(const XmlElement& source) {
   const XmlElement& accessor = only_child(only_child(source, "technique_common"), "accessor");
   if (reference(accessor, "source") != required(array, "id"))
     damaged_at(accessor, "its source is not the <float_array> beside it");
-  const auto xyz = offsets_of_xyz(accessor);
+  check_params(accessor);
   const std::uint64_t count = count_of(accessor, "count");
   const std::uint64_t stride = count_of(accessor, "stride", 1);
   const std::uint64_t offset = count_of(accessor, "offset", 0);
-  if (*std::max_element(xyz.begin(), xyz.end()) >= stride)
+  if (stride < 3)
     damaged_at(accessor, "its params reach beyond its stride of " + std::to_string(stride));
   if (offset + count * stride > values.size())
     damaged_at(accessor, "it reads " + std::to_string(offset + count * stride) + " of " +
                              std::to_string(values.size()) + " numbers");
   std::vector<Eigen::Vector3f> positions(count);
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      positions[i][static_cast<Eigen::Index>(axis)] =
-          static_cast<float>(values[offset + i * stride + xyz[axis]]);
+    positions[i] = Eigen::Vector3d(&values[offset + i * stride]).cast<float>();
   return positions;
 }
 

@@ -7,9 +7,24 @@
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
 #include <penumbra/mesh/mesh_formats-inl.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {
+
+void mesh_formats::append_placed(const TriangleMesh& part, const Eigen::Affine3d& T_file_part,
+                                 TriangleMesh& mesh) {
+  if (mesh.triangles.size() + part.triangles.size() > most_triangles ||
+      mesh.vertices.size() + part.vertices.size() > 3 * most_triangles)
+    throw FormatError("more than " + std::to_string(most_triangles) +
+                      " triangles; export a simplified mesh");
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const bool mirrored = T_file_part.linear().determinant() < 0.0;
+  for (const auto& [a, b, c] : part.triangles)
+    mesh.triangles.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+  for (const Eigen::Vector3f& vertex : part.vertices)
+    mesh.vertices.push_back((T_file_part * vertex.cast<double>()).cast<float>());
+}
+
 namespace {
 
 using mesh_formats::FormatError;
@@ -30,17 +45,6 @@ void check_is_mesh(const std::string& bytes) {
     throw FormatError("it is a Git LFS pointer, not the mesh; run 'git lfs pull' in its folder");
 }
 
-TriangleMesh read_gltf(const std::filesystem::path& file, const std::string& bytes, bool binary) {
-  const std::size_t counted = mesh_formats::check_gltf(bytes, binary);
-  mesh_formats::Scene scene = mesh_formats::read_with_assimp(file, bytes, binary);
-  // Assimp drops triangles whose vertices do not exist, and data in encodings that it lacks.
-  if (scene.triangles_stored != counted)
-    throw FormatError("glTF: " + std::to_string(scene.triangles_stored) + " of " +
-                      std::to_string(counted) +
-                      " triangles can be read; it is damaged or compressed: export it plain");
-  return std::move(scene.mesh);
-}
-
 TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   const std::string ending = lower_ending(file);
   const std::string bytes = read_whole_file(file, FileLimit::data);
@@ -49,7 +53,8 @@ TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
   if (ending == "dae") return mesh_formats::read_collada(bytes);
   if (ending == "obj") return mesh_formats::read_obj(bytes, oddity);
   if (ending == "ply") return mesh_formats::read_ply(bytes);
-  if (ending == "gltf" || ending == "glb") return read_gltf(file, bytes, ending == "glb");
+  if (ending == "gltf" || ending == "glb")
+    return mesh_formats::read_gltf(file, bytes, ending == "glb");
   throw FormatError("'" + ending +
                     "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
 }

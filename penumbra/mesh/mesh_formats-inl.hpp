@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include <Eigen/Geometry>
+
 #include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra::mesh_formats {
@@ -36,19 +38,14 @@ inline constexpr std::size_t most_triangles = 100'000'000;
 /// Sets `oddity` to what may be a truncation and may be none, in words.
 [[nodiscard]] TriangleMesh read_obj(std::string_view bytes, std::string& oddity);
 
-/// Refuses what Assimp would take, or crash on, although it is cut off or points nowhere; returns
-/// the triangles that the meshes of a glTF or GLB file count.
-[[nodiscard]] std::size_t check_gltf(std::string_view bytes, bool binary);
-
-/// A scene's triangles, and how many its meshes have before nodes repeat them or leave them out.
-struct Scene {
-  TriangleMesh mesh;
-  std::size_t triangles_stored = 0;
-};
-
-/// Reads glTF or, from `bytes`, GLB through Assimp. A .gltf opens the buffer files that lie beside
-/// `file`.
-[[nodiscard]] Scene read_with_assimp(const std::filesystem::path& file, std::string_view bytes,
+/// Reads what the scene of a .gltf or, if `binary`, a .glb file shows. Opens the buffer files next
+/// to `file`.
+[[nodiscard]] TriangleMesh read_gltf(const std::filesystem::path& file, std::string_view bytes,
                                      bool binary);
+
+/// Appends a part of a scene at its pose; a mirrored part is turned outside out again. Throws
+/// FormatError if the mesh would have more than most_triangles.
+void append_placed(const TriangleMesh& part, const Eigen::Affine3d& T_file_part,
+                   TriangleMesh& mesh);
 
 }  // namespace penumbra::mesh_formats

@@ -5,63 +5,52 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_formats-inl.hpp>
+
+static_assert(std::endian::native == std::endian::little, "glTF is read as it lies");
 
 namespace penumbra::mesh_formats {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest_value = 200;  // Assimp's reader recurses
+constexpr int deepest_value = 200;
+constexpr std::uint64_t largest_size = FileLimit::data;  // products of two do not overflow
 
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-  static_assert(std::endian::native == std::endian::little, "GLB is read as it lies");
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
+template <typename T>
+T value_at(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
   return value;
 }
 
-/// An array of the top level; empty if there is none.
-Json array_of(const Json& root, const char* name) {
-  return root.contains(name) ? root.at(name) : Json::array();
-}
-
-/// Of an array of the file.
+/// An index into an array of the file.
 std::size_t index_in(const Json& value) {
-  if (!value.is_number_unsigned()) damaged("glTF: " + value.dump().substr(0, 60) + " is no index");
+  if (!value.is_number_unsigned()) damaged("glTF: an index is no whole number");
   return value.get<std::size_t>();
 }
 
-/// Nodes must be trees: Assimp would follow a cycle until the stack ends.
-void check_nodes(const Json& root) {
-  std::set<std::uint64_t> reached;
-  const auto reach = [&](const Json& owner, const char* key) {
-    if (!owner.contains(key)) return;
-    for (const Json& node : owner.at(key))
-      if (!reached.insert(index_in(node)).second)
-        damaged("glTF: node " + node.dump() + " has two parents");
-  };
-  for (const Json& node : array_of(root, "nodes")) reach(node, "children");
-  // A node may be a root of several scenes, but not a root and a child.
-  std::set<std::uint64_t> roots;
-  for (const Json& scene : array_of(root, "scenes"))
-    if (scene.contains("nodes"))
-      for (const Json& node : scene.at("nodes")) roots.insert(index_in(node));
-  for (const std::uint64_t node : roots)
-    if (reached.count(node) == 1)
-      damaged("glTF: node " + std::to_string(node) + " is a scene's root and has a parent");
+/// A count, size or offset in bytes.
+std::uint64_t size_in(const Json& object, const char* name, std::uint64_t otherwise) {
+  if (!object.contains(name)) return otherwise;
+  const Json& value = object.at(name);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest_size)
+    damaged("glTF: " + std::string(name) + " is no size up to " + std::to_string(largest_size));
+  return value.get<std::uint64_t>();
 }
 
-/// Extensions that say how a surface looks, not where it is; what else a file requires (compressed
-/// or quantised vertices, instances, levels of detail) changes what is to be drawn.
+/// Returns whether an extension says how a surface looks, not where it is. Other extensions that a
+/// file requires (compressed vertices, instances, levels of detail) change what is to be drawn.
 bool is_about_looks(const std::string& extension) {
   constexpr std::array<std::string_view, 9> prefixes = {
       "KHR_materials_", "KHR_texture_", "KHR_lights_",   "KHR_xmp",         "KHR_techniques_webgl",
@@ -70,168 +59,276 @@ bool is_about_looks(const std::string& extension) {
                      [&](std::string_view prefix) { return extension.starts_with(prefix); });
 }
 
-void check_extensions(const Json& root) {
-  for (const Json& name : array_of(root, "extensionsRequired"))
-    if (!is_about_looks(name.get<std::string>()))
-      throw FormatError("glTF: it requires the extension " + name.get<std::string>().substr(0, 60) +
-                        ", which is not read; export it without");
+bool is_morphed(const Json& owner) {
+  if (!owner.contains("weights")) return false;
+  const auto weights = owner.at("weights").get<std::vector<double>>();
+  return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0.0; });
 }
 
-/// Joints bend a skin, and its node's transform does not apply; morph weights move vertices.
-void check_rigid(const Json& root) {
-  const auto moved = [](const Json& owner) {
-    for (const Json& weight : array_of(owner, "weights"))
-      if (weight.get<double>() != 0.0) return true;
-    return false;
-  };
-  for (const Json& node : array_of(root, "nodes"))
-    if (node.contains("mesh") && (node.contains("skin") || moved(node)))
+std::string from_base64(std::string_view text) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t word = 0;
+  unsigned bits = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string_view::npos) damaged("glTF: a data URI is not base64");
+    word = word << 6U | static_cast<std::uint32_t>(digit);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(word >> bits & 0xFFU);
+  }
+  return bytes;
+}
+
+/// The parts of a file. A .gltf file has no binary part.
+struct Parts {
+  std::string_view json;
+  std::string_view binary;
+};
+
+Parts parts_of_glb(std::string_view bytes) {
+  constexpr std::size_t header_size = 12;
+  const auto word_at = [&](std::size_t at) { return value_at<std::uint32_t>(bytes.data() + at); };
+  if (bytes.size() < header_size || !bytes.starts_with("glTF"))
+    damaged("GLB: it does not begin with 'glTF'");
+  if (word_at(4) != 2)
+    throw FormatError("GLB: version " + std::to_string(word_at(4)) +
+                      "; version 2 can be read: export it as glTF 2.0");
+  if (word_at(8) != bytes.size())
+    damaged("GLB: its header promises " + std::to_string(word_at(8)) + " bytes, it has " +
+            std::to_string(bytes.size()));
+  Parts parts;
+  for (std::size_t at = header_size; at < bytes.size();) {
+    if (bytes.size() - at < 8 || word_at(at) > bytes.size() - at - 8)
+      damaged("GLB: a chunk reaches beyond the file's end");
+    const std::string_view chunk = bytes.substr(at + 8, word_at(at));
+    const std::string_view type = bytes.substr(at + 4, 4);
+    if (type == "JSON" && parts.json.empty()) parts.json = chunk;
+    if (type == std::string_view("BIN\0", 4) && parts.binary.empty()) parts.binary = chunk;
+    at += 8 + chunk.size();
+  }
+  return parts;
+}
+
+/// Reads the triangles of a scene.
+class GltfReader {
+ public:
+  GltfReader(const Json& root, std::string_view binary, const std::filesystem::path& folder)
+      : root_(root) {
+    if (!root.contains("buffers")) return;
+    for (const Json& buffer : root.at("buffers"))
+      buffers_.push_back(read_buffer(buffer, binary, folder));
+  }
+
+  TriangleMesh read() {
+    if (root_.contains("extensionsRequired"))
+      for (const Json& name : root_.at("extensionsRequired"))
+        if (!is_about_looks(name.get<std::string>()))
+          throw FormatError("glTF: it requires the extension " +
+                            name.get<std::string>().substr(0, 60) +
+                            ", which is not read; export it without");
+    struct Visit {
+      std::size_t node;
+      Eigen::Affine3d T_file_parent;
+    };
+    std::vector<Visit> todo;
+    std::set<std::size_t> reached;  // nodes must be trees
+    const auto add = [&](const Json& nodes, const Eigen::Affine3d& T_file_parent) {
+      for (const Json& node : nodes) {
+        todo.push_back({index_in(node), T_file_parent});
+        if (!reached.insert(todo.back().node).second)
+          damaged("glTF: node " + std::to_string(todo.back().node) + " has two parents");
+      }
+    };
+    const Json& scene = root_.at("scenes").at(size_in(root_, "scene", 0));
+    if (scene.contains("nodes")) add(scene.at("nodes"), Eigen::Affine3d::Identity());
+    while (!todo.empty()) {
+      const Json& node = root_.at("nodes").at(todo.back().node);
+      const Eigen::Affine3d T_file_node = todo.back().T_file_parent * pose_of(node);
+      todo.pop_back();
+      if (node.contains("mesh")) show(node, T_file_node);
+      if (node.contains("children")) add(node.at("children"), T_file_node);
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  static std::string read_buffer(const Json& buffer, std::string_view binary,
+                                 const std::filesystem::path& folder) {
+    const std::uint64_t size = size_in(buffer, "byteLength", 0);
+    std::string bytes(binary);
+    if (buffer.contains("uri")) {
+      const auto uri = buffer.at("uri").get<std::string>();
+      const std::size_t data = uri.starts_with("data:") ? uri.find(";base64,") : std::string::npos;
+      bytes = data != std::string::npos ? from_base64(std::string_view(uri).substr(data + 8))
+                                        : read_file(folder / uri);
+    }
+    if (bytes.size() < size)
+      damaged("glTF: a buffer has " + std::to_string(bytes.size()) + " of " + std::to_string(size) +
+              " bytes");
+    bytes.resize(size);
+    return bytes;
+  }
+
+  static std::string read_file(const std::filesystem::path& file) {
+    try {
+      return read_whole_file(file, FileLimit::data);
+    } catch (const InputError& error) {
+      throw FormatError(std::string("glTF: its buffer ") + error.what() +
+                        "; copy it to the mesh's folder");
+    }
+  }
+
+  static std::vector<double> numbers_in(const Json& node, const char* name, std::size_t count) {
+    auto numbers = node.at(name).get<std::vector<double>>();
+    if (numbers.size() != count)
+      damaged("glTF: a node's " + std::string(name) + " has " + std::to_string(numbers.size()) +
+              " of " + std::to_string(count) + " numbers");
+    return numbers;
+  }
+
+  static Eigen::Quaterniond rotation_of(const Json& node) {
+    constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (docs/method.md)
+    const auto n = numbers_in(node, "rotation", 4);
+    const Eigen::Quaterniond rotation(n[3], n[0], n[1], n[2]);
+    if (!(std::abs(rotation.norm() - 1.0) <= most_off))
       throw FormatError(
-          "glTF: a node bends its mesh by a skin or by morph weights; "
-          "export the mesh as it stands, without them");
-  for (const Json& mesh : array_of(root, "meshes"))
-    if (moved(mesh))
-      throw FormatError("glTF: a mesh is moved by morph weights; export it without them");
-}
+          "glTF: a node's rotation is no quaternion of length 1; normalise it, or export the file "
+          "again");
+    return rotation.normalized();
+  }
 
-/// Assimp makes a rotation's length, squared, a scale, and shows one of a node's instances.
-void check_transforms(const Json& root) {
-  constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (docs/method.md)
-  constexpr const char* instancing = "EXT_mesh_gpu_instancing";
-  for (const Json& node : array_of(root, "nodes")) {
+  static Eigen::Affine3d pose_of(const Json& node) {
+    Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+    if (node.contains("matrix")) {
+      const auto n = numbers_in(node, "matrix", 16);
+      pose.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4d>(n.data()).topRows<3>();
+      return pose;
+    }
+    const auto vector = [&](const char* name) {
+      return Eigen::Vector3d(numbers_in(node, name, 3).data());
+    };
+    if (node.contains("translation")) pose.translate(vector("translation"));
+    if (node.contains("rotation")) pose.rotate(rotation_of(node));
+    if (node.contains("scale")) pose.scale(vector("scale"));
+    return pose;
+  }
+
+  /// Adds the mesh of a node. What bends or repeats it is refused.
+  void show(const Json& node, const Eigen::Affine3d& T_file_node) {
+    constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+    const Json& mesh = root_.at("meshes").at(index_in(node.at("mesh")));
+    if (node.contains("skin") || is_morphed(node) || is_morphed(mesh))
+      throw FormatError(
+          "glTF: a mesh is bent by a skin or by morph weights; export it as it stands, without "
+          "them");
     if (node.contains("extensions") && node.at("extensions").contains(instancing))
       throw FormatError(std::string("glTF: a node repeats its mesh by ") + instancing +
                         ", which is not read; export every copy as a node of its own");
-    if (!node.contains("rotation")) continue;
-    const auto rotation = node.at("rotation").get<std::vector<double>>();
-    double squared = 0.0;
-    for (const double value : rotation) squared += value * value;
-    if (rotation.size() != 4 || !(std::abs(std::sqrt(squared) - 1.0) <= most_off))
-      throw FormatError("glTF: a node's rotation " + node.at("rotation").dump().substr(0, 80) +
-                        " is no quaternion of length 1; normalise it, or export the file again");
+    for (const Json& primitive : mesh.at("primitives"))
+      append_placed(triangles_of(primitive), T_file_node, mesh_);
   }
-}
 
-constexpr std::uint64_t largest_size = FileLimit::data;  // products of two do not overflow
+  /// The elements of an accessor in their buffer.
+  struct Elements {
+    const char* first;
+    std::size_t count, stride;
 
-/// A count, size or offset in bytes.
-std::uint64_t size_in(const Json& object, const char* name, std::uint64_t otherwise) {
-  if (!object.contains(name)) return otherwise;
-  const Json& value = object.at(name);
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest_size)
-    damaged("glTF: " + std::string(name) + " " + value.dump() + " is no size up to " +
-            std::to_string(largest_size));
-  return value.get<std::uint64_t>();
-}
+    [[nodiscard]] const char* at(std::size_t i) const { return first + i * stride; }
+  };
 
-std::size_t size_of_element(const Json& accessor) {
-  static const std::map<std::string, std::size_t> components = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-  static const std::map<std::uint64_t, std::size_t> bytes = {{5120, 1}, {5121, 1}, {5122, 2},
-                                                             {5123, 2}, {5125, 4}, {5126, 4}};
-  const auto shape = components.find(accessor.at("type").get<std::string>());
-  const auto type = bytes.find(size_in(accessor, "componentType", 0));
-  if (shape == components.end() || type == bytes.end())
-    damaged("glTF: an accessor is " + accessor.at("type").dump() + " of " +
-            accessor.at("componentType").dump());
-  return shape->second * type->second;
-}
-
-/// Assimp reads behind the view, or buffer, of an accessor with an offset or a stride, and patches
-/// sparse ones without looking where.
-void check_accessor(const Json& root, const Json& accessor) {
-  if (accessor.contains("sparse"))
-    throw FormatError("glTF: it has a sparse accessor, which is not read; export it without");
-  const std::size_t element = size_of_element(accessor);
-  if (!accessor.contains("bufferView")) return;  // zeros
-  const Json& view = root.at("bufferViews").at(index_in(accessor.at("bufferView")));
-  const std::uint64_t stride = size_in(view, "byteStride", element);
-  const std::uint64_t count = size_in(accessor, "count", 0);
-  const std::uint64_t needed = size_in(accessor, "byteOffset", 0) + stride * count;
-  const std::uint64_t length = size_in(view, "byteLength", 0);
-  const Json& buffer = root.at("buffers").at(index_in(view.at("buffer")));
-  if (stride < element) damaged("glTF: an element reaches into the next: " + view.dump());
-  if (count > 0 && needed - stride + element > length)
-    damaged("glTF: an accessor reaches beyond its bufferView of " + std::to_string(length) +
-            " bytes");
-  if (size_in(view, "byteOffset", 0) + length > size_in(buffer, "byteLength", 0))
-    damaged("glTF: a bufferView reaches beyond its buffer");
-}
-
-/// Assimp takes the bits of any component type for those of a float.
-void check_positions(const Json& accessor) {
-  constexpr int float32 = 5126;
-  const Json& type = accessor.at("type");
-  const Json& component = accessor.at("componentType");
-  if (type != "VEC3" || component != float32)
-    throw FormatError("glTF: positions are " + type.dump() + " of component type " +
-                      component.dump() +
-                      "; \"VEC3\" of 5126 (float) can be read: export it without "
-                      "quantisation");
-}
-
-/// Triangles of a primitive as the file counts them.
-std::size_t triangles_of(const Json& root, const Json& primitive) {
-  const Json& accessors = root.at("accessors");
-  const Json& positions = primitive.at("attributes").at("POSITION");
-  check_positions(accessors.at(index_in(positions)));
-  const Json& corners = primitive.contains("indices") ? primitive.at("indices") : positions;
-  const auto count = size_in(accessors.at(index_in(corners)), "count", 0);
-  switch (size_in(primitive, "mode", 4)) {
-    case 4:
-      return count / 3;
-    case 5:
-    case 6:
-      return count < 2 ? 0 : count - 2;
-    default:
-      return 0;  // points and lines
+  [[nodiscard]] Elements elements_of(const Json& accessor, std::size_t element_size) const {
+    if (accessor.contains("sparse"))
+      throw FormatError("glTF: it has a sparse accessor, which is not read; export it without");
+    const Json& view = root_.at("bufferViews").at(index_in(accessor.at("bufferView")));
+    const std::size_t buffer = index_in(view.at("buffer"));
+    const std::uint64_t stride = size_in(view, "byteStride", element_size);
+    const std::uint64_t count = size_in(accessor, "count", 0);
+    const std::uint64_t offset = size_in(accessor, "byteOffset", 0);
+    const std::uint64_t view_offset = size_in(view, "byteOffset", 0);
+    const std::uint64_t length = size_in(view, "byteLength", 0);
+    if (stride < element_size) damaged("glTF: an element of a bufferView reaches into the next");
+    if (offset + stride * count + element_size > length + stride)
+      damaged("glTF: an accessor reaches beyond its bufferView of " + std::to_string(length) +
+              " bytes");
+    if (buffer >= buffers_.size() || view_offset + length > buffers_[buffer].size())
+      damaged("glTF: a bufferView reaches beyond its buffer");
+    return {buffers_[buffer].data() + view_offset + offset, count, stride};
   }
-}
 
-std::string_view json_of_glb(std::string_view bytes) {
-  constexpr std::size_t header_size = 12;
-  constexpr std::uint32_t magic = 0x46546C67;  // "glTF"
-  constexpr std::uint32_t json = 0x4E4F534A;   // "JSON"
-  if (bytes.size() < header_size || word_at(bytes, 0) != magic)
-    damaged("GLB: it does not begin with 'glTF'");
-  if (word_at(bytes, 4) != 2)
-    throw FormatError("GLB: version " + std::to_string(word_at(bytes, 4)) +
-                      "; version 2 can be read: export it as glTF 2.0");
-  if (word_at(bytes, 8) != bytes.size())
-    damaged("GLB: its header promises " + std::to_string(word_at(bytes, 8)) + " bytes, it has " +
-            std::to_string(bytes.size()));
-  std::string_view text;
-  for (std::size_t at = header_size; at < bytes.size();) {
-    if (bytes.size() - at < 8 || word_at(bytes, at) > bytes.size() - at - 8)
-      damaged("GLB: a chunk reaches beyond the file's end");
-    const std::size_t size = word_at(bytes, at);
-    if (text.empty() && word_at(bytes, at + 4) == json) text = bytes.substr(at + 8, size);
-    at += 8 + size;
+  [[nodiscard]] std::vector<Eigen::Vector3f> positions_of(const Json& accessor) const {
+    constexpr int float32 = 5126;
+    if (accessor.at("type") != "VEC3" || accessor.at("componentType") != float32)
+      throw FormatError(
+          "glTF: positions are not \"VEC3\" of component type 5126 (float), which alone can be "
+          "read; export it without quantisation");
+    const Elements elements = elements_of(accessor, sizeof(Eigen::Vector3f));
+    std::vector<Eigen::Vector3f> positions(elements.count);
+    for (std::size_t i = 0; i < elements.count; ++i)
+      std::memcpy(positions[i].data(), elements.at(i), sizeof(Eigen::Vector3f));
+    return positions;
   }
-  return text;
-}
+
+  template <typename T>
+  [[nodiscard]] std::vector<std::uint32_t> integers_of(const Json& accessor) const {
+    const Elements elements = elements_of(accessor, sizeof(T));
+    std::vector<std::uint32_t> integers(elements.count);
+    for (std::size_t i = 0; i < elements.count; ++i) integers[i] = value_at<T>(elements.at(i));
+    return integers;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> indices_of(const Json& accessor) const {
+    const std::uint64_t type = size_in(accessor, "componentType", 0);
+    if (type == 5121) return integers_of<std::uint8_t>(accessor);
+    if (type == 5123) return integers_of<std::uint16_t>(accessor);
+    if (type == 5125) return integers_of<std::uint32_t>(accessor);
+    damaged("glTF: indices are of component type " + std::to_string(type));
+  }
+
+  [[nodiscard]] TriangleMesh triangles_of(const Json& primitive) const {
+    const std::uint64_t mode = size_in(primitive, "mode", 4);
+    if (mode < 4) return {};  // points and lines
+    if (mode > 6) damaged("glTF: a primitive has mode " + std::to_string(mode));
+    const Json& accessors = root_.at("accessors");
+    TriangleMesh mesh;
+    mesh.vertices = positions_of(accessors.at(index_in(primitive.at("attributes").at("POSITION"))));
+    std::vector<std::uint32_t> corners(mesh.vertices.size());
+    std::iota(corners.begin(), corners.end(), 0U);
+    if (primitive.contains("indices"))
+      corners = indices_of(accessors.at(index_in(primitive.at("indices"))));
+    for (const std::uint32_t corner : corners)
+      if (corner >= mesh.vertices.size())
+        damaged("glTF: a face names vertex " + std::to_string(corner) + " of " +
+                std::to_string(mesh.vertices.size()));
+    const std::size_t step = mode == 4 ? 3 : 1;
+    for (std::size_t i = 2; i < corners.size(); i += step) {
+      if (mode == 4) mesh.triangles.push_back({corners[i - 2], corners[i - 1], corners[i]});
+      if (mode == 5)
+        mesh.triangles.push_back({corners[i - 2], corners[i - 1 + i % 2], corners[i - i % 2]});
+      if (mode == 6) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    }
+    return mesh;
+  }
+
+  const Json& root_;
+  std::vector<std::string> buffers_;
+  TriangleMesh mesh_;
+};
 
 }  // namespace
 
-std::size_t check_gltf(std::string_view bytes, bool binary) {
-  const std::string_view text = binary ? json_of_glb(bytes) : bytes;
+TriangleMesh read_gltf(const std::filesystem::path& file, std::string_view bytes, bool binary) {
+  const Parts parts = binary ? parts_of_glb(bytes) : Parts{bytes, {}};
   try {
-    const Json root = Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+    const Json root = Json::parse(parts.json, [](int depth, Json::parse_event_t, const Json&) {
       if (depth > deepest_value)
         damaged("glTF: values are nested more than " + std::to_string(deepest_value) + " deep");
       return true;
     });
-    check_extensions(root);
-    check_nodes(root);
-    check_rigid(root);
-    check_transforms(root);
-    for (const Json& buffer : array_of(root, "buffers")) size_in(buffer, "byteLength", 0);
-    for (const Json& accessor : array_of(root, "accessors")) check_accessor(root, accessor);
-    std::size_t triangles = 0;
-    for (const Json& mesh : array_of(root, "meshes"))
-      for (const Json& primitive : mesh.at("primitives"))
-        triangles += triangles_of(root, primitive);
-    return triangles;
+    return GltfReader(root, parts.binary, file.parent_path()).read();
   } catch (const Json::exception& error) {
     damaged(std::string("glTF: ") + error.what());
   }

@@ -16,10 +16,9 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
-#include <penumbra/mesh/mesh_edges-inl.hpp>
-#include <penumbra/mesh/mesh_sheets.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
+#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {
 namespace {
@@ -258,26 +257,26 @@ TriangleMesh simplified(TriangleMesh mesh) {
       meshopt_simplify(corners, corners, 3 * mesh.triangles.size(), positions, mesh.vertices.size(),
                        stride, 0, static_cast<float>(simplification) / scale);
   mesh.triangles.resize(count / 3);
-  return weld(mesh);
+  return mesh;
 }
 
-TriangleMesh offset_sheet(const TriangleMesh& welded, const MeshSheet& sheet, double margin) {
+TriangleMesh offset_patch(const PreparedMesh& mesh, std::size_t number, double margin) {
+  const SurfacePatch& patch = mesh.patches[number];
+  const auto& [facing, holes] = mesh.orientations()[number];
   // The margin closes holes that are smaller.
-  const bool solid = sheet.facing != Facing::unknown &&
-                     std::all_of(sheet.holes.begin(), sheet.holes.end(),
+  const bool solid = facing != Facing::unknown &&
+                     std::all_of(holes.begin(), holes.end(),
                                  [&](const Ball& hole) { return hole.radius < std::abs(margin); });
   if (margin < 0.0 && !solid)
     refuse(margin, "needs a closed mesh, and this one is open; take 0 or a positive margin");
   std::vector<Face> faces;
-  Eigen::AlignedBox3d bounds;
-  for (const std::size_t i : sheet.triangles) {
-    std::array<Vector3d, 3> corners = corners_of(welded, i);
-    if (sheet.facing == Facing::inwards) std::swap(corners[1], corners[2]);
+  for (const std::uint32_t i : patch.triangles) {
+    std::array<Vector3d, 3> corners = corners_of(mesh, i);
+    if (facing == Facing::inwards) std::swap(corners[1], corners[2]);
     faces.emplace_back(corners);
-    for (const Vector3d& corner : corners) bounds.extend(corner);
   }
   const Vector3d growth = Vector3d::Constant(std::max(margin, 0.0));
-  bounds = Eigen::AlignedBox3d(bounds.min() - growth, bounds.max() + growth);
+  const Eigen::AlignedBox3d bounds(patch.bounds.min() - growth, patch.bounds.max() + growth);
   const Grid grid = grid_for(margin, bounds);
   return simplified(
       LevelSurface(faces, solid, grid).find(bounds.sizes().maxCoeff() + 4.0 * grid.cell));
@@ -285,20 +284,19 @@ TriangleMesh offset_sheet(const TriangleMesh& welded, const MeshSheet& sheet, do
 
 }  // namespace
 
-TriangleMesh offset_surface(const TriangleMesh& mesh, double margin) {
+PreparedMesh offset_surface(const PreparedMesh& mesh, double margin) {
   if (!std::isfinite(margin))
     throw InputError("a margin is " + std::to_string(margin) + "; it must be finite (metres)");
   if (margin == 0.0) return mesh;
-  const TriangleMesh welded = weld(mesh);
   TriangleMesh result;
-  for (const MeshSheet& sheet : mesh_sheets(welded)) {
-    const TriangleMesh part = offset_sheet(welded, sheet, margin);
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    const TriangleMesh part = offset_patch(mesh, i, margin);
     const auto first = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.insert(result.vertices.end(), part.vertices.begin(), part.vertices.end());
     for (const auto& [a, b, c] : part.triangles)
       result.triangles.push_back({first + a, first + b, first + c});
   }
-  return result;
+  return PreparedMesh(result);
 }
 
 }  // namespace penumbra

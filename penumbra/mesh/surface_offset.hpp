@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 
@@ -15,6 +15,6 @@ namespace penumbra {
 ///
 /// Throws InputError if the margin is not finite, if a mesh to shrink is open, and if the mesh is
 /// so large that the grid would take millions of cells.
-[[nodiscard]] TriangleMesh offset_surface(const TriangleMesh& mesh, double margin);
+[[nodiscard]] PreparedMesh offset_surface(const PreparedMesh& mesh, double margin);
 
 }  // namespace penumbra

@@ -138,7 +138,8 @@ VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>
   for (const auto& kept : kept_)
     if (mesh && kept->mesh == mesh) return render(*kept, T_camera_mesh);
   check_mesh(mesh.get());
-  const Body body{"target", {mesh.get(), 1}};
+  const PreparedMesh prepared(*mesh);
+  const Body body{"target", {&prepared, 1}};
   auto renderer = make_depth_renderer(backend_, intrinsics_, {&body, 1}, options_);
   Kept& kept = place();
   kept = {mesh, std::move(renderer), 0};

@@ -4,8 +4,7 @@
 
 #include <meshoptimizer.h>
 
-#include <penumbra/mesh/mesh_edges-inl.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/surface_patches-inl.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/shells.hpp>
 
@@ -14,10 +13,10 @@ namespace {
 
 /// Whether meshopt_buildMeshlets takes time in proportion to the triangles: it looks through all
 /// triangles of a vertex for each of them, and through all triangles for each separate piece.
-bool has_neighbourhoods(const TriangleMesh& welded, const std::vector<std::uint32_t>& indices) {
+bool has_neighbourhoods(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices) {
   constexpr std::size_t most = 1000;  // looks for each triangle; separate pieces
-  std::vector<std::size_t> uses(welded.vertices.size(), 0);
-  DisjointSets pieces(welded.vertices.size());
+  std::vector<std::size_t> uses(mesh.vertices.size(), 0);
+  DisjointSets pieces(mesh.vertices.size());
   std::size_t joined = 0;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     ++uses[indices[i]];
@@ -34,14 +33,14 @@ bool has_neighbourhoods(const TriangleMesh& welded, const std::vector<std::uint3
 
 ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
-    for (const TriangleMesh& mesh : bodies[body].meshes) {
-      const TriangleMesh welded = weld(mesh);
-      for (const ShellTriangles& shell : shells_of(welded)) {
-        add_shell(welded, shell.indices,
+    for (const PreparedMesh& mesh : bodies[body].meshes) {
+      for (const ShellTriangles& shell : shells_of(mesh)) {
+        add_shell(mesh, shell.indices,
                   {.body = body,
                    .solid = shell.solid,
                    .first_hole = static_cast<std::uint32_t>(holes.size()),
-                   .hole_count = static_cast<std::uint32_t>(shell.holes.size())});
+                   .hole_count = static_cast<std::uint32_t>(shell.holes.size()),
+                   .bounds = shell.bounds});
         holes.insert(holes.end(), shell.holes.begin(), shell.holes.end());
       }
     }
@@ -50,32 +49,31 @@ ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius}) values->resize(padded);
 }
 
-void ClusteredScene::add_shell(const TriangleMesh& welded,
-                               const std::vector<std::uint32_t>& indices, Shell shell) {
-  const float* positions = welded.vertices.front().data();
+void ClusteredScene::add_shell(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
+                               Shell shell) {
+  const float* positions = mesh.vertices.front().data();
   const std::size_t bound = meshopt_buildMeshletsBound(indices.size(), max_vertices, max_triangles);
   std::vector<meshopt_Meshlet> meshlets(bound);
   std::vector<std::uint32_t> vertices(bound * max_vertices);
   std::vector<unsigned char> local(bound * max_triangles * 3);
   constexpr float cone_weight = 0.25F;  // some weight for clusters that face one way as a whole
   meshlets.resize(
-      has_neighbourhoods(welded, indices)
+      has_neighbourhoods(mesh, indices)
           ? meshopt_buildMeshlets(meshlets.data(), vertices.data(), local.data(), indices.data(),
-                                  indices.size(), positions, welded.vertices.size(),
+                                  indices.size(), positions, mesh.vertices.size(),
                                   sizeof(Eigen::Vector3f), max_vertices, max_triangles, cone_weight)
           : meshopt_buildMeshletsScan(meshlets.data(), vertices.data(), local.data(),
-                                      indices.data(), indices.size(), welded.vertices.size(),
+                                      indices.data(), indices.size(), mesh.vertices.size(),
                                       max_vertices, max_triangles));
   shell.first_cluster = static_cast<std::uint32_t>(clusters.size());
   shell.cluster_count = static_cast<std::uint32_t>(meshlets.size());
-  for (const std::uint32_t i : indices) shell.bounds.extend(welded.vertices[i].cast<double>());
   for (const meshopt_Meshlet& meshlet : meshlets) {
     clusters.push_back({static_cast<std::uint32_t>(x.size()), meshlet.vertex_count,
                         static_cast<std::uint32_t>(corners.size()), meshlet.triangle_count});
     const std::uint32_t* own = &vertices[meshlet.vertex_offset];
     Eigen::AlignedBox3f box;
     for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i) {
-      const Eigen::Vector3f& p = welded.vertices[own[i]];
+      const Eigen::Vector3f& p = mesh.vertices[own[i]];
       x.push_back(p.x());
       y.push_back(p.y());
       z.push_back(p.z());
@@ -83,14 +81,14 @@ void ClusteredScene::add_shell(const TriangleMesh& welded,
     }
     float radius = 0.0F;
     for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i) {
-      radius = std::max(radius, (welded.vertices[own[i]] - box.center()).norm());
+      radius = std::max(radius, (mesh.vertices[own[i]] - box.center()).norm());
     }
     sphere_x.push_back(box.center().x());
     sphere_y.push_back(box.center().y());
     sphere_z.push_back(box.center().z());
     sphere_radius.push_back(radius * 1.0001F);  // roundings of centre and radius
     for (std::uint32_t t = 0; t < meshlet.triangle_count; ++t) {
-      add_triangle(welded, own, &local[meshlet.triangle_offset + 3 * t]);
+      add_triangle(mesh, own, &local[meshlet.triangle_offset + 3 * t]);
     }
     pad_vertices();
     pad_triangles();
@@ -98,11 +96,11 @@ void ClusteredScene::add_shell(const TriangleMesh& welded,
   shells.push_back(shell);
 }
 
-void ClusteredScene::add_triangle(const TriangleMesh& welded, const std::uint32_t* cluster_vertices,
+void ClusteredScene::add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
                                   const unsigned char* local) {
-  const Eigen::Vector3d a = welded.vertices[cluster_vertices[local[0]]].cast<double>();
-  const Eigen::Vector3d b = welded.vertices[cluster_vertices[local[1]]].cast<double>();
-  const Eigen::Vector3d c = welded.vertices[cluster_vertices[local[2]]].cast<double>();
+  const Eigen::Vector3d a = mesh.vertices[cluster_vertices[local[0]]].cast<double>();
+  const Eigen::Vector3d b = mesh.vertices[cluster_vertices[local[1]]].cast<double>();
+  const Eigen::Vector3d c = mesh.vertices[cluster_vertices[local[2]]].cast<double>();
   const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
   plane_x.push_back(static_cast<float>(n.x()));
   plane_y.push_back(static_cast<float>(n.y()));

@@ -8,8 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/mesh_sheets.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {
@@ -60,9 +59,8 @@ struct ClusteredScene {
   std::vector<std::uint32_t> corners;
 
  private:
-  void add_shell(const TriangleMesh& welded, const std::vector<std::uint32_t>& indices,
-                 Shell shell);
-  void add_triangle(const TriangleMesh& welded, const std::uint32_t* cluster_vertices,
+  void add_shell(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices, Shell shell);
+  void add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
                     const unsigned char* local);
   void pad_vertices();
   void pad_triangles();

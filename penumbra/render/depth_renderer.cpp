@@ -43,7 +43,7 @@ std::string_view to_string(Backend backend) {
 
 std::size_t Body::triangle_count() const {
   std::size_t count = 0;
-  for (const TriangleMesh& mesh : meshes) count += mesh.triangles.size();
+  for (const PreparedMesh& mesh : meshes) count += mesh.triangles.size();
   return count;
 }
 

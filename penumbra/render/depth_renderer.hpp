@@ -13,14 +13,14 @@
 
 #include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 
 /// A rigid thing to draw. The spans need only live while a renderer is made.
 struct Body {
   std::string_view name;
-  std::span<const TriangleMesh> meshes;  ///< in the body's frame; may be empty
+  std::span<const PreparedMesh> meshes;  ///< in the body's frame; may be empty
 
   [[nodiscard]] std::size_t triangle_count() const;
 };
@@ -113,19 +113,24 @@ class DepthRenderer {
     Backend backend, const Intrinsics& intrinsics, std::span<const Body> bodies,
     const RendererOptions& options = {});
 
-/// Finds a body whose meshes hold the camera's centre: a closed piece, or an open one, or all open
-/// ones together, that close around it for more than half. The answer of a body whose pose
-/// relative to the camera has not changed is remembered.
+/// Finds a body that encloses the camera's centre: one of its surface patches, or all of its open
+/// ones together, take up more than half of what is seen around it. A body is tested once per pose
+/// relative to the camera.
 class CameraInsideCheck {
  public:
+  /// The bodies' meshes must outlive the check.
   explicit CameraInsideCheck(std::span<const Body> bodies);
-  ~CameraInsideCheck();
 
-  /// Index of the first body that holds the camera, if any.
+  /// Returns the index of the first body that encloses the camera, if any. Allocates nothing.
   [[nodiscard]] std::optional<std::size_t> find(std::span<const Eigen::Isometry3d> T_camera_body);
 
  private:
-  struct Solid;
+  struct Solid {
+    std::span<const PreparedMesh> meshes;
+    Eigen::AlignedBox3d open_bounds;  // of the patches that are not closed
+    std::optional<Eigen::Vector3d> last_centre;
+    bool last_answer = false;
+  };
   std::vector<Solid> solids_;
 };
 

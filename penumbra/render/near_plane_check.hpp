@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,30 +14,32 @@
 
 namespace penumbra {
 
-/// Finds bodies that reach before DepthRenderer::near_plane on rays of the image: what is there is
-/// not drawn. By triangles, so that a camera in a bracket's bounds is none; they are looked at only
-/// where a body's bounds reach that far, and once for a pose relative to the camera that stays.
+/// Finds bodies with a part between the camera and DepthRenderer::near_plane in the image; this
+/// part is not drawn. Tests triangles, so a camera within a bracket's bounding box is no problem;
+/// only of bodies whose bounds come that near, and once per pose relative to the camera.
 class NearPlaneCheck {
  public:
   /// The bodies' meshes must outlive this.
   NearPlaneCheck(const Intrinsics& intrinsics, std::span<const Body> bodies);
 
-  /// Indices of such bodies, rising; valid until the next call. Allocates nothing.
+  /// Returns the indices of such bodies, rising; valid until the next call. Allocates nothing.
   [[nodiscard]] std::span<const std::size_t> find(std::span<const Eigen::Isometry3d> T_camera_body);
 
  private:
   struct Part {
-    std::span<const TriangleMesh> meshes;
+    std::span<const PreparedMesh> meshes;
     Eigen::AlignedBox3d bounds;  // in the body's frame
-    Eigen::Isometry3d last_pose;
-    bool was_asked = false;
+    std::optional<Eigen::Isometry3d> last_pose;
     bool last_answer = false;
   };
 
   [[nodiscard]] bool reaches(Part& part, const Eigen::Isometry3d& T_camera_body) const;
+  [[nodiscard]] bool reaches(const PreparedMesh& mesh,
+                             const Eigen::Isometry3d& T_camera_body) const;
 
-  std::array<Eigen::Vector3d, 4> corners_;  // of the image on the near plane, in turn
-  double reach_;                            // metres from the camera to the farthest of them
+  /// Of the pyramid between the camera and the near plane: plane . (x, y, z, 1) >= 0 inside.
+  std::array<Eigen::Vector4d, 5> planes_;
+  double reach_ = 0.0;  // metres from the camera to the pyramid's farthest corner
   std::vector<Part> parts_;
   std::vector<std::size_t> found_;
 };

@@ -9,22 +9,24 @@
 
 namespace penumbra {
 
-std::vector<ShellTriangles> shells_of(const TriangleMesh& welded) {
+std::vector<ShellTriangles> shells_of(const PreparedMesh& mesh) {
   std::array<ShellTriangles, 3> kinds;
   auto& [closed, pierced, open] = kinds;
   closed.solid = pierced.solid = true;
-  for (const MeshSheet& sheet : mesh_sheets(welded)) {
-    const bool solid = sheet.facing != Facing::unknown;
-    ShellTriangles& shell = !solid ? open : sheet.holes.empty() ? closed : pierced;
-    // A solid sheet that is wound inwards is turned: what is first seen of it from outside is then
-    // a front face, also where it is a cavity inside another.
-    const bool turn = solid && sheet.facing == Facing::inwards;
-    for (const std::size_t t : sheet.triangles) {
-      auto [a, b, c] = welded.triangles[t];
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    const SurfacePatch& patch = mesh.patches[i];
+    const auto& [facing, holes] = mesh.orientations()[i];
+    ShellTriangles& shell = facing == Facing::unknown ? open : holes.empty() ? closed : pierced;
+    // A patch that faces inwards is turned: what is first seen of it from outside is then a front
+    // face, even if it is a cavity inside another body.
+    const bool turn = facing == Facing::inwards;
+    for (const std::uint32_t t : patch.triangles) {
+      auto [a, b, c] = mesh.triangles[t];
       if (turn) std::swap(b, c);
       shell.indices.insert(shell.indices.end(), {a, b, c});
     }
-    if (solid) shell.holes.insert(shell.holes.end(), sheet.holes.begin(), sheet.holes.end());
+    shell.bounds.extend(patch.bounds);
+    shell.holes.insert(shell.holes.end(), holes.begin(), holes.end());
   }
   std::vector<ShellTriangles> shells;
   for (ShellTriangles& shell : kinds) {

@@ -7,8 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/mesh/mesh_sheets.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 
@@ -17,13 +16,14 @@ struct ShellTriangles {
   /// They bound bodies and are wound outwards: from outside, back faces are only seen through the
   /// holes.
   bool solid = false;
+  Eigen::AlignedBox3d bounds{};        ///< in the mesh's frame
   std::vector<Ball> holes;             ///< of the solid; empty where it is closed
-  std::vector<std::uint32_t> indices;  ///< of the welded mesh's vertices, three for each triangle
+  std::vector<std::uint32_t> indices;  ///< of the mesh's vertices, three for each triangle
 };
 
-/// All triangles of a welded mesh: the closed, the pierced and the open ones, what there is of
-/// them.
-[[nodiscard]] std::vector<ShellTriangles> shells_of(const TriangleMesh& welded);
+/// Returns all triangles of a mesh: those of closed patches, of patches with small holes and of
+/// open patches, in this order. Empty shells are left out.
+[[nodiscard]] std::vector<ShellTriangles> shells_of(const PreparedMesh& mesh);
 
 /// Which sides of a shell's triangles can be seen; backs through holes only where those are.
 enum class Sides : std::uint8_t { front, front_and_through_holes, both };

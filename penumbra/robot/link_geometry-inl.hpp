@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/file_locator-inl.hpp>
 #include <penumbra/robot/link_choice-inl.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -15,7 +15,7 @@
 namespace penumbra::detail {
 
 struct LinkGeometry {
-  std::vector<TriangleMesh> meshes;
+  std::vector<PreparedMesh> meshes;
   LinkReport report;
   Eigen::AlignedBox3d without_margin;  ///< bounds
 };
@@ -46,7 +46,7 @@ class GeometryLoader {
   /// Where a fault is, for messages.
   [[nodiscard]] std::string at(const UrdfElement& element, const std::string& link) const;
   void note_size(const LinkGeometry& geometry);
-  TriangleMesh make_mesh(const UrdfElement& element, double margin, std::string& source);
+  PreparedMesh make_mesh(const UrdfElement& element, double margin, std::string& source);
   TriangleMesh read_mesh(const UrdfMesh& mesh, std::string& source);
   const TriangleMesh& read_file(const std::filesystem::path& file);
 

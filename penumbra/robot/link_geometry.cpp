@@ -3,12 +3,12 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
@@ -80,19 +80,13 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3f& vertex : mesh.vertices) bounds.extend(vertex.cast<double>().eval());
-  return bounds;
-}
-
-/// Keeps a mesh, whose source is the last of the report's, as it is with the margin.
-void keep(const TriangleMesh& mesh, TriangleMesh with_margin, LinkGeometry& out) {
+/// Adds a mesh with its margin to a link. Its source is the last one in the link's report.
+void keep(const PreparedMesh& mesh, PreparedMesh with_margin, LinkGeometry& out) {
   LinkReport& report = out.report;
   if (with_margin.triangles.empty())
     throw InputError(nothing_left(report.sources.back(), report.margin));
-  report.watertight = (out.meshes.empty() || report.watertight) && is_watertight(mesh);
-  out.without_margin.extend(bounds_of(mesh));
+  report.watertight = (out.meshes.empty() || report.watertight) && mesh.watertight;
+  out.without_margin.extend(mesh.bounds);
   out.meshes.push_back(std::move(with_margin));
 }
 
@@ -100,9 +94,9 @@ void keep(const TriangleMesh& mesh, TriangleMesh with_margin, LinkGeometry& out)
 void measure(LinkGeometry& link) {
   LinkReport& report = link.report;
   report.drawn = !link.meshes.empty();
-  for (const TriangleMesh& mesh : link.meshes) {
+  for (const PreparedMesh& mesh : link.meshes) {
     report.triangles += mesh.triangles.size();
-    report.bounds.extend(bounds_of(mesh));
+    report.bounds.extend(mesh.bounds);
   }
 }
 
@@ -164,7 +158,7 @@ void GeometryLoader::note_size(const LinkGeometry& geometry) {
 
 void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
   std::string& source = out.report.sources.emplace_back();
-  TriangleMesh mesh;
+  std::optional<PreparedMesh> mesh;
   try {
     mesh = make_mesh(element, 0.0, source);
   } catch (const InputError& error) {
@@ -173,17 +167,18 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
   }
   const double margin = out.report.margin;
   if (margin != 0.0 && !std::holds_alternative<UrdfMesh>(element.shape))
-    keep(mesh, make_mesh(element, margin, source), out);
+    keep(*mesh, make_mesh(element, margin, source), out);
   else
-    keep(mesh, offset_surface(mesh, margin), out);
+    keep(*mesh, offset_surface(*mesh, margin), out);
 }
 
 void GeometryLoader::add(const ExtraMesh& extra, LinkGeometry& out) {
   out.report.sources.push_back(extra.mesh.string());
   out.report.reason += "; with an extra mesh";
   try {
-    TriangleMesh mesh = read_file(extra.mesh);
-    place(Eigen::Vector3d::Ones(), Eigen::Isometry3d::Identity(), mesh);
+    TriangleMesh placed = read_file(extra.mesh);
+    place(Eigen::Vector3d::Ones(), Eigen::Isometry3d::Identity(), placed);
+    const PreparedMesh mesh(placed);
     keep(mesh, offset_surface(mesh, out.report.margin), out);
   } catch (const InputError& error) {
     throw InputError("extra of link " + in_quotes(extra.link) + ": " + error.what());
@@ -197,16 +192,16 @@ std::vector<std::string> GeometryLoader::notes() const {
   return all;
 }
 
-TriangleMesh GeometryLoader::make_mesh(const UrdfElement& element, double margin,
+PreparedMesh GeometryLoader::make_mesh(const UrdfElement& element, double margin,
                                        std::string& source) {
   const auto* file = std::get_if<UrdfMesh>(&element.shape);
-  TriangleMesh mesh = file != nullptr ? read_mesh(*file, source)
-                                      : std::visit(PrimitiveMaker{source, margin}, element.shape);
-  place(file != nullptr ? file->scale : Eigen::Vector3d::Ones(), element.origin, mesh);
-  TriangleMesh welded = weld(mesh);
-  if (welded.triangles.empty())
+  TriangleMesh placed = file != nullptr ? read_mesh(*file, source)
+                                        : std::visit(PrimitiveMaker{source, margin}, element.shape);
+  place(file != nullptr ? file->scale : Eigen::Vector3d::Ones(), element.origin, placed);
+  PreparedMesh mesh(placed);
+  if (mesh.triangles.empty())
     throw InputError(source + ": no triangle has an area; check the unit and the scale");
-  return welded;
+  return mesh;
 }
 
 TriangleMesh GeometryLoader::read_mesh(const UrdfMesh& mesh, std::string& source) {

@@ -88,7 +88,7 @@ std::span<const Joint> Robot::joints() const { return model_->joints; }
 std::span<const std::string> Robot::variables() const { return model_->variables; }
 std::span<const LinkReport> Robot::report() const { return model_->report; }
 std::span<const std::string> Robot::notes() const { return model_->notes; }
-std::span<const TriangleMesh> Robot::meshes(std::size_t link) const { return model_->meshes[link]; }
+std::span<const PreparedMesh> Robot::meshes(std::size_t link) const { return model_->meshes[link]; }
 
 std::optional<std::size_t> Robot::find_link(std::string_view name) const {
   return find(model_->link_index, name);

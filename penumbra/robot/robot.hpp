@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 
@@ -52,7 +52,7 @@ struct LinkReport {
   std::string reason;    ///< why it is not drawn, or what was chosen; one line
   std::vector<std::string> sources;  ///< each element's file or primitive
   std::size_t triangles = 0;
-  bool watertight = false;     ///< every mesh of the link is closed, before margins
+  bool watertight = false;     ///< every mesh of the link is, before margins
   double margin = 0.0;         ///< metres
   Eigen::AlignedBox3d bounds;  ///< in the link's frame, metres; empty if not drawn
   double load_ms = 0.0;
@@ -126,7 +126,7 @@ class Robot {
   [[nodiscard]] std::vector<double> rest_positions() const;
 
   /// Triangles of link i in its own frame, margins included; empty if it is not drawn.
-  [[nodiscard]] std::span<const TriangleMesh> meshes(std::size_t link) const;
+  [[nodiscard]] std::span<const PreparedMesh> meshes(std::size_t link) const;
 
   [[nodiscard]] std::span<const LinkReport> report() const;
 

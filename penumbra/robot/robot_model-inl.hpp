@@ -20,7 +20,7 @@ struct Robot::Model {
   std::vector<std::string> variables;
   Index link_index;
   Index variable_index;
-  std::vector<std::vector<TriangleMesh>> meshes;  // of each link
+  std::vector<std::vector<PreparedMesh>> meshes;  // of each link
   std::vector<LinkReport> report;                 // of each link
   std::vector<std::string> notes;
 };

@@ -57,9 +57,8 @@ struct Library {
 
 const std::vector<Library>& libraries() {
   static const std::vector<Library> all{{"tinyxml2", "penumbra/base", 1},
-                                        {"assimp/", "penumbra/mesh", 1},
                                         {"nlohmann/", "penumbra/mesh", 1},
-                                        {"meshoptimizer.h", "penumbra/mesh", 1},
+                                        {"meshoptimizer.h", "penumbra/mesh", 2},
                                         {"meshoptimizer.h", "penumbra/render", 1},
                                         {"hwy/", "penumbra/base", 2},
                                         {"hwy/", "penumbra/labels", 5},

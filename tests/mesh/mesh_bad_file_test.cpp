@@ -214,10 +214,12 @@ TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
            std::string("requires the extension ") + extension);
   expect("{\"mesh\":0", "{\"mesh\":0,\"skin\":0", "by a skin");
   expect("{\"mesh\":0", "{\"mesh\":0,\"weights\":[0,0.5]", "morph weights");
-  for (const char* rotation : {"[0,0,0.7,0.9]", "[0,0,0,0]", "[0,0,0.7073,0.7073]", "[0,0,1]"})
+  for (const char* rotation : {"[0,0,0.7,0.9]", "[0,0,0,0]", "[0,0,0.7073,0.7073]"})
     expect("{\"mesh\":0", std::string("{\"mesh\":0,\"rotation\":") + rotation,
            "is no quaternion of length 1");
   expect("{\"mesh\":0", "{\"mesh\":0,\"rotation\":[\"a\",0,0,1]", "glTF");
+  expect("{\"mesh\":0", "{\"mesh\":0,\"rotation\":[0,0,1]", "3 of 4 numbers");
+  expect("\"uri\":\"a.bin\"", "\"uri\":\"data:;base64,AA*A\"", "not base64");
   expect("{\"mesh\":0",
          "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{}}}",
          "repeats its mesh by EXT_mesh_gpu_instancing");

@@ -14,7 +14,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {
 namespace {
@@ -205,7 +205,7 @@ TEST_F(Collada, SourcesMustHoldWhatIsReadFromThem) {
   expect_refused("stride=\"3\"", "stride=\"3\" offset=\"1\"", "it reads 13 of 12");
   expect_refused("count=\"4\" stride", "count=\"4294967295\" stride", "of 12 numbers");
   expect_refused("name=\"Z\"", "name=\"Y\"", "positions need");
-  expect_refused("name=\"Z\"", "", "positions need");
+  expect_refused("name=\"Z\"", "", "no name");
   expect_refused("\"POSITION\"", "\"NORMAL\"", "no <input> of POSITION");
   expect_refused("\"VERTEX\"", "\"POSITION\"", "no <input> of VERTEX");
   expect_refused("offset=\"0\"", "offset=\"99\"", "its offset");

@@ -4,20 +4,15 @@
 
 #include <gtest/gtest.h>
 #include <tests/mesh/mesh_samples.hpp>
+#include <tests/mesh/signed_volume.hpp>
 
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 namespace {
 
 constexpr double float_rounding = 1e-5;  // of volumes of a few cubic metres from float corners
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const MeshComponent& piece : connected_components(mesh)) sum += piece.signed_volume;
-  return sum;
-}
 
 Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
   Eigen::Vector3f corner = mesh.vertices.front();
@@ -29,10 +24,11 @@ Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
 void expect_tetrahedron(const TriangleMesh& mesh, double unit = 1.0) {
   EXPECT_EQ(mesh.vertices.size(), 4U);
   EXPECT_EQ(mesh.triangles.size(), 4U);
-  EXPECT_TRUE(is_watertight(mesh));
+  EXPECT_TRUE(PreparedMesh(mesh).watertight);
   const Eigen::Vector3f corner = (Eigen::Vector3d(2, 3, 4) * unit).cast<float>();
   EXPECT_TRUE(upper_corner(mesh).isApprox(corner, 1e-6F)) << upper_corner(mesh).transpose();
-  EXPECT_NEAR(volume(mesh) / (unit * unit * unit), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(mesh) / (unit * unit * unit), test::tetrahedron_volume,
+              float_rounding);
 }
 
 class MeshFile : public ::testing::Test {
@@ -72,7 +68,8 @@ TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
   std::string tiny = text;
   tiny.replace(tiny.find("0.000000"), 8, "+1.0e-60");
   EXPECT_EQ(load("tiny.stl", tiny).triangles.size(), 4U);
-  EXPECT_NEAR(volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume,
+              float_rounding);
 }
 
 TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
@@ -175,12 +172,36 @@ TEST_F(MeshFile, ColladaUpAxisIsIgnored) {
 
 TEST_F(MeshFile, MirroredNodesAreWoundAgain) {
   const TriangleMesh mesh = load_collada("", test::collada_node("<scale>-1 1 1</scale>"));
-  EXPECT_NEAR(volume(mesh), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(mesh), test::tetrahedron_volume, float_rounding);
   EXPECT_FLOAT_EQ(upper_corner(mesh).x(), 0.0F);
   const TriangleMesh twice = load_collada("", test::collada_node("<scale>-1 -1 1</scale>"));
-  EXPECT_NEAR(volume(twice), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(twice), test::tetrahedron_volume, float_rounding);
   const TriangleMesh gltf = load("m.glb", test::glb(",\"scale\":[1,-1,1]"));
-  EXPECT_NEAR(volume(gltf), test::tetrahedron_volume, float_rounding);
+  EXPECT_NEAR(test::signed_volume(gltf), test::tetrahedron_volume, float_rounding);
+}
+
+TEST_F(MeshFile, GltfBuffersMayLieInTheFile) {
+  const std::string buffer =
+      "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAAAAAAIBAAAACAA"
+      "EAAAABAAMAAAADAAIAAQACAAMA";
+  expect_tetrahedron(
+      load("a.gltf",
+           test::gltf_json(",\"uri\":\"data:application/octet-stream;base64," + buffer + "\"")));
+}
+
+TEST_F(MeshFile, GltfStripsAndFansAreRead) {
+  for (const std::string mode : {"5", "6"}) {
+    std::string bytes =
+        test::gltf_json(",\"uri\":\"a.bin\"", ",\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,1,0,0,1]");
+    bytes.replace(bytes.find("\"indices\":1"), 11, "\"mode\":" + mode);
+    folder_.write("a.bin", test::gltf_buffer());
+    const TriangleMesh mesh = load("a.gltf", bytes);
+    EXPECT_EQ(mesh.triangles.size(), 2U) << mode;
+    EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(1, 4, 8), 1e-6F));
+    // Four corners without indices: the strip's second triangle is 1 3 2, the fan's 0 2 3.
+    const Eigen::Vector3f last = mesh.vertices[mesh.triangles[1][0]];
+    EXPECT_TRUE(last.isApprox(mode == "5" ? Eigen::Vector3f(1, 4, 0) : Eigen::Vector3f(1, 0, 0)));
+  }
 }
 
 }  // namespace

@@ -156,7 +156,6 @@ bool is_sound(const std::filesystem::path& file) {
   for (int trial = *at; sound && trial < trials; ++trial) {
     *at = trial;
     Random random(seed + static_cast<std::uint64_t>(trial));
-    // A third is glTF, which a library reads.
     const test::Sample& sample =
         trial % 3 == 0 ? samples.back() : samples[random() % samples.size()];
     const auto file = folder.write(sample.name, mutated(sample.bytes, random));

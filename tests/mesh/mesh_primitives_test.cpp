@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <tests/mesh/signed_volume.hpp>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/mesh/primitives.hpp>
 
 namespace penumbra {
@@ -51,14 +52,13 @@ void expect_solid(const TriangleMesh& mesh, double volume, double area, const Di
   const double rounding = 1e-6 * std::cbrt(volume);
   EXPECT_LE(surface_error(mesh, distance), primitive_error + rounding);
   EXPECT_LT(primitive_error, silhouette_limit);
-  const TriangleMesh welded = weld(mesh);
-  EXPECT_EQ(welded.vertices.size(), mesh.vertices.size()) << "vertices shared already";
-  EXPECT_EQ(welded.triangles.size(), mesh.triangles.size()) << "no degenerate triangle";
-  const auto pieces = connected_components(welded);
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_TRUE(pieces[0].closed);
-  EXPECT_GT(pieces[0].signed_volume, 0.0);
-  EXPECT_NEAR(pieces[0].signed_volume, volume, area * primitive_error + 1e-6 * volume);
+  const PreparedMesh prepared(mesh);
+  EXPECT_EQ(prepared.vertices.size(), mesh.vertices.size()) << "vertices shared already";
+  EXPECT_EQ(prepared.triangles.size(), mesh.triangles.size()) << "no degenerate triangle";
+  EXPECT_EQ(prepared.patches.size(), 1U);
+  EXPECT_TRUE(prepared.watertight);
+  EXPECT_GT(test::signed_volume(mesh), 0.0);
+  EXPECT_NEAR(test::signed_volume(mesh), volume, area * primitive_error + 1e-6 * volume);
 }
 
 TEST(MeshPrimitives, Box) {

@@ -16,7 +16,8 @@ constexpr double hang = 15.0;  // seconds; of about one, and once 20 to 60
 
 void expect_quick(const TriangleMesh& mesh) {
   const auto start = std::chrono::steady_clock::now();
-  const Body body{"odd", {&mesh, 1}};
+  const PreparedMesh prepared(mesh);
+  const Body body{"odd", {&prepared, 1}};
   const ClusteredScene scene({&body, 1});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   EXPECT_LT(took.count(), hang);

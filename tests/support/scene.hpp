@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::test {
@@ -16,16 +15,16 @@ namespace penumbra::test {
 class Scene {
  public:
   /// Adds a body of these meshes and returns its index.
-  std::size_t add(std::vector<TriangleMesh> meshes,
+  std::size_t add(const std::vector<TriangleMesh>& meshes,
                   const Eigen::Isometry3d& T_camera_body = Eigen::Isometry3d::Identity()) {
-    meshes_.push_back(std::move(meshes));
+    meshes_.emplace_back(meshes.begin(), meshes.end());
     names_.push_back("body" + std::to_string(names_.size()));
     poses.push_back(T_camera_body);
     return poses.size() - 1;
   }
-  std::size_t add(TriangleMesh mesh,
+  std::size_t add(const TriangleMesh& mesh,
                   const Eigen::Isometry3d& T_camera_body = Eigen::Isometry3d::Identity()) {
-    return add(std::vector<TriangleMesh>{std::move(mesh)}, T_camera_body);
+    return add(std::vector<TriangleMesh>{mesh}, T_camera_body);
   }
 
   [[nodiscard]] std::vector<Body> bodies() const {
@@ -37,7 +36,7 @@ class Scene {
   std::vector<Eigen::Isometry3d> poses;  ///< T_camera_body, one per body
 
  private:
-  std::deque<std::vector<TriangleMesh>> meshes_;
+  std::deque<std::vector<PreparedMesh>> meshes_;
   std::deque<std::string> names_;
 };
 

@@ -5,7 +5,6 @@
 
 #include <epoxy/gl.h>
 
-#include <penumbra/mesh/mesh_topology.hpp>
 #include <penumbra/render/gl/buffer.hpp>
 #include <penumbra/render/gl/scene.hpp>
 
@@ -49,21 +48,17 @@ void Scene::upload(std::span<const Body> bodies) {
   body_bounds_.resize(bodies.size());
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     body_indices.push_back(body);
-    for (const TriangleMesh& mesh : bodies[body].meshes) {
-      const TriangleMesh welded = weld(mesh);
-      for (const ShellTriangles& shell : shells_of(welded)) {
-        Part part{body, shell.solid, !shell.holes.empty(), {}, 0, 0, 0};
+    for (const PreparedMesh& mesh : bodies[body].meshes) {
+      body_bounds_[body].extend(mesh.bounds);
+      for (const ShellTriangles& shell : shells_of(mesh)) {
+        Part part{body, shell.solid, !shell.holes.empty(), shell.bounds, 0, 0, 0};
         part.index_count = static_cast<std::uint32_t>(shell.indices.size());
         part.first_index = static_cast<std::uint32_t>(indices.size());
         part.first_vertex = static_cast<std::uint32_t>(vertices.size());
-        for (const std::uint32_t i : shell.indices) {
-          part.bounds.extend(welded.vertices[i].cast<double>());
-        }
-        body_bounds_[body].extend(part.bounds);
         indices.insert(indices.end(), shell.indices.begin(), shell.indices.end());
         parts_.push_back(part);
       }
-      vertices.insert(vertices.end(), welded.vertices.begin(), welded.vertices.end());
+      vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     }
   }
   body_indices.erase(body_indices.begin());

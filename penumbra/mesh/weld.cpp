@@ -1,50 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
-#include <numeric>
+#include <array>
 #include <unordered_map>
-#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
+#include <meshoptimizer.h>
 
-#include <penumbra/mesh/mesh_edges-inl.hpp>
-#include <penumbra/mesh/mesh_topology.hpp>
+#include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {
 namespace {
 
+using Triangle = std::array<std::uint32_t, 3>;
+
 constexpr std::uint32_t nothing = ~std::uint32_t{0};
-
-std::uint32_t hash_position(const Eigen::Vector3f& p) {
-  std::uint64_t h = 0x9E3779B97F4A7C15u;
-  for (int axis = 0; axis < 3; ++axis) {
-    h = (h ^ std::bit_cast<std::uint32_t>(p[axis])) * 0xFF51AFD7ED558CCDu;
-    h ^= h >> 32;
-  }
-  return static_cast<std::uint32_t>(h);
-}
-
-/// Numbers positions in the order in which they are met: open addressing, at most half full.
-class PositionIndex {
- public:
-  explicit PositionIndex(std::size_t most) : slots_(std::bit_ceil(2 * most + 2), nothing) {}
-
-  std::uint32_t find_or_add(Eigen::Vector3f position, std::vector<Eigen::Vector3f>& vertices) {
-    position.array() += 0.0F;  // -0.0 becomes 0.0
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash_position(position) & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == nothing) {
-        slots_[slot] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(position);
-        return slots_[slot];
-      }
-      if (vertices[slots_[slot]] == position) return slots_[slot];
-    }
-  }
-
- private:
-  std::vector<std::uint32_t> slots_;
-};
 
 bool has_equal_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
@@ -147,53 +117,24 @@ class SliverRemover {
 }  // namespace
 
 TriangleMesh weld(const TriangleMesh& mesh) {
-  const std::size_t most = std::min(mesh.vertices.size(), 3 * mesh.triangles.size());
+  if (mesh.triangles.empty()) return {};
+  std::vector<Eigen::Vector3f> vertices = mesh.vertices;
+  for (Eigen::Vector3f& vertex : vertices) vertex.array() += 0.0F;  // -0.0 becomes 0.0
+  const std::size_t stride = sizeof(Eigen::Vector3f);
+  std::vector<std::uint32_t> numbers(vertices.size());
   TriangleMesh welded;
-  welded.vertices.reserve(most);
+  welded.vertices.resize(meshopt_generateVertexRemap(numbers.data(), mesh.triangles.front().data(),
+                                                     3 * mesh.triangles.size(), vertices.data(),
+                                                     vertices.size(), stride));
+  meshopt_remapVertexBuffer(welded.vertices.data(), vertices.data(), vertices.size(), stride,
+                            numbers.data());
   welded.triangles.reserve(mesh.triangles.size());
-
-  PositionIndex positions(most);
-  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), nothing);
-  for (const Triangle& given : mesh.triangles) {
-    Triangle t;
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t& number = renumbered[given[k]];
-      if (number == nothing)
-        number = positions.find_or_add(mesh.vertices[given[k]], welded.vertices);
-      t[k] = number;
-    }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Triangle t{numbers[a], numbers[b], numbers[c]};
     if (!has_equal_corners(t)) welded.triangles.push_back(t);
   }
   SliverRemover(welded).run();
   return welded;
-}
-
-std::vector<MeshComponent> connected_components(const TriangleMesh& welded) {
-  EdgeUses edges = collect_edges(welded);
-  DisjointSets sets(welded.triangles.size());
-  std::vector<bool> open(welded.triangles.size(), false);
-  for_each_edge(edges, [&](std::uint32_t /*lower*/, const EdgeUse* begin, const EdgeUse* end) {
-    if (!is_regular(begin, end)) open[begin->triangle / 2] = true;
-    for (const EdgeUse* use = begin + 1; use < end; ++use)
-      sets.join(begin->triangle / 2, use->triangle / 2);
-  });
-
-  std::vector<MeshComponent> components;
-  for (std::vector<std::size_t>& triangles : sets.members()) {
-    MeshComponent& component = components.emplace_back();
-    component.closed =
-        std::none_of(triangles.begin(), triangles.end(), [&](std::size_t i) { return open[i]; });
-    component.signed_volume =
-        signed_volume(welded, triangles, corners_of(welded, triangles.front())[0]);
-    component.triangles = std::move(triangles);
-  }
-  return components;
-}
-
-bool is_watertight(const TriangleMesh& welded) {
-  const std::vector<MeshComponent> components = connected_components(welded);
-  return !components.empty() && std::all_of(components.begin(), components.end(),
-                                            [](const MeshComponent& c) { return c.closed; });
 }
 
 }  // namespace penumbra

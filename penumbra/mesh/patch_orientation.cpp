@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// A patch with holes shows few backs: let caps inside the balls around its holes close it. The
+// winding number of the capped patch changes by one where a ray passes the patch, from before a
+// front face to behind it. It is 0 outside. If it is not negative before any front face, a ray from
+// outside that met no ball meets a front face first. As long as the patch does not cross itself,
+// that number is the same all along a part of it that no ball touches, so one point of each part is
+// enough. Some more points are tried because patches do cross themselves. Triangles that touch a
+// ball are not tested: a renderer that skips backs must draw both sides of them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/mesh/solid_angle-inl.hpp>
+#include <penumbra/mesh/surface_patches-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+using Eigen::Vector3d;
+
+// A patch beyond these limits counts as open: drawing both of its sides costs less than testing it.
+constexpr std::size_t most_rim_edges = 256;
+constexpr std::size_t most_holes = 8;
+constexpr double most_radii = 0.125;           // of the patch's size
+constexpr std::size_t most_work = 40'000'000;  // samples times triangles: a second or two
+constexpr std::size_t usual_work = 500'000;
+constexpr std::size_t least_spread = 4;  // samples besides those of the parts
+constexpr std::size_t most_spread = 256;
+
+/// The holes of a patch, each closed by a cone from the centre of the ball around its rim.
+struct Caps {
+  std::vector<Ball> balls;
+  std::vector<std::array<Vector3d, 3>> triangles;
+};
+
+/// Returns the connected parts of a patch's rim.
+std::vector<std::vector<RimEdge>> split_rim(const std::vector<RimEdge>& edges) {
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  for (const RimEdge& e : edges) {
+    numbers.emplace(e.from, static_cast<std::uint32_t>(numbers.size()));
+    numbers.emplace(e.to, static_cast<std::uint32_t>(numbers.size()));
+  }
+  DisjointSets sets(numbers.size());
+  for (const RimEdge& e : edges) sets.join(numbers[e.from], numbers[e.to]);
+  std::map<std::uint32_t, std::vector<RimEdge>> parts;
+  for (const RimEdge& e : edges) parts[sets.find(numbers[e.from])].push_back(e);
+  std::vector<std::vector<RimEdge>> rims;
+  rims.reserve(parts.size());
+  for (auto& [set, part] : parts) rims.push_back(std::move(part));
+  return rims;
+}
+
+Ball ball_around(const TriangleMesh& mesh, const std::vector<RimEdge>& rim) {
+  Eigen::AlignedBox3d box;
+  for (const RimEdge& e : rim) {
+    box.extend(mesh.vertices[e.from].cast<double>());
+    box.extend(mesh.vertices[e.to].cast<double>());
+  }
+  double radius = 0.0;
+  for (const RimEdge& e : rim) {
+    for (const std::uint32_t v : {e.from, e.to}) {
+      radius = std::max(radius, (mesh.vertices[v].cast<double>() - box.center()).norm());
+    }
+  }
+  constexpr double spare = 1.01;  // for the roundings of those who use it
+  return {box.center(), radius * spare};
+}
+
+/// Returns caps for a patch's rim, or nothing if its holes are not small.
+std::optional<Caps> make_caps(const TriangleMesh& mesh, const SurfacePatch& patch,
+                              const std::vector<RimEdge>& edges) {
+  if (edges.size() > most_rim_edges) return std::nullopt;
+  Caps caps;
+  double room = most_radii * patch.bounds.diagonal().norm();
+  for (const std::vector<RimEdge>& rim : split_rim(edges)) {
+    const Ball& ball = caps.balls.emplace_back(ball_around(mesh, rim));
+    room -= ball.radius;
+    for (const RimEdge& e : rim) {
+      caps.triangles.push_back(
+          {mesh.vertices[e.to].cast<double>(), mesh.vertices[e.from].cast<double>(), ball.centre});
+    }
+  }
+  if (room < 0.0 || caps.balls.size() > most_holes) return std::nullopt;
+  return caps;
+}
+
+double distance_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const double t = (p - a).dot(b - a) / (b - a).squaredNorm();
+  return (a + std::clamp(t, 0.0, 1.0) * (b - a) - p).norm();
+}
+
+double distance_to_triangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d n = (b - a).cross(c - a);
+  const bool above = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
+                     n.dot((a - c).cross(p - c)) >= 0;
+  if (above) return std::abs(n.dot(p - a)) / n.norm();
+  return std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+bool touches(const std::vector<Ball>& balls, const std::array<Vector3d, 3>& corners) {
+  return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+    return distance_to_triangle(ball.centre, corners) <= ball.radius;
+  });
+}
+
+double area_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto [a, b, c] = corners_of(mesh, triangle);
+  return (b - a).cross(c - a).norm() / 2.0;
+}
+
+/// A point of a triangle.
+struct Sample {
+  std::size_t triangle;
+  Vector3d point;
+};
+
+Sample middle_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto [a, b, c] = corners_of(mesh, triangle);
+  return {triangle, (a + b + c) / 3.0};
+}
+
+/// Returns `count` points spread evenly over the area of some triangles, by the additive sequence
+/// of Roberts 2018, "The unreasonable effectiveness of quasirandom sequences".
+std::vector<Sample> spread_over(const TriangleMesh& mesh,
+                                const std::vector<std::uint32_t>& triangles, std::size_t count) {
+  double whole = 0.0;
+  for (const std::uint32_t i : triangles) whole += area_of(mesh, i);
+  const double step = whole / static_cast<double>(count);
+  std::vector<Sample> samples;
+  double passed = 0.0;
+  for (const std::uint32_t i : triangles) {
+    passed += area_of(mesh, i);
+    const auto [a, b, c] = corners_of(mesh, i);
+    while (samples.size() < count && (static_cast<double>(samples.size()) + 0.5) * step <= passed) {
+      const double n = static_cast<double>(samples.size()) + 0.5;
+      double s = std::fmod(0.7548776662466927 * n, 1.0);
+      double t = std::fmod(0.5698402909980532 * n, 1.0);
+      if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
+      samples.push_back({i, a + s * (b - a) + t * (c - a)});
+    }
+  }
+  return samples;
+}
+
+/// Returns where the patch's front faces at a sample, from the winding number of the capped patch
+/// before and behind it.
+Facing facing_at(const Sample& sample, const TriangleMesh& mesh, const SurfacePatch& patch,
+                 const Caps& caps) {
+  double angle = 0.0;  // 4 pi for each time, half way between before and behind
+  for (const std::uint32_t i : patch.triangles) {
+    if (i != sample.triangle) angle += solid_angle(corners_of(mesh, i), sample.point);
+  }
+  for (const auto& cap : caps.triangles) angle += solid_angle(cap, sample.point);
+  const double before = (angle - 2.0 * std::numbers::pi) / (4.0 * std::numbers::pi);
+  constexpr double rounding = 0.01;
+  if (std::abs(before - std::round(before)) > rounding) return Facing::unknown;
+  return before > -0.5 ? Facing::outwards : Facing::inwards;
+}
+
+/// Returns the facing that all samples agree on.
+Facing facing_of(const std::vector<Sample>& samples, const TriangleMesh& mesh,
+                 const SurfacePatch& patch, const Caps& caps) {
+  if (samples.empty() || samples.size() * patch.triangles.size() > most_work) {
+    return Facing::unknown;
+  }
+  const Facing facing = facing_at(samples.front(), mesh, patch, caps);
+  const bool same = std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& sample) {
+    return facing_at(sample, mesh, patch, caps) == facing;
+  });
+  return same ? facing : Facing::unknown;
+}
+
+/// Returns points of the part of a patch that no ball touches: the middle of the largest triangle
+/// of each connected part, and some more.
+std::vector<Sample> choose_samples(const TriangleMesh& mesh, const SurfacePatch& patch,
+                                   const std::vector<bool>& touching, DisjointSets& parts) {
+  std::vector<std::uint32_t> apart;
+  std::map<std::uint32_t, std::pair<double, std::uint32_t>> largest;  // area, triangle; by part
+  for (const std::uint32_t i : patch.triangles) {
+    if (touching[i]) continue;
+    apart.push_back(i);
+    auto& best = largest[parts.find(i)];
+    best = std::max(best, {area_of(mesh, i), i});
+  }
+  const std::size_t spread = usual_work / patch.triangles.size();
+  std::vector<Sample> samples =
+      spread_over(mesh, apart, std::clamp(spread, least_spread, most_spread));
+  for (const auto& [part, best] : largest) samples.push_back(middle_of(mesh, best.second));
+  return samples;
+}
+
+}  // namespace
+
+std::vector<PatchOrientation> orient(const PreparedMesh& mesh, const Connections& connections) {
+  std::vector<std::size_t> patch_of(mesh.triangles.size());
+  for (std::size_t number = 0; number < mesh.patches.size(); ++number)
+    for (const std::uint32_t i : mesh.patches[number].triangles) patch_of[i] = number;
+  std::vector<std::vector<RimEdge>> rims(mesh.patches.size());
+  for (const RimEdge& edge : connections.rim) rims[patch_of[edge.triangle]].push_back(edge);
+
+  std::vector<std::optional<Caps>> caps;        // of each patch
+  std::vector<bool> touching(patch_of.size());  // a ball
+  for (std::size_t number = 0; number < mesh.patches.size(); ++number) {
+    const SurfacePatch& patch = mesh.patches[number];
+    caps.push_back(make_caps(mesh, patch, rims[number]));
+    if (!caps.back()) continue;
+    for (const std::uint32_t i : patch.triangles)
+      touching[i] = touches(caps.back()->balls, corners_of(mesh, i));
+  }
+
+  DisjointSets parts(touching.size());
+  for (const auto& [a, b] : connections.regular)
+    if (!touching[a] && !touching[b]) parts.join(a, b);
+  std::vector<PatchOrientation> orientations(mesh.patches.size());
+  for (std::size_t number = 0; number < mesh.patches.size(); ++number) {
+    if (!caps[number]) continue;
+    const SurfacePatch& patch = mesh.patches[number];
+    const auto samples = choose_samples(mesh, patch, touching, parts);
+    const Facing facing = facing_of(samples, mesh, patch, *caps[number]);
+    if (facing != Facing::unknown) orientations[number] = {facing, std::move(caps[number]->balls)};
+  }
+  return orientations;
+}
+
+}  // namespace penumbra
