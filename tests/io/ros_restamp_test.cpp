@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/base/error.hpp>
-
 #include <io/ros/restamp.hpp>
 
 namespace penumbra::test {
@@ -102,8 +100,44 @@ TEST(Restamp, CutPayloadsAreFaultsOrWholeInTheirHeaders) {
   EXPECT_GE(faults, 12U);  // encapsulation and stamp
 }
 
-TEST(Restamp, TypesWithWideStringsAreRefused) {
-  EXPECT_THROW(io::Restamper("a/msg/B", "wstring text\n"), InputError);
+TEST(Restamp, FindsHeadersOfDetections) {
+  const auto expect_shifted = []<typename M>(M message, std::vector<std::byte> payload) {
+    EXPECT_EQ(restamper<M>().apply(payload, shifted), std::nullopt);
+    ASSERT_EQ(io::Decoder<M>().decode(payload, message), std::nullopt);
+    EXPECT_EQ(message.header.stamp, sample_header().stamp + shift);
+    ASSERT_EQ(message.detections.size(), 1U);
+    EXPECT_EQ(message.detections[0].header.stamp, sample_header().stamp + shift);
+    EXPECT_FALSE(message.detections[0].id.empty());
+  };
+  expect_shifted(io::Detection2DArrayMessage(), detection_2d_payload());
+  expect_shifted(io::Detection3DArrayMessage(), detection_3d_payload());
+}
+
+const std::string header_text =
+    "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
+
+TEST(Restamp, ChangesTheHeaderThatAnyOtherTypeBeginsWith) {
+  const io::Restamper restamper("a/msg/B", "std_msgs/Header header\nwstring text\n" + header_text);
+  EXPECT_TRUE(restamper.has_headers());
+  EXPECT_FALSE(restamper.leaves_headers());
+}
+
+TEST(Restamp, TellsOfHeadersThatItLeaves) {
+  const auto restamper = [](const std::string& text) {
+    return io::Restamper("a/msg/B", text + header_text);
+  };
+  const auto first =
+      restamper("std_msgs/Header header\nC[] more\n===\nMSG: a/C\nstd_msgs/Header header\n");
+  EXPECT_TRUE(first.has_headers() && first.leaves_headers());
+  const auto behind = restamper("int32 count\nstd_msgs/Header header\n");
+  EXPECT_TRUE(!behind.has_headers() && behind.leaves_headers());
+  const auto several = restamper("std_msgs/Header[] headers\n");
+  EXPECT_TRUE(!several.has_headers() && several.leaves_headers());
+  const io::Restamper other("a/msg/B",
+                            "std_msgs/Header header\n===\nMSG: std_msgs/Header\nuint32 seq\n");
+  EXPECT_TRUE(!other.has_headers() && other.leaves_headers());
+  EXPECT_TRUE(io::Restamper("a/msg/B", "").leaves_headers());
+  EXPECT_FALSE(io::Restamper("a/msg/B", "int32 count\n").leaves_headers());
 }
 
 }  // namespace
