@@ -100,14 +100,21 @@ void BagPlayer::announce(std::size_t index) {
   played.qos.depth = played.qos.latched ? latched_depth : depth;
   try {
     if (arguments_.restamp) {
-      io::Restamper restamper(topic.type, topic.definition);
-      if (restamper.has_headers()) played.restamper = std::move(restamper);
+      const io::Restamper restamper(topic.type, topic.definition);
+      if (restamper.leaves_headers()) note_kept_stamps(topic.type);
+      if (restamper.has_headers()) played.restamper = restamper;
     }
     played.publication = graph_.advertise(played.name, played.type, played.qos);
   } catch (const InputError& error) {
     if (contains(arguments_.topics, topic.name)) throw;
     notes_.push_back(io::printable(topic.name) + " is not played: " + error.what());
   }
+}
+
+void BagPlayer::note_kept_stamps(const std::string& type) {
+  const std::string note = "--restamp: " + io::printable(type) +
+                           " may keep recorded stamps in headers that are not at its beginning";
+  if (!contains(notes_, note)) notes_.push_back(note);
 }
 
 void BagPlayer::write(PlayedTopic& topic, const io::BagMessage& message, const Clock& clock) {

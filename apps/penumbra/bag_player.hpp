@@ -49,6 +49,7 @@ class BagPlayer {
   struct Clock;
 
   void announce(std::size_t index);
+  void note_kept_stamps(const std::string& type);
   bool is_wanted(const std::string& topic) const;
   bool is_latched(const io::BagTopic& topic);
   void check_names() const;

@@ -81,8 +81,9 @@ void add_play(CLI::App& app, PlayArguments& play) {
       "so, or tf_static and robot_description where the bag does not say it",
       "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
   add_remaps(app, play.remaps);
-  app.add_flag("--restamp", play.restamp,
-               "shift the stamps of all headers from the recording's time to now");
+  app.add_flag(
+      "--restamp", play.restamp,
+      "shift stamps to now: of headers at the beginning of messages, in TFMessage and detections");
 }
 
 }  // namespace penumbra::app

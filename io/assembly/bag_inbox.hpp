@@ -19,7 +19,7 @@
 
 namespace penumbra::io {
 
-/// Reads a bag's messages and decodes them by the bag's own definitions.
+/// Reads a bag's messages, and decodes those whose definitions have the fields that are read.
 class BagInbox {
  public:
   /// Throws InputError as open_bag.
@@ -34,7 +34,7 @@ class BagInbox {
   }
 
   /// Whether the message could be decoded; one that could not is counted for notes(), and `fault`
-  /// says why. Throws InputError for a definition that lacks what is needed.
+  /// says why. Throws InputError for a definition with other fields than those that are read.
   template <typename M>
   bool decode(const BagMessage& message, M& decoded, std::string* fault = nullptr) {
     const auto what = decoder<M>(message.topic).decode(message.data, decoded);

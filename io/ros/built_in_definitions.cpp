@@ -18,22 +18,11 @@ const MessageText* find_text(std::string_view type) {
   return at == texts.end() ? nullptr : &*at;
 }
 
-// The type that a line of a definition declares a field of, with its package; empty if it is none
-// of a message.
-std::string field_message(std::string_view line, std::string_view owner) {
-  const std::string_view type = line.substr(0, line.find_first_of(" ["));
-  if (type.find('/') != std::string_view::npos) return std::string(type);
-  const std::string in_package = std::string(owner.substr(0, owner.find('/') + 1)) += type;
-  return find_text(in_package) != nullptr ? in_package : std::string();
-}
-
-// The messages in a message, and those in them, in the order in which they are met.
+// Adds the message types in a message, and those in them, in the order of their fields.
 void add_dependencies(const MessageText& message, std::vector<std::string>& types) {
-  std::string_view rest = message.text;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string type = field_message(rest.substr(0, end), message.type);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  const MessageDefinition definition(message.type, message.text);
+  for (const std::string& field : definition.types().front().fields) {
+    const std::string type = field.substr(0, field.find_first_of(" ["));
     const MessageText* nested = find_text(type);
     if (nested == nullptr || std::find(types.begin(), types.end(), type) != types.end()) continue;
     types.push_back(type);

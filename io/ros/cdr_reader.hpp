@@ -50,6 +50,9 @@ class CdrReader {
 
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
 
+  /// The payload's byte behind what was read last.
+  [[nodiscard]] std::size_t at() const { return header_bytes + at_; }
+
   /// Of the payload's numbers, other than this machine's.
   [[nodiscard]] bool swaps() const { return swaps_; }
 
@@ -81,11 +84,6 @@ class CdrReader {
   /// The number of elements of a sequence, each of which takes `min_bytes` or more: a number that
   /// cannot be is a fault.
   [[nodiscard]] std::size_t read_count(std::size_t min_bytes);
-
-  /// Steps over `count` numbers of `size` bytes each.
-  void skip_array(std::size_t count, std::size_t size) {
-    static_cast<void>(take_array(count, size));
-  }
 
   /// Sets a fault of what was read last, if there is none yet.
   void fail(std::string reason);

@@ -8,50 +8,48 @@
 namespace penumbra::io {
 namespace {
 
-template <typename M>
-void write_message(CdrWriter& writer, const M& message);
+void write_value(CdrWriter& writer, bool value) { writer.write_bool(value); }
 
-template <typename T>
-void write_value(CdrWriter& writer, const T& value) {
-  if constexpr (WireMessage<T>)
-    write_message(writer, value);
-  else if constexpr (std::is_same_v<T, bool>)
-    writer.write_bool(value);
-  else if constexpr (std::is_same_v<T, std::string>)
-    writer.write_string(value);
-  else
-    writer.write(value);
+void write_value(CdrWriter& writer, const std::string& text) { writer.write_string(text); }
+
+void write_value(CdrWriter& writer, std::span<const std::byte> bytes) {
+  writer.write_count(bytes.size());
+  writer.write_array(bytes.data(), bytes.size());
 }
 
 template <typename T>
-void write_member(CdrWriter& writer, const T& member) {
-  if constexpr (Shape<T>::arity == Arity::one) {
-    write_value(writer, member);
-  } else {
-    if constexpr (Shape<T>::arity == Arity::sequence) writer.write_count(member.size());
-    if constexpr (std::is_class_v<typename Shape<T>::Value>)
-      for (const auto& value : member) write_value(writer, value);
-    else
-      writer.write_array(member.data(), member.size());
-  }
+requires std::is_arithmetic_v<T>
+void write_value(CdrWriter& writer, T number) { writer.write(number); }
+
+template <typename T, std::size_t N>
+void write_value(CdrWriter& writer, const std::array<T, N>& numbers) {
+  writer.write_array(numbers.data(), N);
+}
+
+template <WireMessage M>
+void write_value(CdrWriter& writer, const M& message);
+
+template <typename T>
+void write_value(CdrWriter& writer, const std::vector<T>& values) {
+  writer.write_count(values.size());
+  for (const T& value : values) write_value(writer, value);
 }
 
 template <typename M, typename T>
-void write_from(CdrWriter& writer, const M& message, const Member<M, T>& member) {
-  write_member(writer, message.*member.at);
+void write_member(CdrWriter& writer, const M& message, const Member<M, T>& member) {
+  write_value(writer, message.*member.at);
 }
 
 template <typename W, typename M, typename T>
-void write_from(CdrWriter& writer, const M& message, const Converted<W, M, T>& member) {
+void write_member(CdrWriter& writer, const M& message, const Converted<W, M, T>& member) {
   W wire;
   to_wire(message.*member.at, wire);
-  write_member(writer, wire);
+  write_value(writer, wire);
 }
 
-template <typename M>
-void write_message(CdrWriter& writer, const M& message) {
-  std::apply([&](const auto&... members) { (write_from(writer, message, members), ...); },
-             Fields<M>::members);
+template <WireMessage M>
+void write_value(CdrWriter& writer, const M& message) {
+  for_each_member<M>([&](const auto& member) { write_member(writer, message, member); });
 }
 
 }  // namespace
@@ -59,7 +57,7 @@ void write_message(CdrWriter& writer, const M& message) {
 template <typename M>
 void encode(const M& message, std::vector<std::byte>& payload, std::endian order) {
   CdrWriter writer(payload, order);
-  write_message(writer, message);
+  write_value(writer, message);
 }
 
 template void encode(const ImageMessage&, std::vector<std::byte>&, std::endian);

@@ -30,31 +30,41 @@ constexpr Converted<W, M, T> as(const char* name, T M::*at) {
   return {name, at};
 }
 
-/// Which fields of a message are ours, in the order of its definition; `type` where the message
-/// stands alone.
+/// A message's type and all its fields in the order of its definition: its layout on the wire.
 template <typename M>
 struct Fields;
 
 template <>
 struct Fields<TimeWire> {
+  static constexpr std::string_view type = "builtin_interfaces/Time";
   static constexpr auto members =
       std::tuple{Member{"sec", &TimeWire::sec}, Member{"nanosec", &TimeWire::nanosec}};
 };
 
 template <>
 struct Fields<Vector2Wire> {
+  static constexpr std::string_view type = "vision_msgs/Point2D";
   static constexpr auto members =
       std::tuple{Member{"x", &Vector2Wire::x}, Member{"y", &Vector2Wire::y}};
 };
 
 template <>
 struct Fields<Vector3Wire> {
+  static constexpr std::string_view type = "geometry_msgs/Vector3";
   static constexpr auto members = std::tuple{
       Member{"x", &Vector3Wire::x}, Member{"y", &Vector3Wire::y}, Member{"z", &Vector3Wire::z}};
 };
 
 template <>
+struct Fields<PointWire> {
+  static constexpr std::string_view type = "geometry_msgs/Point";
+  static constexpr auto members = std::tuple{Member{"x", &PointWire::x}, Member{"y", &PointWire::y},
+                                             Member{"z", &PointWire::z}};
+};
+
+template <>
 struct Fields<QuaternionWire> {
+  static constexpr std::string_view type = "geometry_msgs/Quaternion";
   static constexpr auto members =
       std::tuple{Member{"x", &QuaternionWire::x}, Member{"y", &QuaternionWire::y},
                  Member{"z", &QuaternionWire::z}, Member{"w", &QuaternionWire::w}};
@@ -62,18 +72,21 @@ struct Fields<QuaternionWire> {
 
 template <>
 struct Fields<TransformWire> {
+  static constexpr std::string_view type = "geometry_msgs/Transform";
   static constexpr auto members = std::tuple{Member{"translation", &TransformWire::translation},
                                              Member{"rotation", &TransformWire::rotation}};
 };
 
 template <>
 struct Fields<PoseWire> {
+  static constexpr std::string_view type = "geometry_msgs/Pose";
   static constexpr auto members = std::tuple{Member{"position", &PoseWire::position},
                                              Member{"orientation", &PoseWire::orientation}};
 };
 
 template <>
 struct Fields<MessageHeader> {
+  static constexpr std::string_view type = "std_msgs/Header";
   static constexpr auto members = std::tuple{as<TimeWire>("stamp", &MessageHeader::stamp),
                                              Member{"frame_id", &MessageHeader::frame_id}};
 };
@@ -102,6 +115,7 @@ struct Fields<CompressedImageMessage> {
 template <>
 struct Fields<RegionOfInterest> {
   using M = RegionOfInterest;
+  static constexpr std::string_view type = "sensor_msgs/RegionOfInterest";
   static constexpr auto members =
       std::tuple{Member{"x_offset", &M::x_offset}, Member{"y_offset", &M::y_offset},
                  Member{"height", &M::height}, Member{"width", &M::width},
@@ -137,6 +151,7 @@ struct Fields<JointStateMessage> {
 template <>
 struct Fields<TransformMessage> {
   using M = TransformMessage;
+  static constexpr std::string_view type = "geometry_msgs/TransformStamped";
   static constexpr auto members =
       std::tuple{Member{"header", &M::header}, Member{"child_frame_id", &M::child_frame_id},
                  as<TransformWire>("transform", &M::T_parent_child)};
@@ -165,18 +180,30 @@ struct Fields<PoseStampedMessage> {
 template <>
 struct Fields<ObjectHypothesis> {
   using M = ObjectHypothesis;
+  static constexpr std::string_view type = "vision_msgs/ObjectHypothesis";
   static constexpr auto members =
       std::tuple{Member{"class_id", &M::class_id}, Member{"score", &M::score}};
 };
 
 template <>
+struct Fields<PoseWithCovariance> {
+  using M = PoseWithCovariance;
+  static constexpr std::string_view type = "geometry_msgs/PoseWithCovariance";
+  static constexpr auto members =
+      std::tuple{as<PoseWire>("pose", &M::pose), Member{"covariance", &M::covariance}};
+};
+
+template <>
 struct Fields<HypothesisMessage> {
-  static constexpr auto members = std::tuple{Member{"hypothesis", &HypothesisMessage::hypothesis}};
+  static constexpr std::string_view type = "vision_msgs/ObjectHypothesisWithPose";
+  static constexpr auto members = std::tuple{Member{"hypothesis", &HypothesisMessage::hypothesis},
+                                             Member{"pose", &HypothesisMessage::pose}};
 };
 
 template <>
 struct Fields<BoundingBox2D::Centre> {
   using M = BoundingBox2D::Centre;
+  static constexpr std::string_view type = "vision_msgs/Pose2D";
   static constexpr auto members =
       std::tuple{as<Vector2Wire>("position", &M::position), Member{"theta", &M::theta}};
 };
@@ -184,6 +211,7 @@ struct Fields<BoundingBox2D::Centre> {
 template <>
 struct Fields<BoundingBox2D> {
   using M = BoundingBox2D;
+  static constexpr std::string_view type = "vision_msgs/BoundingBox2D";
   static constexpr auto members = std::tuple{
       Member{"center", &M::centre}, Member{"size_x", &M::size_x}, Member{"size_y", &M::size_y}};
 };
@@ -191,6 +219,7 @@ struct Fields<BoundingBox2D> {
 template <>
 struct Fields<Detection2DMessage> {
   using M = Detection2DMessage;
+  static constexpr std::string_view type = "vision_msgs/Detection2D";
   static constexpr auto members =
       std::tuple{Member{"header", &M::header}, Member{"results", &M::results},
                  Member{"bbox", &M::bbox}, Member{"id", &M::id}};
@@ -207,6 +236,7 @@ struct Fields<Detection2DArrayMessage> {
 template <>
 struct Fields<BoundingBox3D> {
   using M = BoundingBox3D;
+  static constexpr std::string_view type = "vision_msgs/BoundingBox3D";
   static constexpr auto members =
       std::tuple{as<PoseWire>("center", &M::centre), as<Vector3Wire>("size", &M::size)};
 };
@@ -214,6 +244,7 @@ struct Fields<BoundingBox3D> {
 template <>
 struct Fields<Detection3DMessage> {
   using M = Detection3DMessage;
+  static constexpr std::string_view type = "vision_msgs/Detection3D";
   static constexpr auto members =
       std::tuple{Member{"header", &M::header}, Member{"results", &M::results},
                  Member{"bbox", &M::bbox}, Member{"id", &M::id}};
@@ -230,6 +261,7 @@ struct Fields<Detection3DArrayMessage> {
 template <>
 struct Fields<PointFieldMessage> {
   using M = PointFieldMessage;
+  static constexpr std::string_view type = "sensor_msgs/PointField";
   static constexpr auto members =
       std::tuple{Member{"name", &M::name}, Member{"offset", &M::offset},
                  Member{"datatype", &M::datatype}, Member{"count", &M::count}};
@@ -253,12 +285,14 @@ struct Fields<PointCloud2Message> {
 template <>
 struct Fields<KeyValueMessage> {
   using M = KeyValueMessage;
+  static constexpr std::string_view type = "diagnostic_msgs/KeyValue";
   static constexpr auto members = std::tuple{Member{"key", &M::key}, Member{"value", &M::value}};
 };
 
 template <>
 struct Fields<DiagnosticStatusMessage> {
   using M = DiagnosticStatusMessage;
+  static constexpr std::string_view type = "diagnostic_msgs/DiagnosticStatus";
   static constexpr auto members = std::tuple{
       Member{"level", &M::level}, Member{"name", &M::name}, Member{"message", &M::message},
       Member{"hardware_id", &M::hardware_id}, Member{"values", &M::values}};
@@ -275,6 +309,7 @@ struct Fields<DiagnosticArrayMessage> {
 template <>
 struct Fields<KeypointMessage> {
   using M = KeypointMessage;
+  static constexpr std::string_view type = "penumbra_msgs/Keypoint";
   static constexpr auto members =
       std::tuple{Member{"name", &M::name}, Member{"u", &M::u}, Member{"v", &M::v},
                  Member{"score", &M::score}, Member{"depth", &M::depth}};
@@ -291,13 +326,15 @@ struct Fields<KeypointsMessage> {
 template <>
 struct Fields<LoosePose> {
   using M = LoosePose;
-  static constexpr auto members = std::tuple{as<Vector3Wire>("position", &M::position),
+  static constexpr std::string_view type = "geometry_msgs/Pose";
+  static constexpr auto members = std::tuple{as<PointWire>("position", &M::position),
                                              as<QuaternionWire>("orientation", &M::orientation)};
 };
 
 template <>
 struct Fields<BlameMessage> {
   using M = BlameMessage;
+  static constexpr std::string_view type = "penumbra_msgs/Blame";
   static constexpr auto members =
       std::tuple{Member{"link", &M::link}, Member{"fraction", &M::fraction}};
 };
@@ -305,6 +342,7 @@ struct Fields<BlameMessage> {
 template <>
 struct Fields<TargetMessage> {
   using M = TargetMessage;
+  static constexpr std::string_view type = "penumbra_msgs/Target";
   static constexpr auto members =
       std::tuple{Member{"name", &M::name},
                  Member{"has_stamp", &M::has_stamp},
@@ -322,7 +360,7 @@ struct Fields<TargetMessage> {
                  Member{"measured_fraction", &M::measured_fraction},
                  Member{"seen_past_fraction", &M::seen_past_fraction},
                  Member{"blame", &M::blame},
-                 as<Vector3Wire>("point", &M::point),
+                 as<PointWire>("point", &M::point),
                  Member{"point_pixels", &M::point_pixels},
                  Member{"point_spread", &M::point_spread},
                  Member{"source", &M::source},

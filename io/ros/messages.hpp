@@ -25,6 +25,7 @@ namespace penumbra::io {
 struct MessageHeader {
   std::int64_t stamp = 0;
   std::string frame_id = {};
+  std::size_t stamp_at = 0;  ///< where the stamp lies in the payload that it was decoded from
 };
 
 /// sensor_msgs/Image
@@ -107,9 +108,16 @@ struct ObjectHypothesis {
   double score = 0;
 };
 
-/// vision_msgs/ObjectHypothesisWithPose, of which the pose is not read.
+/// geometry_msgs/PoseWithCovariance
+struct PoseWithCovariance {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  std::array<double, 36> covariance{};
+};
+
+/// vision_msgs/ObjectHypothesisWithPose
 struct HypothesisMessage {
   ObjectHypothesis hypothesis = {};
+  PoseWithCovariance pose = {};
 };
 
 /// vision_msgs/BoundingBox2D

@@ -2,27 +2,64 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <vector>
 
-#include <io/ros/cdr_fields.hpp>
 #include <io/ros/cdr_reader.hpp>
+#include <io/ros/message_decoder.hpp>
 #include <io/ros/restamp.hpp>
 
 namespace penumbra::io {
 namespace {
 
-using Types = std::vector<TypeDefinition>;
+using Payload = std::span<const std::byte>;
+using Headers = std::vector<MessageHeader>;
+using Fault = std::optional<std::string>;
 
 constexpr std::int64_t second = 1'000'000'000;
 
-bool is_header(const TypeDefinition& type) { return type.name == "std_msgs/Header"; }
+Fault find_first(Payload payload, Headers& headers) {
+  CdrReader reader(payload);
+  const std::int64_t seconds = reader.read<std::int32_t>();
+  const auto rest = reader.read<std::uint32_t>();
+  headers.push_back({.stamp = seconds * second + rest, .stamp_at = CdrReader::header_bytes});
+  return reader.ok() ? std::nullopt : Fault(reader.fault());
+}
 
-bool holds_headers(const FieldDefinition& field, const Types& types) {
-  if (field.type != WireType::message) return false;
-  const TypeDefinition& type = types[field.nested];
-  return is_header(type) ||
-         std::any_of(type.fields.begin(), type.fields.end(),
-                     [&](const FieldDefinition& inner) { return holds_headers(inner, types); });
+Fault find_of_transforms(Payload payload, Headers& headers) {
+  TfMessage message;
+  Fault fault = Decoder<TfMessage>().decode(payload, message);
+  for (const TransformMessage& transform : message.transforms) headers.push_back(transform.header);
+  return fault;
+}
+
+template <typename DetectionArray>
+Fault find_of_detections(Payload payload, Headers& headers) {
+  DetectionArray message;
+  Fault fault = Decoder<DetectionArray>().decode(payload, message);
+  headers.push_back(message.header);
+  for (const auto& detection : message.detections) headers.push_back(detection.header);
+  return fault;
+}
+
+template <typename M>
+bool is_read_as(const MessageDefinition& definition) {
+  return definition.types().front().type == short_type(message_type<M>()) &&
+         layout_difference<M>(definition).empty();
+}
+
+bool begins_with_header(const MessageDefinition& definition) {
+  const MessageFields& root = definition.types().front();
+  const bool begins = root.type == "std_msgs/Header" ||
+                      (!root.fields.empty() && root.fields[0].starts_with("std_msgs/Header "));
+  return begins && layout_difference<MessageHeader>(definition).empty();
+}
+
+std::ptrdiff_t count_headers(const MessageDefinition& definition) {
+  std::ptrdiff_t count = 0;
+  for (const MessageFields& type : definition.types())
+    count += std::count_if(type.fields.begin(), type.fields.end(), [](const std::string& field) {
+      return field.starts_with("std_msgs/Header");
+    });
+  return count;
 }
 
 template <typename T>
@@ -31,78 +68,37 @@ void put(std::span<std::byte> payload, std::size_t at, T value, bool swaps) {
   std::memcpy(payload.data() + at, &value, sizeof(T));
 }
 
-class StampWalk {
- public:
-  StampWalk(std::span<std::byte> payload, const Types& types,
-            const std::function<std::int64_t(std::int64_t)>& change)
-      : payload_(payload), types_(types), change_(change), reader_(payload) {}
-
-  std::optional<std::string> walk() {
-    // What comes behind the last headers need not be read: images are long.
-    const auto& fields = types_.front().fields;
-    const auto end = std::find_if(fields.rbegin(), fields.rend(),
-                                  [&](const auto& field) { return holds_headers(field, types_); });
-    if (is_header(types_.front())) walk_message(types_.front());  // it holds no other
-    for (auto field = fields.begin(); field != end.base() && reader_.ok(); ++field)
-      walk_field(*field);
-    if (reader_.ok()) return std::nullopt;
-    return reader_.fault();
-  }
-
- private:
-  void walk_field(const FieldDefinition& field) {
-    if (!holds_headers(field, types_)) {
-      skip_field(reader_, field, types_);
-      return;
-    }
-    const std::size_t count = count_values(reader_, field, min_bytes_each(field, types_));
-    for (std::size_t i = 0; i < count && reader_.ok(); ++i) walk_message(types_[field.nested]);
-    if (!reader_.ok()) reader_.locate(field.name);
-  }
-
-  void walk_message(const TypeDefinition& type) {
-    for (const FieldDefinition& field : type.fields) {
-      if (!reader_.ok()) return;
-      if (is_header(type) && field.type == WireType::message &&
-          types_[field.nested].name == "builtin_interfaces/Time")
-        change_stamp();
-      else
-        walk_field(field);
-    }
-  }
-
-  void change_stamp() {
-    const auto seconds = reader_.read<std::int32_t>();
-    const auto rest = reader_.read<std::uint32_t>();
-    if (!reader_.ok() || (seconds == 0 && rest == 0)) return;
-    const std::int64_t changed = change_(seconds * second + rest);
-    if (changed <= 0 || changed / second > std::numeric_limits<std::int32_t>::max()) return;
-    const std::size_t at = payload_.size() - reader_.remaining() - 8;
-    put(payload_, at, static_cast<std::int32_t>(changed / second), reader_.swaps());
-    put(payload_, at + 4, static_cast<std::uint32_t>(changed % second), reader_.swaps());
-  }
-
-  std::span<std::byte> payload_;
-  const Types& types_;
-  const std::function<std::int64_t(std::int64_t)>& change_;
-  CdrReader reader_;
-};
-
 }  // namespace
 
-Restamper::Restamper(std::string_view type, std::string_view definition)
-    : definition_(type, definition) {
-  refuse_wstrings(definition_);
-  const Types& types = definition_.types();
-  has_headers_ = is_header(types.front()) ||
-                 std::any_of(types.front().fields.begin(), types.front().fields.end(),
-                             [&](const auto& field) { return holds_headers(field, types); });
+Restamper::Restamper(std::string_view type, std::string_view text) {
+  const MessageDefinition definition(type, text);
+  if (is_read_as<TfMessage>(definition)) {
+    find_headers_ = find_of_transforms;
+  } else if (is_read_as<Detection2DArrayMessage>(definition)) {
+    find_headers_ = find_of_detections<Detection2DArrayMessage>;
+  } else if (is_read_as<Detection3DArrayMessage>(definition)) {
+    find_headers_ = find_of_detections<Detection3DArrayMessage>;
+  } else {
+    const bool begins = begins_with_header(definition);
+    if (begins) find_headers_ = find_first;
+    leaves_headers_ = text.empty() || count_headers(definition) > (begins ? 1 : 0);
+  }
 }
 
 std::optional<std::string> Restamper::apply(
     std::span<std::byte> payload, const std::function<std::int64_t(std::int64_t)>& change) const {
-  if (!has_headers_) return std::nullopt;
-  return StampWalk(payload, definition_.types(), change).walk();
+  if (find_headers_ == nullptr) return std::nullopt;
+  Headers headers;
+  if (auto fault = find_headers_(payload, headers)) return fault;
+  const bool swaps = CdrReader(payload).swaps();
+  for (const MessageHeader& header : headers) {
+    if (header.stamp == 0) continue;
+    const std::int64_t changed = change(header.stamp);
+    if (changed <= 0 || changed / second > std::numeric_limits<std::int32_t>::max()) continue;
+    put(payload, header.stamp_at, static_cast<std::int32_t>(changed / second), swaps);
+    put(payload, header.stamp_at + 4, static_cast<std::uint32_t>(changed % second), swaps);
+  }
+  return std::nullopt;
 }
 
 }  // namespace penumbra::io

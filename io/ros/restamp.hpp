@@ -8,29 +8,36 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include <io/ros/message_definition.hpp>
+#include <io/ros/messages.hpp>
 
 namespace penumbra::io {
 
-/// Changes the stamps of all headers (std_msgs/Header) of messages in CDR.
+/// Changes the stamps of headers (std_msgs/Header) of messages in CDR: the header at the beginning
+/// of a message, and all headers of tf2_msgs/TFMessage and of vision_msgs' detection arrays.
 class Restamper {
  public:
-  /// Throws InputError as MessageDefinition does, and for types with wstring.
+  /// Throws InputError as MessageDefinition does.
   Restamper(std::string_view type, std::string_view definition);
 
-  /// Whether messages of this type have headers at all.
-  [[nodiscard]] bool has_headers() const { return has_headers_; }
+  /// Whether any stamps are changed.
+  [[nodiscard]] bool has_headers() const { return find_headers_ != nullptr; }
 
-  /// Replaces each stamp, nanoseconds, by what `change` answers; stamps of 0, which say nothing,
-  /// and answers that ROS's time cannot hold stay as they are. Answers what is wrong with the
-  /// payload, which is then changed in part.
+  /// Whether the type has, or without a definition may have, headers that are not changed.
+  [[nodiscard]] bool leaves_headers() const { return leaves_headers_; }
+
+  /// Replaces each stamp, nanoseconds, by the result of `change`. Stamps of 0, which mean no time,
+  /// and results beyond the range of ROS's time leave the old one. Returns what is wrong with the
+  /// payload, which is then unchanged.
   std::optional<std::string> apply(std::span<std::byte> payload,
                                    const std::function<std::int64_t(std::int64_t)>& change) const;
 
  private:
-  MessageDefinition definition_;
-  bool has_headers_ = false;
+  using Headers = std::vector<MessageHeader>;
+
+  std::optional<std::string> (*find_headers_)(std::span<const std::byte>, Headers&) = nullptr;
+  bool leaves_headers_ = false;
 };
 
 }  // namespace penumbra::io

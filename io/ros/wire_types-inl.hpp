@@ -7,79 +7,62 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <type_traits>
+#include <tuple>
 #include <vector>
 
-#include <io/ros/message_definition.hpp>
 #include <io/ros/message_fields-inl.hpp>
 
 namespace penumbra::io {
-
-/// How many values a member holds, and of which type each is.
-template <typename T>
-struct Shape {
-  using Value = T;
-  static constexpr Arity arity = Arity::one;
-  static constexpr std::size_t count = 0;
-};
-
-template <typename T>
-struct Shape<std::vector<T>> {
-  using Value = T;
-  static constexpr Arity arity = Arity::sequence;
-  static constexpr std::size_t count = 0;
-};
-
-template <typename T, std::size_t N>
-struct Shape<std::array<T, N>> {
-  using Value = T;
-  static constexpr Arity arity = Arity::array;
-  static constexpr std::size_t count = N;
-};
-
-template <>
-struct Shape<std::span<const std::byte>> {
-  using Value = std::uint8_t;
-  static constexpr Arity arity = Arity::sequence;
-  static constexpr std::size_t count = 0;
-};
 
 template <typename T>
 concept WireMessage = requires {
   Fields<T>::members;
 };
 
-/// What a member must be declared as.
-struct WantedType {
-  WireType type;
-  const char* name;
+/// How definitions write the type of a member.
+template <typename T>
+struct WireType {
+  using Value = T;
+  static std::string text() {
+    if constexpr (WireMessage<T>) return std::string(Fields<T>::type);
+    if constexpr (std::same_as<T, bool>) return "bool";
+    if constexpr (std::same_as<T, std::uint8_t>) return "uint8";
+    if constexpr (std::same_as<T, std::int32_t>) return "int32";
+    if constexpr (std::same_as<T, std::uint32_t>) return "uint32";
+    if constexpr (std::same_as<T, std::uint64_t>) return "uint64";
+    if constexpr (std::same_as<T, double>) return "float64";
+    if constexpr (std::same_as<T, std::string>) return "string";
+  }
 };
 
 template <typename T>
-constexpr WantedType wanted_type() {
-  if constexpr (WireMessage<T>) return {WireType::message, "a message"};
-  if constexpr (std::same_as<T, bool>) return {WireType::boolean, "bool"};
-  if constexpr (std::same_as<T, std::uint8_t>) return {WireType::octet, "uint8"};
-  if constexpr (std::same_as<T, std::int32_t>) return {WireType::int32, "int32"};
-  if constexpr (std::same_as<T, std::uint32_t>) return {WireType::uint32, "uint32"};
-  if constexpr (std::same_as<T, std::uint64_t>) return {WireType::uint64, "uint64"};
-  if constexpr (std::same_as<T, double>) return {WireType::float64, "float64"};
-  if constexpr (std::same_as<T, std::string>) return {WireType::string, "string"};
-}
+struct WireType<std::vector<T>> {
+  using Value = T;
+  static std::string text() { return WireType<T>::text() + "[]"; }
+};
 
-template <typename T>
-[[nodiscard]] bool has_shape(const FieldDefinition& field) {
-  using S = Shape<T>;
-  return field.type == wanted_type<typename S::Value>().type && field.arity == S::arity &&
-         (S::arity != Arity::array || field.count == S::count);
-}
+template <typename T, std::size_t N>
+struct WireType<std::array<T, N>> {
+  using Value = T;
+  static std::string text() { return WireType<T>::text() + "[" + std::to_string(N) + "]"; }
+};
 
-template <typename T>
-[[nodiscard]] std::string shape_text() {
-  using S = Shape<T>;
-  std::string name = wanted_type<typename S::Value>().name;
-  if (S::arity == Arity::one) return name;
-  return name + (S::arity == Arity::array ? "[" + std::to_string(S::count) + "]" : "[]");
+template <>
+struct WireType<std::span<const std::byte>> {
+  using Value = std::uint8_t;
+  static std::string text() { return "uint8[]"; }
+};
+
+/// The type that a member has on the wire.
+template <typename M, typename T>
+WireType<T> wire_type(const Member<M, T>&);
+template <typename W, typename M, typename T>
+WireType<W> wire_type(const Converted<W, M, T>&);
+
+/// Calls `call` with each member of a message, in the order of the wire.
+template <WireMessage M, typename F>
+void for_each_member(const F& call) {
+  std::apply([&](const auto&... members) { (call(members), ...); }, Fields<M>::members);
 }
 
 }  // namespace penumbra::io

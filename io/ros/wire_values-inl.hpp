@@ -24,9 +24,13 @@ struct Vector2Wire {
   double x = 0, y = 0;
 };
 
-struct Vector3Wire {
+/// Point and Vector3 have equal fields, but two names.
+template <bool is_point>
+struct TripleWire {
   double x = 0, y = 0, z = 0;
 };
+using PointWire = TripleWire<true>;
+using Vector3Wire = TripleWire<false>;
 
 struct QuaternionWire {
   double x = 0, y = 0, z = 0, w = 1;
@@ -38,7 +42,7 @@ struct TransformWire {
 };
 
 struct PoseWire {
-  Vector3Wire position;
+  PointWire position;
   QuaternionWire orientation;
 };
 
@@ -70,12 +74,14 @@ inline void to_wire(std::int64_t stamp, TimeWire& wire) {
   return nullptr;
 }
 
-[[nodiscard]] inline const char* from_wire(const Vector3Wire& wire, Eigen::Vector3d& vector) {
+template <bool is_point>
+[[nodiscard]] const char* from_wire(const TripleWire<is_point>& wire, Eigen::Vector3d& vector) {
   vector = {wire.x, wire.y, wire.z};
   return nullptr;
 }
 
-inline void to_wire(const Eigen::Vector3d& vector, Vector3Wire& wire) {
+template <bool is_point>
+void to_wire(const Eigen::Vector3d& vector, TripleWire<is_point>& wire) {
   wire = {vector.x(), vector.y(), vector.z()};
 }
 
@@ -88,7 +94,9 @@ inline void to_wire(const Eigen::Vector4d& vector, QuaternionWire& wire) {
   wire = {vector[0], vector[1], vector[2], vector[3]};
 }
 
-[[nodiscard]] inline Eigen::Isometry3d isometry_of(const Vector3Wire& at, const QuaternionWire& q) {
+template <bool is_point>
+[[nodiscard]] Eigen::Isometry3d isometry_of(const TripleWire<is_point>& at,
+                                            const QuaternionWire& q) {
   constexpr double most_off_unit = 0.01;  // tf2's, of the squared length
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -100,7 +108,8 @@ inline void to_wire(const Eigen::Vector4d& vector, QuaternionWire& wire) {
   return pose;
 }
 
-inline void isometry_to(const Eigen::Isometry3d& pose, Vector3Wire& at, QuaternionWire& q) {
+template <bool is_point>
+void isometry_to(const Eigen::Isometry3d& pose, TripleWire<is_point>& at, QuaternionWire& q) {
   to_wire(Eigen::Vector3d(pose.translation()), at);
   const Eigen::Quaterniond rotation(pose.linear());
   const double sign = rotation.w() < 0 ? -1 : 1;

@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include <penumbra/base/error.hpp>
 
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_decoder.hpp>
-#include <io/ros/message_definition.hpp>
+#include <io/ros/restamp.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -26,8 +27,9 @@ void decode_as(Bytes bytes) {
 
 void parse_definition(Bytes bytes) {
   try {
-    const MessageDefinition definition("a/msg/B",
-                                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    Decoder<TargetsMessage>("penumbra_msgs/Targets", text);
+    Restamper("a/msg/B", text);
   } catch (const InputError&) {
   }
 }

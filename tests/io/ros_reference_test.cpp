@@ -4,8 +4,6 @@
 #include "files.hpp"
 #include "ros_samples.hpp"
 
-#include <map>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -36,7 +34,9 @@ struct Exchange {
     list += type + " " + definition.string() + " " + file.string() + "\n";
   }
 
-  Json decoded() { return answer("decode " + folder.write("list", list).string()); }
+  Json answer_to(const std::string& task) {
+    return answer(task + " " + folder.write("list", list).string());
+  }
 };
 
 Json header_json() {
@@ -52,6 +52,65 @@ Json pose_json(const Eigen::Isometry3d& pose, const char* at, const char* turned
 }
 
 const Json bytes_json = {1, 2, 250, 0, 7};
+
+Json target_json(const char* name) {
+  return {{"name", name},
+          {"has_stamp", false},
+          {"stamp", {{"sec", 0}, {"nanosec", 0}}},
+          {"verdict", 0},
+          {"reason", "joint states are stale"},
+          {"judged", false},
+          {"covered", "0"},
+          {"inside", "0"},
+          {"occluded_fraction", "NaN"},
+          {"front_fraction", "NaN"},
+          {"clear_fraction", "NaN"},
+          {"unknown_fraction", "NaN"},
+          {"hidden_by_other_fraction", "NaN"},
+          {"measured_fraction", "NaN"},
+          {"seen_past_fraction", "NaN"},
+          {"blame", Json::array()},
+          {"point", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
+          {"point_pixels", "0"},
+          {"point_spread", "NaN"},
+          {"source", 0},
+          {"age", "Infinity"},
+          {"pose",
+           {{"position", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
+            {"orientation", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}, {"w", "NaN"}}}}},
+          {"sigma", "NaN"},
+          {"estimate", 0}};
+}
+
+Json targets_json() {
+  Json part = target_json("part");
+  part.update({{"has_stamp", true},
+               {"stamp", {{"sec", 5}, {"nanosec", 1}}},
+               {"verdict", 2},
+               {"reason", ""},
+               {"judged", true},
+               {"covered", "5000000000"},
+               {"inside", "120"},
+               {"occluded_fraction", 0.25},
+               {"front_fraction", 0.5},
+               {"clear_fraction", 0.125},
+               {"unknown_fraction", 0.125},
+               {"blame",
+                {{{"link", "wrist_3"}, {"fraction", 0.2}}, {{"link", "tool"}, {"fraction", 0.05}}}},
+               {"point", {{"x", 1}, {"y", 2}, {"z", 3}}},
+               {"point_pixels", "77"},
+               {"point_spread", 0.003},
+               {"source", 2},
+               {"age", 0.5},
+               {"sigma", 0.01},
+               {"estimate", 3}});
+  part["pose"]["position"] = {{"x", 4}, {"y", 5}, {"z", 6}};
+  return {{"header", header_json()},
+          {"root_frame", "base_link"},
+          {"status", "stale_joints"},
+          {"message", "elbow: 0.3 s old"},
+          {"targets", {part, target_json("wrist")}}};
+}
 
 Json camera_json() {
   const auto info = test::sample<CameraInfoMessage>();
@@ -80,57 +139,80 @@ Json tf_json() {
              {"transform", pose_json(test::sample_pose().inverse(), "translation", "rotation")}}}}};
 }
 
+Json diagnostics_json() {
+  return {
+      {"header", header_json()},
+      {"status",
+       {{{"level", 1},
+         {"name", "camera"},
+         {"message", "late"},
+         {"hardware_id", "d435"},
+         {"values", {{{"key", "age_ms"}, {"value", "35.5"}}, {{"key", "drops"}, {"value", "3"}}}}},
+        {{"level", 3},
+         {"name", "joints"},
+         {"message", "none"},
+         {"hardware_id", ""},
+         {"values", Json::array()}}}}};
+}
+
+Json keypoints_json() {
+  return {{"header", header_json()},
+          {"keypoints",
+           {{{"name", "left/wrist"}, {"u", 12.5}, {"v", -3}, {"score", 0.75}, {"depth", 1.25}},
+            {{"name", "nose"}, {"u", 0}, {"v", 0}, {"score", 0}, {"depth", "NaN"}}}}};
+}
+
+Json cloud_json() {
+  return {{"header", header_json()},
+          {"height", 1},
+          {"width", 1},
+          {"fields",
+           {{{"name", "x"}, {"offset", 0}, {"datatype", 7}, {"count", 1}},
+            {{"name", "intensity"}, {"offset", 4}, {"datatype", 2}, {"count", 1}}}},
+          {"is_bigendian", false},
+          {"point_step", 5},
+          {"row_step", 5},
+          {"data", bytes_json},
+          {"is_dense", true}};
+}
+
+// In the order of for_each_sample.
+std::vector<Json> wanted_messages() {
+  return {{{"header", header_json()},
+           {"height", 1},
+           {"width", 5},
+           {"encoding", "mono8"},
+           {"is_bigendian", 0},
+           {"step", 5},
+           {"data", bytes_json}},
+          {{"header", header_json()}, {"format", "png"}, {"data", bytes_json}},
+          camera_json(),
+          {{"header", header_json()},
+           {"name", {"elbow", "", "shoulder_pan"}},
+           {"position", {0.5, -1.25, 3}},
+           {"velocity", Json::array()},
+           {"effort", {7, 8}}},
+          tf_json(),
+          {{"data", "<robot name=\"r\"/>"}},
+          {{"header", header_json()},
+           {"pose", pose_json(test::sample_pose(), "position", "orientation")}},
+          cloud_json(),
+          diagnostics_json(),
+          keypoints_json(),
+          targets_json()};
+}
+
 TEST(RosReference, ReadsWhatWeWrite) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     Exchange exchange;
-    std::vector<std::string> types;
     test::for_each_sample([&](const auto& message) {
-      types.push_back(message_type<std::decay_t<decltype(message)>>());
-      exchange.add(types.back(), encoded(message, order));
+      exchange.add(message_type<std::decay_t<decltype(message)>>(), encoded(message, order));
     });
-    const Json read = exchange.decoded();
-    ASSERT_EQ(read.size(), types.size());
-    std::map<std::string, Json> of;
-    for (std::size_t i = 0; i < types.size(); ++i) of[types[i]] = read[i];
-    EXPECT_EQ(of["sensor_msgs/msg/Image"], (Json{{"header", header_json()},
-                                                 {"height", 1},
-                                                 {"width", 5},
-                                                 {"encoding", "mono8"},
-                                                 {"is_bigendian", 0},
-                                                 {"step", 5},
-                                                 {"data", bytes_json}}));
-    EXPECT_EQ(of["sensor_msgs/msg/CompressedImage"]["data"], bytes_json);
-    EXPECT_EQ(of["sensor_msgs/msg/CameraInfo"], camera_json());
-    EXPECT_EQ(of["sensor_msgs/msg/JointState"], (Json{{"header", header_json()},
-                                                      {"name", {"elbow", "", "shoulder_pan"}},
-                                                      {"position", {0.5, -1.25, 3}},
-                                                      {"velocity", Json::array()},
-                                                      {"effort", {7, 8}}}));
-    EXPECT_EQ(of["tf2_msgs/msg/TFMessage"], tf_json());
-    EXPECT_EQ(of["std_msgs/msg/String"]["data"], "<robot name=\"r\"/>");
-    EXPECT_EQ(of["geometry_msgs/msg/PoseStamped"]["pose"],
-              pose_json(test::sample_pose(), "position", "orientation"));
-    const Json& cloud = of["sensor_msgs/msg/PointCloud2"];
-    EXPECT_EQ(cloud["fields"][1]["name"], "intensity");
-    EXPECT_EQ(cloud["data"], bytes_json);
-    EXPECT_EQ(cloud["is_dense"], true);
-    const Json& status = of["diagnostic_msgs/msg/DiagnosticArray"]["status"];
-    EXPECT_EQ(status[0]["values"][1]["value"], "3");
-    EXPECT_EQ(status[1]["name"], "joints");
-    EXPECT_EQ(of["penumbra_msgs/msg/Keypoints"]["keypoints"][0]["depth"], 1.25);
-    const Json& targets = of["penumbra_msgs/msg/Targets"];
-    EXPECT_EQ(targets["status"], "stale_joints");
-    const Json &part = targets["targets"][0], &wrist = targets["targets"][1];
-    EXPECT_EQ(part["stamp"], (Json{{"sec", 5}, {"nanosec", 1}}));
-    EXPECT_EQ(part["verdict"], 2);
-    EXPECT_EQ(part["covered"], "5000000000");
-    EXPECT_EQ(part["blame"][1]["link"], "tool");
-    EXPECT_EQ(part["pose"]["position"]["z"], 6);
-    EXPECT_EQ(part["estimate"], 3);
-    EXPECT_EQ(wrist["reason"], "joint states are stale");
-    EXPECT_EQ(wrist["occluded_fraction"], "NaN");
-    EXPECT_EQ(wrist["age"], "Infinity");
+    const Json read = exchange.answer_to("decode");
+    const auto wanted = wanted_messages();
+    ASSERT_EQ(read.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(read[i], wanted[i]);
   }
 }
 
@@ -140,7 +222,7 @@ TEST(RosReference, ReadsDetections) {
   Exchange exchange;
   exchange.add("vision_msgs/msg/Detection2DArray", test::detection_2d_payload());
   exchange.add("vision_msgs/msg/Detection3DArray", test::detection_3d_payload());
-  const Json read = exchange.decoded();
+  const Json read = exchange.answer_to("decode");
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0]["detections"][0]["bbox"]["center"]["position"]["x"], 320.5);
   EXPECT_EQ(read[0]["detections"][0]["results"][1]["hypothesis"]["class_id"], "person");
@@ -148,38 +230,16 @@ TEST(RosReference, ReadsDetections) {
   EXPECT_EQ(read[1]["detections"][0]["id"], "box");
 }
 
-Json fields_json(const TypeDefinition& type) {
-  Json fields = Json::array();
-  for (const ConstantDefinition& constant : type.constants)
-    fields.push_back({constant.name, constant.type_name == "byte" ? "uint8" : constant.type_name,
-                      "constant", constant.value_text});
-  for (const FieldDefinition& field : type.fields) {
-    std::string name = field.type_name == "byte" ? "uint8" : field.type_name;
-    if (name == "builtin_interfaces/Time") name = "time";
-    const std::string shape = field.arity == Arity::one ? ""
-                              : field.arity == Arity::array
-                                  ? "[" + std::to_string(field.count) + "]"
-                                  : "[]";
-    fields.push_back({field.name, name, shape, ""});
-  }
-  return fields;
-}
-
 // But for vision_msgs and our own, which it does not have.
 TEST(RosReference, HasTheSameDefinitions) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  const Json theirs = answer("definitions");
-  std::size_t compared = 0;
+  Exchange exchange;
   test::for_each_sample([&](const auto& message) {
-    const std::string type = message_type<std::decay_t<decltype(message)>>();
-    const MessageDefinition definition(type, definition_of(type));
-    for (const TypeDefinition& one : definition.types()) {
-      if (!theirs.contains(one.name)) continue;
-      EXPECT_EQ(fields_json(one), theirs[one.name]) << one.name;
-      ++compared;
-    }
+    exchange.add(message_type<std::decay_t<decltype(message)>>(), {});
   });
-  EXPECT_GT(compared, 20U);
+  const Json types = exchange.answer_to("definitions");
+  for (const auto& [name, both] : types.items()) EXPECT_EQ(both[0], both[1]) << name;
+  EXPECT_GT(types.size(), 15U);
 }
 
 }  // namespace

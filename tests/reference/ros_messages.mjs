@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // node ros_messages.mjs decode LIST: LIST holds lines "TYPE DEFINITION_FILE PAYLOAD_FILE"; prints the
-// messages as a JSON array. node ros_messages.mjs definitions: prints what others say that Humble's
-// messages are.
+// messages as a JSON array. node ros_messages.mjs definitions LIST: prints the fields and constants
+// of each type in the definitions, beside those that others have for Humble.
 import { readFileSync } from "node:fs";
 import { parse } from "@foxglove/rosmsg";
 import { ros2humble } from "@foxglove/rosmsg-msgs-common";
@@ -15,19 +15,29 @@ function plain(_, value) {
   return value;
 }
 
-function decode(list) {
-  return readFileSync(list, "utf8").trim().split("\n").map((line) => {
-    const [, definition, payload] = line.split(" ");
-    const types = parse(readFileSync(definition, "utf8"), { ros2: true });
-    return new MessageReader(types).readMessage(readFileSync(payload));
-  });
+function lines(list) {
+  return readFileSync(list, "utf8").trim().split("\n").map((line) => line.split(" "));
 }
 
-function definitions() {
-  return Object.fromEntries(Object.entries(ros2humble).map(([name, { definitions: fields }]) =>
-    [name, fields.map((field) => [field.name, field.type, field.isConstant ? "constant" :
-      field.isArray ? `[${field.arrayLength ?? ""}]` : "", field.valueText ?? ""])]));
+const parsed = (file) => parse(readFileSync(file, "utf8"), { ros2: true });
+
+function decode(list) {
+  return lines(list).map(([, definition, payload]) =>
+    new MessageReader(parsed(definition)).readMessage(readFileSync(payload)));
+}
+
+function rows(fields) {
+  return fields.map((field) => [field.name, field.type, field.isConstant ? "constant" :
+    field.isArray ? `[${field.arrayLength ?? ""}]` : "", field.valueText ?? ""]);
+}
+
+function definitions(list) {
+  const both = {};
+  for (const [type, file] of lines(list))
+    for (const { name = type.replace("/msg/", "/"), definitions: ours } of parsed(file))
+      if (ros2humble[name]) both[name] = [rows(ours), rows(ros2humble[name].definitions)];
+  return both;
 }
 
 const [, , task, list] = process.argv;
-process.stdout.write(JSON.stringify(task === "decode" ? decode(list) : definitions(), plain));
+process.stdout.write(JSON.stringify(task === "decode" ? decode(list) : definitions(list), plain));

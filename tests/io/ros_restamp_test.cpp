@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros_samples.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <io/ros/restamp.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t shift = 12'345'678'901;  // ns
+
+std::int64_t shifted(std::int64_t stamp) { return stamp + shift; }
+
+template <typename M>
+io::Restamper restamper() {
+  const std::string type = io::message_type<M>();
+  return {type, io::definition_of(type)};
+}
+
+/// The same as if the message had been encoded with other stamps.
+template <typename M, typename Shift>
+void expect_as_encoded(M message, Shift shift_stamps) {
+  std::vector<std::byte> payload, wanted;
+  io::encode(message, payload);
+  shift_stamps(message);
+  io::encode(message, wanted);
+  const io::Restamper restamper = test::restamper<M>();
+  EXPECT_TRUE(restamper.has_headers());
+  EXPECT_EQ(restamper.apply(payload, shifted), std::nullopt);
+  EXPECT_TRUE(payload == wanted) << io::message_type<M>();
+}
+
+template <typename M>
+class Restamp : public testing::Test {};
+using Stamped = testing::Types<io::ImageMessage, io::CompressedImageMessage, io::CameraInfoMessage,
+                               io::JointStateMessage, io::PointCloud2Message>;
+TYPED_TEST_SUITE(Restamp, Stamped);
+
+TYPED_TEST(Restamp, ChangesTheStampAndNothingElse) {
+  expect_as_encoded(sample<TypeParam>(), [](TypeParam& message) { message.header.stamp += shift; });
+}
+
+TEST(Restamp, FindsHeadersInSequences) {
+  io::TfMessage tf;
+  for (int i = 0; i < 3; ++i) {
+    io::TransformMessage& transform = tf.transforms.emplace_back();
+    transform.header = {std::int64_t{1'000'000'007} * (i + 1),
+                        std::string(static_cast<std::size_t>(i), 'p')};
+    transform.child_frame_id = std::string(static_cast<std::size_t>(2 * i + 1), 'c');
+  }
+  expect_as_encoded(tf, [](io::TfMessage& message) {
+    for (io::TransformMessage& transform : message.transforms) transform.header.stamp += shift;
+  });
+}
+
+TEST(Restamp, LeavesNoStampAndTypesWithoutHeadersAlone) {
+  auto message = sample<io::JointStateMessage>();
+  message.header.stamp = 0;
+  std::vector<std::byte> payload;
+  io::encode(message, payload);
+  const std::vector<std::byte> before = payload;
+  EXPECT_EQ(restamper<io::JointStateMessage>().apply(payload, shifted), std::nullopt);
+  EXPECT_TRUE(payload == before);
+  EXPECT_FALSE(restamper<io::StringMessage>().has_headers());
+}
+
+TEST(Restamp, ReadsBigEndianPayloadsAsSuch) {
+  // std_msgs/Header: 1 s, 2 ns, "f"
+  std::vector<std::byte> payload(4 + 8 + 4 + 2);
+  payload[7] = std::byte{1};
+  payload[11] = std::byte{2};
+  payload[15] = std::byte{2};
+  payload[16] = std::byte{'f'};
+  const io::Restamper restamper("std_msgs/msg/Header", io::definition_of("std_msgs/msg/Header"));
+  ASSERT_EQ(restamper.apply(payload,
+                            [](std::int64_t stamp) {
+                              EXPECT_EQ(stamp, 1'000'000'002);
+                              return std::int64_t{0x0102'0304} * 1'000'000'000 + 0x0506;
+                            }),
+            std::nullopt);
+  EXPECT_EQ(payload[4], std::byte{1});
+  EXPECT_EQ(payload[7], std::byte{4});
+  EXPECT_EQ(payload[10], std::byte{5});
+  EXPECT_EQ(payload[11], std::byte{6});
+}
+
+TEST(Restamp, CutPayloadsAreFaultsOrWholeInTheirHeaders) {
+  std::vector<std::byte> whole;
+  io::encode(sample<io::JointStateMessage>(), whole);
+  const io::Restamper restamper = test::restamper<io::JointStateMessage>();
+  std::size_t faults = 0;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    faults += restamper.apply(cut, shifted) ? 1 : 0;
+  }
+  EXPECT_GE(faults, 12U);  // encapsulation and stamp
+}
+
+TEST(Restamp, FindsHeadersOfDetections) {
+  const auto expect_shifted = []<typename M>(M message, std::vector<std::byte> payload) {
+    EXPECT_EQ(restamper<M>().apply(payload, shifted), std::nullopt);
+    ASSERT_EQ(io::Decoder<M>().decode(payload, message), std::nullopt);
+    EXPECT_EQ(message.header.stamp, sample_header().stamp + shift);
+    ASSERT_EQ(message.detections.size(), 1U);
+    EXPECT_EQ(message.detections[0].header.stamp, sample_header().stamp + shift);
+    EXPECT_FALSE(message.detections[0].id.empty());
+  };
+  expect_shifted(io::Detection2DArrayMessage(), detection_2d_payload());
+  expect_shifted(io::Detection3DArrayMessage(), detection_3d_payload());
+}
+
+const std::string header_text =
+    "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
+
+TEST(Restamp, ChangesTheHeaderThatAnyOtherTypeBeginsWith) {
+  const io::Restamper restamper("a/msg/B", "std_msgs/Header header\nwstring text\n" + header_text);
+  EXPECT_TRUE(restamper.has_headers());
+  EXPECT_FALSE(restamper.leaves_headers());
+}
+
+TEST(Restamp, TellsOfHeadersThatItLeaves) {
+  const auto restamper = [](const std::string& text) {
+    return io::Restamper("a/msg/B", text + header_text);
+  };
+  const auto first =
+      restamper("std_msgs/Header header\nC[] more\n===\nMSG: a/C\nstd_msgs/Header header\n");
+  EXPECT_TRUE(first.has_headers() && first.leaves_headers());
+  const auto behind = restamper("int32 count\nstd_msgs/Header header\n");
+  EXPECT_TRUE(!behind.has_headers() && behind.leaves_headers());
+  const auto several = restamper("std_msgs/Header[] headers\n");
+  EXPECT_TRUE(!several.has_headers() && several.leaves_headers());
+  const io::Restamper other("a/msg/B",
+                            "std_msgs/Header header\n===\nMSG: std_msgs/Header\nuint32 seq\n");
+  EXPECT_TRUE(!other.has_headers() && other.leaves_headers());
+  EXPECT_TRUE(io::Restamper("a/msg/B", "").leaves_headers());
+  EXPECT_FALSE(io::Restamper("a/msg/B", "int32 count\n").leaves_headers());
+}
+
+}  // namespace
+}  // namespace penumbra::test
