@@ -11,7 +11,9 @@ void add_view(CLI::App& app, ViewArguments& view) {
            "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
            "", run.input)
       ->required();
-  add_server(app, view.server, "where the page is served; 0: any that is free; default 8470");
+  add_server(
+      app, view.server,
+      "where the page is served; 0: any that is free; default 8470, or the next that is free");
   add_judging(app, run);
   add_sequence(app, run);
   add_bag(app, run.bag);

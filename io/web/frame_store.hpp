@@ -13,6 +13,7 @@
 #include <io/frame_reader.hpp>
 #include <io/overlay_painter.hpp>
 #include <io/report_json.hpp>
+#include <io/target_overlay.hpp>
 #include <io/web/frame_archive.hpp>
 #include <io/web/spool_file.hpp>
 
@@ -56,13 +57,10 @@ class FrameStore final : public FrameArchive {
   [[nodiscard]] Kept keep(ImageView<const T> image, const char* type);
   [[nodiscard]] Kept keep_depth(const DepthView& depth);
   [[nodiscard]] Kept keep_color(const FrameData& data);
-  [[nodiscard]] Kept keep_file(std::span<const std::byte> file, const char* type, int width,
-                               int height);
-  void add_images(const FrameReport& report, const FrameData& data, const ShownTargets& targets,
-                  Entry& entry);
+  void add_images(const FrameReport& report, const FrameData& data, Entry& entry);
 
   const Rectification* rectification_;
-  OverlayPainter painter_;
+  TargetOverlay target_overlay_;
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;
 

@@ -241,6 +241,9 @@ TEST(ServerAddress, WhatCannotBeListenedOnIsTheUsersFault) {
     EXPECT_NE(std::string(error.what()).find("--port " + std::to_string(first.port())),
               std::string::npos);
   }
+  const io::WebServer next(
+      {.port = first.port(), .last_port = static_cast<std::uint16_t>(first.port() + 50)}, echo);
+  EXPECT_GT(next.port(), first.port());
   EXPECT_THROW(io::WebServer({.address = "nowhere"}, echo), InputError);
   EXPECT_THROW(io::WebServer({.address = "203.0.113.7"}, echo), InputError);
 }
