@@ -111,7 +111,8 @@ export class Viewer {
     this.position = position;
     this.showScene(packet);
     this.timeline.setCurrent(position, packet.frame);
-    byId('timeline-legend').hidden = this.timeline.tracks.length === 0;
+    for (const id of ['timeline-legend', 'occlusions'])
+      byId(id).hidden = this.timeline.tracks.length === 0;
     this.numbers.request();
     byId('main').dataset['layer'] = this.image.layer;
     byId('main').dataset['shown'] = [packet.frame.index, ...packet.has].join(' ');
