@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 
 #include <apps/penumbra/commands.hpp>
@@ -14,6 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr auto look_period = 100ms;
 constexpr auto long_time = 24h;
+constexpr std::uint16_t more_ports = 99;  // that are tried if the default one is in use
 
 /// Until Ctrl-C.
 void wait_for_end(StopSignal& stop, ViewSource& source) {
@@ -29,7 +31,9 @@ void wait_for_end(StopSignal& stop, ViewSource& source) {
 int execute(const ViewArguments& arguments) {
   StopSignal stop;
   ViewSource source(arguments);
-  const io::WebServer server(web_options(arguments.server), source.view());
+  io::WebOptions options = web_options(arguments.server);
+  if (!arguments.server.port) options.last_port = options.port + more_ports;
+  const io::WebServer server(options, source.view());
   std::cout << server.url() << std::endl;
   source.start();
   wait_for_end(stop, source);

@@ -31,11 +31,6 @@ void check_is_something(const fs::path& input) {
       "*.db3), nor the results of a run (report.json)");
 }
 
-std::vector<io::Part> all_parts() {
-  std::vector<io::Part> parts;
-  for (std::size_t i = 0; i < io::part_count; ++i) parts.push_back(static_cast<io::Part>(i));
-  return parts;
-}
 
 /// Returns whether a run wrote this folder, or it is its report.json.
 bool is_run_folder(const fs::path& input) {
@@ -71,7 +66,8 @@ void ViewSource::open_input(const io::JudgingOptions& options) {
                                 .links = {links.begin(), links.end()},
                                 .camera = judging_->camera(),
                                 .image = options.image,
-                                .parts = all_parts()},
+                                .parts = {io::Part::color, io::Part::labels, io::Part::links,
+                                          io::Part::vdi, io::Part::depth, io::Part::cloud}},
                 io::make_scene(pipeline.robot()), *store_, judging_->size());
 }
 

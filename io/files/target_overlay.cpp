@@ -168,22 +168,33 @@ Rgb8 verdict_color(Verdict verdict) {
   return colors[static_cast<std::size_t>(verdict)];
 }
 
+std::vector<TargetMark> TargetOverlay::marks(std::span<const Target> targets,
+                                             const FrameReport& report, const Robot& robot,
+                                             const Camera& camera) {
+  std::vector<TargetMark> marks(std::min(targets.size(), report.targets.size()));
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const TargetReport& target = report.targets[i];
+    marks[i].outline = outline_of(targets[i].shape, poses_of(target, report), robot, camera);
+    if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
+    marks[i].place = seen_at(report.T_root_camera->inverse() * *target.handled->position, camera);
+  }
+  remember(report);
+  return marks;
+}
+
 void TargetOverlay::draw(std::span<const Target> targets, const FrameReport& report,
                          const Robot& robot, const Camera& camera, Image<Rgb8>& out) {
   const Pen pen{out, std::max(1, out.height() / rows_per_width)};
   CaptionPlaces places;
-  for (std::size_t i = 0; i < std::min(targets.size(), report.targets.size()); ++i) {
+  const std::vector<TargetMark> all = marks(targets, report, robot, camera);
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const TargetReport& target = report.targets[i];
     const Rgb8 color = verdict_color(target.verdict);
-    const auto paths = outline_of(targets[i].shape, poses_of(target, report), robot, camera);
-    pen.paths(paths, color);
+    pen.paths(all[i].outline, color);
     if (i < max_target_names)
-      draw_caption(paths, caption(target, lateness(target, report)), color, pen, places);
-    if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
-    const Eigen::Vector3d p = report.T_root_camera->inverse() * *target.handled->position;
-    if (const auto pixel = seen_at(p, camera)) pen.cross(*pixel);
+      draw_caption(all[i].outline, caption(target, lateness(target, report)), color, pen, places);
+    if (all[i].place) pen.cross(*all[i].place);
   }
-  remember(report);
 }
 
 void TargetOverlay::remember(const FrameReport& report) {

@@ -26,13 +26,24 @@ namespace penumbra::io {
 /// Names of targets that are drawn; of more, only the outlines are.
 inline constexpr std::size_t max_target_names = 40;
 
+/// The lines of a target, in pixels.
+struct TargetMark {
+  std::vector<PixelPath> outline;        ///< empty where nothing of it can be drawn
+  std::optional<Eigen::Vector2d> place;  ///< where a handled target is
+};
+
 /// Draws the targets of one frame after another.
 class TargetOverlay {
  public:
-  /// The outlines of a frame's targets in their verdicts' colours, with name and verdict, and a
-  /// cross where a handled one is. A 3-D target that came late is drawn where it was at its own
-  /// stamp, seen by the camera as it is now; not at all where its frame was not drawn. `camera`: of
-  /// the report's images, which `out` has the size of.
+  /// Returns a mark for each of a frame's targets. A 3-D target that came late is where it was at
+  /// its own stamp, seen by the camera as it is now; it has no outline where its frame was not
+  /// drawn. `camera`: of the report's images.
+  [[nodiscard]] std::vector<TargetMark> marks(std::span<const Target> targets,
+                                              const FrameReport& report, const Robot& robot,
+                                              const Camera& camera);
+
+  /// Draws the marks of a frame's targets in their verdicts' colours, with name and verdict. `out`
+  /// has the size of the report's images.
   void draw(std::span<const Target> targets, const FrameReport& report, const Robot& robot,
             const Camera& camera, Image<Rgb8>& out);
 

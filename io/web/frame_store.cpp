@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstring>
 #include <utility>
 
+#include <io/json-inl.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/metres-inl.hpp>
@@ -21,6 +23,27 @@ ImageView<const T> rectified(const Rectification* rectification, ImageView<const
   if (image.empty()) image = Image<T>(pinhole.width(), pinhole.height());
   remap(rectification->pinhole_to_raw(), raw, T{}, image.view());
   return std::as_const(image).view();
+}
+
+double tenth(double pixels) { return std::round(10.0 * pixels) / 10.0; }
+
+/// "marks": [{"outline": [[u, v, u, v...]...], "place": [u, v] or null}...], one for each target of
+/// the report.
+std::string marks_json(std::span<const TargetMark> marks) {
+  Json json = Json::array();
+  for (const TargetMark& mark : marks) {
+    Json outline = Json::array();
+    for (const PixelPath& path : mark.outline) {
+      Json line = Json::array();
+      for (const Eigen::Vector2d& p : path)
+        for (const double pixels : {p.x(), p.y()}) line.push_back(tenth(pixels));
+      outline.push_back(std::move(line));
+    }
+    Json place;
+    if (mark.place) place = {tenth(mark.place->x()), tenth(mark.place->y())};
+    json.push_back({{"outline", std::move(outline)}, {"place", std::move(place)}});
+  }
+  return "\"marks\": " + json_text(json);
 }
 
 }  // namespace
@@ -46,8 +69,7 @@ class FrameStore::StoredFrame final : public PacketFrame {
   Entry entry_;
 };
 
-FrameStore::FrameStore(const Rectification* rectification)
-    : rectification_(rectification), painter_(rectification) {}
+FrameStore::FrameStore(const Rectification* rectification) : rectification_(rectification) {}
 
 void FrameStore::begin(const ReportHead& head) {
   missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
@@ -62,9 +84,10 @@ void FrameStore::save(const FrameReport& report, const FrameData& data,
   Entry entry;
   const std::string frame = report_frame(report);
   const std::string poses =
-      poses_json(report.T_root_link, report.T_root_camera, report.links.size());
+      poses_json(report.T_root_link, report.T_root_camera, report.links.size()) + ", " +
+      marks_json(target_overlay_.marks(targets.targets, report, targets.robot, targets.camera));
   entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
-  add_images(report, data, targets, entry);
+  add_images(report, data, entry);
 
   const std::lock_guard lock(mutex_);
   text_ += entries_.empty() ? "\n" : ",\n";
@@ -76,17 +99,13 @@ void FrameStore::save(const FrameReport& report, const FrameData& data,
   if (without_color_++ == 0) first_without_color_ = data.color_message;
 }
 
-void FrameStore::add_images(const FrameReport& report, const FrameData& data,
-                            const ShownTargets& targets, Entry& entry) {
+void FrameStore::add_images(const FrameReport& report, const FrameData& data, Entry& entry) {
   const auto at = [&](Part part) -> Kept& { return entry.parts[static_cast<std::size_t>(part)]; };
   at(Part::labels) = keep(report.labels, "u8");
   at(Part::links) = keep(report.virtual_depth.links, "u16");
   at(Part::vdi) = keep(report.virtual_depth.depth, "f32");
   at(Part::depth) = keep_depth(data.depth_view());
   at(Part::color) = keep_color(data);
-  const auto overlay = painter_.draw(report, {data.depth_view(), data.color.view()}, targets);
-  encode_png(overlay, file_);
-  at(Part::overlay) = keep_file(file_, "image/png", overlay.width, overlay.height);
 }
 
 template <typename T>
@@ -110,12 +129,7 @@ FrameStore::Kept FrameStore::keep_color(const FrameData& data) {
   const auto image = rectified(rectification_, data.color.view(), color_);
   if (image.empty()) return {};
   encode_jpeg(image, jpeg_quality, file_);
-  return keep_file(file_, "image/jpeg", image.width, image.height);
-}
-
-FrameStore::Kept FrameStore::keep_file(std::span<const std::byte> file, const char* type, int width,
-                                       int height) {
-  return {spool_.append(file, false), type, width, height};
+  return {spool_.append(file_, false), "image/jpeg", image.width, image.height};
 }
 
 void FrameStore::finish(const Statistics& statistics, std::span<const std::string> notes) {

@@ -53,13 +53,10 @@ class FrameStore final : public FrameArchive, public RunOutput {
   [[nodiscard]] Kept keep(ImageView<const T> image, const char* type);
   [[nodiscard]] Kept keep_depth(const DepthView& depth);
   [[nodiscard]] Kept keep_color(const FrameData& data);
-  [[nodiscard]] Kept keep_file(std::span<const std::byte> file, const char* type, int width,
-                               int height);
-  void add_images(const FrameReport& report, const FrameData& data, const ShownTargets& targets,
-                  Entry& entry);
+  void add_images(const FrameReport& report, const FrameData& data, Entry& entry);
 
   const Rectification* rectification_;
-  OverlayPainter painter_;
+  TargetOverlay target_overlay_;
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;
 

@@ -50,7 +50,7 @@ class PacketFrame {
 
   /// Its object of report.json.
   [[nodiscard]] virtual std::string report() const = 0;
-  /// "link_poses": [...], "camera_pose": ...
+  /// "link_poses": [...], "camera_pose": ..., and "marks": [...] where targets can be outlined
   [[nodiscard]] virtual std::string poses() const = 0;
   /// Nothing: the frame has none. Not asked for Part::cloud.
   [[nodiscard]] virtual std::optional<PartBytes> part(Part part) const = 0;

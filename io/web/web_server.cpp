@@ -217,14 +217,24 @@ asio::ip::address address_of(const std::string& text) {
   return address;
 }
 
-tcp::acceptor listener_of(asio::io_context& context, const WebOptions& options) {
-  const tcp::endpoint place(address_of(options.address), options.port);
-  tcp::acceptor acceptor(context);
+beast::error_code listen(tcp::acceptor& acceptor, const tcp::endpoint& place) {
   beast::error_code error;
+  acceptor = tcp::acceptor(acceptor.get_executor());
   acceptor.open(place.protocol(), error);
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(place, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  return error;
+}
+
+tcp::acceptor listener_of(asio::io_context& context, const WebOptions& options) {
+  tcp::endpoint place(address_of(options.address), options.port);
+  tcp::acceptor acceptor(context);
+  beast::error_code error = listen(acceptor, place);
+  while (error == asio::error::address_in_use && place.port() < options.last_port) {
+    place.port(static_cast<std::uint16_t>(place.port() + 1));
+    error = listen(acceptor, place);
+  }
   if (error)
     throw InputError("--port " + std::to_string(options.port) + ": " + options.address +
                      " cannot be listened on (" + error.message() +

@@ -14,6 +14,7 @@ namespace penumbra::io {
 struct WebOptions {
   std::string address = "127.0.0.1";  ///< an IP address or "localhost"
   std::uint16_t port = 0;             ///< 0: any that is free
+  std::uint16_t last_port = 0;        ///< if `port` is in use, the next one up to this is taken
   int threads = 2;
 
   /// Connections that have shown the token (or asked for something, where none is wanted). For more

@@ -189,6 +189,16 @@ TEST_F(ServerTest, ClosingIsNotHeldUpByWhatStillComes) {
   EXPECT_LT(Clock::now(), patience);
 }
 
+TEST(ServerAddress, WhatCannotBeListenedOnIsTheUsersFault) {
+  Echo echo;
+  const io::WebServer first({}, echo);
+  EXPECT_THROW(io::WebServer({.port = first.port()}, echo), InputError);
+  const io::WebServer next(
+      {.port = first.port(), .last_port = static_cast<std::uint16_t>(first.port() + 50)}, echo);
+  EXPECT_GT(next.port(), first.port());
+  EXPECT_THROW(io::WebServer({.address = "nowhere"}, echo), InputError);
+}
+
 TEST(ServerToken, IsWantedWhereMoreThanTheLoopbackIsServed) {
   Echo echo;
   const io::WebServer server({.address = "0.0.0.0"}, echo);

@@ -4,27 +4,22 @@ import { fetchSession } from './api/client';
 import { LiveConnection } from './api/live';
 import type { Packet } from './api/packet';
 import type { FrameReport, Session } from './api/types';
-import { LiveWatch } from './live_watch';
+import { LiveState, showTold } from './live_state';
 import { Throttle } from './model/throttle';
-import { bindControls } from './view/controls';
-import { coverReplaced, uncover } from './view/cover';
-import { byId, setText } from './view/dom';
-import { showInput } from './view/input_name';
-import { showTold } from './view/live_status';
-import { showPlaying } from './view/mode';
-import { Viewer } from './viewer';
+import { bindCommands } from './view/commands';
+import { coverReplaced, showInput, showPlaying, uncover } from './view/page';
+import { Viewer, showSceneNote } from './viewer';
 
 const keptFrames = 900;
 const timelineMilliseconds = 500; // the timeline is drawn again no oftener than this
 
 export class LiveView {
   private readonly frames: FrameReport[] = [];
-  private readonly drops: number[] = [];
   private readonly viewer: Viewer;
-  private readonly watch: LiveWatch;
+  private readonly state: LiveState;
   private readonly connection: LiveConnection;
   private readonly timeline = new Throttle(timelineMilliseconds, () =>
-    this.viewer.timeline.setFrames(this.frames.slice(), this.drops.slice()),
+    this.viewer.timeline.setFrames(this.frames.slice()),
   );
   private paused = false;
   private sceneVersion: number;
@@ -36,7 +31,7 @@ export class LiveView {
       wantsChanged: () => this.connection?.want(this.wanted(), this.viewer.step),
       chosen: () => undefined,
     });
-    bindControls(this.viewer, {
+    bindCommands(this.viewer, {
       toggle: () => this.toggle(),
       seek: () => undefined,
       current: () => this.frames.length - 1,
@@ -44,16 +39,16 @@ export class LiveView {
     });
     document.documentElement.classList.add('live');
     showPlaying(true);
-    this.watch = new LiveWatch({
+    this.state = new LiveState({
       told: (told, fault) => this.told(told, fault),
       back: () => this.connection.renew(),
     });
     this.connection = new LiveConnection(
       {
-        packet: (packet) => this.take(packet).finally(() => this.watch.ended()),
-        connected: () => this.watch.connected(),
-        disconnected: (seconds) => this.watch.disconnected(seconds),
-        fault: (message) => this.watch.failed(message),
+        packet: (packet) => this.take(packet).finally(() => this.state.ended()),
+        connected: () => this.state.connected(),
+        disconnected: (seconds) => this.state.disconnected(seconds),
+        fault: (message) => this.state.failed(message),
       },
       this.wanted(),
       this.viewer.step,
@@ -68,7 +63,7 @@ export class LiveView {
   private toggle(): void {
     this.paused = !this.paused;
     this.connection.setPaused(this.paused);
-    this.watch.setPaused(this.paused);
+    this.state.setPaused(this.paused);
     showPlaying(!this.paused);
     this.timeline.flush(); // all that is shown is of one frame
     this.viewer.flush();
@@ -80,17 +75,15 @@ export class LiveView {
     const ours = fault ? [{ level: 'error', message: fault }] : [];
     showTold(session.missing, [...ours, ...(session.diagnostics ?? [])], true);
     if (this.frames.length > 0) return;
-    const note = byId('scene-note');
-    note.hidden = false;
     const what = fault
       ? `Frames come that cannot be drawn: ${fault}`
       : 'Waiting for the first frame.';
-    setText(note, [what, ...session.missing].join('\n'));
+    showSceneNote([what, ...session.missing].join('\n'));
   }
 
   private async take(packet: Packet): Promise<void> {
     const arrived = performance.now();
-    this.watch.arrived();
+    this.state.arrived();
     const { server, camera } = this.viewer.session;
     const isOther = packet.server !== server;
     if (isOther || packet.sceneVersion !== this.sceneVersion || !camera)
@@ -100,7 +93,7 @@ export class LiveView {
     if (!this.viewer.chosen && first) this.viewer.choose(first.name);
     await this.viewer.show(packet, this.frames.length - 1);
     await new Promise((resolve) => requestAnimationFrame(resolve));
-    if (packet.live) this.watch.drawn(packet.live, performance.now() - arrived);
+    if (packet.live) this.state.drawn(packet.live, performance.now() - arrived);
   }
 
   /**
@@ -115,18 +108,13 @@ export class LiveView {
     if (isOther) {
       this.viewer.choose(null);
       this.frames.length = 0;
-      this.drops.length = 0;
     }
     this.connection.want(this.wanted(), this.viewer.step);
   }
 
   private keep(packet: Packet): void {
     this.frames.push(packet.frame);
-    this.drops.push(packet.live?.dropped ?? 0);
-    if (this.frames.length > keptFrames) {
-      this.frames.shift();
-      this.drops.shift();
-    }
+    if (this.frames.length > keptFrames) this.frames.shift();
     this.timeline.request();
   }
 }

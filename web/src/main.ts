@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import './styles/base.css';
 import './styles/page.css';
-import './styles/targets.css';
 import './styles/timeline.css';
 import { fetchReport, fetchSession } from './api/client';
 import type { Session } from './api/types';
 import { LiveView } from './live_view';
 import { StoredView } from './stored';
-import { timelineLegend } from './timeline/legend';
-import { cover } from './view/cover';
+import { timelineLegend } from './timeline/timeline_view';
 import { byId } from './view/dom';
-import { showInput } from './view/input_name';
-import { ThemeSwitch } from './view/theme';
+import { cover, showInput } from './view/page';
+import { bindPanes } from './view/panes';
+import { bindTheme } from './view/theme';
 
 /** What a session says was missing has to be of all frames that the report has. */
 async function openStored(session: Session): Promise<void> {
@@ -23,6 +22,7 @@ async function start(): Promise<void> {
   const session = await fetchSession();
   showInput(session);
   byId('timeline-legend').replaceChildren(...timelineLegend());
+  bindPanes();
   if (session.mode === 'live') new LiveView(session);
   else await openStored(session);
 }
@@ -31,7 +31,5 @@ async function start(): Promise<void> {
 if (new URLSearchParams(location.search).has('token'))
   history.replaceState(null, '', location.pathname + location.hash);
 
-const run = (): void =>
-  void start().catch((error: unknown) => cover(error, () => location.reload()));
-new ThemeSwitch(byId<HTMLButtonElement>('theme'), () => document.dispatchEvent(new Event('theme')));
-run();
+bindTheme(byId<HTMLButtonElement>('theme'), () => document.dispatchEvent(new Event('theme')));
+start().catch((error: unknown) => cover(error, [['Try again', () => location.reload()]]));

@@ -3,17 +3,15 @@
 import { ApiError, fetchPacket, fetchReport, fetchSession } from './api/client';
 import type { FrameReport, Report, Session } from './api/types';
 import { FrameCache } from './model/frame_cache';
-import { onsets } from './model/occlusions';
 import { Player } from './model/player';
-import { bindControls } from './view/controls';
-import { cover, coverReplaced, coverWaiting, uncover } from './view/cover';
-import { fragmentState, setFragment } from './view/fragment';
-import { showMissing } from './view/missing';
-import { showMode, showPlaying } from './view/mode';
+import { onsets } from './model/timeline';
+import { bindCommands } from './view/commands';
+import { cover, coverReplaced, showMode, showNotes, showPlaying, uncover } from './view/page';
 import { Viewer } from './viewer';
 
 const cacheBytes = 192 * 2 ** 20;
 const restMilliseconds = 180; // standing still this long, a frame's values are fetched too
+const addressMilliseconds = 300;
 const pollMilliseconds = 1500;
 const answerMilliseconds = 10_000; // frames of an hour are some megabytes
 const mostUnanswered = 2; // questions, until that is told
@@ -23,6 +21,7 @@ export class StoredView {
   private shown = 0;
   private wish = 0;
   private resting = 0;
+  private keeping = 0;
   private complete = false;
   private unanswered = 0; // questions, one after another
   private frames: readonly FrameReport[] = [];
@@ -35,7 +34,7 @@ export class StoredView {
       seek: (frame) => void this.seek(frame),
       wantsChanged: () => this.wantsChanged(),
       chosen: () => {
-        if (this.viewer.packet) setFragment(this.current, this.viewer.chosen);
+        if (this.viewer.packet) this.keepPlace();
       },
     });
     this.cache = new FrameCache(
@@ -48,7 +47,7 @@ export class StoredView {
       (frame) => this.go(frame),
       () => this.playingChanged(),
     );
-    bindControls(this.viewer, {
+    bindCommands(this.viewer, {
       toggle: () => this.player.toggle(),
       seek: (frame) => void this.seek(frame),
       current: () => this.current,
@@ -59,12 +58,28 @@ export class StoredView {
   }
 
   async start(): Promise<void> {
-    const { frame, target } = fragmentState();
+    const place = new URLSearchParams(location.hash.slice(1));
+    const [frame, target] = [Number(place.get('frame')), place.get('target')];
     const { tracks } = this.viewer.timeline;
     const occluded = tracks.find((track) => onsets([track]).length > 0);
     const known = tracks.find((track) => track.name === target) ?? occluded ?? tracks[0];
     if (known) this.viewer.choose(known.name);
-    await this.go(frame);
+    await this.go(
+      Math.max(
+        0,
+        this.frames.findIndex(({ index }) => index >= frame),
+      ),
+    );
+  }
+
+  /** Frame (its number of the report) and target in the address: a link leads to the same place. */
+  private keepPlace(): void {
+    window.clearTimeout(this.keeping);
+    this.keeping = window.setTimeout(() => {
+      const state = new URLSearchParams({ frame: `${this.frames[this.current]?.index ?? 0}` });
+      if (this.viewer.chosen) state.set('target', this.viewer.chosen);
+      history.replaceState(null, '', `#${state.toString()}`);
+    }, addressMilliseconds);
   }
 
   private async seek(frame: number): Promise<void> {
@@ -75,7 +90,7 @@ export class StoredView {
   private async go(frame: number): Promise<void> {
     const last = this.viewer.timeline.times.length - 1;
     if (last < 0)
-      return coverWaiting(this.complete ? 'There are no frames.' : 'Judging the first frame …');
+      return cover(this.complete ? 'There are no frames.' : 'Judging the first frame …', [], false);
     this.current = Math.max(0, Math.min(frame, last));
     const wish = ++this.wish;
     window.clearTimeout(this.resting);
@@ -90,7 +105,7 @@ export class StoredView {
       this.fail(error, wanted);
       return;
     }
-    setFragment(this.current, this.viewer.chosen);
+    this.keepPlace();
     if (this.player.playing) this.ahead();
     else this.rest(wish);
   }
@@ -144,8 +159,8 @@ export class StoredView {
 
   private fail(error: unknown, frame: number): void {
     if (error instanceof ApiError && error.status > 0) void this.look();
-    const back = (): void => void this.go(this.shown);
-    cover(error, () => void this.go(frame), this.viewer.packet ? back : undefined);
+    const back = ['Back to the frame before', () => void this.go(this.shown)] as const;
+    cover(error, [['Try again', () => void this.go(frame)], ...(this.viewer.packet ? [back] : [])]);
   }
 
   /** What was not had may be so as another input is served. */
@@ -175,7 +190,7 @@ export class StoredView {
     const text = `${judged}${of} frames${this.complete ? '' : ', judging'}`;
     showMode(text, this.complete ? text : 'judging', this.complete && isPart);
     const notes = report.summary?.notes ?? [];
-    showMissing([...session.missing, ...notes], session.missing.length ? 'Not there' : 'Notes');
+    showNotes([...session.missing, ...notes], session.missing.length ? 'Not there' : 'Notes');
   }
 
   /** A run that is still going on: more frames come. */
@@ -201,6 +216,6 @@ export class StoredView {
     const judged = this.frames.length;
     const said = 'the server does not answer';
     showMode(`${said} · ${judged} frames so far`, said, true);
-    if (judged === 0) coverWaiting(`${said}: is penumbra view still running?`, true);
+    if (judged === 0) cover(`${said}: is penumbra view still running?`, []);
   }
 }

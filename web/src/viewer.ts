@@ -10,8 +10,7 @@ import { isSoftwareGl } from './scene/software_gl';
 import { TimelineView } from './timeline/timeline_view';
 import { byId, setText } from './view/dom';
 import { frameDetails } from './view/frame_panel';
-import { ImageView } from './view/image_view';
-import { reasonOfNoRobot } from './view/no_robot';
+import { ImageView, type Layer } from './view/image_view';
 import { targetDetails, targetList } from './view/target_panel';
 import { styleValue } from './view/theme';
 
@@ -104,12 +103,16 @@ export class Viewer {
 
   private async draw(packet: Packet, position: number): Promise<void> {
     // What cannot be decoded is shown nowhere.
-    await Promise.all([this.image.show(packet, this.session.links), this.fetchRobot(packet)]);
+    await Promise.all([
+      this.image.show(packet, this.session.links, this.chosen),
+      this.fetchRobot(packet),
+    ]);
     this.packet = packet;
     this.position = position;
     this.showScene(packet);
     this.timeline.setCurrent(position, packet.frame);
-    byId('timeline-legend').hidden = this.timeline.tracks.length === 0;
+    for (const id of ['timeline-legend', 'occlusions'])
+      byId(id).hidden = this.timeline.tracks.length === 0;
     this.numbers.request();
     byId('main').dataset['layer'] = this.image.layer;
     byId('main').dataset['shown'] = [packet.frame.index, ...packet.has].join(' ');
@@ -122,7 +125,19 @@ export class Viewer {
     const { packet } = this;
     if (!packet) return;
     this.scene?.show(packet, this.step, name);
+    this.image.showChosen(name);
     this.showTarget(packet);
+  }
+
+  setLayer(layer: Layer): void {
+    this.image.layer = layer;
+    this.handlers.wantsChanged();
+    this.redraw();
+  }
+
+  setCloudByLabel(byLabel: boolean): void {
+    this.scene?.cloud.setColors(byLabel ? 'label' : 'color');
+    this.scene?.invalidate();
   }
 
   setShown(part: ScenePart, shown: boolean): void {
@@ -153,10 +168,7 @@ export class Viewer {
   private showScene(packet: Packet): void {
     if (!this.scene) return;
     this.scene.show(packet, this.step, this.chosen);
-    const reason = reasonOfNoRobot(packet, packet.live?.missing ?? this.session.missing);
-    const note = byId('scene-note');
-    note.hidden = reason === null;
-    setText(note, reason ?? '');
+    showSceneNote(reasonOfNoRobot(packet, packet.live?.missing ?? this.session.missing));
   }
 
   /** The packet's robot, where another one is shown. */
@@ -177,13 +189,12 @@ export class Viewer {
     }
   }
 
-  /** Stored: the frame's place among all. Live: its number, and the time since the page was opened. */
+  /** The frame's number in the report, and the last one's; live the time since the page was opened. */
   private showPosition(frame: FrameReport): void {
-    const { times } = this.timeline;
+    const { times, lastIndex } = this.timeline;
     const isLive = this.session.mode === 'live';
     const time = isLive ? this.liveTime(frame.stamp_ns) : (times[this.position] ?? null);
-    const place = isLive ? `${frame.index}` : `${this.position + 1} / ${times.length}`;
-    setText(byId('position-frame'), place);
+    setText(byId('position-frame'), `frame ${frame.index}${isLive ? '' : ` / ${lastIndex}`}`);
     setText(byId('position-time'), time === null ? '' : seconds(time, 3));
   }
 
@@ -226,9 +237,30 @@ function makeScene(isSlow: boolean): SceneView | null {
   try {
     return new SceneView(byId<HTMLCanvasElement>('scene-canvas'), byId('scene-names'), isSlow);
   } catch {
-    const note = byId('scene-note');
-    note.hidden = false;
-    setText(note, 'This browser has no WebGL: the 3-D scene is not drawn. All else works.');
+    showSceneNote('This browser has no WebGL: the 3-D scene is not drawn. All else works.');
     return null;
   }
+}
+
+/** @param text null: there is nothing to say */
+export function showSceneNote(text: string | null): void {
+  byId('scene-note').hidden = text === null;
+  setText(byId('scene-note'), text ?? '');
+}
+
+/**
+ * Why robot or camera are not where they should be in the scene; null: they are.
+ * @param missing what is not there in any frame, in the server's words
+ */
+function reasonOfNoRobot(packet: Packet, missing: readonly string[]): string | null {
+  const { frame, linkPoses, cameraPose } = packet;
+  const noPose = linkPoses.length > 0 && linkPoses.every((pose) => pose === null);
+  if (frame.status === 'ok' && missing.length > 0 && (noPose || cameraPose === null))
+    return missing.join('; ');
+  const because = frame.status === 'ok' ? '' : `: ${frame.message ?? frame.status}`;
+  if (noPose) return `No robot in this frame, as its pose is not known${because}`;
+  const without = linkPoses.filter((pose) => pose === null).length;
+  if (without > 0) return `${without} of ${linkPoses.length} links have no pose${because}`;
+  if (cameraPose === null) return `The camera's pose is not known: no points${because}`;
+  return frame.status === 'ok' ? null : `${frame.status}${because}`;
 }

@@ -11,12 +11,21 @@ interface PartHeader {
   readonly height?: number;
 }
 
+/** What is drawn of a target in the image, in pixels. */
+export interface Mark {
+  /** Lines: u, v, u, v... */
+  readonly outline: readonly (readonly number[])[];
+  /** Where a handled target is. */
+  readonly place: readonly [number, number] | null;
+}
+
 interface PacketHeader {
   readonly frame: FrameReport;
   readonly server: string;
   readonly scene_version: number;
   readonly link_poses: readonly (Pose | null)[];
   readonly camera_pose: Pose | null;
+  readonly marks?: readonly Mark[];
   readonly parts: readonly PartHeader[];
   readonly live?: LiveState;
 }
@@ -45,6 +54,8 @@ export interface Packet {
   readonly sceneVersion: number;
   readonly linkPoses: readonly (Pose | null)[];
   readonly cameraPose: Pose | null;
+  /** One for each target of the frame; empty where the server has no outlines. */
+  readonly marks: readonly Mark[];
   readonly live: LiveState | null;
   readonly byteLength: number;
   /** What came: a part that is not here was not asked for, or cannot be had of this frame. */
@@ -87,6 +98,7 @@ export function parsePacket(buffer: ArrayBuffer): Packet {
     sceneVersion: header.scene_version,
     linkPoses: header.link_poses,
     cameraPose: header.camera_pose,
+    marks: header.marks ?? [],
     live: header.live ?? null,
     byteLength: buffer.byteLength,
     has: new Set(header.parts.map((part) => part.name)),

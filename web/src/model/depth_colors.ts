@@ -26,14 +26,16 @@ export const depthColors: readonly Rgb[] = Array.from({ length: 256 }, (_, index
   ) as unknown as Rgb;
 });
 
-/** Smallest and largest measured depth, or null where nothing is measured. Metres. */
+/** The percentiles of a frame's depths that are the ends of the scale. */
+export const depthPercentiles = [2, 98] as const;
+const mostSamples = 20_000;
+
+/** Returns the depths at both percentiles, metres, or null if nothing is measured. */
 export function depthRange(depth: Float32Array): readonly [number, number] | null {
-  let near = Infinity;
-  let far = 0;
-  for (const z of depth) {
-    if (!(z > 0) || z === Infinity) continue;
-    if (z < near) near = z;
-    if (z > far) far = z;
-  }
-  return far > 0 ? [near, far] : null;
+  const step = Math.ceil(depth.length / mostSamples);
+  const known = depth.filter((z, at) => at % step === 0 && z > 0 && z < Infinity).sort();
+  if (known.length === 0) return null;
+  const at = (percentile: number): number =>
+    known[Math.round((percentile / 100) * (known.length - 1))] as number;
+  return [at(depthPercentiles[0]), at(depthPercentiles[1])];
 }

@@ -8,6 +8,9 @@ export const labelOffset = 12;
 /** Returns whether a label is clear or front. */
 export const isSurroundings = (label: number): boolean => label === 0 || label === 1;
 
+/** Returns whether the robot is on the ray: a label is neither clear nor fringe. */
+export const isRobot = (label: number): boolean => label !== 0 && label !== 5;
+
 /**
  * Copies the points of the surroundings, one after another.
  * @param to has room for all points

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the timeline shows of the frames: pure data, at most one column for each pixel.
 import type { FrameReport, Source, TargetReport, Verdict } from '../api/types';
+import { nothing, percent } from './format';
 import { verdictOf } from './labels';
 
 export interface Sample {
@@ -66,6 +67,25 @@ export const hiddenShare = ({
 export const hiderOf = ({ occluded, other, blame }: Sample): string =>
   (other ?? 0) > (occluded ?? 0) ? 'others' : (blame ?? '');
 
+const leastShare = 0.005; // smaller ones round to 0 %
+
+/**
+ * How much of a target is hidden, and behind what: "37 % behind wrist, others". Of an unknown target
+ * it is what is known: "at least 57 % behind link2".
+ */
+export function hiddenWords(target: TargetReport): string {
+  const { occluded_fraction: occluded, hidden_by_other_fraction: other } = target;
+  const share = (target.inside ?? 0) > 0 ? hiddenShare({ occluded, other }) : null;
+  const isUnknown = verdictOf(target.verdict) === 'unknown';
+  if (share === null || (isUnknown && share < leastShare)) return nothing;
+  const hiders = [...(target.blame ?? []), { link: 'others', fraction: other ?? 0 }]
+    .filter(({ fraction }) => fraction >= leastShare)
+    .sort((a, b) => b.fraction - a.fraction)
+    .map(({ link }) => link);
+  const behind = hiders.length > 0 ? ` behind ${hiders.join(', ')}` : '';
+  return `${isUnknown ? 'at least ' : ''}${percent(share, 0)}${behind}`;
+}
+
 const gravity: Readonly<Record<Verdict | 'none', number>> = {
   visible: 0,
   out_of_view: 1,
@@ -128,4 +148,32 @@ export function secondsOf(frames: readonly FrameReport[]): (number | null)[] {
   return frames.map((frame) =>
     frame.stamp_ns === null ? null : Number(BigInt(frame.stamp_ns) - start) / 1e9,
   );
+}
+
+const isOccluded = (track: Track, frame: number): boolean => {
+  const verdict = track.samples[frame]?.verdict;
+  return verdict === 'partial' || verdict === 'hidden';
+};
+
+/** Frames in which an occlusion begins: partial or hidden, and neither in the frame before. */
+export function onsets(tracks: readonly Track[]): number[] {
+  const found = new Set<number>();
+  for (const track of tracks)
+    track.samples.forEach((_, frame) => {
+      if (isOccluded(track, frame) && (frame === 0 || !isOccluded(track, frame - 1)))
+        found.add(frame);
+    });
+  return [...found].sort((a, b) => a - b);
+}
+
+/** The nearest onset after (direction 1) or before (-1) a frame; undefined: there is none. */
+export function nextOnset(
+  tracks: readonly Track[],
+  frame: number,
+  direction: 1 | -1,
+): number | undefined {
+  const all = onsets(tracks);
+  return direction === 1
+    ? all.find((onset) => onset > frame)
+    : all.findLast((onset) => onset < frame);
 }

@@ -2,14 +2,12 @@
 // The report of a run in one file: summary, targets over time, key frames. It opens from the disk and
 // prints.
 import '../styles/base.css';
-import '../styles/targets.css';
 import '../styles/timeline.css';
 import '../styles/report.css';
 import { parseJson } from '../api/json';
 import type { Report } from '../api/types';
 import { byId } from '../view/dom';
-import type { KeyFrame } from './key_frames';
-import { ReportPage } from './report_page';
+import { ReportPage, type KeyFrame } from './report_page';
 
 function embedded<T>(id: string): T {
   return parseJson<T>(byId(id).textContent ?? 'null');

@@ -2,15 +2,20 @@
 import type { Report } from '../api/types';
 import { milliseconds } from '../model/format';
 import { verdictOf } from '../model/labels';
-import { TimelineView } from '../timeline/timeline_view';
+import { timelineLegend, TimelineView } from '../timeline/timeline_view';
 import { element } from '../view/dom';
 import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
 import { verdictIcon } from '../view/verdict_icon';
-import { keyFrames, type KeyFrame } from './key_frames';
-import { card, onFrameKeys, row, section, timelinePanel } from './parts';
 import { headOf, notesOf, tilesOf } from './summary';
 import { targetsTable } from './targets_table';
+
+export interface KeyFrame {
+  /** Of the report's frames, from 0. */
+  readonly index: number;
+  /** A data: address. */
+  readonly image: string;
+}
 
 /** The whole page; a frame and a target are chosen in its timeline, tables and pictures. */
 export class ReportPage {
@@ -24,7 +29,10 @@ export class ReportPage {
     private readonly report: Report,
     pictures: readonly KeyFrame[],
   ) {
-    const [chart, panel] = timelinePanel();
+    const chart = element('div');
+    chart.id = 'timeline';
+    const legend = element('div', '', ...timelineLegend());
+    legend.id = 'timeline-legend';
     this.timeline = new TimelineView(chart, {
       seek: (frame) => this.seek(frame),
       choose: (name) => this.choose(name),
@@ -39,34 +47,52 @@ export class ReportPage {
       headOf(report),
       tilesOf(report),
       ...notesOf(report),
-      section('Timeline', panel, this.details),
+      section('Timeline', element('div', 'panel', legend, chart), this.details),
       section('Targets', targetsTable(this.timeline.tracks, frames)),
-      ...(pictures.length ? [section('Key frames', this.pictures(pictures))] : []),
-      stageTable(report),
+      ...(pictures.length ? [section('Key frames', this.gallery(pictures))] : []),
+      section('Stage times', stageTable(report)),
     );
     this.choose(this.target);
-    onFrameKeys(
-      () => this.frame,
-      (frame) => this.seek(frame),
-    );
+    document.addEventListener('keydown', (event) => this.key(event));
   }
 
   private numberOf(frame: number): string {
     return String(this.report.frames[frame]?.index ?? frame);
   }
 
-  private pictures(pictures: readonly KeyFrame[]): HTMLElement {
-    const captionOf = ({ index }: KeyFrame): (Node | string)[] => {
-      const targets = this.report.frames[index]?.targets ?? [];
-      const verdicts = targets.map(({ name, verdict }) =>
+  /** The pictures; each opens its frame in the timeline. */
+  private gallery(pictures: readonly KeyFrame[]): HTMLElement {
+    const figures = pictures.flatMap(({ index, image }) => {
+      const frame = this.report.frames[index];
+      if (!frame) return [];
+      const verdicts = frame.targets.map(({ name, verdict }) =>
         element('span', 'legend-entry', verdictIcon(verdictOf(verdict)), name),
       );
-      return [element('b', '', `frame ${this.numberOf(index)}`), ...verdicts];
-    };
-    const known = pictures.filter(({ index }) => this.report.frames[index]);
-    return keyFrames(known, captionOf, (frame) => this.seek(frame));
+      const title = `frame ${frame.index}`;
+      const picture = element('img');
+      picture.src = image;
+      picture.alt = `overlay of ${title}`;
+      const open = element('button', 'picture', picture);
+      open.title = 'Show in the timeline';
+      open.addEventListener('click', () => this.seek(index));
+      const caption = element('figcaption', '', element('b', '', title), ...verdicts);
+      return [element('figure', 'panel', open, caption)];
+    });
+    return element('div', 'gallery', ...figures);
   }
 
+  /** Arrow keys step; on the playhead Home and End go to the ends. Elsewhere these scroll. */
+  private key(event: KeyboardEvent): void {
+    const { key, target } = event;
+    if (key === 'ArrowRight' || key === 'ArrowLeft')
+      this.seek(this.frame + (key === 'ArrowRight' ? 1 : -1));
+    const isPlayhead = target instanceof Element && target.closest('[role=slider]') !== null;
+    if (!isPlayhead || (key !== 'Home' && key !== 'End')) return;
+    event.preventDefault();
+    this.seek(key === 'Home' ? 0 : Infinity);
+  }
+
+  /** @param frame any number: goes to the nearest frame */
   private seek(frame: number): void {
     this.frame = Math.max(0, Math.min(frame, this.report.frames.length - 1));
     this.show();
@@ -83,20 +109,27 @@ export class ReportPage {
     this.timeline.setCurrent(this.frame);
     if (!frame) return;
     const target = frame.targets.find((one) => one.name === this.target);
+    const list = targetList(frame, this.target, (name) => this.choose(name));
     this.details.replaceChildren(
       card(`Frame ${frame.index}`, frameDetails(frame)),
-      card(
-        'Targets',
-        targetList(frame, this.target, (name) => this.choose(name)),
-      ),
+      card('Targets', list),
       ...(target ? [card(target.name, targetDetails(target))] : []),
     );
   }
 }
 
+const section = (title: string, ...content: Node[]): HTMLElement =>
+  element('section', '', element('h2', '', title), ...content);
+
+const card = (title: string, content: Node): HTMLElement =>
+  element('div', 'panel card', element('h3', '', title), content);
+
 function stageTable({ summary }: Report): HTMLElement {
-  const table = element('table', '', row('th', ['stage', 'median', 'p99', 'max']));
-  for (const [stage, time] of Object.entries(summary?.timing_ms ?? {}))
-    table.append(row('td', [stage, ...[time?.median, time?.p99, time?.max].map(milliseconds)]));
-  return section('Stage times', element('div', 'panel card scroll', table));
+  const row = (tag: 'th' | 'td', cells: readonly string[]): HTMLElement =>
+    element('tr', '', ...cells.map((cell) => element(tag, '', cell)));
+  const rows = Object.entries(summary?.timing_ms ?? {}).map(([stage, time]) =>
+    row('td', [stage, ...[time?.median, time?.p99, time?.max].map(milliseconds)]),
+  );
+  const table = element('table', '', row('th', ['stage', 'median', 'p99', 'max']), ...rows);
+  return element('div', 'panel card scroll', table);
 }

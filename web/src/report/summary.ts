@@ -3,7 +3,6 @@ import type { FrameReport, Report, Summary } from '../api/types';
 import { count, milliseconds, percent, seconds, stamp } from '../model/format';
 import { secondsOf } from '../model/timeline';
 import { element } from '../view/dom';
-import { tile } from './parts';
 
 export function headOf(report: Report): HTMLElement {
   const { backend = '?', isa, device } = report.renderer ?? {};
@@ -37,6 +36,16 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     tile('robot pixels', count(robot), `unknown ${share('unknown')}`),
     tile('seen in front', share('front'), `beyond ${share('beyond')}`),
     tile('median per frame', milliseconds(total), of),
+  );
+}
+
+function tile(name: string, value: string, more: string, fault = false): HTMLElement {
+  const lines = [element('span', 'hint', name), element('strong', '', value)];
+  return element(
+    'div',
+    `panel tile${fault ? ' fault' : ''}`,
+    ...lines,
+    element('span', 'hint', more),
   );
 }
 

@@ -2,8 +2,7 @@
 import type { Source, Verdict } from '../api/types';
 import { percent } from '../model/format';
 import { verdictNames } from '../model/labels';
-import { onsets } from '../model/occlusions';
-import { hiddenShare, hiderOf, type Sample, type Track } from '../model/timeline';
+import { hiddenShare, hiderOf, onsets, type Sample, type Track } from '../model/timeline';
 import { element } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 

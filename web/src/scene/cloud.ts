@@ -13,7 +13,7 @@ import { pointBytes, type Cloud } from '../api/packet';
 import type { Pose } from '../api/types';
 import { labelColor, labelStyles, rgbOf } from '../model/labels';
 import { copySurroundings, labelOffset } from '../model/surroundings';
-import { place } from './pose';
+import { place } from './robot';
 
 export type CloudColors = 'label' | 'color';
 

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robot as the renderer draws it: its own triangles, in each link's frame.
-import { BufferAttribute, BufferGeometry, Color, Group, Mesh, MeshStandardMaterial } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  Mesh,
+  MeshStandardMaterial,
+  type Object3D,
+} from 'three';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 import type { Pose, SceneIndex } from '../api/types';
 import { okabeIto } from '../model/labels';
-import { place } from './pose';
 
 const crease = (35 * Math.PI) / 180; // edges sharper than this stay edges
 const mostCreasedTriangles = 400_000; // beyond it flat faces: the page has to load quickly
 const plain = new Color('#b9c2cc');
 const blamed = new Color(okabeIto.vermillion);
+
+/** Places an object; without a pose it is not shown: nothing stands where nothing is known. */
+export function place(object: Object3D, pose: Pose | null | undefined): void {
+  object.visible = !!pose;
+  if (!pose) return;
+  object.position.set(pose[0], pose[1], pose[2]);
+  object.quaternion.set(pose[3], pose[4], pose[5], pose[6]);
+}
 
 interface Link {
   readonly name: string;

@@ -19,9 +19,8 @@ import type { Packet } from '../api/packet';
 import type { CameraInfo, Pose, SceneIndex } from '../api/types';
 import { CloudModel } from './cloud';
 import { Frustum } from './frustum';
-import { RobotModel } from './robot';
-import { place } from './pose';
-import { TargetLayer } from './target_layer';
+import { place, RobotModel } from './robot';
+import { TargetLayer } from './targets';
 
 export type ScenePart = 'robot' | 'cloud' | 'camera' | 'targets';
 
@@ -65,7 +64,8 @@ export class SceneView {
     sun.position.set(2, -3, 5);
     this.scene.add(new AmbientLight(0xffffff, 0.5), new HemisphereLight(0xffffff, 0x8a8f98, 1.2));
     this.scene.add(sun, this.cloud.points, this.frustum.lines);
-    this.targets = new TargetLayer(this.scene, names);
+    this.targets = new TargetLayer(names);
+    this.scene.add(this.targets.root);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
   }
 

@@ -3,14 +3,10 @@
 // handled: a ball measured, a cone predicted, a diamond held; lost ones are drawn nowhere.
 import {
   AxesHelper,
-  BufferAttribute,
   BufferGeometry,
-  Color,
   ConeGeometry,
   Group,
-  Line,
   LineBasicMaterial,
-  LineDashedMaterial,
   LineSegments,
   Mesh,
   MeshBasicMaterial,
@@ -18,8 +14,23 @@ import {
   OctahedronGeometry,
   SphereGeometry,
   Vector3,
+  type Camera,
+  type Color,
+  type Object3D,
 } from 'three';
-import type { TargetReport } from '../api/types';
+import type { TargetReport, Vec3, Verdict } from '../api/types';
+import { okabeIto, verdictOf } from '../model/labels';
+import { element } from '../view/dom';
+import { placeNames, type Placed } from '../view/names';
+import { verdictIcon } from '../view/verdict_icon';
+
+const colors: Readonly<Record<Verdict, string>> = {
+  visible: okabeIto.green,
+  partial: okabeIto.orange,
+  hidden: okabeIto.vermillion,
+  unknown: okabeIto.yellow,
+  out_of_view: '#8b949e',
+};
 
 const size = 0.018; // metres: a mark's radius
 const smallestSigma = 0.004; // metres: smaller ones vanish in the mark
@@ -30,110 +41,105 @@ const shapes = {
   predicted: new ConeGeometry(size, 2 * size, 20).rotateX(Math.PI / 2),
   held: new OctahedronGeometry(1.3 * size),
 };
-const unitSphere = new SphereGeometry(1, 32, 20);
+const sphere = new SphereGeometry(1, 32, 20);
+const cross = new BufferGeometry().setFromPoints(
+  [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].flatMap((axis) => [
+    axis.clone().multiplyScalar(-1.4 * size),
+    axis.clone().multiplyScalar(1.4 * size),
+  ]),
+);
+const axes = new AxesHelper(5 * size);
 
-function crossOf(reach: number): BufferGeometry {
-  const ends = new Float32Array([
-    -reach,
-    0,
-    0,
-    reach,
-    0,
-    0,
-    0,
-    -reach,
-    0,
-    0,
-    reach,
-    0,
-    0,
-    0,
-    -reach,
-    0,
-    0,
-    reach,
-  ]);
-  return new BufferGeometry().setAttribute('position', new BufferAttribute(ends, 3));
+// Drawn over all else: what hides a target must not hide where it is.
+const ink = new LineBasicMaterial({ depthTest: false });
+(axes.material as LineBasicMaterial).depthTest = false;
+const verdicts = Object.keys(colors) as Verdict[];
+const solids = new Map(
+  verdicts.map((verdict) => [
+    verdict,
+    new MeshStandardMaterial({ color: colors[verdict], roughness: 0.5, depthTest: false }),
+  ]),
+);
+const sigmas = new Map(
+  verdicts.map((verdict) => [
+    verdict,
+    new MeshBasicMaterial({
+      color: colors[verdict],
+      transparent: true,
+      opacity: 0.16,
+      depthWrite: false,
+    }),
+  ]),
+);
+
+interface Shown {
+  readonly name: HTMLElement;
+  /** Where the name is written. */
+  readonly anchor: Vector3;
 }
-const cross = crossOf(1.4 * size);
 
-export class TargetMark {
+/** Marks of a frame's targets, and their names as text over the scene. */
+export class TargetLayer {
   readonly root = new Group();
-  /** Where its name is written; null: nothing of it is drawn. */
-  anchor: Vector3 | null = null;
-  // Drawn over all else: what hides a target must not hide where it is.
-  private readonly solidMaterial = new MeshStandardMaterial({ roughness: 0.5, depthTest: false });
-  private readonly sigmaMaterial = new MeshBasicMaterial({
-    transparent: true,
-    opacity: 0.16,
-    depthWrite: false,
-  });
-  private readonly lineMaterial = new LineBasicMaterial({ depthTest: false });
-  private readonly solid = new Mesh<BufferGeometry>(shapes.measured, this.solidMaterial);
-  private readonly sigma = new Mesh(unitSphere, this.sigmaMaterial);
-  private readonly cross = new LineSegments(cross, this.lineMaterial);
-  private readonly axes = new AxesHelper(5 * size);
-  private readonly gap = new Line(
-    new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(6), 3)),
-    new LineDashedMaterial({ dashSize: 0.02, gapSize: 0.012 }),
-  );
+  private shown: readonly Shown[] = [];
 
-  constructor() {
-    this.solid.renderOrder = 2;
-    this.cross.renderOrder = 3;
-    this.axes.renderOrder = 3;
-    (this.axes.material as LineBasicMaterial).depthTest = false;
-    this.gap.frustumCulled = false;
-    this.root.add(this.solid, this.sigma, this.cross, this.axes, this.gap);
+  constructor(private readonly names: HTMLElement) {}
+
+  setInk(color: Color): void {
+    ink.color.copy(color);
   }
 
-  update(target: TargetReport | null, color: Color, ink: Color, chosen: boolean): void {
-    const handled = target?.handled;
-    const source = handled?.source;
-    const at = handled?.position && source && source !== 'lost' ? handled.position : null;
-    const point = target?.point ?? null;
-    this.solid.visible = at !== null;
-    this.axes.visible = at !== null && !!handled?.orientation;
-    if (at && source && source !== 'lost') {
-      this.solid.geometry = shapes[source];
-      this.solid.position.set(...at);
-      this.solid.scale.setScalar(chosen ? 1.35 : 1);
-      this.axes.position.copy(this.solid.position);
-      if (handled?.orientation) this.axes.quaternion.set(...handled.orientation);
+  show(targets: readonly TargetReport[], chosen: string | null): void {
+    this.root.clear();
+    this.shown = targets.flatMap((target) => {
+      const isChosen = target.name === chosen;
+      const at = this.addMarks(target, isChosen);
+      if (!at) return [];
+      const icon = verdictIcon(verdictOf(target.verdict));
+      const name = element('span', `target-name${isChosen ? ' chosen' : ''}`, icon, target.name);
+      return [{ name, anchor: new Vector3(...at) }];
+    });
+    this.names.replaceChildren(...this.shown.map(({ name }) => name));
+  }
+
+  placeNames(eye: Camera, canvas: HTMLCanvasElement): void {
+    const at = new Vector3();
+    const placed: Placed[] = [];
+    for (const { name, anchor } of this.shown) {
+      at.copy(anchor).project(eye);
+      name.hidden = at.z >= 1 || Math.abs(at.x) >= 1 || Math.abs(at.y) >= 1;
+      if (name.hidden) continue;
+      const x = ((at.x + 1) / 2) * canvas.clientWidth;
+      const y = ((1 - at.y) / 2) * canvas.clientHeight;
+      placed.push({ name, x: x + 14, y: y - 11 }); // beside the mark
     }
-    this.showSigma(at !== null ? (handled?.sigma_m ?? 0) : 0);
-    this.cross.visible = point !== null;
-    if (point) this.cross.position.set(...point);
-    this.solidMaterial.color.copy(color);
-    this.sigmaMaterial.color.copy(color);
-    this.lineMaterial.color.copy(ink);
-    this.showGap(at !== null && point !== null, ink);
-    const shown = at ? this.solid : point ? this.cross : null;
-    this.anchor = shown ? shown.position : null;
+    placeNames(placed);
   }
 
-  dispose(): void {
-    for (const material of [this.solidMaterial, this.sigmaMaterial, this.lineMaterial])
-      material.dispose();
-    this.axes.dispose();
-    this.gap.geometry.dispose();
-    this.gap.material.dispose();
-  }
-
-  private showSigma(sigma: number): void {
-    this.sigma.visible = sigma >= smallestSigma;
-    this.sigma.scale.setScalar(Math.min(sigma, largestSigma));
-    this.sigma.position.copy(this.solid.position);
-  }
-
-  private showGap(visible: boolean, ink: Color): void {
-    this.gap.visible = visible;
-    if (!visible) return;
-    const ends = this.gap.geometry.getAttribute('position') as BufferAttribute;
-    ends.setXYZ(0, ...this.solid.position.toArray());
-    ends.setXYZ(1, ...this.cross.position.toArray());
-    ends.needsUpdate = true;
-    this.gap.computeLineDistances();
-    this.gap.material.color.copy(ink);
+  /** @returns where the name is written; null: nothing of it is drawn */
+  private addMarks({ verdict, handled, point }: TargetReport, isChosen: boolean): Vec3 | null {
+    const kind = verdictOf(verdict);
+    const add = (mark: Object3D, at: Vec3, order = 0): void => {
+      mark.position.set(...at);
+      mark.renderOrder = order;
+      this.root.add(mark);
+    };
+    if (point) add(new LineSegments(cross, ink), point, 3);
+    if (!handled?.position || handled.source === 'lost') return point;
+    const { position, orientation, source, sigma_m: sigma } = handled;
+    const solid = new Mesh(shapes[source], solids.get(kind));
+    solid.scale.setScalar(isChosen ? 1.35 : 1);
+    add(solid, position, 2);
+    if (sigma !== null && sigma >= smallestSigma) {
+      const ball = new Mesh(sphere, sigmas.get(kind));
+      ball.scale.setScalar(Math.min(sigma, largestSigma));
+      add(ball, position);
+    }
+    if (orientation) {
+      const frame = new LineSegments(axes.geometry, axes.material);
+      frame.quaternion.set(...orientation);
+      add(frame, position, 3);
+    }
+    return position;
   }
 }

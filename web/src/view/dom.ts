@@ -18,6 +18,13 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** @param color a custom property of the style sheet, or a colour */
+export function swatch(color: string): HTMLElement {
+  const box = element('i', 'swatch');
+  box.style.background = color.startsWith('--') ? `var(${color})` : color;
+  return box;
+}
+
 const svgNamespace = 'http://www.w3.org/2000/svg';
 
 export function svg<K extends keyof SVGElementTagNameMap>(

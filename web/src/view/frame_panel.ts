@@ -2,8 +2,8 @@
 import type { FrameReport } from '../api/types';
 import { count, milliseconds, percent, stamp } from '../model/format';
 import { stages } from '../timeline/timeline_view';
-import { element } from './dom';
-import { factList } from './target_panel';
+import { element, swatch } from './dom';
+import { fact, factList } from './target_panel';
 
 const shares = ['front', 'occluded', 'unknown', 'beyond'] as const; // of the robot's pixels
 
@@ -16,7 +16,7 @@ export function frameDetails(frame: FrameReport): HTMLElement {
   const bar = element('div', 'share-bar');
   bar.setAttribute('aria-hidden', 'true');
   for (const name of shares) {
-    const part = element('i', `l-${name}`);
+    const part = swatch(`--l-${name}`);
     part.style.flexGrow = String(robot ? (frame.pixels[name] ?? 0) : 0);
     bar.append(part);
   }
@@ -25,24 +25,25 @@ export function frameDetails(frame: FrameReport): HTMLElement {
     const value = frame.pixels[name] ?? null;
     const isShare = (shares as readonly string[]).includes(name);
     const share = robot && value !== null && isShare ? `  ${percent(value / robot)}` : '';
-    const color = name === 'uncovered' ? '' : `l-${name}`;
-    return { key: name, name, text: `${count(value)}${share}`, value, color };
+    return fact(
+      name,
+      name,
+      value,
+      `${count(value)}${share}`,
+      name === 'uncovered' ? '' : `--l-${name}`,
+    );
   });
   const times = stages.map((name, index) => {
     const value = frame.timing_ms?.[name] ?? null;
-    return { key: name, name, text: milliseconds(value), value, color: `series-${index}` };
+    return fact(name, name, value, milliseconds(value), `--series-${index}`);
   });
+  const { stamp_ns, joint_age_ms } = frame;
   body.append(
-    factList([{ key: 'robot', name: 'robot pixels', text: count(robot), value: robot }, ...pixels]),
+    factList([fact('robot', 'robot pixels', robot, count(robot)), ...pixels]),
     element('h4', '', 'Times'),
     factList([
-      { key: 'stamp_ns', name: 'stamp', text: stamp(frame.stamp_ns), value: frame.stamp_ns },
-      {
-        key: 'joint_age_ms',
-        name: 'joint age',
-        text: milliseconds(frame.joint_age_ms),
-        value: frame.joint_age_ms,
-      },
+      fact('stamp_ns', 'stamp', stamp_ns, stamp(stamp_ns)),
+      fact('joint_age_ms', 'joint age', joint_age_ms, milliseconds(joint_age_ms)),
       ...times,
     ]),
   );

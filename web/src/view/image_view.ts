@@ -3,12 +3,12 @@
 import type { Packet } from '../api/packet';
 import type { PartName } from '../api/types';
 import { depthRange } from '../model/depth_colors';
-import { readoutAt } from '../model/readout';
-import { CompareSlider } from './compare_slider';
+import { bindDrag } from './drag';
 import { byId, setText } from './dom';
 import { layerLegend } from './legend';
 import { Painter, clear, decoded, noMeasurement, noRobot } from './painters';
-import { showReadout } from './readout_view';
+import { readoutAt, showReadout } from './readout';
+import { TargetMarks } from './target_marks';
 
 export type Layer = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth';
 
@@ -24,20 +24,20 @@ export class ImageView {
   layer: Layer = 'overlay';
   /** Pixels of the robot and of its fringe are left out of what is shown next. */
   withoutRobot = false;
-  readonly slider: CompareSlider;
   private readonly frame = byId('picture-frame');
   private readonly below = byId<HTMLCanvasElement>('picture-below');
   private readonly above = byId<HTMLCanvasElement>('picture-above');
   private readonly note = byId('picture-note');
   private readonly painter = new Painter();
+  private readonly marks = new TargetMarks();
   private packet: Packet | null = null;
   private links: readonly string[] = [];
-  private range: readonly [number, number] = [0, 0];
+  private range: readonly [number, number] | null = null;
   private pointer: { u: number; v: number } | null = null;
 
   /** @param hovered the pointer came to the image, or left it */
   constructor(private readonly hovered: (inside: boolean) => void) {
-    this.slider = new CompareSlider(byId('picture-handle'), this.frame, this.above);
+    this.bindDivider();
     this.frame.addEventListener('pointermove', (event) => this.point(event));
     this.frame.addEventListener('pointerdown', (event) => this.point(event));
     this.frame.addEventListener('pointerleave', (event) => {
@@ -52,12 +52,14 @@ export class ImageView {
   wanted(available: readonly string[]): PartName[] {
     const layer: PartName =
       this.layer === 'overlay' && !available.includes('overlay') ? 'labels' : this.layer;
-    const wanted: PartName[] = ['color', layer, ...(this.withoutRobot ? ['labels' as const] : [])];
+    const wanted: PartName[] = ['color', layer];
+    if (this.withoutRobot) wanted.push('labels');
+    if (this.packet && !this.packet.color) wanted.push('depth'); // is shown in its place
     return wanted.filter((part) => available.includes(part));
   }
 
   /** Both are decoded before either is drawn: no layer is ever over another frame's picture. */
-  async show(packet: Packet, links: readonly string[]): Promise<void> {
+  async show(packet: Packet, links: readonly string[], chosen: string | null): Promise<void> {
     const overlay = this.layer === 'overlay' ? packet.overlay : undefined;
     let bitmaps: readonly (ImageBitmap | null)[];
     try {
@@ -71,17 +73,44 @@ export class ImageView {
     this.links = links;
     const [color, layer] = bitmaps;
     if (color) this.painter.bitmap(this.below, color);
+    else if (packet.depth) this.painter.grey(this.below, packet.depth);
     else clear(this.below);
     if (layer) this.painter.bitmap(this.above, layer);
     else this.showLayer(packet);
     if (this.withoutRobot) this.leaveOutRobot(packet);
     layerLegend(this.layer, this.links, this.range, this.withoutRobot);
-    const size = packet.labels ?? packet.vdi ?? packet.depth ?? this.above;
-    if (!packet.color && size.width > 0) this.below.width = size.width;
-    if (!packet.color && size.height > 0) this.below.height = size.height;
-    this.frame.style.setProperty('--ratio', `${this.below.width} / ${this.below.height}`);
+    if (!packet.color && !packet.depth) {
+      const { width, height } = packet.labels ?? packet.vdi ?? this.above;
+      Object.assign(this.below, { width, height });
+    }
+    const { width, height } = this.below;
+    this.frame.style.setProperty('--ratio', `${width} / ${height}`);
+    this.marks.show(this.layer === 'overlay' ? packet : null, chosen, { width, height });
     setText(this.note, this.noteOf(packet));
     this.readOut();
+  }
+
+  showChosen(name: string | null): void {
+    this.marks.setChosen(name);
+  }
+
+  /** Between colour image (left) and layer (right). */
+  private bindDivider(): void {
+    const handle = byId('picture-handle');
+    let at = 0;
+    const move = (percent: number): void => {
+      at = percent;
+      this.frame.style.setProperty('--split', percent.toFixed(2));
+      handle.setAttribute('aria-valuenow', percent.toFixed(0));
+      handle.setAttribute('aria-valuetext', `${percent.toFixed(0)} % colour image`);
+    };
+    bindDrag(handle, {
+      axis: 'x',
+      box: () => this.frame.getBoundingClientRect(),
+      at: () => at,
+      move,
+    });
+    move(0);
   }
 
   private showLayer(packet: Packet): void {
@@ -93,7 +122,8 @@ export class ImageView {
     const depth = this.layer === 'vdi' ? packet.vdi : this.layer === 'depth' ? packet.depth : null;
     if (!depth) return clear(above);
     this.widen(depthRange(depth.values));
-    painter.depth(above, depth, this.range, this.layer === 'vdi' ? noRobot : noMeasurement);
+    const nothing = this.layer === 'vdi' ? noRobot : noMeasurement;
+    painter.depth(above, depth, this.range ?? [0, 1], nothing);
   }
 
   /** Labels, links and virtual depth are not of the sensor: they show what is left out. */
@@ -107,14 +137,15 @@ export class ImageView {
   /** One scale for all frames and both depths, so that colours can be compared. */
   private widen(range: readonly [number, number] | null): void {
     if (!range) return;
-    const [near, far] = this.range;
-    this.range = far === 0 ? range : [Math.min(near, range[0]), Math.max(far, range[1])];
+    const [near, far] = this.range ?? range;
+    this.range = [Math.min(near, range[0]), Math.max(far, range[1])];
   }
 
   private noteOf(packet: Packet): string {
     if (this.withoutRobot && !packet.labels)
       return 'this frame has no labels to leave the robot out by';
-    if (!packet.color) return 'no colour image of this frame';
+    if (!packet.color)
+      return `no colour image of this frame${packet.depth ? ': its depth in grey' : ''}`;
     const drawn = packet.has.has(this.layer) || (this.layer === 'overlay' && packet.labels);
     return drawn ? '' : 'this layer is not there for this frame';
   }

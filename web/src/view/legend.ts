@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import { depthPercentiles } from '../model/depth_colors';
 import { metres } from '../model/format';
 import { labelStyles, linkColor } from '../model/labels';
-import { byId, element } from './dom';
+import { byId, element, swatch } from './dom';
 import type { Layer } from './image_view';
 
 let shown = '';
@@ -10,36 +11,41 @@ let shown = '';
 export function layerLegend(
   layer: Layer,
   links: readonly string[],
-  [near, far]: readonly [number, number],
+  range: readonly [number, number] | null,
   withoutRobot: boolean,
 ): void {
-  const key = `${layer}|${links.join()}|${near.toFixed(3)}|${far.toFixed(3)}|${withoutRobot}`;
+  const key = [layer, withoutRobot, ...(range ?? []).map(metres), ...links].join('|');
   if (key === shown) return;
   shown = key;
-  const legend = byId('picture-legend');
-  if (layer === 'vdi' || layer === 'depth') {
-    const bar = element('span', 'depth-bar');
-    legend.replaceChildren(metres(far > 0 ? near : null), bar, metres(far > 0 ? far : null));
-    legend.append(
-      element('span', 'hint', layer === 'vdi' ? 'clear: no robot' : 'striped: no measurement'),
-    );
-  } else if (layer === 'links') {
-    legend.replaceChildren(...links.map((name, index) => swatch(name, rgb(index), '')));
-  } else {
-    const styles = labelStyles.filter((style) => style.color !== null);
-    legend.replaceChildren(
-      ...styles.map((style) => swatch(style.name, style.color ?? '', style.meaning)),
-    );
-  }
-  if (withoutRobot) legend.append(element('span', 'hint', 'chequered: left out'));
+  const entries =
+    layer === 'vdi' || layer === 'depth'
+      ? depthEntries(layer, range)
+      : layer === 'links'
+        ? links.map((name, index) => entry(name, `rgb(${linkColor(index).join(' ')})`))
+        : labelStyles.flatMap(({ name, color, meaning }) =>
+            color ? [entry(name, color, meaning)] : [],
+          );
+  if (withoutRobot) entries.push(element('span', 'hint', 'chequered: left out'));
+  byId('picture-legend').replaceChildren(...entries);
 }
 
-const rgb = (index: number): string => `rgb(${linkColor(index).join(' ')})`;
+/** Colours beyond the ends are those of the ends. */
+function depthEntries(layer: Layer, range: readonly [number, number] | null): HTMLElement[] {
+  const [low, high] = depthPercentiles;
+  const ends = (range ?? [null, null]).map((end) => element('span', '', metres(end)));
+  const scale = element('span', 'legend-entry', ends[0] ?? '', element('i', 'depth-bar'));
+  scale.append(ends[1] ?? '');
+  scale.title = `the ${low}nd and ${high}th percentile of the depths of the frames that were shown`;
+  const nothing = layer === 'vdi' ? 'clear: no robot' : 'striped: no measurement';
+  return [
+    scale,
+    element('span', 'hint', `percentiles ${low}–${high}`),
+    element('span', 'hint', nothing),
+  ];
+}
 
-function swatch(name: string, color: string, meaning: string): HTMLElement {
-  const box = element('i', 'swatch');
-  box.style.backgroundColor = color;
-  const entry = element('span', 'legend-entry', box, name);
-  if (meaning) entry.title = meaning;
-  return entry;
+function entry(name: string, color: string, meaning = ''): HTMLElement {
+  const made = element('span', 'legend-entry', swatch(color), name);
+  made.title = meaning;
+  return made;
 }

@@ -3,13 +3,14 @@
 import type { EncodedImage, Grid } from '../api/packet';
 import { depthColors } from '../model/depth_colors';
 import { labelColor, linkColor, rgbOf, type Rgb } from '../model/labels';
-import { isSurroundings } from '../model/surroundings';
+import { isRobot, isSurroundings } from '../model/surroundings';
 import { element } from './dom';
 
 const opaque = ([r, g, b]: Rgb, alpha = 255): number =>
   ((alpha << 24) | (b << 16) | (g << 8) | r) >>> 0;
 
 const white = opaque([255, 255, 255]);
+const black = opaque([0, 0, 0]);
 const tableOf = (alpha: number): Uint32Array =>
   Uint32Array.from({ length: 256 }, (_, value) => {
     const color = labelColor(value);
@@ -17,7 +18,7 @@ const tableOf = (alpha: number): Uint32Array =>
   });
 export const labelTable = tableOf(255);
 export const overlayTable = tableOf(150);
-const robotTable = Uint32Array.from({ length: 256 }, (_, value) =>
+const leftOutTable = Uint32Array.from({ length: 256 }, (_, value) =>
   isSurroundings(value) ? 0 : white,
 );
 export const noRobot: readonly [number, number] = [0, 0];
@@ -25,6 +26,7 @@ export const noMeasurement: readonly [number, number] = [
   opaque([38, 38, 38]),
   opaque([92, 92, 92]),
 ];
+const whiteDepth = 0.25; // metres that are drawn white; grey falls with the square root
 const depthTable = Uint32Array.from(depthColors, (color) => opaque(color));
 
 /** Draws on canvases whose pixels are the image's; its buffer is made once for each size. */
@@ -44,14 +46,39 @@ export class Painter {
     this.indexed(canvas, labels, labelTable);
   }
 
-  /** Half transparent: for the colour image below. */
+  /** Half transparent, for the colour image below; the robot's outline is white within, black without. */
   overlay(canvas: HTMLCanvasElement, labels: Grid<Uint8Array>): void {
-    this.indexed(canvas, labels, overlayTable);
+    const { width, height, values } = labels;
+    const { pixels, image } = this.pixelsOf(canvas, labels);
+    const robot = (at: number): boolean => isRobot(values[at] as number);
+    for (let at = 0; at < pixels.length; ++at) {
+      const u = at % width;
+      const here = robot(at);
+      const isEdge =
+        (u > 0 && robot(at - 1) !== here) ||
+        (u + 1 < width && robot(at + 1) !== here) ||
+        (at >= width && robot(at - width) !== here) ||
+        (at + width < width * height && robot(at + width) !== here);
+      const color = overlayTable[values[at] as number] as number;
+      pixels[at] = !isEdge ? color : here ? white : black;
+    }
+    canvas.getContext('2d')?.putImageData(image, 0, 0);
+  }
+
+  /** Depth in the place of a colour image. */
+  grey(canvas: HTMLCanvasElement, depth: Grid<Float32Array>): void {
+    const { pixels, image } = this.pixelsOf(canvas, depth);
+    for (let at = 0; at < pixels.length; ++at) {
+      const z = depth.values[at] as number;
+      const grey = z > 0 ? Math.min(255, Math.round(255 * Math.sqrt(whiteDepth / z))) : 0;
+      pixels[at] = opaque([grey, grey, grey]);
+    }
+    canvas.getContext('2d')?.putImageData(image, 0, 0);
   }
 
   /** Makes the canvas transparent where the labels do not show the surroundings. */
   withoutRobot(canvas: HTMLCanvasElement, labels: Grid<Uint8Array>): void {
-    this.indexed(this.mask, labels, robotTable);
+    this.indexed(this.mask, labels, leftOutTable);
     const context = canvas.getContext('2d');
     if (!context) return;
     context.save();

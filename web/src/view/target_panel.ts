@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chosen target's numbers, as report.json has them.
-import type { FrameReport, TargetReport } from '../api/types';
+import type { FrameReport, Handled, TargetReport } from '../api/types';
 import { count, metres, nothing, percent, seconds, vector } from '../model/format';
 import { verdictNames, verdictOf } from '../model/labels';
-import { hiddenShare } from '../model/timeline';
-import { element } from './dom';
+import { hiddenWords } from '../model/timeline';
+import { element, swatch } from './dom';
 import { verdictIcon } from './verdict_icon';
 
 /** One number: its text for people, and report.json's own value beside it. */
@@ -13,7 +13,7 @@ interface Fact {
   readonly name: string;
   readonly text: string;
   readonly value: unknown;
-  readonly color?: string;
+  readonly color: string;
 }
 
 /** What surprises; docs/targets.md says more. */
@@ -32,25 +32,20 @@ const meanings: Readonly<Record<string, string>> = {
   age_s: 'since the last estimate that was taken',
 };
 
-const fraction = (
+export const fact = (
   key: string,
   name: string,
-  value: number | null | undefined,
+  value: unknown,
+  text: string,
   color = '',
-): Fact => ({
-  key,
-  name,
-  text: percent(value, 2),
-  value,
-  color,
-});
+): Fact => ({ key, name, text, value, color });
 
 export function factList(facts: readonly Fact[]): HTMLDListElement {
   const list = element('dl', 'facts');
   for (const fact of facts) {
     const name = element('dt', '', fact.name);
     name.title = meanings[fact.key] ?? '';
-    if (fact.color) name.prepend(element('i', `swatch ${fact.color}`));
+    if (fact.color) name.prepend(swatch(fact.color));
     const value = element('dd', fact.text === nothing ? 'none' : '', fact.text);
     value.dataset['key'] = fact.key;
     value.dataset['value'] = JSON.stringify(fact.value ?? null);
@@ -61,62 +56,52 @@ export function factList(facts: readonly Fact[]): HTMLDListElement {
 
 export function targetDetails(target: TargetReport): HTMLElement {
   const verdict = verdictOf(target.verdict);
-  const heading = element('h3', `verdict ${verdict}`, verdictIcon(verdict), verdictNames[verdict]);
+  const heading = element('h3', 'verdict', verdictIcon(verdict), verdictNames[verdict]);
   heading.dataset['key'] = 'verdict';
   heading.dataset['value'] = JSON.stringify(target.verdict);
   const body = element('div', 'target-details', heading);
+  if (verdict === 'unknown' && target.blame?.length)
+    body.append(element('p', '', hiddenWords(target)));
   if (target.reason) body.append(element('p', 'reason', target.reason));
   body.append(factList(coverage(target)));
   if (target.blame?.length) body.append(element('h4', '', 'Hidden by'), blameBars(target));
   body.append(element('h4', '', 'Measured point'), factList(measured(target)));
-  if (target.handled) body.append(element('h4', '', 'Handled'), factList(handled(target)));
+  if (target.handled)
+    body.append(element('h4', '', 'Handled'), factList(handled(target, target.handled)));
   return body;
 }
 
-const coverage = (target: TargetReport): Fact[] => [
-  fraction('occluded_fraction', 'occluded', target.occluded_fraction, 'l-occluded'),
-  fraction('front_fraction', 'in front', target.front_fraction, 'l-front'),
-  fraction('unknown_fraction', 'unknown', target.unknown_fraction, 'l-unknown'),
-  fraction('clear_fraction', 'clear of robot', target.clear_fraction),
-  fraction(
-    'hidden_by_other_fraction',
-    'hidden by others',
-    target.hidden_by_other_fraction,
-    'l-other',
-  ),
-  fraction('measured_fraction', 'measured', target.measured_fraction),
-  fraction('seen_past_fraction', 'seen past', target.seen_past_fraction),
-  { key: 'covered', name: 'pixels', text: count(target.covered), value: target.covered },
-  { key: 'inside', name: 'in the image', text: count(target.inside), value: target.inside },
-];
-
-const measured = (target: TargetReport): Fact[] => [
-  { key: 'point', name: 'x y z, m', text: vector(target.point), value: target.point },
-  {
-    key: 'point_pixels',
-    name: 'of pixels',
-    text: count(target.point_pixels),
-    value: target.point_pixels,
-  },
-  {
-    key: 'point_spread_m',
-    name: 'spread',
-    text: metres(target.point_spread_m),
-    value: target.point_spread_m,
-  },
-];
-
-function handled(target: TargetReport): Fact[] {
-  const is = target.handled;
+function coverage(target: TargetReport): Fact[] {
+  type Key = Extract<keyof TargetReport, `${string}_fraction`>;
+  const fraction = (key: Key, name: string, color = ''): Fact =>
+    fact(key, name, target[key], percent(target[key], 2), color);
   return [
-    { key: 'source', name: 'source', text: is?.source ?? nothing, value: is?.source },
-    { key: 'age_s', name: 'age', text: seconds(is?.age_s, 3), value: is?.age_s },
-    { key: 'position', name: 'x y z, m', text: vector(is?.position), value: is?.position },
-    { key: 'orientation', name: 'x y z w', text: vector(is?.orientation), value: is?.orientation },
-    { key: 'sigma_m', name: 'sigma', text: metres(is?.sigma_m), value: is?.sigma_m },
-    { key: 'estimate', name: 'estimate', text: target.estimate ?? nothing, value: target.estimate },
+    fraction('occluded_fraction', 'occluded', '--l-occluded'),
+    fraction('front_fraction', 'in front', '--l-front'),
+    fraction('unknown_fraction', 'unknown', '--l-unknown'),
+    fraction('clear_fraction', 'clear of robot'),
+    fraction('hidden_by_other_fraction', 'hidden by others', '--l-other'),
+    fraction('measured_fraction', 'measured'),
+    fraction('seen_past_fraction', 'seen past'),
+    fact('covered', 'pixels', target.covered, count(target.covered)),
+    fact('inside', 'in the image', target.inside, count(target.inside)),
   ];
 }
+
+const measured = ({ point, point_pixels, point_spread_m }: TargetReport): Fact[] => [
+  fact('point', 'x y z, m', point, vector(point)),
+  fact('point_pixels', 'of pixels', point_pixels, count(point_pixels)),
+  fact('point_spread_m', 'spread', point_spread_m, metres(point_spread_m)),
+];
+
+const handled = ({ estimate }: TargetReport, is: Handled): Fact[] => [
+  fact('source', 'source', is.source, is.source),
+  fact('age_s', 'age', is.age_s, seconds(is.age_s, 3)),
+  fact('position', 'x y z, m', is.position, vector(is.position)),
+  fact('orientation', 'x y z w', is.orientation, vector(is.orientation)),
+  fact('sigma_m', 'sigma', is.sigma_m, metres(is.sigma_m)),
+  fact('estimate', 'estimate', estimate, estimate ?? nothing),
+];
 
 function blameBars(target: TargetReport): HTMLElement {
   const list = element('ul', 'blame-bars');
@@ -128,39 +113,26 @@ function blameBars(target: TargetReport): HTMLElement {
   return list;
 }
 
-/** How much of it robot and others hide; where the verdict is unknown, at least. */
-function hiddenText(target: TargetReport): string {
-  const { occluded_fraction: occluded, hidden_by_other_fraction: other } = target;
-  const share = (target.inside ?? 0) > 0 ? hiddenShare({ occluded, other }) : null;
-  if (verdictOf(target.verdict) !== 'unknown') return percent(share, 0);
-  return share !== null && share >= 0.005 ? `≥ ${percent(share, 0)}` : percent(null, 0);
-}
-
 /** Targets of a frame to choose from. */
 export function targetList(
   frame: FrameReport,
   chosen: string | null,
   choose: (name: string) => void,
 ): HTMLElement {
-  const list = element('div', 'target-list');
-  for (const target of frame.targets) {
+  const buttons = frame.targets.map((target) => {
     const verdict = verdictOf(target.verdict);
-    const hidden = hiddenText(target);
-    const amount = element('span', 'amount', hidden);
-    amount.title = 'hidden, by the robot or by others';
-    const button = element(
-      'button',
-      '',
-      verdictIcon(verdict),
-      element('span', 'name', target.name),
-      amount,
-    );
+    const hidden = hiddenWords(target);
+    const amount = element('span', 'amount', hidden.replace('at least', '≥'));
+    const name = element('span', 'name', target.name);
+    const button = element('button', '', verdictIcon(verdict), name, amount);
     button.type = 'button';
     button.dataset['target'] = target.name;
+    const words = `${target.name}: ${verdictNames[verdict]}, hidden: ${hidden}`;
+    button.title = words;
     button.setAttribute('aria-pressed', String(target.name === chosen));
-    button.setAttribute('aria-label', `${target.name}: ${verdictNames[verdict]}, ${hidden} hidden`);
+    button.setAttribute('aria-label', words);
     button.addEventListener('click', () => choose(target.name));
-    list.append(button);
-  }
-  return list;
+    return button;
+  });
+  return element('div', 'target-list', ...buttons);
 }

@@ -19,7 +19,7 @@ import { changedShare } from './pictures.mjs';
 
 let browser, server, folder;
 
-/** The example, without joint positions in frame 2 and without a depth image in frame 4. */
+/** The example, without joint positions in frame 2, a depth image in 4 and a colour image in 5. */
 before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-page-'));
   await cp(example, folder, { recursive: true });
@@ -27,6 +27,7 @@ before(async () => {
   const lines = (await readFile(joints, 'utf8')).split('\n');
   await writeFile(joints, lines.filter((line) => !line.startsWith('2,')).join('\n'));
   await rm(path.join(folder, 'depth/4.png'));
+  await rm(path.join(folder, 'color/5.png'));
   [browser, server] = await Promise.all([launch(), serve(folder)]);
 });
 after(async () => {
@@ -72,6 +73,19 @@ test('targets of a bad frame are unknown, not visible', async () => {
   );
   assert.equal(await shown.page.locator('[data-key=occluded_fraction]').textContent(), '–');
   await shown.close();
+});
+
+test('a frame without a colour image shows its depth in grey', async () => {
+  const { page, close } = await open(browser, `${server.url}#frame=5`, desktop);
+  await showsFrame(page, 5);
+  assert.match(await page.locator('#picture-note').textContent(), /no colour image.*depth in grey/);
+  const greys = await page.evaluate(() => {
+    const canvas = document.getElementById('picture-below');
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return [new Set(data.filter((_, i) => i % 4 === 0)).size, canvas.width];
+  });
+  assert.ok(greys[0] > 20 && greys[1] === 640, `${greys}`);
+  await close();
 });
 
 test('a server that is gone is told, with a way on', async () => {

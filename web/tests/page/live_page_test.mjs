@@ -69,7 +69,7 @@ test('a frame that is old when the page is opened is never said to be live', () 
 
 test('an old frame after a new connection is none of now either', () =>
   live(desktop, async (page, camera) => {
-    await camera.send();
+    await camera.send({ rate: slow });
     await says(page, /^live/);
     await camera.socket.close();
     await says(page, /^no connection/);
@@ -168,7 +168,7 @@ test('a packet that cannot be drawn stays told', () =>
     assert.match(await page.locator('#scene-note').textContent(), /cannot be drawn: packet/);
     assert.ok(await page.locator('#missing-button.fault').isVisible());
     await sending;
-    await camera.send();
+    await camera.send({ rate: slow });
     await says(page, /^live/);
     assert.ok(await page.locator('#scene-note').isHidden());
   }));
@@ -215,7 +215,7 @@ test('keys of what a live page does not have do nothing, and are not told', () =
       await page.keyboard.press(key);
     assert.equal(await chosen(), before);
     assert.equal(await page.locator('#announce').textContent(), '');
-    const layer = () => page.locator('#layers [aria-checked=true]').getAttribute('data-layer');
+    const layer = () => page.locator('#layers :checked').inputValue();
     for (const [key, name] of [
       ['2', 'labels'],
       ['3', 'links'],
@@ -228,7 +228,7 @@ test('keys of what a live page does not have do nothing, and are not told', () =
     }
     await page.keyboard.press('?');
     const help = await page.locator('#help').textContent();
-    assert.match(help, /12345overlay, labels, links, virtual depth, measured depth/);
+    assert.match(help, /12345overlay, labels, links, virtual, measured/);
     assert.doesNotMatch(help, /occlusion|slower/);
   }));
 

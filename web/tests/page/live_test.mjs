@@ -25,8 +25,6 @@ const mostLag = full ? 300 : 15_000; // milliseconds, median
 // show three or four of 26 in a second.
 const leastShare = full ? 0.1 : 0.02;
 const leastShown = full ? 2.5 : 0.1; // frames in a second
-// The page's own count of two seconds against ours of all: they end at other frames.
-const mostMiscount = full ? 0.25 : 1;
 const mostHeapGrowth = 8 * 2 ** 20; // bytes, after garbage is collected
 const mostServerGrowth = 24 * 2 ** 20;
 const patience = 60_000; // milliseconds
@@ -93,7 +91,9 @@ async function watched(page, server) {
   const minutes = [];
   for (let second = 0; second < seconds; ++second) {
     await page.waitForTimeout(1000);
-    samples.push(await page.locator('#mode').evaluate((mode) => ({ ...mode.dataset })));
+    const text = await page.locator('#mode').textContent();
+    const said = text.match(/^live · ([\d.]+) Hz · lag (\d+) ms/);
+    if (said) samples.push({ rate: said[1], lag: said[2] });
     if (second % 60 === 59) minutes.push(await residentOf(server));
   }
   const drawn = await page.evaluate((since) => {
@@ -104,7 +104,6 @@ async function watched(page, server) {
     lag: median(of('lag')),
     mostLag: Math.max(...of('lag')),
     published: median(of('rate')),
-    said: median(of('shown')),
     shown: drawn,
     minutes,
   };
@@ -170,8 +169,6 @@ test('frames flow, memory stays, pause holds, a lost server is found again', { s
     told.shown > leastShare * told.published,
     `${told.shown} of ${told.published} Hz shown`,
   );
-  const miscount = Math.abs(told.said - told.shown) / told.shown;
-  assert.ok(miscount < mostMiscount, `${told.said} Hz said, ${told.shown} Hz shown`);
   assert.ok(growth < mostHeapGrowth, `${growth} bytes`);
   assert.ok(served < mostServerGrowth, `${served} bytes`);
 

@@ -76,7 +76,7 @@ const views = [
     phone,
     '#frame=6&target=wrist',
     'overlay',
-    (page) => page.tap('[data-view=picture]'),
+    (page) => page.tap('#view-tabs label:has([value=picture])'),
   ],
 ];
 
@@ -102,7 +102,7 @@ const hides = (selector) => `${selector} { visibility: hidden !important; }`;
 const mutations = [
   ['scene', 'no robot', (page) => page.click('[data-part=robot]')],
   ['scene', 'no targets', (page) => page.click('[data-part=targets]')],
-  ['picture', 'no layer over the colour image', hides('#picture-above')],
+  ['picture', 'no layer over the colour image', hides('#picture-frame > :not(#picture-below)')],
   ['targets', 'no list of targets', hides('#target-list')],
   ['details', 'no numbers', hides('#details dl')],
   ['player', 'no buttons', hides('#transport button')],

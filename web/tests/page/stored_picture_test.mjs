@@ -127,7 +127,10 @@ test('without the robot, points and pixels that are clear or front are left', ()
       await showsLayer(page, layer);
       for (const id of ['picture-below', 'picture-above']) {
         const alpha = await page.evaluate(alphaOf, id);
-        const wrong = alpha.filter((a, at) => a !== (isSurroundings(parts.labels[at]) ? 255 : 0));
+        const isOpaque = id === 'picture-below' || layer === 'depth'; // the overlay is not
+        const wrong = alpha.filter((a, at) =>
+          isSurroundings(parts.labels[at]) ? isOpaque && a !== 255 : a !== 0,
+        );
         assert.deepEqual([alpha.length, wrong.length], [parts.labels.length, 0], `${layer} ${id}`);
       }
     }
@@ -143,6 +146,42 @@ test('without the robot, points and pixels that are clear or front are left', ()
     assert.equal(await robot.getAttribute('aria-pressed'), 'true');
     const alpha = await page.evaluate(alphaOf, 'picture-above');
     assert.ok(alpha.every((a) => a === 255));
+  }));
+
+test('targets have outlines and names over the overlay, as text', () =>
+  withPage('/#frame=3&target=cube', desktop, async (page) => {
+    await showsFrame(page, 3);
+    const names = page.locator('#picture-names .target-name');
+    const { targets } = shared.report.frames[3];
+    const names_ = targets.map(({ name }) => name);
+    assert.deepEqual(
+      (await names.allTextContents()).map((text) => text.replace('?', '')),
+      names_,
+    );
+    assert.equal(await page.locator('#picture-names .chosen').textContent(), 'cube');
+    assert.equal(await page.locator('#picture-lines .outline').count(), targets.length);
+    const boxes = await names.evaluateAll((all) =>
+      all.map((one) => one.getBoundingClientRect().toJSON()),
+    );
+    const frame = await page.locator('#picture-frame').boundingBox();
+    for (const [i, box] of boxes.entries()) {
+      assert.ok(box.left >= frame.x && box.right <= frame.x + frame.width + 1, names_[i]);
+      for (const other of boxes.slice(0, i))
+        assert.ok(
+          box.right <= other.left ||
+            other.right <= box.left ||
+            box.bottom <= other.top ||
+            other.bottom <= box.top,
+          `${names_[i]} covers no other name`,
+        );
+    }
+    await page.click('[data-target=lid]');
+    assert.equal(await page.locator('#picture-names .chosen').textContent(), '?lid');
+    await page.keyboard.press('5');
+    await showsLayer(page, 'depth');
+    assert.equal(await names.count(), 0, 'the other layers show none');
+    const legend = await page.locator('#picture-legend').textContent();
+    assert.match(legend, /^\d\.\d{3} m\d\.\d{3} mpercentiles 2–98striped: no measurement$/);
   }));
 
 test('fringe is in the legend, and among the pixels’ numbers without a share', () =>
@@ -209,7 +248,7 @@ async function robotOverlap() {
   const focal = Math.min(height / 480, width / 640); // screen pixels for an image pixel
   const flat = new OffscreenCanvas(640, 480);
   const context = flat.getContext('2d');
-  document.getElementById('view-camera').click(); // drawn in this very frame
+  document.querySelector('[data-key=c]').click(); // drawn in this very frame
   await new Promise((done) => requestAnimationFrame(done));
   context.drawImage(
     canvas,

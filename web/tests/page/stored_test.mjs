@@ -64,7 +64,12 @@ test('steps, jumps and plays', () =>
     await showsFrame(page, 0);
     await page.keyboard.press('End');
     await showsFrame(page, 11);
+    assert.equal(await page.locator('#position').textContent(), 'frame 11 / 111.100 s');
     await page.keyboard.press('Home');
+    await showsFrame(page, 0);
+    await page.click('#last');
+    await showsFrame(page, 11);
+    await page.click('#first');
     await showsFrame(page, 0);
     await page.selectOption('#speed', '4');
     await page.keyboard.press(' ');
@@ -102,7 +107,7 @@ test('jumps to the next and the previous occlusion', () =>
     await page.keyboard.press(']');
     await showsFrame(page, 2);
     assert.match(await page.locator('#announce').textContent(), /cylinder, lid/);
-    await page.click('#next-occlusion');
+    await page.click('[data-key="]"]');
     await showsFrame(page, 4);
     await page.keyboard.press(']');
     assert.match(await page.locator('#announce').textContent(), /no later occlusion/);
@@ -137,9 +142,10 @@ test('the address keeps frame and target', () =>
     await page.waitForFunction(() => location.hash === '#frame=10&target=cube');
   }));
 
-test('the list says how much is hidden, by robot and others, as the overlay does', () =>
+test('the list and the details say how much is hidden and behind what, of unknown ones at least', () =>
   withPage('/', desktop, async (page) => {
     let others = 0;
+    let least = 0;
     for (const frame of shared.report.frames) {
       await showsFrame(page, frame.index);
       const shown = await page
@@ -147,18 +153,26 @@ test('the list says how much is hidden, by robot and others, as the overlay does
         .evaluateAll((all) =>
           all.map((one) => [one.querySelector('.amount').textContent, one.ariaLabel]),
         );
-      frame.targets.forEach((target, i) => {
-        // As io/files/target_overlay.cpp writes it at the target.
+      for (const [i, target] of frame.targets.entries()) {
         const share = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
         const percent = Math.round(100 * share);
         const isKnown = target.verdict !== 'unknown';
         const isSaid = target.inside > 0 && (isKnown || percent > 0);
         const text = isSaid ? `${isKnown ? '' : '≥ '}${percent} %` : '–';
-        assert.equal(shown[i][0], text, `frame ${frame.index}: ${target.name}`);
-        assert.ok(shown[i][1].endsWith(`${text} hidden`), shown[i][1]);
-        others += isKnown && target.hidden_by_other_fraction > 0.1 ? 1 : 0;
-      });
+        assert.ok(
+          shown[i][0].startsWith(text),
+          `frame ${frame.index}: ${target.name}: ${shown[i]}`,
+        );
+        assert.ok(shown[i][1].endsWith(shown[i][0].replace('≥', 'at least')), shown[i][1]);
+        others += isKnown && shown[i][0].includes('others') ? 1 : 0;
+        if (isKnown || !isSaid || target.blame.length === 0) continue;
+        await page.click(`[data-target="${target.name}"]`);
+        const words = await page.locator('#target-details p').first().textContent();
+        assert.match(words, new RegExp(`^at least ${percent} % behind .*${target.blame[0].link}`));
+        ++least;
+      }
       await page.keyboard.press('ArrowRight');
     }
     assert.ok(others > 0, 'there is one that others hide');
+    assert.ok(least > 0, 'there is one that is unknown, and partly hidden');
   }));

@@ -47,26 +47,68 @@ test('light and dark can be chosen where nothing may be stored', async () => {
 test('layers are radio buttons to the keyboard, and arrows step elsewhere', () =>
   withPage('/#frame=3', desktop, async (page) => {
     await showsFrame(page, 3);
-    const focused = () => page.evaluate(() => document.activeElement.dataset.layer);
-    const checked = () => page.locator('#layers [aria-checked=true]').getAttribute('data-layer');
-    assert.equal(await page.locator('#layers [tabindex="0"]').count(), 1, 'one stop for tab');
-    await page.focus('#layers [aria-checked=true]');
+    const checked = () => page.locator('#layers :checked').inputValue();
+    await page.focus('#layers :checked');
     for (const [key, layer] of [
       ['ArrowRight', 'labels'],
       ['ArrowDown', 'links'],
       ['ArrowLeft', 'labels'],
-      ['End', 'depth'],
-      ['ArrowRight', 'overlay'],
-      ['ArrowUp', 'depth'],
-      ['Home', 'overlay'],
+      ['5', 'depth'],
+      ['1', 'overlay'],
     ]) {
       await page.keyboard.press(key);
-      assert.deepEqual([await focused(), await checked()], [layer, layer], key);
+      assert.equal(await checked(), layer, key);
     }
     assert.equal(await frameShown(page), 3, 'no frame was stepped');
-    await page.evaluate(() => document.activeElement.blur());
+    await page.click('#layers label:has([value=links])'); // by pointer: the keys step again
+    assert.equal(await checked(), 'links');
     await page.keyboard.press('ArrowRight');
     await showsFrame(page, 4);
+    assert.equal(await checked(), 'links');
+  }));
+
+test('panes are resized by pointer and by keys, which the browser remembers', () =>
+  withPage('/', desktop, async (page) => {
+    const boxOf = (selector) => page.locator(selector).boundingBox();
+    const drag = async (border, dx, dy) => {
+      const { x, y, width, height } = await boxOf(border);
+      await page.mouse.move(x + width / 2, y + height / 2);
+      await page.mouse.down();
+      await page.mouse.move(x + width / 2 + dx, y + height / 2 + dy, { steps: 3 });
+      await page.mouse.up();
+    };
+    const near = (value, wanted) => assert.ok(Math.abs(value - wanted) < 12, `${value}, ${wanted}`);
+    const sizes = async () => [
+      (await boxOf('#scene')).width,
+      (await boxOf('#details')).width,
+      (await boxOf('#timeline-panel')).height,
+    ];
+    const [scene, details] = await sizes();
+    await drag('#scene-border', -150, 0);
+    await drag('#details-border', -80, 0);
+    const [, , timeline] = await sizes(); // its legend may wrap
+    await drag('#timeline-border', 0, 120);
+    const dragged = await sizes();
+    near(dragged[0], scene - 150);
+    near(dragged[1], details + 80);
+    near(dragged[2], timeline - 120);
+    const canvas = await boxOf('#scene-canvas');
+    near(canvas.width, dragged[0]);
+    await page.reload();
+    await showsFrame(page, 0);
+    assert.deepEqual(await sizes(), dragged, 'after a reload, too');
+    await page.focus('#scene-border');
+    await page.keyboard.press('ArrowRight');
+    assert.ok((await sizes())[0] > dragged[0] + 40);
+    assert.equal(await frameShown(page), 0, 'no frame was stepped');
+    await page.keyboard.press('End');
+    assert.ok((await boxOf('#picture')).width > 100, 'no pane vanishes');
+    const overflow = await page.evaluate(
+      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    );
+    assert.equal(overflow, 0);
+    await page.dblclick('#scene-border');
+    near((await sizes())[0], scene);
   }));
 
 test('the button says what it does', () =>
@@ -92,22 +134,23 @@ test('keys are told, and the page can be used by keys alone', () =>
     await page.keyboard.press('ArrowUp');
     assert.notEqual(await chosen.getAttribute('data-target'), name);
     const reached = new Set();
-    for (let tabs = 0; tabs < 60; ++tabs) {
+    for (let tabs = 0; tabs < 70; ++tabs) {
       await page.keyboard.press('Tab');
       reached.add(await page.evaluate(() => document.activeElement?.id ?? ''));
     }
-    for (const id of ['theme', 'help-button', 'scene-canvas', 'picture-handle', 'play', 'speed'])
+    for (const id of ['theme', 'scene-canvas', 'scene-border', 'picture-handle', 'play', 'speed'])
       assert.ok(reached.has(id), `${id} is reached by tab`);
   }));
 
 test('what can be pressed has a name', () =>
   withPage('/', desktop, async (page) => {
     const nameless = await page
-      .locator('button:visible, select:visible, [role]:visible, canvas:visible')
+      .locator('button:visible, select:visible, input:visible, [role]:visible, canvas:visible')
       .evaluateAll((nodes) =>
         nodes
           .filter((node) => {
-            const label = node.getAttribute('aria-label') ?? node.textContent ?? '';
+            const label =
+              node.getAttribute('aria-label') ?? (node.textContent?.trim() || node.title) ?? '';
             const labelled =
               node.closest('label') !== null || node.getAttribute('role') === 'status';
             return !label.trim() && !labelled;
@@ -130,7 +173,7 @@ for (const width of [360, 390])
       }));
       assert.deepEqual(mode, { whole: true, text: '12 frames' });
       assert.ok(await page.locator('#scene').isVisible());
-      await page.tap('[data-view=picture]');
+      await page.tap('#view-tabs label:has([value=picture])');
       assert.ok(!(await page.locator('#scene').isVisible()));
       const without = page.getByRole('button', { name: 'Without robot' });
       for (const pressed of ['true', 'false']) {
@@ -147,4 +190,11 @@ for (const width of [360, 390])
           (nodes) => nodes.filter((node) => node.clientHeight < 40 || node.clientWidth < 40).length,
         );
       assert.equal(small, 0, 'large enough for a finger');
+      const [end, top] = await page.evaluate(() => {
+        const main = document.getElementById('main');
+        main.scrollTo(0, main.scrollHeight);
+        const boxOf = (id) => document.getElementById(id).getBoundingClientRect();
+        return [boxOf('details').bottom, boxOf('transport').top];
+      });
+      assert.ok(end <= top + 1, `the player covers nothing: ${end}, ${top}`);
     }));

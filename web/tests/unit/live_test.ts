@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { mostQuiet, waited } from '../../src/model/quiet';
-import { RateMeter } from '../../src/model/rate';
+import { mostQuiet, waited } from '../../src/live_state';
 import { Throttle } from '../../src/model/throttle';
 
 const rest = (milliseconds: number): Promise<void> =>
@@ -45,15 +44,4 @@ test('a frame that waited is as old as its stamp, where that can be', () => {
   assert.equal(waited(50, 4000), 50, 'a large robot takes that long to be drawn first');
   assert.equal(waited(-3_600_000, 10), 0, 'a clock that is ahead');
   assert.equal(waited(1.7e12, 10), 0, 'stamps that begin at zero, or of a bag');
-});
-
-test('rates of two seconds, and of slower cameras the last interval’s', () => {
-  const fast = new RateMeter();
-  let rate = 0;
-  for (let time = 0; time <= 5000; time += 100) rate = fast.count(time);
-  assert.equal(rate, 10);
-  const slow = new RateMeter();
-  assert.equal(slow.count(0), 0, 'not known');
-  assert.equal(slow.count(4000), 0.25);
-  assert.equal(slow.count(9000), 0.2);
 });

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { nextOnset, onsets } from '../../src/model/occlusions';
 import {
   condense,
   graver,
   hiddenShare,
+  hiddenWords,
   hiderOf,
   largest,
+  nextOnset,
+  onsets,
   runsOf,
   sampleOf,
   secondsOf,
@@ -86,6 +88,23 @@ test('of two that are hidden the one that is hidden more, by whomever', () => {
   assert.equal(hiddenShare(by(0.25, 0.5)), 0.75);
 });
 
+test('what hides a target is in words, of an unknown one at least', () => {
+  const blame = [
+    { link: 'link1', fraction: 0.1 },
+    { link: 'link2', fraction: 0.47 },
+    { link: 'link3', fraction: 0.001 },
+  ];
+  const more = { blame, occluded_fraction: 0.571, hidden_by_other_fraction: 0.2 };
+  assert.equal(hiddenWords(target('cup', 'partial', more)), '77 % behind link2, others, link1');
+  assert.equal(
+    hiddenWords(target('cup', 'unknown', { ...more, hidden_by_other_fraction: null })),
+    'at least 57 % behind link2, link1',
+  );
+  assert.equal(hiddenWords(target('cup', 'visible')), '0 %');
+  assert.equal(hiddenWords(target('cup', 'unknown')), '–', 'nothing is known');
+  assert.equal(hiddenWords(target('cup', 'out_of_view', { inside: 0 })), '–');
+});
+
 test('runs cover all', () => {
   assert.deepEqual(runsOf(['a', 'a', 'b', 'a']), [
     { from: 0, to: 2, value: 'a' },
@@ -110,10 +129,10 @@ test('jumps go to the nearest onset and end at the last', () => {
   const tracks = tracksOf(framesOf({ cup: 'vvphhvvuh' }));
   assert.equal(nextOnset(tracks, 0, 1), 2);
   assert.equal(nextOnset(tracks, 2, 1), 8);
-  assert.equal(nextOnset(tracks, 8, 1), null);
+  assert.equal(nextOnset(tracks, 8, 1), undefined);
   assert.equal(nextOnset(tracks, 8, -1), 2);
-  assert.equal(nextOnset(tracks, 2, -1), null);
-  assert.equal(nextOnset([], 0, 1), null);
+  assert.equal(nextOnset(tracks, 2, -1), undefined);
+  assert.equal(nextOnset([], 0, 1), undefined);
 });
 
 test('the largest of hours of frames', () => {

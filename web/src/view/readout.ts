@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands under the pointer, in words.
+// The values under the pointer.
 import type { Packet } from '../api/packet';
-import { labelName } from './labels';
-import { metres, nothing } from './format';
+import { metres, nothing } from '../model/format';
+import { labelName } from '../model/labels';
+import { byId, setText } from './dom';
 
 export interface Readout {
   readonly pixel: string;
   readonly label: string;
-  readonly labelValue: number | null;
   readonly link: string;
   readonly virtual: string;
   readonly measured: string;
@@ -16,6 +16,8 @@ export interface Readout {
 }
 
 const isDepth = (z: number | undefined): z is number => z !== undefined && z > 0 && z < Infinity;
+const depthText = (z: number | undefined): string =>
+  z === undefined ? nothing : isDepth(z) ? metres(z) : 'none';
 
 /** Parts that did not come are dashes; a depth of nothing says so. */
 export function readoutAt(
@@ -35,13 +37,22 @@ export function readoutAt(
   return {
     pixel: `${u}, ${v}`,
     label: label === undefined ? nothing : labelName(label),
-    labelValue: label ?? null,
     link:
       link === undefined ? nothing : link === 0 ? 'no link' : (links[link - 1] ?? `link ${link}?`),
-    virtual: virtual === undefined ? nothing : isDepth(virtual) ? metres(virtual) : 'none',
-    measured: measured === undefined ? nothing : isDepth(measured) ? metres(measured) : 'none',
+    virtual: depthText(virtual),
+    measured: depthText(measured),
     difference: both
       ? `${millimetres >= 0 ? '+' : '−'}${Math.abs(millimetres).toFixed(0)} mm`
       : nothing,
   };
+}
+
+const fields = ['pixel', 'label', 'link', 'virtual', 'measured', 'difference'] as const;
+
+/** null: the pointer is not over the image. */
+export function showReadout(readout: Readout | null): void {
+  for (const field of fields) setText(byId(`read-${field}`), readout?.[field] ?? nothing);
+  const swatch = byId('read-swatch');
+  swatch.style.background = `var(--l-${readout?.label})`;
+  swatch.hidden = !readout || [nothing, 'clear'].includes(readout.label);
 }
