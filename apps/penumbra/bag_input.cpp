@@ -18,7 +18,7 @@
 namespace penumbra::app {
 namespace {
 
-io::TopicWishes wishes_of(const RunArguments& arguments) {
+io::TopicOptions topic_options(const RunArguments& arguments) {
   const BagArguments& bag = arguments.bag;
   return {.depth = bag.depth_topic,
           .camera_info = bag.camera_info_topic,
@@ -63,21 +63,21 @@ Robot load_robot(const RunArguments& arguments, const io::BagSceneReader& reader
 
 io::CameraMount find_mount(const RunArguments& arguments, io::BagSceneReader& reader,
                            const Robot& robot, const std::string& frame_of_images) {
-  const io::MountWishes wishes = mount_wishes(arguments.bag);
-  if (!wishes.pose && io::mounted_frame(wishes, frame_of_images).empty())
+  const io::MountOptions options = mount_options(arguments.bag);
+  if (!options.pose && io::mounted_frame(options, frame_of_images).empty())
     throw InputError(arguments.input.string() +
                      ": the images do not name their frame; give it with --camera-frame");
   std::optional<io::CameraMount> mount;
   reader.read_until([&](const io::BagScene& scene) {
-    mount = io::find_mount(robot, wishes, scene.frames, frame_of_images);
+    mount = io::find_mount(robot, options, scene.frames, frame_of_images);
     return mount.has_value();
   });
   if (mount) return *mount;
   // Beside the robot, below a frame that both hang from.
-  const std::string frame = io::mounted_frame(wishes, frame_of_images);
-  if (!reader.scene().frames.connects(frame, wishes.frame_prefix + robot.links().front()))
+  const std::string frame = io::mounted_frame(options, frame_of_images);
+  if (!reader.scene().frames.connects(frame, options.frame_prefix + robot.links().front()))
     refuse_mount(arguments, reader.scene(), frame);
-  return io::mount_by_root(robot, wishes, frame_of_images);
+  return io::mount_by_root(robot, options, frame_of_images);
 }
 
 io::JudgedCameras cameras_of(const RunArguments& arguments, const io::BagTopics& topics,
@@ -101,7 +101,7 @@ io::UsedBag used_bag(const RunArguments& arguments, const io::BagTopics& topics,
                    .poses = std::string(to_string(topics.poses)),
                    .camera_frame = frame,
                    .camera_link = mount.parent,
-                   .camera_by = mount.told,
+                   .camera_by = mount.source,
                    .time_offset = arguments.bag.time_offset,
                    .first_publisher = arguments.bag.first_publisher};
   for (const io::TopicUse& use : topics.all())
@@ -111,19 +111,19 @@ io::UsedBag used_bag(const RunArguments& arguments, const io::BagTopics& topics,
 
 }  // namespace
 
-io::MountWishes mount_wishes(const BagArguments& bag) {
-  io::MountWishes wishes{.camera_frame = bag.camera_frame,
-                         .parent = bag.parent,
-                         .pose = {},
-                         .frame_prefix = bag.frame_prefix};
-  if (!bag.pose) return wishes;
-  wishes.pose = io::read_pose_csv(*bag.pose);
-  wishes.pose_source = "--pose " + bag.pose->string();
-  return wishes;
+io::MountOptions mount_options(const BagArguments& bag) {
+  io::MountOptions options{.camera_frame = bag.camera_frame,
+                           .parent = bag.parent,
+                           .pose = {},
+                           .frame_prefix = bag.frame_prefix};
+  if (!bag.pose) return options;
+  options.pose = io::read_pose_csv(*bag.pose);
+  options.pose_source = "--pose " + bag.pose->string();
+  return options;
 }
 
 RunInput open_bag_input(const RunArguments& arguments, std::ostream& told) {
-  io::BagSceneReader reader(arguments.input, wishes_of(arguments));
+  io::BagSceneReader reader(arguments.input, topic_options(arguments));
   tell_topics(reader.topics(), arguments.needs_color(), told);
   reader.read_robot_and_camera();
   io::JudgedCameras cameras = cameras_of(arguments, reader.topics(), reader.scene());
@@ -133,7 +133,7 @@ RunInput open_bag_input(const RunArguments& arguments, std::ostream& told) {
   Robot robot = load_robot(arguments, reader, options);
   const io::CameraMount mount = find_mount(arguments, reader, robot, cameras.judged.frame_id);
   told << "camera: frame '" << io::printable(cameras.judged.frame_id) << "' on link '"
-       << mount.parent << "', by " << mount.told << '\n';
+       << mount.parent << "', by " << mount.source << '\n';
   if (cameras.depth)
     reader.read_until([&](const io::BagScene& scene) {
       return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);

@@ -45,7 +45,7 @@ std::optional<std::string> resolved(const io::NameResolver& names,
 io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
   const BagArguments& topics = arguments.judging.bag;
   io::LiveCameraOptions options;
-  options.mount = mount_wishes(topics);
+  options.mount = mount_options(topics);
   options.info_is_named = topics.camera_info_topic.has_value();
   options.is_rectified = topics.rectified;
   options.poses = topics.poses.value_or(PoseSource::joints);
@@ -66,28 +66,29 @@ std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
     camera.name = name;
     camera.depth_topic = names.resolve(topic);
     camera.info_topic = resolved(names, topics.camera_info_topic)
-                            .value_or(io::info_topic_beside(camera.depth_topic));
+                            .value_or(io::camera_info_topic(camera.depth_topic));
     if (topics.color_topic) {
       camera.color_topic = names.resolve(*topics.color_topic);
-      camera.color_info_topic = io::info_topic_beside(camera.color_topic);
+      camera.color_info_topic = io::camera_info_topic(camera.color_topic);
     }
     cameras.push_back(std::move(camera));
   }
   return cameras;
 }
 
-io::TopicWishes camera_wishes(const LiveArguments& arguments, const io::NameResolver& names) {
+io::TopicOptions camera_topic_options(const LiveArguments& arguments,
+                                      const io::NameResolver& names) {
   const BagArguments& topics = arguments.judging.bag;
-  io::TopicWishes wishes;
-  wishes.depth = resolved(names, topics.depth_topic);
-  wishes.camera_info = resolved(names, topics.camera_info_topic);
-  wishes.color = resolved(names, topics.color_topic);
-  wishes.with_color = true;
-  return wishes;
+  io::TopicOptions options;
+  options.depth = resolved(names, topics.depth_topic);
+  options.camera_info = resolved(names, topics.camera_info_topic);
+  options.color = resolved(names, topics.color_topic);
+  options.with_color = true;
+  return options;
 }
 
-CameraSearch::CameraSearch(const io::Participant& graph, const io::TopicWishes& wishes)
-    : graph_(graph), wishes_(wishes), since_(Clock::now()) {}
+CameraSearch::CameraSearch(const io::Participant& graph, const io::TopicOptions& options)
+    : graph_(graph), options_(options), since_(Clock::now()) {}
 
 std::optional<io::BagTopics> CameraSearch::look() {
   const auto topics = published_topics(graph_);
@@ -98,7 +99,7 @@ std::optional<io::BagTopics> CameraSearch::look() {
   const auto settled = Clock::now() - since_;
   why_ = "nobody publishes depth images yet";
   try {
-    const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, wishes_);
+    const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, options_);
     if (settled >= settled_after) return chosen;
     why_ = "waiting for what else is published";
   } catch (const io::AmbiguousTopics& error) {

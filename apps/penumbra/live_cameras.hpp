@@ -24,13 +24,13 @@ namespace penumbra::app {
                                                                const io::LiveCameraOptions& common);
 
 /// What is looked for where none is named.
-[[nodiscard]] io::TopicWishes camera_wishes(const LiveArguments& arguments,
-                                            const io::NameResolver& names);
+[[nodiscard]] io::TopicOptions camera_topic_options(const LiveArguments& arguments,
+                                                    const io::NameResolver& names);
 
 /// Looks for the one camera of a graph, which appears bit by bit.
 class CameraSearch {
  public:
-  CameraSearch(const io::Participant& graph, const io::TopicWishes& wishes);
+  CameraSearch(const io::Participant& graph, const io::TopicOptions& options);
 
   /// The camera's topics, once the graph has settled; nothing: not yet, why() says what lacks.
   /// Throws io::AmbiguousTopics where there are several, and it stays so.
@@ -39,7 +39,7 @@ class CameraSearch {
 
  private:
   const io::Participant& graph_;
-  io::TopicWishes wishes_;
+  io::TopicOptions options_;
   std::string seen_, why_;
   std::chrono::steady_clock::time_point since_;  // it is as it is
 };

@@ -44,7 +44,7 @@ struct RunInput {
 [[nodiscard]] RunInput open_bag_input(const RunArguments& arguments, std::ostream& told);
 
 /// What the options say of where the camera sits. Throws InputError of the pose's file.
-[[nodiscard]] io::MountWishes mount_wishes(const BagArguments& bag);
+[[nodiscard]] io::MountOptions mount_options(const BagArguments& bag);
 
 /// The command line's choice before the recording's before the default.
 [[nodiscard]] LabelRule rule_of(const RunArguments& arguments, const LabelRule& recorded);

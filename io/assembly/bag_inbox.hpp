@@ -22,7 +22,7 @@ namespace penumbra::io {
 /// Reads a bag's messages and decodes them by the bag's own definitions.
 class BagInbox {
  public:
-  /// Throws InputError as open_bag.
+  /// Throws InputError like open_bag.
   explicit BagInbox(const std::filesystem::path& bag) : bag_(open_bag(bag)), name_(bag.string()) {}
 
   [[nodiscard]] std::span<const BagTopic> topics() const { return bag_->topics(); }
@@ -33,8 +33,8 @@ class BagInbox {
     return bag_->topics()[message.topic];
   }
 
-  /// Whether the message could be decoded; one that could not is counted for notes(), and `fault`
-  /// says why. Throws InputError for a definition that lacks what is needed.
+  /// Returns whether the message could be decoded. A message that could not is counted for notes(),
+  /// and `fault` gives the reason. Throws InputError for a definition that lacks a needed field.
   template <typename M>
   bool decode(const BagMessage& message, M& decoded, std::string* fault = nullptr) {
     const auto what = decoder<M>(message.topic).decode(message.data, decoded);
@@ -44,12 +44,12 @@ class BagInbox {
     return false;
   }
 
-  /// Counts a message of which `what` is wrong.
+  /// Counts a message with the fault `what`.
   void add_fault(const std::string& topic, std::int64_t log_time, const std::string& what) {
     faults_.add(topic, log_time, what);
   }
 
-  /// The bag's damages, and of each topic how many messages could not be used, one line each.
+  /// Returns the bag's faults and the number of unusable messages of each topic, one line each.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:

@@ -8,16 +8,17 @@
 namespace penumbra::io {
 namespace {
 
-/// For the end of an error's message: what of the bag is damaged may be what is missing.
+/// Returns the bag's faults for the end of an error message: the missing data may be in a damaged
+/// part.
 std::string damages_of(const BagInbox& inbox) {
   std::string damages;
   for (const std::string& note : inbox.notes()) damages += "; " + note;
   return damages;
 }
 
-BagTopics topics_of(const BagInbox& inbox, const TopicWishes& wishes) {
+BagTopics topics_of(const BagInbox& inbox, const TopicOptions& options) {
   try {
-    return choose_topics(inbox.name(), inbox.topics(), wishes);
+    return choose_topics(inbox.name(), inbox.topics(), options);
   } catch (const InputError& error) {
     throw InputError(error.what() + damages_of(inbox));
   }
@@ -25,8 +26,8 @@ BagTopics topics_of(const BagInbox& inbox, const TopicWishes& wishes) {
 
 }  // namespace
 
-BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const TopicWishes& wishes)
-    : inbox_(bag), topics_(topics_of(inbox_, wishes)) {}
+BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const TopicOptions& options)
+    : inbox_(bag), topics_(topics_of(inbox_, options)) {}
 
 void BagSceneReader::read_robot_and_camera() {
   if (read_until([this](const BagScene&) { return lacking().empty(); })) return;

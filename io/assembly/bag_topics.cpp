@@ -39,7 +39,7 @@ bool holds(std::string_view name, std::initializer_list<std::string_view> words)
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('/') + 1); }
 
-/// Of one image that was recorded in several ways: what is least changed first.
+/// Orders the encodings of one image: the least lossy first.
 int loss(const std::string& topic) {
   const std::string base = image_base(topic);
   if (topic == base) return 0;
@@ -89,7 +89,7 @@ class Chooser {
     return found;
   }
 
-  /// The topic that an option names.
+  /// Returns the topic that an option names.
   [[nodiscard]] TopicUse named(const std::string& role, const std::string& option,
                                const std::string& name, TopicTypes types) const {
     const std::string why = "as " + option + " says";
@@ -106,7 +106,8 @@ class Chooser {
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
-  /// The only one of the candidates; of one image in several forms the least changed.
+  /// Returns the only candidate. If one image was recorded in several encodings, returns the least
+  /// lossy one.
   [[nodiscard]] TopicUse only_image(const std::string& role, const std::string& option,
                                     std::vector<const BagTopic*> candidates,
                                     const std::string& why) const {
@@ -131,7 +132,7 @@ class Chooser {
   static std::string nothing_in(std::span<const BagTopic> topics) {
     for (const BagTopic& topic : topics)
       if (topic.encoding != "cdr")
-        return "is no bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
+        return "is not a bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
                printable(topic.encoding) + "'; cdr is wanted";
     return "holds no messages";
   }
@@ -144,9 +145,9 @@ bool is_depth(const std::string& name) {
   return holds(name, {"depth"}) && !holds(last_part(image_base(name)), {"confidence"});
 }
 
-TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
+TopicUse choose_depth(const Chooser& chooser, const TopicOptions& options) {
   const TopicTypes types = image_types;
-  if (wishes.depth) return chooser.named("depth", "--depth-topic", *wishes.depth, types);
+  if (options.depth) return chooser.named("depth", "--depth-topic", *options.depth, types);
   const auto candidates = chooser.of(types, is_depth);
   if (!candidates.empty())
     return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
@@ -156,40 +157,41 @@ TopicUse choose_depth(const Chooser& chooser, const TopicWishes& wishes) {
                  "; choose one with --depth-topic");
 }
 
-/// The camera_info that stands beside an image topic.
-const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
-  const std::string wanted = info_topic_beside(image);
+/// Returns the camera_info topic next to an image topic, or null.
+const BagTopic* find_info(const Chooser& chooser, const std::string& image) {
+  const std::string wanted = camera_info_topic(image);
   const auto found = chooser.of(TopicTypes(&info_type, 1),
                                 [&](const std::string& name) { return name == wanted; });
   return found.empty() ? nullptr : found.front();
 }
 
-TopicUse choose_info(const Chooser& chooser, const TopicWishes& wishes, const std::string& depth) {
-  const char* const option = "--camera-info-topic";
-  if (wishes.camera_info)
-    return chooser.named("camera_info", option, *wishes.camera_info, TopicTypes(&info_type, 1));
-  if (const BagTopic* beside = info_beside(chooser, depth))
-    return Chooser::use("camera_info", *beside, "it stands beside the depth images");
+TopicUse choose_info(const Chooser& chooser, const TopicOptions& options,
+                     const std::string& depth) {
+  const char* const flag = "--camera-info-topic";
+  if (options.camera_info)
+    return chooser.named("camera_info", flag, *options.camera_info, TopicTypes(&info_type, 1));
+  if (const BagTopic* info = find_info(chooser, depth))
+    return Chooser::use("camera_info", *info, "next to the depth images");
   const auto candidates = chooser.of(TopicTypes(&info_type, 1));
   if (candidates.size() == 1)
     return Chooser::use("camera_info", *candidates.front(), "the only one");
   if (candidates.empty())
     chooser.refuse("has no camera_info (sensor_msgs/msg/CameraInfo) of " + printable(depth));
-  chooser.refuse("none of the camera_info topics stands beside " + printable(depth) + ": " +
-                 names_of(candidates) + "; choose one with " + option);
+  chooser.refuse("no camera_info topic is next to " + printable(depth) + ": " +
+                 names_of(candidates) + "; choose one with " + flag);
 }
 
-void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
+void choose_color(const Chooser& chooser, const TopicOptions& options, BagTopics& topics) {
   const TopicTypes types = image_types;
-  if (wishes.color) {
-    topics.color = chooser.named("color", "--color-topic", *wishes.color, types);
-    const BagTopic* info = info_beside(chooser, topics.color->name);
+  if (options.color) {
+    topics.color = chooser.named("color", "--color-topic", *options.color, types);
+    const BagTopic* info = find_info(chooser, topics.color->name);
     if (info == nullptr)
-      chooser.refuse("--color-topic: no camera_info stands beside " + printable(*wishes.color));
-    topics.color_info = Chooser::use("color camera_info", *info, "it stands beside these images");
+      chooser.refuse("--color-topic: no camera_info topic is next to " + printable(*options.color));
+    topics.color_info = Chooser::use("color camera_info", *info, "next to these images");
     return;
   }
-  if (!wishes.with_color) return;
+  if (!options.with_color) return;
   const auto candidates = chooser.of(types, [](const std::string& name) {
     return !is_depth(name) && holds(name, {"color", "colour", "rgb"});
   });
@@ -198,7 +200,7 @@ void choose_color(const Chooser& chooser, const TopicWishes& wishes, BagTopics& 
                                       "the only images called color, for overlays");
 }
 
-/// The one with the usual name, or the only one.
+/// Returns the topic with the usual name, or the only one whose last part has that name.
 std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
                               std::string_view type, const std::string& name,
                               const std::string& choice) {
@@ -213,9 +215,9 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
   return std::nullopt;
 }
 
-void choose_joints(const Chooser& chooser, const TopicWishes& wishes, BagTopics& topics) {
-  if (wishes.poses == PoseSource::transforms) return;
-  for (const std::string& name : wishes.joints)
+void choose_joints(const Chooser& chooser, const TopicOptions& options, BagTopics& topics) {
+  if (options.poses == PoseSource::transforms) return;
+  for (const std::string& name : options.joints)
     topics.joints.push_back(
         chooser.named("joints", "--joint-topic", name, TopicTypes(&joints_type, 1)));
   if (!topics.joints.empty()) return;
@@ -238,17 +240,17 @@ void choose_transforms(const Chooser& chooser, BagTopics& topics) {
       topics.transforms.push_back(std::move(*found));
 }
 
-PoseSource choose_poses(const Chooser& chooser, const TopicWishes& wishes,
+PoseSource choose_poses(const Chooser& chooser, const TopicOptions& options,
                         const BagTopics& topics) {
   const PoseSource poses =
-      wishes.poses.value_or(topics.joints.empty() ? PoseSource::transforms : PoseSource::joints);
+      options.poses.value_or(topics.joints.empty() ? PoseSource::transforms : PoseSource::joints);
   if (poses != PoseSource::transforms && topics.joints.empty())
     chooser.refuse("has no joint states (sensor_msgs/msg/JointState), which --poses asks for");
   if (!topics.transforms.empty()) return poses;
   if (poses == PoseSource::transforms)
     chooser.refuse("has neither joint states nor tf: the robot's poses are not known");
   if (poses == PoseSource::both) chooser.refuse("has no tf, which --poses both asks for");
-  if (wishes.needs_transforms)
+  if (options.needs_transforms)
     chooser.refuse("has no tf, which would say where the camera is; give --pose and --parent");
   return poses;
 }
@@ -264,31 +266,31 @@ std::vector<TopicUse> BagTopics::all() const {
   return uses;
 }
 
-std::string info_topic_beside(const std::string& image_topic) {
+std::string camera_info_topic(const std::string& image_topic) {
   const std::string base = image_base(image_topic);
   return base.substr(0, base.rfind('/') + 1) + "camera_info";
 }
 
 BagTopics choose_camera_topics(const std::string& source, std::span<const BagTopic> topics,
-                               const TopicWishes& wishes) {
+                               const TopicOptions& options) {
   const Chooser chooser(source, topics);
   BagTopics chosen;
-  chosen.depth = choose_depth(chooser, wishes);
-  chosen.camera_info = choose_info(chooser, wishes, chosen.depth.name);
-  choose_color(chooser, wishes, chosen);
+  chosen.depth = choose_depth(chooser, options);
+  chosen.camera_info = choose_info(chooser, options, chosen.depth.name);
+  choose_color(chooser, options, chosen);
   return chosen;
 }
 
 BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
-                        const TopicWishes& wishes) {
-  BagTopics chosen = choose_camera_topics(bag, topics, wishes);
+                        const TopicOptions& options) {
+  BagTopics chosen = choose_camera_topics(bag, topics, options);
   const Chooser chooser(bag, topics);
-  choose_joints(chooser, wishes, chosen);
+  choose_joints(chooser, options, chosen);
   choose_transforms(chooser, chosen);
-  chosen.poses = choose_poses(chooser, wishes, chosen);
-  for (const std::string& name : wishes.targets)
+  chosen.poses = choose_poses(chooser, options, chosen);
+  for (const std::string& name : options.targets)
     chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
-  if (!wishes.needs_description) return chosen;
+  if (!options.needs_description) return chosen;
   chosen.description =
       usual(chooser, "robot", text_type, "robot_description", "give the URDF with --robot");
   if (!chosen.description)

@@ -14,54 +14,55 @@
 
 namespace penumbra::io {
 
-/// What is wanted of a bag, and which topics the user names.
-struct TopicWishes {
+/// The data needed from a bag, and the topics that the user names.
+struct TopicOptions {
   std::optional<std::string> depth, camera_info, color;
   std::vector<std::string> joints, targets;
   std::optional<PoseSource> poses;
-  bool with_color = false;        ///< for pictures; if `color` is named it is judged in, too
-  bool needs_description = true;  ///< the robot is in the bag
-  bool needs_transforms = true;   ///< the camera's pose is in the bag
+  bool with_color =
+      false;  ///< read colour images for pictures; if `color` is set, depth is judged in them
+  bool needs_description = true;  ///< the robot's description is read from the bag
+  bool needs_transforms = true;   ///< the camera's pose is read from the bag
 };
 
-/// A topic that is taken.
+/// A topic that is read, its role, and why it was chosen.
 struct TopicUse {
   std::string role;  ///< "depth"
   std::string name;
   std::string type;
   std::string why;
-  std::optional<std::uint64_t> messages = {};  ///< where the bag tells
+  std::optional<std::uint64_t> messages = {};  ///< if the bag has a count
 };
 
-/// Which topics of a bag say what.
+/// The topics to read from a bag, by role.
 struct BagTopics {
   PoseSource poses = PoseSource::joints;
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
-  std::optional<TopicUse> color_info;  ///< if depth images are brought to the color camera
+  std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
   std::vector<TopicUse> joints, transforms, targets;
   std::optional<TopicUse> description;
 
-  /// All of them, in the order in which they are told.
+  /// Returns all topics, in the order in which they are printed.
   [[nodiscard]] std::vector<TopicUse> all() const;
 };
 
-/// Several topics may be what is looked for, and none is named.
+/// Several topics match and the user named none of them.
 class AmbiguousTopics : public InputError {
   using InputError::InputError;
 };
 
-/// The topics of the camera alone, as choose_topics has them.
+/// Chooses the topics of the camera only, like choose_topics.
 [[nodiscard]] BagTopics choose_camera_topics(const std::string& source,
                                              std::span<const BagTopic> topics,
-                                             const TopicWishes& wishes);
+                                             const TopicOptions& options);
 
-/// The camera_info that is looked for beside an image topic.
-[[nodiscard]] std::string info_topic_beside(const std::string& image_topic);
+/// Returns the name of the camera_info topic next to an image topic.
+[[nodiscard]] std::string camera_info_topic(const std::string& image_topic);
 
-/// Chooses by names and types; topics without messages are none. Throws InputError that names the
-/// bag, the candidates and the option that chooses, where there is none or more than one.
+/// Chooses topics by name and type; topics without messages are ignored. Throws InputError that
+/// names the bag, the candidates and the option to use if no topic or several topics match.
 [[nodiscard]] BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
-                                      const TopicWishes& wishes);
+                                      const TopicOptions& options);
 
 }  // namespace penumbra::io

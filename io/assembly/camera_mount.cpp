@@ -16,7 +16,7 @@ void check_parent(const Robot& robot, const std::string& link) {
   throw InputError("--parent: '" + link + "' is no link of the robot" + near_names(link, known));
 }
 
-/// The link whose frame it is; empty: none's.
+/// Returns the link that has this frame, or an empty text.
 std::string link_of(const Robot& robot, const std::string& prefix, const std::string& frame) {
   if (!frame.starts_with(prefix)) return {};
   std::string link = frame.substr(prefix.size());
@@ -25,21 +25,22 @@ std::string link_of(const Robot& robot, const std::string& prefix, const std::st
 
 }  // namespace
 
-std::string mounted_frame(const MountWishes& wishes, const std::string& frame_of_images) {
-  return std::string(frame_name(wishes.camera_frame.value_or(frame_of_images)));
+std::string mounted_frame(const MountOptions& options, const std::string& frame_of_images) {
+  return std::string(frame_name(options.camera_frame.value_or(frame_of_images)));
 }
 
-std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& options,
                                       const FrameTree& frames, const std::string& frame_of_images) {
-  if (wishes.parent) check_parent(robot, *wishes.parent);
-  if (wishes.pose)
-    return CameraMount{"", wishes.parent.value_or(robot.links().front()), *wishes.pose,
-                       wishes.pose_source};
-  const std::string frame = mounted_frame(wishes, frame_of_images);
+  if (options.parent) check_parent(robot, *options.parent);
+  if (options.pose)
+    return CameraMount{"", options.parent.value_or(robot.links().front()), *options.pose,
+                       options.pose_source};
+  const std::string frame = mounted_frame(options, frame_of_images);
   if (frame.empty())
     throw InputError("the images do not name their frame; give it with --camera-frame");
-  if (wishes.parent) return CameraMount{frame, *wishes.parent, Eigen::Isometry3d::Identity(), "tf"};
-  const std::string& prefix = wishes.frame_prefix;
+  if (options.parent)
+    return CameraMount{frame, *options.parent, Eigen::Isometry3d::Identity(), "tf"};
+  const std::string& prefix = options.frame_prefix;
   if (const std::string own = link_of(robot, prefix, frame); !own.empty())
     return CameraMount{"", own, Eigen::Isometry3d::Identity(), "a link of the robot"};
   for (const std::string& above : frames.chain(frame))
@@ -48,9 +49,9 @@ std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wis
   return std::nullopt;
 }
 
-CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                           const std::string& frame_of_images) {
-  return {mounted_frame(wishes, frame_of_images), robot.links().front(),
+  return {mounted_frame(options, frame_of_images), robot.links().front(),
           Eigen::Isometry3d::Identity(), "tf"};
 }
 

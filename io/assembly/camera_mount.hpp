@@ -12,21 +12,22 @@
 
 namespace penumbra::io {
 
-/// What the user says of where the camera sits.
-struct MountWishes {
-  std::optional<std::string> camera_frame;  ///< in place of the images' frame_id
-  std::optional<std::string> parent;        ///< link
-  std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link, in place of TF's
+/// The user's options for the pose of the camera.
+struct MountOptions {
+  std::optional<std::string> camera_frame;  ///< replaces the frame_id of the images
+  std::optional<std::string> parent;        ///< a link of the robot
+  std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link; replaces TF's
   std::string pose_source = {};             ///< "--pose FILE"
   std::string frame_prefix = {};            ///< PoseOptions::frame_prefix
 };
 
-/// Where a camera sits.
+/// The pose of a camera on the robot.
 struct CameraMount {
-  std::string frame;   ///< the judged images' in TF; empty: the camera's pose is T_parent_camera
-  std::string parent;  ///< link
+  std::string
+      frame;  ///< frame of the judged images in TF; empty: the camera's pose is T_parent_camera
+  std::string parent;  ///< a link of the robot
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
-  std::string told;  ///< by what, in words
+  std::string source;  ///< the source of the pose, for messages
 
   [[nodiscard]] bool operator==(const CameraMount& other) const {
     return frame == other.frame && parent == other.parent &&
@@ -34,19 +35,20 @@ struct CameraMount {
   }
 };
 
-/// Where the camera sits as far as the user, the robot and TF tell: at the nearest link above its
-/// frame. Nothing if no link is above it (yet). Throws InputError for a parent that is no link, and
-/// images that do not name their frame.
-[[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountWishes& wishes,
+/// Returns the mount of the camera by the user's options, the robot and TF: on the nearest link
+/// above its frame, or nothing if no link is above it (yet). Throws InputError for a parent that is
+/// not a link, and for images that do not name their frame.
+[[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& options,
                                                     const FrameTree& frames,
                                                     const std::string& frame_of_images);
 
-/// The frame that find_mount looks for in TF.
-[[nodiscard]] std::string mounted_frame(const MountWishes& wishes,
+/// Returns the frame that find_mount looks up in TF.
+[[nodiscard]] std::string mounted_frame(const MountOptions& options,
                                         const std::string& frame_of_images);
 
-/// Beside the robot: TF has to know the way from the camera to the root link.
-[[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountWishes& wishes,
+/// Returns the mount of a camera that is not on the robot. TF must connect the camera to the root
+/// link.
+[[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                                         const std::string& frame_of_images);
 
 }  // namespace penumbra::io

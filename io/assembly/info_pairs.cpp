@@ -11,10 +11,10 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t most_waiting_images = 8;
-/// Images may come late: 2 s and more at 90 Hz.
+/// Images may arrive late: this covers more than 2 s at 90 Hz.
 constexpr std::size_t most_infos = 256;
-/// A camera_info is no word on images that are older by more. Of a clock that began anew all that
-/// came before is later than what comes now.
+/// A camera_info does not apply to images that are older by more than this. After a clock reset all
+/// earlier messages have later stamps.
 constexpr std::int64_t longest_cover = 1'000'000'000;
 
 }  // namespace
@@ -32,7 +32,8 @@ void InfoPairs::match(ImageStamp& image, std::int64_t info) {
 void InfoPairs::look_for_two() {
   for (std::size_t i = 1; i < images_.size(); ++i) {
     const std::int64_t one = images_[i - 1].info, other = images_[i].info;
-    certain_ |= one != 0 && other != 0 && one != other;  // one info for two images proves nothing
+    certain_ |=
+        one != 0 && other != 0 && one != other;  // one camera_info for two images is not enough
   }
 }
 

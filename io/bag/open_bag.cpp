@@ -17,7 +17,7 @@ std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
     throw InputError(file.string() +
                      ": is compressed as a whole; 'zstd -d --rm' makes it readable");
   throw InputError(file.string() +
-                   ": is no bag; *.mcap, *.db3 and folders with a metadata.yaml are");
+                   ": is not a bag; *.mcap, *.db3 and folders with a metadata.yaml are");
 }
 
 std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path) {

@@ -99,7 +99,7 @@ std::vector<BadBag> bad_files() {
          bag.encoding = "ros1";
          bag.profile = "ros1";
        },
-       {"no bag of ROS 2", "ros1", "cdr"}},
+       {"not a bag of ROS 2", "ros1", "cdr"}},
       {"NoMessages", [](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"}},
   };
 }

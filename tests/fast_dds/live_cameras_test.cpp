@@ -40,9 +40,9 @@ class HeardCamera {
     process_->kill();
     thread_.join();
   }
-  std::vector<KeptResults::Told> told() {
+  std::vector<KeptResults::Published> published() {
     const std::lock_guard lock(mutex_);
-    return told_;
+    return published_;
   }
 
  private:
@@ -52,13 +52,13 @@ class HeardCamera {
       io::ImageMessage image;
       if (!message || io::Decoder<io::ImageMessage>().decode(*message, image)) continue;
       const std::lock_guard lock(mutex_);
-      told_.push_back({io::Result::labels, image.header.stamp, std::move(*message)});
+      published_.push_back({io::Result::labels, image.header.stamp, std::move(*message)});
     }
   }
 
   std::unique_ptr<PeerProcess> process_;
   std::mutex mutex_;
-  std::vector<KeptResults::Told> told_;  // guarded by mutex_
+  std::vector<KeptResults::Published> published_;  // guarded by mutex_
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
@@ -117,13 +117,14 @@ TEST_F(LiveCameras, TwoOfOneRobotByTf) {
     std::this_thread::sleep_until(next);
     tell_at(system_now(), tick);
     if (tick % 50 == 0)
-      known = {expect_true_labels(left.told(), truth), expect_true_labels(right.told(), truth)};
+      known = {expect_true_labels(left.published(), truth),
+               expect_true_labels(right.published(), truth)};
   }
   EXPECT_EQ(live.end(), 0) << read_bytes(folder_.path() / "live.log");
   left.end();
   right.end();
-  EXPECT_GE(expect_true_labels(left.told(), truth), enough);
-  EXPECT_GE(expect_true_labels(right.told(), truth), enough);
+  EXPECT_GE(expect_true_labels(left.published(), truth), enough);
+  EXPECT_GE(expect_true_labels(right.published(), truth), enough);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class LiveAmongVendors : public testing::Test {
           io::ImageMessage image;
           if (io::Decoder<io::ImageMessage>().decode(*message, image)) continue;
           const std::lock_guard lock(mutex_);
-          told_.push_back({io::Result::labels, image.header.stamp, *message});
+          published_.push_back({io::Result::labels, image.header.stamp, *message});
         }
     });
   }
@@ -81,7 +81,7 @@ class LiveAmongVendors : public testing::Test {
   }
   std::size_t heard() {
     const std::lock_guard lock(mutex_);
-    return told_.size();
+    return published_.size();
   }
 
   LoneDomain domain_;
@@ -100,7 +100,7 @@ class LiveAmongVendors : public testing::Test {
   std::thread reading_;
   std::atomic<bool> ends_ = false;
   std::mutex mutex_;
-  std::vector<KeptResults::Told> told_;  // guarded by mutex_
+  std::vector<KeptResults::Published> published_;  // guarded by mutex_
 };
 
 TEST_F(LiveAmongVendors, PublishesTheTruthThoughTheRobotIsKilledAndReturns) {
@@ -124,11 +124,12 @@ TEST_F(LiveAmongVendors, PublishesTheTruthThoughTheRobotIsKilledAndReturns) {
   EXPECT_EQ(live.end(), 0);
   stop_listening();
   LiveTruth truth;
-  EXPECT_GT(expect_true_labels(told_, truth), 60U);
-  const auto known = std::find_if(told_.begin(), told_.end(), [&](const KeptResults::Told& one) {
-    return one.stamp > returned && expect_true_labels({one}, truth) == 1;
-  });
-  ASSERT_NE(known, told_.end());
+  EXPECT_GT(expect_true_labels(published_, truth), 60U);
+  const auto known =
+      std::find_if(published_.begin(), published_.end(), [&](const KeptResults::Published& one) {
+        return one.stamp > returned && expect_true_labels({one}, truth) == 1;
+      });
+  ASSERT_NE(known, published_.end());
   EXPECT_LT(known->stamp - returned, longest_return);
   std::cout << "known again after " << (known->stamp - returned) / milliseconds << " ms\n";
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "live.json"));

@@ -24,7 +24,7 @@ TEST_F(LiveCameraInfo, AnImageWaitsForItsOwnCameraInfo) {
   tell_joints_around(start + 66 * milliseconds);
   bench_.tell_depth(start + 66 * milliseconds);
   EXPECT_EQ(bench_.work(), 0U);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   bench_.now = *bench_.inbox.wake_at(0);
   EXPECT_EQ(bench_.work(), 0U) << "it waits no longer than that, and is not judged by an older one";
   EXPECT_EQ(bench_.counts().of(io::LiveDrop::no_camera_info), 1U);
@@ -32,7 +32,7 @@ TEST_F(LiveCameraInfo, AnImageWaitsForItsOwnCameraInfo) {
   EXPECT_EQ(judge(start + 99 * milliseconds), 1U);
   EXPECT_EQ(status(), "ok");
   LiveTruth other({.focal = 90.0});
-  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, other), 1U);
 }
 
 /// A camera that sends a camera_info with each image starts again as another one, whose camera_info
@@ -54,7 +54,7 @@ TEST_F(LiveCameraInfo, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
     return judged;
   };
   EXPECT_EQ(drive(start, 5, 60.0, 1), 5U);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
   bench_.now += 200 * milliseconds;
   EXPECT_EQ(bench_.work(), 0U);
@@ -63,12 +63,12 @@ TEST_F(LiveCameraInfo, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
   LiveTruth other({.focal = 90.0});
-  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, other), 3U);
   // Again, now by a clock that begins anew: what came before is later than all that comes.
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);
   EXPECT_EQ(drive(start - 899 * seconds, 3, 60.0, 3), 3U);
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 3U);
 }
 
 /// The clock is set back by less than camera_infos are kept for: those that came before are not of
@@ -109,7 +109,7 @@ TEST_F(LiveCameraInfo, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   EXPECT_EQ(counts.of(io::LiveDrop::no_camera_info), 0U);
   EXPECT_EQ(judged + counts.of(io::LiveDrop::superseded), 60U);
   EXPECT_GT(judged, 50U);
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), judged);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), judged);
 }
 
 }  // namespace

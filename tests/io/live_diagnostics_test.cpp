@@ -8,10 +8,10 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
 
+#include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/live/name_resolver.hpp>
-#include <io/live/trouble_news.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -171,7 +171,7 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   tell(bench_.now, {"spin"}, std::nan(""));
   expect_says(robot(), Status::error, "no position that can be used");
   tell(bench_.now, {"gripper", "spin"}, 0.1);
-  expect_says(robot(), Status::ok, "its pose is told");
+  expect_says(robot(), Status::ok, "its pose is known");
   for (int i = 0; i < 30; ++i) {
     bench_.now += 100 * milliseconds;
     tell(bench_.now, {"a", "b", "c", "d"}, 0.1);
@@ -189,7 +189,7 @@ TEST_F(LiveDiagnosticsTest, SaysThatCameraInfosNoLongerComeWithImages) {
   }
   bench_.now += 100 * milliseconds;
   bench_.work();
-  expect_says(camera(), Status::error, "10 images came without a camera_info of their own");
+  expect_says(camera(), Status::error, "10 images have no camera_info of their own");
   EXPECT_EQ(values_of(camera(), "dropped: no_camera_info"), Words{"10"});
 }
 
@@ -222,40 +222,41 @@ io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string
   return message;
 }
 
-TEST(TroubleNews, TellsEachStatusByItself) {
-  io::TroubleNews news;
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
-  EXPECT_EQ(news.look(of_cameras("no images for 1.2 s", "")), Words{"left: no images for 1.2 s"});
-  EXPECT_EQ(news.look(of_cameras("no images for 12.5 s", "")), Words{});
-  EXPECT_EQ(news.look(of_cameras("no images for 13.0 s", "no camera_info yet")),
+TEST(DiagnosticChanges, ReportEachStatusByItself) {
+  io::DiagnosticChanges changes;
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("no images for 1.2 s", "")),
+            Words{"left: no images for 1.2 s"});
+  EXPECT_EQ(changes.update(of_cameras("no images for 12.5 s", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("no images for 13.0 s", "no camera_info yet")),
             Words{"right: no camera_info yet"});
-  EXPECT_EQ(news.look(of_cameras("no images for 14.0 s", "3 images are bad")),
+  EXPECT_EQ(changes.update(of_cameras("no images for 14.0 s", "3 images are bad")),
             Words{"right: 3 images are bad"});
-  EXPECT_EQ(news.look(of_cameras("", "4 images are bad")), Words{"left: well again"});
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{"penumbra: all is judged"});
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("", "4 images are bad")), Words{"left: recovered"});
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{"penumbra: no faults"});
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{});
 }
 
-TEST(TroubleNews, NumbersAreNoNewsWhateverTheirSignAndSize) {
-  io::TroubleNews news;
-  EXPECT_EQ(news.look(of_cameras("frame 'a-b' is 0.25 m off, at 7 ns", "")).size(), 1U);
+TEST(DiagnosticChanges, DoNotIncludeNumbersOfAnySignAndSize) {
+  io::DiagnosticChanges changes;
+  EXPECT_EQ(changes.update(of_cameras("frame 'a-b' is 0.25 m off, at 7 ns", "")).size(), 1U);
   for (const char* const same :
        {"frame 'a-b' is -0.25 m off, at 7 ns", "frame 'a-b' is 2.5e-05 m off, at -12 ns",
         "frame 'a-b' is -1e+06 m off, at 0 ns"})
-    EXPECT_EQ(news.look(of_cameras(same, "")), Words{}) << same;
-  EXPECT_EQ(news.look(of_cameras("frame 'ab' is 0.25 m off, at 7 ns", "")).size(), 1U);
+    EXPECT_EQ(changes.update(of_cameras(same, "")), Words{}) << same;
+  EXPECT_EQ(changes.update(of_cameras("frame 'ab' is 0.25 m off, at 7 ns", "")).size(), 1U);
 }
 
 /// Of an arm that moves: other joints, values and publishers each second.
-TEST(TroubleNews, JointsThatContradictEachOtherAreOneTrouble) {
-  io::TroubleNews news;
+TEST(DiagnosticChanges, TreatAllContradictingJointsAsOneFault) {
+  io::DiagnosticChanges changes;
   const auto told = [&](const std::string& why) {
-    return news.look(of_cameras("poses_disagree: joint " + why, "")).size();
+    return changes.update(of_cameras("poses_disagree: joint " + why, "")).size();
   };
   EXPECT_EQ(told("'a' is at 0.1 by one and at 0.5 by other (7 ns)"), 1U);
   EXPECT_EQ(told("'a' is at -0.1 by one and at 1e-05 by other (9 ns); so is 'b', 'c'"), 0U);
   EXPECT_EQ(told("'b' is at 0.2 by other and at 0.1 by one (11 ns); so is 'c'"), 0U);
-  EXPECT_EQ(news.look(of_cameras("stale_joints: joint 'a' has no position", "")).size(), 1U);
+  EXPECT_EQ(changes.update(of_cameras("stale_joints: joint 'a' has no position", "")).size(), 1U);
 }
 
 TEST_F(LiveDiagnosticsTest, IsAMessage) {

@@ -56,7 +56,7 @@ TEST_P(LiveCompressedDepth, IsJudgedAsWhatItHolds) {
   ASSERT_EQ(bench.work(), 1U);
   EXPECT_EQ(status_of(bench), "ok");
   LiveTruth truth;
-  EXPECT_EQ(expect_true_labels(bench.results.told, truth), 1U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth), 1U);
 
   const std::int64_t next = start + 33 * milliseconds;
   tell_joints_around(bench, next);
@@ -124,7 +124,7 @@ TEST_F(LiveUnalignedDepth, IsBroughtToTheColorCameraByTf) {
   judge(start, wide.width);
   EXPECT_EQ(status_of(bench_), "ok");
   LiveTruth truth;
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth), 1U);
 
   constexpr int near_from = 32;
   judge(start + 2 * seconds, near_from);  // the board lies level again
@@ -182,7 +182,7 @@ TEST_F(LivePoses, ComeFromTfInPlaceOfJointStates) {
     tell_tf_around(bench, stamp);
     EXPECT_EQ(judge(bench, stamp), "ok") << i;
   }
-  EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 30U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 30U);
   for (const io::LiveTopic& one : bench.inbox.topics()) EXPECT_NE(one.role, io::LiveRole::joints);
 
   EXPECT_NE(judge(bench, start + 10 * seconds), "ok") << "what was told last is no pose of now";
@@ -201,7 +201,7 @@ TEST_F(LivePoses, OfBothAreTakenWhereTheyAgree) {
     EXPECT_EQ(judge(bench, stamp), agree ? "ok" : "poses_disagree") << i;
     if (!agree) expect_nothing_trusted(bench);
   }
-  EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 8U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 8U);
   const std::int64_t later = start + 10 * seconds;
   tell_joints_around(bench, later);
   EXPECT_NE(judge(bench, later), "ok") << "one of both alone is not enough";
@@ -235,7 +235,7 @@ TEST(LiveClocks, ACameraThatIsSetBackHoldsTheOthersUpForAMomentAlone) {
   bench.now += 200 * milliseconds;
   bench.work();
   LiveTruth truth;
-  EXPECT_EQ(expect_true_labels(bench.results.told, truth), images - 1U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth), images - 1U);
 }
 
 }  // namespace

@@ -89,11 +89,11 @@ TEST_F(LiveTargetsTest, InALinkThatTwoProgramsPutElsewhereAreUnknown) {
 
   const std::int64_t later = start + 2 * seconds;
   tell_states(later - 300 * milliseconds, later + 20 * milliseconds, 2);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   tell_target(later, "turntable", {0.0, 0.0, 0.1});
   told = judge(later);
   EXPECT_EQ(told.status, "ok");
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 1U);
   ASSERT_EQ(told.targets.size(), 1U);
   EXPECT_EQ(told.targets[0].verdict, io::TargetMessage::unknown);
   for (const char* const part : {"'turntable'", "joint 'turn' is at "})

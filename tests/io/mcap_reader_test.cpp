@@ -14,16 +14,17 @@ namespace penumbra::io::mcap {
 namespace {
 
 using namespace test::mcap_file;
-using test::Told;
-using test::ToldFile;
+using test::McapContents;
+using test::RecordedMessage;
 
-Told hand_made(const std::string& topic, std::int64_t time, const std::string& data = "data") {
+RecordedMessage hand_made(const std::string& topic, std::int64_t time,
+                          const std::string& data = "data") {
   return {topic, "p/msg/A", static_cast<std::uint32_t>(time), time, time, data};
 }
 
 class McapReader : public testing::Test {
  protected:
-  ToldFile read(const std::string& bytes) {
+  McapContents read(const std::string& bytes) {
     return test::read_mcap(folder_.write("a.mcap", bytes));
   }
 
@@ -49,14 +50,14 @@ TEST(McapCrc, IsZlibsInPiecesOfAnySize) {
 }
 
 TEST_F(McapReader, ReadsTheSmallestFiles) {
-  const ToldFile empty = read(file(""));
+  const McapContents empty = read(file(""));
   EXPECT_TRUE(empty.messages.empty());
   EXPECT_TRUE(empty.faults.empty()) << empty.faults[0];
   EXPECT_TRUE(
       read(magic + header() + footer()).faults.empty());  // the specification's "empty file"
-  const ToldFile one = read(file(channel(3, 0, "/x") + message(3, 5)));
+  const McapContents one = read(file(channel(3, 0, "/x") + message(3, 5)));
   ASSERT_EQ(one.messages.size(), 1U);
-  EXPECT_EQ(one.messages[0], (Told{"/x", "-", 5, 5, 5, "data"}));
+  EXPECT_EQ(one.messages[0], (RecordedMessage{"/x", "-", 5, 5, 5, "data"}));
   EXPECT_TRUE(one.faults.empty());
 }
 
@@ -71,11 +72,12 @@ TEST_F(McapReader, TellsWhatTheFileTells) {
 }
 
 TEST_F(McapReader, MergesWithoutAnyIndexByTime) {
-  const std::vector<Told> expected = {hand_made("/b", 1), hand_made("/a", 2), hand_made("/a", 3),
-                                      hand_made("/b", 3), hand_made("/b", 4), hand_made("/a", 9)};
+  const std::vector<RecordedMessage> expected = {hand_made("/b", 1), hand_made("/a", 2),
+                                                 hand_made("/a", 3), hand_made("/b", 3),
+                                                 hand_made("/b", 4), hand_made("/a", 9)};
   const std::string late = chunk(3, 9, definitions_ + message(0, 9) + message(0, 3));
   const std::string early = chunk(1, 4, message(7, 3) + message(7, 1) + message(7, 4));
-  const ToldFile all = read(file(late + early + message(0, 2)));
+  const McapContents all = read(file(late + early + message(0, 2)));
   EXPECT_EQ(all.messages, expected);
   EXPECT_TRUE(all.faults.empty());
 }
@@ -86,8 +88,9 @@ TEST_F(McapReader, FindsWhatTheIndexPassesOver) {
   const std::string loose = message(0, 4);
   const std::uint64_t at = data_start();
   const std::string index = chunk_index(6, 6, at + first.size() + loose.size(), second.size());
-  const ToldFile all = read(file(first + loose + second, definitions_ + index));
-  const std::vector<Told> expected = {hand_made("/a", 4), hand_made("/a", 5), hand_made("/b", 6)};
+  const McapContents all = read(file(first + loose + second, definitions_ + index));
+  const std::vector<RecordedMessage> expected = {hand_made("/a", 4), hand_made("/a", 5),
+                                                 hand_made("/b", 6)};
   EXPECT_EQ(all.messages, expected);
   EXPECT_TRUE(all.faults.empty());
 }
@@ -107,11 +110,11 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
   };
 
   // What the index passes over is found, so that no message is missing.
-  const ToldFile elsewhere = with(chunk_index(5, 9, at + 1, only.size() - 1));
+  const McapContents elsewhere = with(chunk_index(5, 9, at + 1, only.size() - 1));
   ASSERT_FALSE(elsewhere.faults.empty());
   EXPECT_HAS(elsewhere.faults.back(), "there is no chunk of");
 
-  const ToldFile twice =
+  const McapContents twice =
       with(chunk_index(5, 9, at, only.size()) + chunk_index(5, 9, at, only.size()));
   EXPECT_EQ(twice.messages.size(), 2U);
   ASSERT_EQ(twice.faults.size(), 1U);
@@ -120,7 +123,7 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
   EXPECT_HAS(with(chunk_index(5, 9, at, ~0ULL)).faults[0], "outside of the data");
 
   const std::string second = chunk(7, 7, message(7, 7));
-  const ToldFile late =
+  const McapContents late =
       read(file(only + second, definitions_ + chunk_index(8, 9, at, only.size()) +
                                    chunk_index(7, 7, at + only.size(), second.size())));
   ASSERT_EQ(late.messages.size(), 3U);
@@ -130,7 +133,7 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
 
 TEST_F(McapReader, NamesEveryOtherFault) {
   const auto fault = [&](const std::string& data) {
-    const ToldFile all = read(file(data));
+    const McapContents all = read(file(data));
     EXPECT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
     return all.faults.empty() ? std::string() : all.faults[0];
   };
@@ -139,7 +142,7 @@ TEST_F(McapReader, NamesEveryOtherFault) {
   EXPECT_HAS(fault(schema(1, "x") + schema(1, "x") + schema(1, "y")),
              "schema 1 is not what it was");
   EXPECT_HAS(fault(record(0x04, "xy")), "a channel's record is damaged");
-  EXPECT_HAS(fault(channel(0, 0, "/a") + message(0, 1ULL << 63)), "behind the year 2262");
+  EXPECT_HAS(fault(channel(0, 0, "/a") + message(0, 1ULL << 63)), "after the year 2262");
   EXPECT_HAS(fault(channel(0, 0, "/a") + record(0x05, "short")), "shorter than its head");
   EXPECT_HAS(fault(chunk(0, 0, definitions_ + data_end())), "records that no chunk may hold");
   EXPECT_HAS(fault(chunk(0, 0, definitions_ + std::string(20, '\0'))), "damaged at byte");
@@ -147,17 +150,17 @@ TEST_F(McapReader, NamesEveryOtherFault) {
   EXPECT_HAS(fault(compressed_chunk("zstd", 4, "abcd")), "cannot be decompressed as zstd");
   EXPECT_HAS(fault(compressed_chunk("lz4", 4, "abcd")), "cannot be decompressed as lz4");
   EXPECT_HAS(fault(compressed_chunk("lz4", 1ULL << 40, "abcd")), "claims to decompress from 4 to");
-  EXPECT_HAS(fault(compressed_chunk("", 5, "abcd")), "tells of two sizes");
+  EXPECT_HAS(fault(compressed_chunk("", 5, "abcd")), "two different sizes");
   EXPECT_HAS(read(file(std::string(30, '\0') + message(0, 1))).faults[0], "no record begins here");
 }
 
 TEST_F(McapReader, TrustsNoLooseMessageWhoseChecksumIsWrong) {
   const std::string start = magic + header() + channel(0, 0, "/a") + message(0, 1);
   EXPECT_TRUE(read(start + data_end(crc(start)) + footer()).faults.empty());
-  const ToldFile wrong = read(start + data_end(crc(start) + 1) + footer());
+  const McapContents wrong = read(start + data_end(crc(start) + 1) + footer());
   ASSERT_EQ(wrong.faults.size(), 1U);
   EXPECT_EQ(wrong.fault_offsets[0], start.size());
-  EXPECT_HAS(wrong.faults[0], "another checksum");
+  EXPECT_HAS(wrong.faults[0], "wrong checksum");
 }
 
 TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
@@ -167,11 +170,11 @@ TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
   std::string bytes = magic + header() + first + second + third + data_end() + footer();
   const std::size_t at = data_start() + first.size();
   bytes.replace(at + 1, 8, u64(1ULL << 60));
-  const ToldFile all = read(bytes);
+  const McapContents all = read(bytes);
   ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
   EXPECT_EQ(all.fault_offsets[0], at);
   EXPECT_HAS(all.faults[0], std::to_string(second.size()) + " bytes are left out");
-  EXPECT_EQ(all.messages, (std::vector<Told>{hand_made("/a", 1), hand_made("/b", 3)}));
+  EXPECT_EQ(all.messages, (std::vector<RecordedMessage>{hand_made("/a", 1), hand_made("/b", 3)}));
 }
 
 TEST_F(McapReader, RefusesWhatIsNoMcap) {
@@ -189,7 +192,7 @@ TEST_F(McapReader, RefusesWhatIsNoMcap) {
 // However little may be held, the messages and their order stay.
 TEST_F(McapReader, HoldsNoMoreThanAsked) {
   std::mt19937_64 random = test::seeded_random(52);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (std::uint32_t i = 0; i < 2000; ++i)
     messages.push_back({"/t" + std::to_string(i % 5), "p/msg/A", i,
                         static_cast<std::int64_t>(random() % 1000), 7,
@@ -217,7 +220,7 @@ TEST_F(McapReader, SaysWhenMessagesAreMissing) {
   const std::string only = chunk(5, 5, definitions_ + message(0, 5));
   const std::string counts = record(
       0x0b, u64(2) + u16(1) + u32(2) + u32(0) + u32(0) + u32(1) + u64(5) + u64(5) + text(""));
-  const ToldFile all = read(file(only, definitions_ + counts));
+  const McapContents all = read(file(only, definitions_ + counts));
   ASSERT_EQ(all.faults.size(), 1U);
   EXPECT_EQ(all.faults[0], "the file counts 2 messages, and 1 were found");
 }
@@ -225,16 +228,17 @@ TEST_F(McapReader, SaysWhenMessagesAreMissing) {
 // The recording that the reference library wrote: 100 joint states a second, ten images.
 TEST(McapReference, ReadsTheRealRecording) {
   PENUMBRA_REQUIRE_DATA();
-  const ToldFile all = test::read_mcap(test::data_folder() / "xarm7_realsense" / "xarm7.mcap");
+  const McapContents all = test::read_mcap(test::data_folder() / "xarm7_realsense" / "xarm7.mcap");
   EXPECT_TRUE(all.faults.empty()) << all.faults[0];
   std::map<std::string, int> counts;
-  for (const Told& message : all.messages) ++counts[message.topic];
+  for (const RecordedMessage& message : all.messages) ++counts[message.topic];
   EXPECT_EQ(counts["/robot_description"], 1);
   EXPECT_EQ(counts["/tf_static"], 1);
   EXPECT_EQ(counts["/camera/aligned_depth_to_color/image_raw"], 10);
   EXPECT_GT(counts["/joint_states"], 900);
-  EXPECT_TRUE(std::is_sorted(all.messages.begin(), all.messages.end(),
-                             [](const Told& a, const Told& b) { return a.log_time < b.log_time; }));
+  EXPECT_TRUE(std::is_sorted(
+      all.messages.begin(), all.messages.end(),
+      [](const RecordedMessage& a, const RecordedMessage& b) { return a.log_time < b.log_time; }));
 }
 
 }  // namespace

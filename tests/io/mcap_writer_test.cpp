@@ -10,11 +10,12 @@
 namespace penumbra::io::mcap {
 namespace {
 
-using test::Told;
+using test::RecordedMessage;
 
-std::vector<Told> some_messages(std::uint64_t seed, std::uint32_t count, std::uint64_t times) {
+std::vector<RecordedMessage> some_messages(std::uint64_t seed, std::uint32_t count,
+                                           std::uint64_t times) {
   std::mt19937_64 random = test::seeded_random(seed);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(random() % 4);
     std::string data(random() % 2000, '\0');
@@ -52,7 +53,7 @@ TEST_P(McapWriter, WritesTheSameBytesForTheSameCalls) {
 
 TEST_P(McapWriter, KeepsMessagesOfEverySize) {
   std::mt19937_64 random = test::seeded_random(63);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (const std::size_t size : {0, 1, 70'000, 3'000'000, 5}) {
     std::string data(size, '\0');
     for (char& c : data) c = static_cast<char>(random());
@@ -144,8 +145,8 @@ TEST_F(McapWriterFile, RefusesToGoOnWhenTheDiskIsFull) {
   EXPECT_EQ(first, file_.string() + ": cannot be written: File too large");
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
   std::signal(SIGXFSZ, ignored);
-  EXPECT_HAS(test::input_error(put), "could not be written to before");
-  EXPECT_HAS(test::input_error([&] { writer.close(); }), "could not be written to before");
+  EXPECT_HAS(test::input_error(put), "an earlier write failed");
+  EXPECT_HAS(test::input_error([&] { writer.close(); }), "an earlier write failed");
   const auto all = test::read_mcap(file_);
   EXPECT_GT(all.messages.size(), 15U);
   EXPECT_EQ(all.faults.size(), 1U);

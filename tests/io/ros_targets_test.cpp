@@ -29,7 +29,7 @@ Judgement judged_partial(std::span<const Blame> blame) {
 }
 
 /// A target with all that a report may tell of it.
-TargetReport told_in_full(std::span<const Blame> blame) {
+TargetReport full_report(std::span<const Blame> blame) {
   TargetReport target{};
   target.name = "part";
   target.stamp = 77;
@@ -42,7 +42,7 @@ TargetReport told_in_full(std::span<const Blame> blame) {
   return target;
 }
 
-void expect_told_in_full(const TargetMessage& target) {
+void expect_full_report(const TargetMessage& target) {
   EXPECT_EQ(target.name, "part");
   EXPECT_TRUE(target.has_stamp);
   EXPECT_EQ(target.stamp, 77);
@@ -70,7 +70,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   TargetReport lost{};
   lost.name = "wrist";
   lost.reason = "not found";
-  const std::vector<TargetReport> targets = {told_in_full(blame), lost};
+  const std::vector<TargetReport> targets = {full_report(blame), lost};
   FrameReport report;
   report.stamp = 123;
   report.status = FrameStatus::missing_depth;
@@ -85,7 +85,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   EXPECT_EQ(message.status, "missing_depth");
   EXPECT_EQ(message.message, "no depth image");
   ASSERT_EQ(message.targets.size(), 2U);
-  expect_told_in_full(message.targets[0]);
+  expect_full_report(message.targets[0]);
   const TargetMessage& second = message.targets[1];
   EXPECT_EQ(second.verdict, TargetMessage::unknown);
   EXPECT_EQ(second.reason, "not found");

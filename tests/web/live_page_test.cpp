@@ -201,7 +201,7 @@ TEST_F(LivePage, ASceneIsAskedForByServerAndVersion) {
 }
 
 TEST_F(LivePage, StatusesAndWhatIsMissingAreTold) {
-  view_.tell({{"error", "camera: none"}}, {"camera: none"});
+  view_.set_diagnostics({{"error", "camera: none"}}, {"camera: none"});
   const json session = answer("/api/session");
   EXPECT_EQ(session["missing"], json({"camera: none"}));
   EXPECT_EQ(session["diagnostics"], json({{{"level", "error"}, {"message", "camera: none"}}}));

@@ -126,7 +126,7 @@ TEST_F(ViewRunTest, AReportThatIsNoneIsRefused) {
     write_file(out() / "report.json", text);
     const Outcome outcome = penumbra({"view", out()});
     EXPECT_EQ(outcome.status, 2) << text;
-    EXPECT_NE(outcome.err.find("no report of penumbra run"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("not a report of penumbra run"), std::string::npos) << outcome.err;
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
   }
 }
