@@ -29,8 +29,7 @@ class DepthSensor {
   DepthNoise noise_;
   double focal_baseline_;  // pixels x metres
   std::uint64_t seed_, stream_;
-  std::vector<float> near_, far_, rows_near_,
-      rows_far_;                // nearest and farthest depths around each pixel
+  std::vector<float> near_, far_, rows_near_, rows_far_;  // nearest and farthest depths
   std::vector<float> lattice_;  // noise shared by patches, at their corners
 };
 

@@ -48,7 +48,7 @@ struct SimulationOptions {
   double joint_sigma = 0.0;    ///< standard deviation of the reported joint positions, radians
   double joint_latency = 0.0;  ///< seconds by which reported joints are older than their stamps
   double belt_jitter = 0.0;    ///< standard deviation of the belt's speed, relative; conveyor only
-  bool color = true;  ///< false: SimFrame::color is not drawn, which saves a third of the time
+  bool color = true;           ///< false: not drawn, which saves a third of the time
   bool second_camera = false;  ///< adds a depth camera on the other side
   double duration = 0.0;       ///< seconds; 0: the scene's own duration
   double frame_rate = 30.0;
@@ -58,9 +58,8 @@ struct SimulationOptions {
 enum class Solid { other, box, ball };
 struct ObjectSolid {
   Solid kind = Solid::other;
-  Eigen::Vector3d size =
-      Eigen::Vector3d::Zero();  ///< metres, centred at the object's origin: edges of a
-                                ///< box; all are the diameter of a ball
+  /// Metres, centred at the object's origin: the edges of a box, or a ball's diameter three times.
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
 /// An object with a pose that targets are made of: the textured object, the wrist, a person's body.
@@ -126,16 +125,15 @@ class Simulation {
   [[nodiscard]] const Camera& second_camera() const;
   [[nodiscard]] const Eigen::Isometry3d& T_base_second_camera() const;
 
-  /// Return the image on the front of the textured object and the object's size in metres, which a
-  /// pose estimator knows.
+  /// Returns the image on the front (+z face, u along +x) of the textured object.
   [[nodiscard]] const Image<io::Rgb8>& model_image() const;
-  [[nodiscard]] Eigen::Vector3d object_size()
-      const;  ///< a box around the object's origin with the image on its +z face, u along +x
+  /// Returns the size in metres of a box around the object's origin.
+  [[nodiscard]] Eigen::Vector3d object_size() const;
   [[nodiscard]] Eigen::Vector3d conveyor_direction() const;  ///< unit, base frame
   [[nodiscard]] double duration() const;                     ///< seconds
   [[nodiscard]] bool is_whole() const;  ///< the duration reaches the scene's own end
-  [[nodiscard]] std::optional<std::int64_t> grasp_stamp()
-      const;  ///< time of the grasp; conveyor only
+  /// Returns the time of the grasp in the scene `conveyor`.
+  [[nodiscard]] std::optional<std::int64_t> grasp_stamp() const;
 
  private:
   struct State;

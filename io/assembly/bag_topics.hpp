@@ -19,8 +19,8 @@ struct TopicOptions {
   std::optional<std::string> depth, camera_info, color;
   std::vector<std::string> joints, targets;
   std::optional<PoseSource> poses;
-  bool with_color =
-      false;  ///< read colour images for pictures; if `color` is set, depth is judged in them
+  /// Reads colour images for pictures. If `color` is set, depth is judged in them.
+  bool with_color = false;
   bool needs_description = true;  ///< the robot's description is read from the bag
   bool needs_transforms = true;   ///< the camera's pose is read from the bag
 };

@@ -23,8 +23,7 @@ struct MountOptions {
 
 /// The pose of a camera on the robot.
 struct CameraMount {
-  std::string
-      frame;  ///< frame of the judged images in TF; empty: the camera's pose is T_parent_camera
+  std::string frame;   ///< of the judged images in TF; empty: T_parent_camera is the pose
   std::string parent;  ///< a link of the robot
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
   std::string source;  ///< the source of the pose, for messages

@@ -29,7 +29,7 @@ void InfoPairs::match(ImageStamp& image, std::int64_t info) {
   likely_ = true;
 }
 
-void InfoPairs::look_for_two() {
+void InfoPairs::update_certainty() {
   for (std::size_t i = 1; i < images_.size(); ++i) {
     const std::int64_t one = images_[i - 1].info, other = images_[i].info;
     certain_ |=
@@ -47,7 +47,7 @@ void InfoPairs::add_image(std::int64_t stamp) {
   images_.push_back({stamp});
   if (images_.size() > most_waiting_images) images_.pop_front();
   for (const std::int64_t info : infos_) match(images_.back(), info);
-  look_for_two();
+  update_certainty();
 }
 
 void InfoPairs::add_info(std::int64_t stamp) {
@@ -59,7 +59,7 @@ void InfoPairs::add_info(std::int64_t stamp) {
   infos_.push_back(stamp);
   if (infos_.size() > most_infos) infos_.pop_front();
   for (ImageStamp& image : images_) match(image, stamp);
-  look_for_two();
+  update_certainty();
 }
 
 bool InfoPairs::covers(std::int64_t image) const {

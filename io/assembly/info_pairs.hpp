@@ -41,7 +41,7 @@ class InfoPairs {
     std::int64_t info = 0;  // stamp of its own camera_info; 0 if there is none
   };
   void match(ImageStamp& image, std::int64_t info);
-  void look_for_two();
+  void update_certainty();
 
   std::deque<ImageStamp> images_;
   std::deque<std::int64_t> infos_;  // in the order of arrival

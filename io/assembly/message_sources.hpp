@@ -31,9 +31,8 @@ class MessageSources {
 
   std::map<std::uint64_t, std::string> names_;  // by the hash of the identifying fields
   std::set<std::string> used_;
-  std::map<std::pair<std::string, std::uint64_t>, std::size_t>
-      publishers_;                             // numbered in the order of arrival
-  std::map<std::string, std::size_t> counts_;  // number of publishers
+  std::map<std::pair<std::string, std::uint64_t>, std::size_t> publishers_;  // in order
+  std::map<std::string, std::size_t> counts_;                                // number of publishers
 };
 
 }  // namespace penumbra::io

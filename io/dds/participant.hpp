@@ -45,9 +45,8 @@ struct SubscriptionStatus {
   /// dropped in transport or, with reliable QoS, given up by a publisher whose history is too
   /// short.
   std::uint64_t lost = 0;
-  std::uint64_t refused = 0;  ///< publishers with incompatible QoS
-  std::string
-      refused_because;  ///< the incompatible policy of the last one: "reliability"; empty: none
+  std::uint64_t refused = 0;    ///< publishers with incompatible QoS
+  std::string refused_because;  ///< the policy of the last one: "reliability"; empty: none
 };
 
 class Subscription {

@@ -22,7 +22,7 @@ constexpr std::int64_t silence = 1'000'000'000;
 constexpr std::int64_t periods_awaited = 2;
 
 /// Fewer consecutive images without camera_info are not reported: one may be lost.
-constexpr std::size_t most_without_info = 3;
+constexpr std::size_t least_without_info = 3;
 
 std::string decimal(double value, const char* unit) {
   std::array<char, 64> text{};
@@ -181,7 +181,7 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
     return {Status::error, "no camera_info of the color images yet: " +
                                why_silent(inbox, LiveRole::color_info, number, links)};
   if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
-  if (camera.without_info() >= most_without_info)
+  if (camera.without_info() >= least_without_info)
     return {Status::error,
             std::to_string(camera.without_info()) +
                 " images have no camera_info of their own, as others do: they may be "

@@ -18,11 +18,10 @@ namespace penumbra::io {
 struct LiveLink {
   bool is_open = false;  ///< subscribed
   int publishers = 0;
-  std::uint64_t lost = 0;         ///< by the transport
-  std::uint64_t overwritten = 0;  ///< replaced by newer messages before they were read
-  std::string refused_because =
-      {};                       ///< the QoS policy that does not match a publisher's; empty: none
-  std::string other_type = {};  ///< the type that is published, if it is not the expected one
+  std::uint64_t lost = 0;            ///< by the transport
+  std::uint64_t overwritten = 0;     ///< replaced by newer messages before they were read
+  std::string refused_because = {};  ///< the incompatible QoS policy; empty: none
+  std::string other_type = {};       ///< the published type if it is not the expected one
 };
 
 /// The time of a report.

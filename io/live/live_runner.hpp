@@ -22,6 +22,7 @@ namespace penumbra::io {
 
 /// Judges the messages of the graph. One thread serves each camera, one makes robots, and one
 /// receives.
+///
 /// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
 /// is received and while a job is picked, and never while a job is processed or meshes are read. So
 /// no thread waits for rendering, files or the network. Only the camera's thread writes to its

@@ -76,7 +76,7 @@ void DataWalk::take(const RecordHead& head, std::uint64_t offset) {
       break;
   }
   if (const std::string fault = fault_of_passed(head, offset, *window_); !fault.empty())
-    return pass_over(head, offset, fault);
+    return skip(head, offset, fault);
   if (head.opcode == Opcode::message_index) take_message_index(offset);
   if (head.opcode == Opcode::footer) end_ = {offset, 0};
   if (head.opcode == Opcode::data_end) {
@@ -87,14 +87,14 @@ void DataWalk::take(const RecordHead& head, std::uint64_t offset) {
 
 // Skips a record. Files of other programs may have many unknown records, so each kind is reported
 // once.
-void DataWalk::pass_over(const RecordHead& head, std::uint64_t offset, const std::string& fault) {
-  if (head.opcode > Opcode::data_end && !strange_.insert(head.opcode).second) return;
+void DataWalk::skip(const RecordHead& head, std::uint64_t offset, const std::string& fault) {
+  if (head.opcode > Opcode::data_end && !reported_.insert(head.opcode).second) return;
   faults_->add(offset, fault + "; its " + std::to_string(head.length) + " bytes are skipped");
 }
 
 void DataWalk::take_definition(const RecordHead& head, std::uint64_t offset) {
   if (head.length > max_definition_bytes)
-    return pass_over(head, offset, "a schema or channel is far too long");
+    return skip(head, offset, "a schema or channel is far too long");
   const auto content =
       window_->view(offset + record_head_bytes, static_cast<std::size_t>(head.length));
   layout_->definitions.add(head.opcode, content, offset, *faults_);

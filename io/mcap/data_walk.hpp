@@ -35,7 +35,7 @@ class DataWalk {
  private:
   [[nodiscard]] std::string fault_of(const RecordHead& head, std::uint64_t left) const;
   void take(const RecordHead& head, std::uint64_t offset);
-  void pass_over(const RecordHead& head, std::uint64_t offset, const std::string& fault);
+  void skip(const RecordHead& head, std::uint64_t offset, const std::string& fault);
   void take_definition(const RecordHead& head, std::uint64_t offset);
   void take_message(const RecordHead& head, std::uint64_t offset);
   void take_chunk(const RecordHead& head, std::uint64_t offset);
@@ -48,7 +48,7 @@ class DataWalk {
   FaultLog* faults_;
   std::optional<End> end_;
   bool damaged_ = false;
-  std::set<Opcode> strange_;  // unknown record kinds that were reported
+  std::set<Opcode> reported_;  // unknown record kinds that were reported
 };
 
 }  // namespace penumbra::io::mcap

@@ -15,8 +15,7 @@ struct FileSummary {
   std::uint64_t start = 0;  ///< offset of the summary's first record
   Definitions definitions;
   std::optional<Statistics> statistics;
-  std::vector<ChunkIndexRecord>
-      chunks;  ///< by offset; within the data section and without overlaps
+  std::vector<ChunkIndexRecord> chunks;  ///< by offset; within the data, no overlaps
 };
 
 /// Returns the footer, the last record of a complete file, or nothing if the file is truncated.

@@ -16,6 +16,7 @@ namespace penumbra::io::mcap {
 /// Reads an MCAP file: chunks that are uncompressed, lz4 or zstd, or no chunks; with or without
 /// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
 /// chunk and a truncation is a fault.
+///
 /// Memory is bounded by about 200 MB or a few times the largest chunk. It follows the actual
 /// content of the file, not the sizes that it claims.
 class Reader {

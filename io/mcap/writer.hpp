@@ -25,6 +25,7 @@ struct WriterOptions {
 /// Writes an MCAP file of chunks with message and chunk index, summary, statistics and checksums.
 /// The same calls give the same bytes. Chunks that do not shrink, and chunks of more than 64 MB
 /// that shrink more than 64-fold, are stored uncompressed.
+///
 /// A system error (for example, a full disk) throws InputError that names the file; all further
 /// calls are refused. Without close() the file ends after its last whole chunk.
 class Writer {
