@@ -117,7 +117,7 @@ void Conveyor::dress(Random& random) {
 Isometry3d Conveyor::object(double time) const {
   // The belt's speed varies about its mean. The displacement is its integral, and at the grasp the
   // object is where the arm expects it.
-  const auto way = [&](double t) {
+  const auto displacement = [&](double t) {
     double wander = 0.0;
     for (std::size_t k = 0; k < phases_.size(); ++k) {
       const double omega = 2.1 + 1.7 * static_cast<double>(k);
@@ -126,7 +126,7 @@ Isometry3d Conveyor::object(double time) const {
     return speed_ * (t + jitter_ * std::sqrt(2.0 / 3.0) * wander);
   };
   Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = at_grasp_ + (way(time) - way(grasp_time)) * direction_;
+  pose.translation() = at_grasp_ + (displacement(time) - displacement(grasp_time)) * direction_;
   pose.linear() = Eigen::AngleAxisd(yaw_, Vector3d::UnitZ()).toRotationMatrix();
   return pose;
 }

@@ -20,8 +20,7 @@ constexpr double handover_time = 8.0;  // seconds
 constexpr double upper_arm = 0.30, forearm = 0.27, palm = 0.09;
 constexpr double wrist_radius = 0.036;
 const Vector3d shoulder_of_body(0.0, 0.20, 0.50);
-const Vector3d arm_in_the_back(0.60, 0.02,
-                               0.31);  // the tool's position while the hand is in front of it
+const Vector3d arm_in_the_back(0.60, 0.02, 0.31);  // the tool while the hand is in front of it
 const Vector3d usual_wrist(0.64, 0.20, 0.30), usual_body(1.10, 0.06, 0.0);
 
 enum Object { wrist, hand, person };

@@ -19,8 +19,7 @@ constexpr double gap = 0.05;  // metres of depth between a target and the part o
 // Nothing intersects anything else: the smallest distance of each target, taken as a ball, from
 // everything else, metres.
 constexpr double clearance = 0.05;
-constexpr double ground = -0.80,
-                 pedestal = 0.12;  // metres: the floor's height, the pedestal's radius
+constexpr double ground = -0.80, pedestal = 0.12;  // metres: the floor's height, a radius
 
 enum class Place { before, behind, beside };
 constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behind, Place::behind,

@@ -32,8 +32,7 @@ void InfoPairs::match(ImageStamp& image, std::int64_t info) {
 void InfoPairs::update_certainty() {
   for (std::size_t i = 1; i < images_.size(); ++i) {
     const std::int64_t one = images_[i - 1].info, other = images_[i].info;
-    certain_ |=
-        one != 0 && other != 0 && one != other;  // one camera_info for two images is not enough
+    certain_ |= one != 0 && other != 0 && one != other;  // one camera_info may pair twice
   }
 }
 

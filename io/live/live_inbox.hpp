@@ -62,10 +62,9 @@ struct LiveMessage {
 /// The results of a camera's images.
 struct LiveTally {
   std::map<std::string, std::size_t, std::less<>> statuses;  ///< frames by status
-  LatencyHistogram latency;     ///< from stamp to published, ms of the system's clock
-  LatencyHistogram processing;  ///< from arrival to published, ms
-  std::size_t beyond_clock =
-      0;  ///< images with stamps of another clock than the system's; no latency
+  LatencyHistogram latency;      ///< from stamp to published, ms of the system's clock
+  LatencyHistogram processing;   ///< from arrival to published, ms
+  std::size_t beyond_clock = 0;  ///< images with stamps of another clock; no latency
   LiveOutcome last;
   std::optional<RendererInfo> renderer;        ///< the last one; nothing if no image was judged yet
   std::optional<std::int64_t> last_published;  ///< on the caller's clock

@@ -172,9 +172,7 @@ void Compressor::compress(std::span<const std::byte> from, ByteBuffer& to) {
                                from.size(), zstd_level);
     failed = ZSTD_isError(result) != 0;
   }
-  if (failed)
-    throw std::runtime_error(
-        "a chunk could not be compressed");  // the buffer has room for the largest result
+  if (failed) throw std::runtime_error("a chunk could not be compressed");  // there is room
   to.resize(result);
 }
 

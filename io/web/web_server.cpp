@@ -198,8 +198,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Shared& shared_;
   Seat seat_;
   beast::tcp_stream stream_;
-  asio::any_io_executor executor_ =
-      stream_.get_executor();  // valid even after the stream was moved
+  asio::any_io_executor executor_ = stream_.get_executor();  // outlives a move of the stream
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::vector<SharedBytes> body_;  // being sent
