@@ -13,7 +13,7 @@ RobotOptions visual_geometry() {
   return options;
 }
 
-sim::SceneWishes wishes(std::uint64_t seed) {
+sim::SceneOptions scene_options(std::uint64_t seed) {
   return {.seed = seed, .belt_jitter = 0.0, .frame_rate = frame_rate, .duration = 0.0};
 }
 
@@ -30,7 +30,7 @@ Intrinsics StereoCell::intrinsics() { return {848, 480, 600.0, 600.0, 423.5, 239
 
 StereoCell::StereoCell(std::uint64_t seed)
     : arm_(PENUMBRA_STUDY_ARM, visual_geometry(), folder_.path()),
-      scene_(sim::make_random_targets(arm_, wishes(seed), intrinsics())),
+      scene_(sim::make_random_targets(arm_, scene_options(seed), intrinsics())),
       stage_(arm_, scene_->description(), folder_.path(), intrinsics()),
       renderer_(make_depth_renderer(Backend::cpu, intrinsics(), bodies_of(arm_.robot()), {})),
       camera_(intrinsics(), seed),

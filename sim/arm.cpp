@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All links stay bodies of their own, so that a pixel tells its link. A URDF drawn for pictures has
-// no masses; nothing falls here, so that any will do.
+// All links stay separate bodies, so that each pixel has a link. A URDF for display has no masses;
+// nothing falls here, so any mass will do.
 constexpr const char* compiler =
     "<mujoco><compiler fusestatic=\"false\" discardvisual=\"false\" strippath=\"false\" "
     "balanceinertia=\"true\" boundmass=\"0.001\" boundinertia=\"0.000001\"/></mujoco>";
@@ -38,7 +38,8 @@ std::string lower_ending(const fs::path& file) {
   return ending;
 }
 
-/// A mesh's file. Packages that are not given are sought among the folders above the URDF.
+/// Returns the file of a mesh. Packages that are not given are searched in the folders above the
+/// URDF.
 fs::path resolve(const std::string& name, const fs::path& urdf, const RobotOptions& options) {
   constexpr std::string_view scheme = "package://", file_scheme = "file://";
   if (name.starts_with(file_scheme)) return name.substr(file_scheme.size());
@@ -56,8 +57,8 @@ fs::path resolve(const std::string& name, const fs::path& urdf, const RobotOptio
                    "' is not found above the file; name its folder");
 }
 
-/// Puts a mesh where MuJoCo finds it; returns its name. MuJoCo knows meshes by name alone, so that
-/// each element gets a file of its own: one mesh may stand there at several scales.
+/// Copies a mesh to where MuJoCo finds it and returns its name. MuJoCo identifies meshes by name
+/// only, so each element gets a file of its own: one mesh may be used at several scales.
 std::string place_mesh(const fs::path& from, const fs::path& folder, int number) {
   const std::string ending = lower_ending(from);
   const bool readable = ending == ".stl" || ending == ".obj";
@@ -72,7 +73,7 @@ std::string place_mesh(const fs::path& from, const fs::path& folder, int number)
   return name;
 }
 
-/// The URDF with meshes that MuJoCo can read and with its compiler's options.
+/// Returns the URDF with meshes that MuJoCo can read and with its compiler's options.
 std::string prepared(const fs::path& urdf, const RobotOptions& options, const fs::path& folder) {
   const std::string text = read_whole_file(urdf, FileLimit::text);
   static const std::regex pattern(R"re(<robot\b[^>]*>|filename\s*=\s*"([^"]*)")re");
@@ -90,7 +91,7 @@ std::string prepared(const fs::path& urdf, const RobotOptions& options, const fs
   return out.append(from, text.cend());
 }
 
-/// A geom's extent in its own frame. Of a mesh, MuJoCo keeps the vertices in that frame.
+/// Returns a geom's extent in its own frame, in which MuJoCo keeps the vertices of meshes.
 Eigen::AlignedBox3d extent_of(const mjModel& model, int geom) {
   const Eigen::Map<const Eigen::Vector3d> size(model.geom_size + 3 * geom);
   Eigen::Vector3d half = size;

@@ -14,13 +14,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double belt_x = 0.52;     // metres, the belt's middle from the robot's axis
+constexpr double belt_x = 0.52;     // metres from the robot's axis to the belt's middle
 constexpr double grasp_time = 4.5;  // seconds
 constexpr double conveyor_time = 5.0;
 constexpr double hand_length = 0.13;  // metres from the tool's point back into the gripper
 constexpr int print_width = 320;      // pixels of the object's print
 
-/// A box as a mesh, with the upper half of its texture on the +z face and the lower half elsewhere.
+/// Returns a box as a mesh, with the upper half of its texture on the +z face and the lower half on
+/// the others.
 std::string printed_box(const Vector3d& size) {
   std::string vertices, coordinates, faces;
   int count = 0;
@@ -37,7 +38,7 @@ std::string printed_box(const Vector3d& size) {
         p[a] = ca * half[a];
         p[b] = cb * half[b];
         vertices += numbers({p.x(), p.y(), p.z()}) + ' ';
-        // The print's rows run towards -y, its columns towards +x.
+        // The print's rows run along -y, its columns along +x.
         const double s = 0.5 + 0.5 * ca, t = 0.25 - 0.25 * cb;
         coordinates += numbers({s, front ? t : t + 0.5}) + ' ';
       }
@@ -52,7 +53,7 @@ std::string printed_box(const Vector3d& size) {
 
 class Conveyor : public Scene {
  public:
-  Conveyor(Arm& arm, const SceneWishes& wishes);
+  Conveyor(Arm& arm, const SceneOptions& options);
   [[nodiscard]] std::vector<double> joints(double time) const override;
   [[nodiscard]] ScenePose pose(double time) override;
 
@@ -63,13 +64,13 @@ class Conveyor : public Scene {
 
   Vector3d direction_, at_grasp_, size_;
   double speed_ = 0.0, yaw_ = 0.0;  // m/s, rad
-  double jitter_ = 0.0;             // of the speed
+  double jitter_ = 0.0;             // jitter of the speed, relative
   std::array<double, 3> phases_{};
-  std::vector<Spline> path_;  // one: a spline has no empty state
+  std::vector<Spline> path_;  // has one element: a spline has no empty state
 };
 
-Conveyor::Conveyor(Arm& arm, const SceneWishes& wishes) : jitter_(wishes.belt_jitter) {
-  Random random(wishes.seed, 11);
+Conveyor::Conveyor(Arm& arm, const SceneOptions& options) : jitter_(options.belt_jitter) {
+  Random random(options.seed, 11);
   const double heading = random.uniform(-0.12, 0.12), side = random.sign();
   direction_ = Vector3d(std::sin(heading), side * std::cos(heading), 0.0);
   speed_ = random.uniform(0.07, 0.105);
@@ -96,7 +97,8 @@ void Conveyor::dress(Random& random) {
   std::copy_n(description_.model_image.data(), card.size(), both.data());
   std::copy_n(card.data(), card.size(), both.data() + card.size());
   description_.textures.push_back({"print", std::move(both)});
-  // Plain surroundings: they are most of the image, and textures cost a third of its time.
+  // The surroundings are plain, because they fill most of the image and textures cost a third of
+  // its time.
   description_.assets = "<texture name=\"print\" type=\"2d\" builtin=\"flat\" width=\"" +
                         std::to_string(print_width) + "\" height=\"" + std::to_string(2 * rows) +
                         "\"/><material name=\"print\" texture=\"print\" specular=\"0\"/>" +
@@ -113,9 +115,9 @@ void Conveyor::dress(Random& random) {
 }
 
 Isometry3d Conveyor::object(double time) const {
-  // The belt's speed wanders about its mean; the way is its integral, and at the grasp the object
-  // is where the arm expects it.
-  const auto way = [&](double t) {
+  // The belt's speed varies about its mean. The displacement is its integral, and at the grasp the
+  // object is where the arm expects it.
+  const auto displacement = [&](double t) {
     double wander = 0.0;
     for (std::size_t k = 0; k < phases_.size(); ++k) {
       const double omega = 2.1 + 1.7 * static_cast<double>(k);
@@ -124,7 +126,7 @@ Isometry3d Conveyor::object(double time) const {
     return speed_ * (t + jitter_ * std::sqrt(2.0 / 3.0) * wander);
   };
   Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = at_grasp_ + (way(time) - way(grasp_time)) * direction_;
+  pose.translation() = at_grasp_ + (displacement(time) - displacement(grasp_time)) * direction_;
   pose.linear() = Eigen::AngleAxisd(yaw_, Vector3d::UnitZ()).toRotationMatrix();
   return pose;
 }
@@ -138,7 +140,7 @@ void Conveyor::plan(Arm& arm, Random& random) {
     const Vector3d p = o + share * (eye - o) + Vector3d(0.0, offset, 0.0);
     const Vector3d out = Vector3d(p.x(), p.y(), 0.0).normalized();
     const Vector3d ahead = (out + 0.9 * down).normalized();
-    // It is the hand and not the fingertips that comes before the object.
+    // The hand, not the fingertips, comes in front of the object.
     return tool_pose(p + hand_length * ahead, ahead, Vector3d::UnitZ().cross(out));
   };
   const auto above = [&](double time, double height) {
@@ -147,7 +149,7 @@ void Conveyor::plan(Arm& arm, Random& random) {
   };
   const Isometry3d park = tool_pose(Vector3d(0.28, side * random.uniform(0.38, 0.46), 0.42),
                                     Vector3d(0.3, side * 0.5, -1.0), across);
-  // Some grasps come straight out of the hidden span, in others the object is seen in between.
+  // Some grasps directly follow the hidden interval; before others the object is visible again.
   const bool emerges = random.uniform() < 0.5;
   const double share = random.uniform(0.28, 0.38), start = random.uniform(1.2, 1.6);
   std::vector<std::pair<double, Isometry3d>> goals = {
@@ -192,8 +194,8 @@ ScenePose Conveyor::pose(double time) {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_conveyor(Arm& arm, const SceneWishes& wishes) {
-  return std::make_unique<Conveyor>(arm, wishes);
+std::unique_ptr<Scene> make_conveyor(Arm& arm, const SceneOptions& options) {
+  return std::make_unique<Conveyor>(arm, options);
 }
 
 }  // namespace penumbra::sim

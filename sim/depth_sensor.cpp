@@ -14,10 +14,11 @@ namespace penumbra::sim {
 namespace {
 
 constexpr double edge_step = 0.04;   // relative step of depth that counts as an edge
-constexpr int patch = 8;             // pixels, about a matching window
-constexpr double patch_share = 0.5;  // of the noise's variance that a patch shares
+constexpr int patch = 8;             // pixels, about the size of a matching window
+constexpr double patch_share = 0.5;  // fraction of the noise's variance that a patch shares
 
-/// About normal from 64 random bits: four uniform numbers (Irwin-Hall), mean 0, variance 1.
+/// Returns an approximately normal number from 64 random bits: the sum of four uniform numbers
+/// (Irwin-Hall), mean 0, variance 1.
 float normal_of(std::uint64_t bits) {
   const auto part = [&](int k) { return static_cast<float>((bits >> (16 * k)) & 0xFFFFU); };
   constexpr float middle = 2.0F * 65535.0F, to_unit = 1.7320508F / 65536.0F;
@@ -57,7 +58,7 @@ DepthSensor::DepthSensor(const DepthNoise& noise, double fx, std::uint64_t seed,
         "<= 20 are needed");
 }
 
-/// Nearest and farthest depth of each pixel's surroundings: rows first, then columns.
+/// Finds the nearest and farthest depth around each pixel: rows first, then columns.
 void DepthSensor::find_sides(const Image<float>& truth) {
   const int width = truth.width(), height = truth.height();
   const int reach = static_cast<int>(std::ceil(noise_.edge_width));
@@ -110,7 +111,7 @@ std::uint16_t DepthSensor::quantised(double z) const {
   return millimetres >= 1.0 && millimetres <= 65535.0 ? static_cast<std::uint16_t>(millimetres) : 0;
 }
 
-/// Discs without measurement, as many as make up the share.
+/// Adds discs without measurement until they cover the requested fraction.
 void DepthSensor::cut_holes(std::uint64_t frame, Image<std::uint16_t>& measured) const {
   Random random(seed_, mix(stream_ ^ (frame << 8)) ^ 2U);
   constexpr double least = 1.5, most = 6.0;  // pixels, radius
@@ -152,7 +153,7 @@ void DepthSensor::measure(const Image<float>& truth, std::uint64_t frame,
         const double luck = static_cast<double>(mix(bits) >> 11) * 0x1p-53;
         if (luck < noise_.edge_holes) continue;
         if (luck < edges && near_[i] > 0.0F) {
-          // A matching window that sees both sides settles between them, in disparity.
+          // A matching window that sees both sides gives a disparity between them.
           const double between = (luck - noise_.edge_holes) / std::max(noise_.edge_mixed, 1e-9);
           out = quantised(1.0 / std::lerp(1.0 / static_cast<double>(near_[i]),
                                           1.0 / static_cast<double>(far_[i]), between));

@@ -10,14 +10,14 @@
 
 namespace penumbra::sim {
 
-/// What a stereo camera measures of a true depth image. The same seed and frame number give the
-/// same noise, whatever was measured before.
+/// Simulates a stereo camera's measurement of a true depth image. The same seed and frame number
+/// give the same noise, independent of earlier calls.
 class DepthSensor {
  public:
-  /// `fx` in pixels. Throws InputError for noise that makes no sense.
+  /// `fx` in pixels. Throws InputError for invalid noise.
   DepthSensor(const DepthNoise& noise, double fx, std::uint64_t seed, std::uint64_t stream);
 
-  /// `truth` in metres along the optical axis, 0 = nothing; `measured` in millimetres.
+  /// `truth` in metres along the optical axis, 0 = no surface; `measured` in millimetres.
   void measure(const Image<float>& truth, std::uint64_t frame, Image<std::uint16_t>& measured);
 
  private:
@@ -29,8 +29,8 @@ class DepthSensor {
   DepthNoise noise_;
   double focal_baseline_;  // pixels x metres
   std::uint64_t seed_, stream_;
-  std::vector<float> near_, far_, rows_near_, rows_far_;  // nearest and farthest depths around
-  std::vector<float> lattice_;  // noise that whole patches share, at their corners
+  std::vector<float> near_, far_, rows_near_, rows_far_;  // nearest and farthest depths
+  std::vector<float> lattice_;  // noise shared by patches, at their corners
 };
 
 }  // namespace penumbra::sim

@@ -19,9 +19,10 @@ namespace {
                    "libgl1-mesa-dri; or the GPU vendor's)");
 }
 
-/// Displays belong to the whole process: one is opened once and never closed.
+/// Opens the EGL display. Displays belong to the whole process, so it is opened once and never
+/// closed.
 EGLDisplay open_egl_display() {
-  // MuJoCo asks this variable where OpenGL's functions are to be found; the user's word stays.
+  // MuJoCo reads from this variable where to find OpenGL's functions. The user's value is kept.
   setenv("MUJOCO_GL", "egl", 0);
   if (!epoxy_has_egl()) refuse_egl("the library libEGL.so.1 cannot be loaded");
   const auto get = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
@@ -57,7 +58,7 @@ EglContext::EglContext() {
   EGLint count = 0;
   if (eglChooseConfig(display_, wanted.data(), &config, 1, &count) != EGL_TRUE || count == 0)
     config = nullptr;
-  // No version is asked for: what then comes has the old functions, too.
+  // Without a requested version the context also has the old functions.
   context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
   eglBindAPI(api);
   if (context_ == EGL_NO_CONTEXT) refuse_egl("EGL gives no OpenGL context");

@@ -3,16 +3,16 @@
 
 namespace penumbra::sim {
 
-/// An OpenGL context with the fixed functions that MuJoCo's renderer needs, without a display.
+/// An OpenGL context without a display, with the fixed functions that MuJoCo's renderer needs.
 class EglContext {
  public:
-  /// Throws InputError, and says what to install, where it cannot be had.
+  /// Throws InputError that says what to install if no context can be made.
   EglContext();
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  /// Makes the context current in this thread while it lives, and then again whatever was before.
+  /// Makes the context current in this thread for its lifetime, then restores the previous one.
   class Current {
    public:
     explicit Current(const EglContext& context);

@@ -16,11 +16,11 @@ using Eigen::Vector3d;
 
 constexpr double handover_time = 8.0;  // seconds
 
-// A person's measures, metres; z = 0 is the table's top, 0.75 m over the floor.
+// A person's dimensions in metres; z = 0 is the table's top, 0.75 m above the floor.
 constexpr double upper_arm = 0.30, forearm = 0.27, palm = 0.09;
 constexpr double wrist_radius = 0.036;
 const Vector3d shoulder_of_body(0.0, 0.20, 0.50);
-const Vector3d arm_in_the_back(0.60, 0.02, 0.31);  // where the tool is while the hand is before it
+const Vector3d arm_in_the_back(0.60, 0.02, 0.31);  // the tool while the hand is in front of it
 const Vector3d usual_wrist(0.64, 0.20, 0.30), usual_body(1.10, 0.06, 0.0);
 
 enum Object { wrist, hand, person };
@@ -43,7 +43,7 @@ constexpr std::array<Limb, 10> limb_kinds{{{person, 0.040, upper_arm, "0.20 0.30
                                            {person, 0.040, upper_arm + 0.15, "0.20 0.30 0.52 1"},
                                            {person, 0.120, 0.60, "0.25 0.25 0.28 1"}}};
 
-/// A capsule's pose from one end's centre towards another point.
+/// Returns the pose of a capsule from one end's centre towards another point.
 Isometry3d along(const Vector3d& from, const Vector3d& towards) {
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() =
@@ -54,7 +54,7 @@ Isometry3d along(const Vector3d& from, const Vector3d& towards) {
 
 class Handover : public Scene {
  public:
-  Handover(Arm& arm, const SceneWishes& wishes);
+  Handover(Arm& arm, const SceneOptions& options);
   [[nodiscard]] std::vector<double> joints(double time) const override;
   [[nodiscard]] ScenePose pose(double time) override;
 
@@ -65,11 +65,11 @@ class Handover : public Scene {
   [[nodiscard]] std::vector<Isometry3d> limbs(double time) const;
   [[nodiscard]] Vector3d wrist_at(double time) const { return hand_path_.front().at(time); }
 
-  std::vector<Spline> hand_path_, arm_path_;  // one each: a spline has no empty state
+  std::vector<Spline> hand_path_, arm_path_;  // each has one element: a spline has no empty state
 };
 
-Handover::Handover(Arm& arm, const SceneWishes& wishes) {
-  Random random(wishes.seed, 13);
+Handover::Handover(Arm& arm, const SceneOptions& options) {
+  Random random(options.seed, 13);
   const double eye_x = random.uniform(0.38, 0.52), eye_z = random.uniform(0.48, 0.66);
   description_.T_base_camera = look_at({eye_x, -1.45, eye_z}, {0.56, 0.0, 0.28});
   description_.T_base_second_camera = look_at({0.10, 1.35, 0.75}, {0.60, 0.05, 0.28});
@@ -102,14 +102,14 @@ void Handover::dress() {
        "pos=\"0 1.7 1\" rgba=\"0.82 0.83 0.80 1\" group=\"2\"/>"});
 }
 
-/// The hand waits behind the arm's plane, comes before the arm and goes back.
+/// Plans the hand: it waits behind the arm's plane, moves in front of the arm and back.
 void Handover::plan_hand(Random& random) {
   const auto near = [&](const Vector3d& place, double spread) -> Eigen::VectorXd {
     Vector3d p = place;
     for (double& x : p) x += random.uniform(-spread, spread);
     return p;
   };
-  // On the way from the camera to the arm's hand.
+  // Between the camera and the arm's hand.
   const Vector3d eye = description_.T_base_camera.translation();
   const Vector3d front = eye + 0.73 * (arm_in_the_back - 0.09 * Vector3d::UnitX() - eye);
   const Vector3d drift{random.uniform(-0.05, 0.0), 0.0, random.uniform(-0.03, 0.03)};
@@ -168,7 +168,7 @@ std::vector<double> Handover::joints(double time) const {
   return {value.begin(), value.end()};
 }
 
-/// The elbow of two bones, below the line from shoulder to wrist.
+/// Returns the elbow of two bones, below the line from shoulder to wrist.
 Vector3d elbow_of(const Vector3d& shoulder, const Vector3d& wrist_point) {
   const Vector3d line = wrist_point - shoulder;
   const double reach = std::min(line.norm(), 0.999 * (upper_arm + forearm));
@@ -182,7 +182,7 @@ Vector3d elbow_of(const Vector3d& shoulder, const Vector3d& wrist_point) {
 
 std::vector<Isometry3d> Handover::limbs(double time) const {
   const Vector3d w = wrist_at(time);
-  // The person steps and leans after the hand, as far as the arm asks for.
+  // The person steps and leans after the hand as far as the arm's length requires.
   Vector3d body = usual_body + 0.55 * (w - usual_wrist);
   body.z() = 0.0;
   Vector3d shoulder = body + shoulder_of_body;
@@ -219,8 +219,8 @@ ScenePose Handover::pose(double time) {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_handover(Arm& arm, const SceneWishes& wishes) {
-  return std::make_unique<Handover>(arm, wishes);
+std::unique_ptr<Scene> make_handover(Arm& arm, const SceneOptions& options) {
+  return std::make_unique<Handover>(arm, options);
 }
 
 }  // namespace penumbra::sim

@@ -22,7 +22,7 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
   return read_whole_file(one, FileLimit::data) == read_whole_file(other, FileLimit::data);
 }
 
-/// Whether every file of `wanted` is in `folder`.
+/// Returns whether `folder` has every file of `wanted`.
 bool holds(const fs::path& folder, const fs::path& wanted) {
   for (const auto& entry : fs::recursive_directory_iterator(wanted))
     if (entry.is_regular_file() &&
@@ -31,7 +31,7 @@ bool holds(const fs::path& folder, const fs::path& wanted) {
   return true;
 }
 
-/// A folder of its own, removed with what is in it.
+/// A temporary folder that is removed with its content.
 struct PartFolder {
   fs::path path;
   ~PartFolder() {
@@ -68,7 +68,7 @@ void MeshFolder::copy() const {
   fs::copy(description_, whole, fs::copy_options::recursive, error);
   if (error) refuse(error.message());
   fs::rename(whole, path_, error);
-  // Another simulation may have put it there meanwhile.
+  // Another simulation may have copied it meanwhile.
   if (error && !holds(path_, description_)) refuse(error.message());
 }
 

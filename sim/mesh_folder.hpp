@@ -5,14 +5,14 @@
 
 namespace penumbra::sim {
 
-/// The folder of a URDF's package as it stands beside a bag, where package://NAME/... is found.
+/// The folder of a URDF's package next to a bag, where package://NAME/... is found.
 class MeshFolder {
  public:
-  /// `description`: the package's folder. Throws InputError where something else of its name stands
-  /// beside `bag`; touches nothing.
+  /// `description`: the package's folder. Throws InputError if something else with its name is next
+  /// to `bag`. Writes nothing.
   MeshFolder(std::filesystem::path description, const std::filesystem::path& bag);
 
-  /// Puts it there whole, unless it is there. Throws InputError where the system refuses.
+  /// Copies the whole folder, unless it is there already. Throws InputError if the system refuses.
   void copy() const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -18,14 +18,14 @@ struct DeleteData {
 using ModelPtr = std::unique_ptr<mjModel, DeleteModel>;
 using DataPtr = std::unique_ptr<mjData, DeleteData>;
 
-/// OpenGL's loader, MuJoCo's reader, with the model that it read last, and its fault handler belong
-/// to the whole process.
+/// Returns the mutex for the state that belongs to the whole process: OpenGL's loader, MuJoCo's
+/// reader with its last model, and MuJoCo's fault handler.
 [[nodiscard]] inline std::mutex& mujoco_mutex() {
   static std::mutex mutex;
   return mutex;
 }
 
-/// The world pose of body `body`, metres.
+/// Returns the world pose of body `body`, metres.
 [[nodiscard]] inline Eigen::Isometry3d body_pose(const mjData& data, int body) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Map<const Eigen::Vector3d>(data.xpos + 3 * body);

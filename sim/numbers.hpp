@@ -8,7 +8,7 @@
 
 namespace penumbra::sim {
 
-/// Numbers in text, with all their digits.
+/// Returns numbers as text with all their digits.
 [[nodiscard]] inline std::string numbers(std::initializer_list<double> values,
                                          const char* separator = " ") {
   std::string text;

@@ -14,9 +14,10 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int frames = 1000;
-constexpr double nearest_target = 0.35;  // metres from the camera that a target keeps
+constexpr double nearest_target = 0.35;  // smallest distance of a target from the camera, metres
 constexpr double gap = 0.05;  // metres of depth between a target and the part of the arm there
-// Nothing stands in anything else: from each target, taken as a ball, metres to all else.
+// Nothing intersects anything else: the smallest distance of each target, taken as a ball, from
+// everything else, metres.
 constexpr double clearance = 0.05;
 constexpr double ground = -0.80, pedestal = 0.12;  // metres: the floor's height, a radius
 
@@ -24,17 +25,17 @@ enum class Place { before, behind, beside };
 constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behind, Place::behind,
                                       Place::behind, Place::behind, Place::beside, Place::beside};
 
-/// Every frame is a new arm pose with new places of the same eight targets, which touch neither the
-/// arm nor one another.
+/// Every frame has a new arm pose and new positions of the same eight targets, which touch neither
+/// the arm nor one another.
 class RandomTargets : public Scene {
  public:
-  RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsics& intrinsics);
+  RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics);
   [[nodiscard]] std::vector<double> joints(double time) const override;
   [[nodiscard]] ScenePose pose(double time) override;
 
  private:
   [[nodiscard]] std::uint64_t index(double time) const;
-  /// What stands there already: the arm, and balls about targets.
+  /// The occupied space: the arm, and balls around targets.
   struct Taken {
     std::vector<Arm::PartBox> parts;
     std::vector<std::pair<Vector3d, double>> balls;
@@ -47,11 +48,11 @@ class RandomTargets : public Scene {
   std::uint64_t seed_;
   double frame_rate_;
   Intrinsics intrinsics_;
-  std::vector<double> radii_;  // of balls about the targets
+  std::vector<double> radii_;  // of balls around the targets
 };
 
-RandomTargets::RandomTargets(Arm& arm, const SceneWishes& wishes, const Intrinsics& intrinsics)
-    : arm_(arm), seed_(wishes.seed), frame_rate_(wishes.frame_rate), intrinsics_(intrinsics) {
+RandomTargets::RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics)
+    : arm_(arm), seed_(options.seed), frame_rate_(options.frame_rate), intrinsics_(intrinsics) {
   Random random(seed_, 12);
   description_.moves = false;
   const double around = random.uniform(-2.2, -0.6), far = random.uniform(1.3, 1.7);
@@ -97,7 +98,7 @@ std::vector<double> RandomTargets::joints(double time) const {
   std::vector<double> positions = arm_.robot().rest_positions();
   for (const Joint& joint : arm_.robot().joints()) {
     if (!joint.variable || joint.mimics) continue;
-    // The whole turn of wrists, but an arm that keeps off its own base.
+    // Wrists turn fully, but the arm keeps away from its own base.
     const double most = joint.name == "shoulder_lift" ? 1.4 : joint.name == "elbow" ? 2.2 : 3.0;
     positions[*joint.variable] = random.uniform(std::max(joint.lower.value_or(-most), -most),
                                                 std::min(joint.upper.value_or(most), most));
@@ -116,8 +117,8 @@ bool RandomTargets::is_free(const Vector3d& at, double radius, const Taken& take
          });
 }
 
-/// Near the ray through one of the arm's parts, at a depth that the place asks for, apart from
-/// everything.
+/// Returns a position near the ray through one of the arm's parts, at a depth for `place`, apart
+/// from everything.
 Vector3d RandomTargets::position(Place place, double radius, Random& random,
                                  const std::vector<Vector3d>& parts, const Taken& taken) const {
   constexpr int attempts = 1000;
@@ -141,7 +142,7 @@ Vector3d RandomTargets::position(Place place, double radius, Random& random,
         pixel.y() < intrinsics_.height() && is_free(description_.T_base_camera * at, radius, taken))
       return description_.T_base_camera * at;
   }
-  // No room in the view: out of it, behind the camera.
+  // There is no room in the view, so the target is placed behind the camera.
   return description_.T_base_camera *
          Vector3d(0.0, 0.0, -1.0 - 0.5 * static_cast<double>(taken.balls.size()));
 }
@@ -168,9 +169,9 @@ ScenePose RandomTargets::pose(double time) {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_random_targets(Arm& arm, const SceneWishes& wishes,
+std::unique_ptr<Scene> make_random_targets(Arm& arm, const SceneOptions& options,
                                            const Intrinsics& intrinsics) {
-  return std::make_unique<RandomTargets>(arm, wishes, intrinsics);
+  return std::make_unique<RandomTargets>(arm, options, intrinsics);
 }
 
 }  // namespace penumbra::sim

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reliable, transient local, the last one kept, by the numbers of rmw, as rosbag2 stores it: its
-/// player then offers these topics to those who come late.
+/// Reliable, transient local, keep last 1, with rmw's numbers as rosbag2 stores them. The player
+/// then offers these topics to late subscribers.
 constexpr const char* latched_qos =
     "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"
     "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
@@ -26,7 +26,8 @@ constexpr const char* latched_qos =
     "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
     "  avoid_ros_namespace_conventions: false";
 
-/// The bag's name, if nothing is there: nothing would tell whose it is.
+/// Returns the bag's name if nothing exists there. An existing file is refused, because its owner
+/// is not known.
 fs::path new_file(const fs::path& file) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error)))
@@ -53,12 +54,12 @@ io::JointStateMessage joint_states(const Robot& robot, const io::MessageHeader& 
   return {.header = header, .names = {names.begin(), names.end()}, .positions = positions};
 }
 
-/// Both of a simulation's cameras call their frame the same.
+/// Returns the second camera's frame. Both cameras of a simulation have the same frame name.
 std::string second_frame(const Simulation& simulation) {
   return "second_" + simulation.second_camera().frame_id;
 }
 
-/// What is known of an object without judging it.
+/// Returns the fields of an object that are known without judging it.
 io::TargetMessage target_of(const ObjectTruth& object, std::int64_t stamp) {
   io::TargetMessage target{.name = object.name,
                            .has_stamp = true,
@@ -172,7 +173,7 @@ void RecordingBag::add(const SimFrame& frame, std::size_t /*index*/) {
   if (channels_.empty()) write_scene(frame.stamp);
   write("/joint_states", frame.stamp,
         joint_states(simulation_.robot(), {frame.stamp, root_}, frame.joints));
-  write_truth(frame);  // targets before the image that they are of
+  write_truth(frame);  // targets precede their image
   write_camera(frame);
   if (second_camera_) write_second_camera(frame);
 }
@@ -180,7 +181,7 @@ void RecordingBag::add(const SimFrame& frame, std::size_t /*index*/) {
 void RecordingBag::finish() {
   writer_.close();
   meshes_.copy();
-  new_file(file_);  // after all the time that the frames took
+  new_file(file_);  // checks again, because writing the frames took time
   pending_.finish();
 }
 

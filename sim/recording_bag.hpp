@@ -15,20 +15,19 @@
 
 namespace penumbra::sim {
 
-/// Writes a simulation as a bag of ROS 2's messages that `penumbra run` takes, and the URDF's
-/// folder beside it. Messages are recorded at their stamps; topics without a frame at the first
-/// one's:
+/// Writes a simulation as a bag of ROS 2 messages for `penumbra run`, and the URDF's folder next to
+/// it. Messages are recorded at their stamps; messages without a frame at the first frame's stamp:
 ///   /robot_description, /tf_static                latched; the cameras' poses
 ///   /joint_states                                 as reported
-///   /camera/depth/image_rect_raw, camera_info     16UC1, millimetres; /second_camera/... likewise
+///   /camera/depth/image_rect_raw, camera_info     16UC1, millimetres; /second_camera/... too
 ///   /camera/color/image_raw/compressed, camera_info   PNG
 ///   /truth/scene, /truth/model/compressed         latched; scene_text() and the object's image
-///   /truth/joint_states, /truth/ids               as they were; 16UC1 SimFrame::ids
+///   /truth/joint_states, /truth/ids               true positions; 16UC1 SimFrame::ids
 ///   /truth/NAME/pose, /truth/targets              of each object; hidden fractions of all
 class RecordingBag final : public RecordingSink {
  public:
-  /// Throws InputError where something is there or nothing can be written. There is no such bag
-  /// before finish(). `simulation` must outlive this.
+  /// Throws InputError if the file exists or cannot be written. The bag does not exist before
+  /// finish(). `simulation` must outlive this.
   RecordingBag(const std::filesystem::path& file, const Simulation& simulation,
                const std::string& scene, const SimulationOptions& options);
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t digits = 6;  // of a frame's number in file names
+constexpr std::size_t digits = 6;  // digits of a frame's number in file names
 
 [[noreturn]] void refuse_file(const fs::path& file, const std::string& why) {
   throw InputError(file.string() + ": cannot be written (" + why + "); choose another with -o");
@@ -44,7 +44,7 @@ void make_new_folder(const fs::path& folder) {
   if (error) refuse_file(folder, error.message());
 }
 
-/// `text` as a double-quoted YAML scalar.
+/// Returns `text` as a double-quoted YAML scalar.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);

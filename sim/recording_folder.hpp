@@ -11,16 +11,16 @@
 
 namespace penumbra::sim {
 
-/// Writes a simulation as a recording that `penumbra run` takes, with the truth beside it:
+/// Writes a simulation as a recording for `penumbra run`, with the truth next to it:
 ///   recording.yaml, camera_info.yaml, camera_pose.csv, the arm's URDF folder
-///   joint_states.csv   positions as reported; true_joint_states.csv: as they were
-///   color/, depth/     000000.png; 8-bit RGB and 16-bit millimetres; second_depth/ likewise
+///   joint_states.csv   positions as reported; true_joint_states.csv: true positions
+///   color/, depth/     000000.png; 8-bit RGB and 16-bit millimetres; second_depth/ too
 ///   ids/000000.png     16-bit SimFrame::ids
 ///   truth.csv          poses and pixel counts of every object in every frame
-///   scene.yaml         seed, options, and what is known of the object and the grasp
+///   scene.yaml         seed, options, and known data of the object and the grasp
 class RecordingFolder final : public RecordingSink {
  public:
-  /// Throws InputError where the folder is not empty or cannot be made. `simulation` must outlive
+  /// Throws InputError if the folder is not empty or cannot be made. `simulation` must outlive
   /// this.
   RecordingFolder(const std::filesystem::path& folder, const Simulation& simulation,
                   const std::string& scene, const SimulationOptions& options);

@@ -9,27 +9,28 @@
 
 namespace penumbra::sim {
 
-/// Where the frames of a simulation are written to.
+/// Writes the frames of a simulation.
 class RecordingSink {
  public:
   virtual ~RecordingSink() = default;
 
-  /// `index`: of the frame in its scene. Throws InputError where the system refuses to write.
+  /// Writes a frame. `index`: the frame's index in its scene. Throws InputError if the system
+  /// refuses to write.
   virtual void add(const SimFrame& frame, std::size_t index) = 0;
 
-  /// Ends the recording. Throws InputError where the system refuses to write.
+  /// Ends the recording. Throws InputError if the system refuses to write.
   virtual void finish() = 0;
 
-  /// What was written, in words.
+  /// Returns a description of what was written.
   [[nodiscard]] virtual std::string where() const = 0;
 };
 
-/// What a recording says of its scene, as YAML: seed, options, and what is known of the object and
+/// Returns the description of a scene as YAML: seed, options, and the known data of the object and
 /// the grasp.
 [[nodiscard]] std::string scene_text(const Simulation& simulation, const std::string& scene,
                                      const SimulationOptions& options);
 
-/// SimFrame::ids as recordings have them; `to` is kept where the size stays.
+/// Converts SimFrame::ids to the format of recordings; `to` is reused if the size is the same.
 void store_ids(const SimFrame& frame, Image<std::uint16_t>& to);
 
 }  // namespace penumbra::sim

@@ -21,8 +21,8 @@ constexpr std::int64_t first_stamp = 1'700'000'000'000'000'000;  // nanoseconds
 constexpr double longest = 3600.0;                               // seconds
 constexpr std::uint64_t joint_stream = 21, depth_stream = 31, second_stream = 32;
 
-/// A D415's colour camera at 640x480 (69 degrees of 1280x720, cropped and binned), with the
-/// principal point off the centre as calibrations find it.
+/// Returns a D415's colour camera at 640x480 (69 degrees of 1280x720, cropped and binned), with a
+/// typically calibrated principal point off the centre.
 Camera d415_color() {
   Camera camera{Intrinsics(640, 480, 612.3, 612.3, 325.4, 236.8), {}, {}, "camera_optical_frame"};
   return camera;
@@ -67,7 +67,7 @@ RobotOptions visual_geometry() {
 
 bool is_robot(std::int32_t id) { return id >= 1 && id < first_object_id; }
 
-/// Puts what is nearer of `ids` into the frame.
+/// Copies the pixels of `ids` that are nearer into the frame.
 void lay_over(const Image<std::int32_t>& ids, const Image<float>& depth, const Window& window,
               SimFrame& to) {
   for (int v = window.v0; v < window.v1; ++v) {
@@ -92,7 +92,7 @@ void fit(Image<T>& image, const Intrinsics& intrinsics) {
 }  // namespace
 
 struct Simulation::State {
-  State(const std::string& name, const SimulationOptions& wishes);
+  State(const std::string& name, const SimulationOptions& options_);
   [[nodiscard]] std::unique_ptr<Scene> make_scene(const std::string& name);
   [[nodiscard]] double time_of(std::size_t index) const {
     return static_cast<double>(index) / options.frame_rate;
@@ -117,28 +117,29 @@ struct Simulation::State {
   Image<float> alone_depth, second_truth;
 };
 
-Simulation::State::State(const std::string& name, const SimulationOptions& wishes)
-    : options(wishes),
+Simulation::State::State(const std::string& name, const SimulationOptions& options_)
+    : options(options_),
       arm(urdf, visual_geometry(), folder.path()),
       scene(make_scene(name)),
       stage(arm, scene->description(), folder.path(), camera.intrinsics),
       view{camera.intrinsics, scene->description().T_base_camera},
       second_view{second_camera.intrinsics, scene->description().T_base_second_camera},
-      sensor(wishes.depth, camera.intrinsics.fx(), wishes.seed, depth_stream),
-      second_sensor(wishes.depth, second_camera.intrinsics.fx(), wishes.seed, second_stream),
-      duration(wishes.duration > 0.0 ? wishes.duration : scene->description().duration) {}
+      sensor(options_.depth, camera.intrinsics.fx(), options_.seed, depth_stream),
+      second_sensor(options_.depth, second_camera.intrinsics.fx(), options_.seed, second_stream),
+      duration(options_.duration > 0.0 ? options_.duration : scene->description().duration) {}
 
 std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
-  const SceneWishes wishes{options.seed, options.belt_jitter, options.frame_rate, options.duration};
-  if (name == "conveyor") return make_conveyor(arm, wishes);
-  if (name == "handover") return make_handover(arm, wishes);
-  if (name == "random") return make_random_targets(arm, wishes, camera.intrinsics);
+  const SceneOptions scene_options{options.seed, options.belt_jitter, options.frame_rate,
+                                   options.duration};
+  if (name == "conveyor") return make_conveyor(arm, scene_options);
+  if (name == "handover") return make_handover(arm, scene_options);
+  if (name == "random") return make_random_targets(arm, scene_options, camera.intrinsics);
   const std::vector<std::string>& names = Simulation::scenes();
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw InputError("there is no scene '" + name + "'" + io::near_names(name, known));
 }
 
-/// Noise is drawn anew for each frame, from its number.
+/// Adds noise that is determined by the frame's number.
 void Simulation::State::report_joints(double time, SimFrame& to) const {
   to.true_joints = scene->joints(time);
   to.joints = scene->joints(time - options.joint_latency);
@@ -147,8 +148,8 @@ void Simulation::State::report_joints(double time, SimFrame& to) const {
   for (double& position : to.joints) position += options.joint_sigma * random.normal();
 }
 
-/// The robot, the background and each object are drawn apart and put together by their depths: the
-/// same image as all at once, and what each would look like alone comes with it.
+/// Draws the robot, the background and each object separately and merges them by depth. The image
+/// is the same as if drawn at once, and each object is also drawn alone.
 void Simulation::State::draw(const ScenePose& pose, SimFrame& to) {
   const auto background = [](std::int32_t id) { return id == 0; };
   const Window whole{0, 0, view.intrinsics.width(), view.intrinsics.height()};

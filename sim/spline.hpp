@@ -7,20 +7,20 @@
 
 namespace penumbra::sim {
 
-/// A value at a time, seconds.
+/// A value at a time in seconds.
 struct Knot {
   double time = 0.0;
   Eigen::VectorXd value;
 };
 
-/// A smooth path through knots: the cubic spline with continuous acceleration that stands still at
+/// A smooth path through knots: the cubic spline with continuous acceleration and zero velocity at
 /// both ends.
 class Spline {
  public:
-  /// Knots in the order of strictly rising times, at least two, with values of one size.
+  /// `knots`: at least two, with strictly increasing times and values of one size.
   explicit Spline(std::vector<Knot> knots);
 
-  /// Before the first and after the last knot: that knot's value.
+  /// Returns the value at a time. Before the first and after the last knot it is that knot's value.
   [[nodiscard]] Eigen::VectorXd at(double time) const;
 
  private:

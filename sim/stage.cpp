@@ -18,12 +18,12 @@
 namespace penumbra::sim {
 namespace {
 
-// With 24 bits of depth these leave steps of 3e-6 m at 1.5 m.
+// With 24 bits of depth these planes give steps of 3e-6 m at 1.5 m.
 constexpr double near_plane = 0.08, far_plane = 12.0;  // metres
 constexpr int most_geoms = 2000;
 
-// Round things are drawn with so many sides that they miss less than 0.1 % of their radius; no
-// shadows, reflections or smoothed edges.
+// Round shapes have enough sides to differ by less than 0.1 % of their radius. Shadows, reflections
+// and antialiasing are off.
 constexpr const char* visual =
     "<visual><quality numslices=\"40\" numstacks=\"14\" numquads=\"1\" offsamples=\"0\" "
     "shadowsize=\"0\"/><headlight ambient=\"0.45 0.45 0.45\" diffuse=\"0.45 0.45 0.45\" "
@@ -69,7 +69,7 @@ void to_floats(const Eigen::Vector3d& from, float* to) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
 
-/// The frustum whose pixel centres are Penumbra's: pixel (u, v) spans u - 0.5 .. u + 0.5.
+/// Returns the frustum with Penumbra's pixel centres: pixel (u, v) spans u - 0.5 .. u + 0.5.
 mjvGLCamera gl_camera(const Viewpoint& view) {
   const Intrinsics& k = view.intrinsics;
   const double scale = near_plane / k.fy();
@@ -103,10 +103,10 @@ struct Stage::Drawing {
   mjrContext context{};
   mjvScene scene{};
   mjvOption option{};
-  std::vector<std::int32_t> ids;     // of geoms
-  std::vector<int> mocap;            // of parts
+  std::vector<std::int32_t> ids;     // ids of geoms
+  std::vector<int> mocap;            // mocap index of each part
   std::vector<int> qpos;             // of Arm::joint_positions
-  std::vector<unsigned char> bytes;  // as OpenGL gives them, the lowest row first
+  std::vector<unsigned char> bytes;  // as OpenGL returns them, bottom row first
   std::vector<float> depths;
 };
 
@@ -179,7 +179,7 @@ void Stage::Drawing::draw(const Viewpoint& view, bool segmentation) {
 Stage::Stage(const Arm& arm, const SceneDescription& scene, const std::filesystem::path& folder,
              const Intrinsics& largest) {
   const std::lock_guard lock(mujoco_mutex());
-  mju_user_error = throw_fault;  // else it would end the process
+  mju_user_error = throw_fault;  // otherwise MuJoCo ends the process
   drawing_ = std::make_unique<Drawing>(arm, scene, folder, largest);
 }
 
@@ -274,7 +274,7 @@ Window Stage::window_of(const Viewpoint& view, std::int32_t id) const {
     const double radius = d.model->geom_rbound[geom];
     const double nearest = centre.z() - radius;
     if (nearest < near_plane) return whole;
-    // A bound of the ball's silhouette: its box's corners at the nearest and the farthest depth.
+    // Bounds the ball's silhouette by its box's corners at the nearest and the farthest depth.
     for (const double z : {nearest, centre.z() + radius})
       for (const double side : {-radius, radius}) {
         const double u = k.fx() * (centre.x() + side) / z + k.cx();

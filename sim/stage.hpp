@@ -19,7 +19,7 @@
 
 namespace penumbra::sim {
 
-/// A camera and where it is.
+/// A camera and its pose.
 struct Viewpoint {
   Intrinsics intrinsics;  ///< fx = fy: MuJoCo's renderer has square pixels
   Eigen::Isometry3d T_base_camera;
@@ -31,30 +31,30 @@ struct Window {
   [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
 };
 
-/// The arm and a scene's parts as MuJoCo places and draws them.
+/// Places and draws the arm and a scene's parts with MuJoCo.
 class Stage {
  public:
-  /// `folder` holds what Arm wrote. Images may be as large as `largest`. Throws InputError where
-  /// the machine has no OpenGL.
+  /// `folder` has the files that Arm wrote. Images may be up to the size of `largest`. Throws
+  /// InputError if the machine has no OpenGL.
   Stage(const Arm& arm, const SceneDescription& scene, const std::filesystem::path& folder,
         const Intrinsics& largest);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Places everything. `joints` in the order of Robot::variables().
+  /// Places all parts. `joints` in the order of Robot::variables().
   void place(std::span<const double> joints, std::span<const Eigen::Isometry3d> parts);
 
-  /// The colour image.
+  /// Draws the colour image.
   void draw_color(const Viewpoint& view, Image<io::Rgb8>& color);
 
-  /// What is nearest of those whose id `shown` accepts, and its depth along the optical axis in
-  /// metres; 0 where nothing is. Ids are SimFrame::ids', 0 for the background. Null images are not
-  /// made; pixels outside of `window` are left as they are.
+  /// Draws the nearest id among those that `shown` accepts, and its depth along the optical axis in
+  /// metres; 0 if there is nothing. Ids are those of SimFrame::ids, 0 for the background. Null
+  /// images are not drawn. Pixels outside of `window` are not changed.
   void draw_ids(const Viewpoint& view, const std::function<bool(std::int32_t)>& shown,
                 const Window& window, Image<std::int32_t>* ids, Image<float>* depth);
 
-  /// A window that holds all pixels of one id.
+  /// Returns a window that contains all pixels of one id.
   [[nodiscard]] Window window_of(const Viewpoint& view, std::int32_t id) const;
 
  private:

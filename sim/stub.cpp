@@ -7,7 +7,7 @@
 
 namespace penumbra::sim {
 
-// No simulation can be made, so that nothing can be asked of one.
+// The constructor throws, so the members are never called.
 struct Simulation::State {};
 
 namespace {

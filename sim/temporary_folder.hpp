@@ -10,7 +10,7 @@
 
 namespace penumbra::sim {
 
-/// A new folder that is removed, with all that is in it, at the end.
+/// A new folder that is removed with its content at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

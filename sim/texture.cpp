@@ -17,7 +17,7 @@ io::Rgb8 any_color(Random& random) {
           to_byte(random.uniform(10, 250))};
 }
 
-/// A rectangle or an ellipse about (u0, v0), turned.
+/// Paints a rotated rectangle or ellipse at a random position.
 void paint(Image<io::Rgb8>& image, Random& random, double size) {
   const double u0 = random.uniform(0, image.width()), v0 = random.uniform(0, image.height());
   const double a = size * random.uniform(0.4, 1.0), b = size * random.uniform(0.4, 1.0);
@@ -42,7 +42,7 @@ void paint(Image<io::Rgb8>& image, Random& random, double size) {
 
 Image<io::Rgb8> busy_print(int width, int height, Random& random) {
   Image<io::Rgb8> image(width, height, any_color(random));
-  // Coarse shapes first; each finer kind covers about as much again.
+  // Coarse shapes come first; each finer kind covers about the same area.
   for (const double share : {0.24, 0.14, 0.08, 0.05}) {
     const double size = share * width;
     const int count = static_cast<int>(0.35 * width * height / (size * size));

@@ -8,10 +8,11 @@
 
 namespace penumbra::sim {
 
-/// A print with corners and blobs of many sizes, so that features are found at any distance.
+/// Returns a print with corners and blobs of many sizes, so that features are found at any
+/// distance.
 [[nodiscard]] Image<io::Rgb8> busy_print(int width, int height, Random& random);
 
-/// One colour with a fine grain.
+/// Returns one colour with a fine grain.
 [[nodiscard]] Image<io::Rgb8> grain(int width, int height, io::Rgb8 color, int amplitude,
                                     Random& random);
 

@@ -27,8 +27,8 @@
 #include <io/dds/receive_buffers.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/printable.hpp>
+#include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_summary.hpp>
-#include <io/live/trouble_news.hpp>
 #include <io/ros/message_encoder.hpp>
 
 namespace penumbra::app {
@@ -72,24 +72,24 @@ class Diagnostics {
       : publication_(graph.advertise(names.resolve(diagnostics_topic),
                                      "diagnostic_msgs/msg/DiagnosticArray",
                                      {.reliable = true, .depth = 10})),
-        speaker_(live_speaker(names)),
+        source_(diagnostic_source(names)),
         pages_(pages) {}
 
-  [[nodiscard]] const io::LiveSpeaker& speaker() const { return speaker_; }
+  [[nodiscard]] const io::DiagnosticSource& source() const { return source_; }
 
   void tell(const io::DiagnosticArrayMessage& message) {
     io::encode(message, payload_);
     static_cast<void>(publication_->write(payload_));
     pages_.tell(message);
-    for (const std::string& line : news_.look(message)) std::cerr << line << '\n';
+    for (const std::string& line : changes_.update(message)) std::cerr << line << '\n';
   }
 
   void tell_waiting(const std::string& why) {
     io::DiagnosticArrayMessage message{.header = {io::LiveRunner::system_now(), ""}, .status = {}};
     message.status.push_back({.level = io::DiagnosticStatusMessage::stale,
-                              .name = speaker_.name + ": camera",
+                              .name = source_.name + ": camera",
                               .message = why,
-                              .hardware_id = speaker_.hardware_id,
+                              .hardware_id = source_.hardware_id,
                               .values = {}});
     tell(message);
   }
@@ -97,8 +97,8 @@ class Diagnostics {
  private:
   std::unique_ptr<io::Publication> publication_;
   std::vector<std::byte> payload_;
-  io::TroubleNews news_;
-  io::LiveSpeaker speaker_;
+  io::DiagnosticChanges changes_;
+  io::DiagnosticSource source_;
   LivePages& pages_;
 };
 
@@ -213,7 +213,7 @@ class Live {
   }
 
   bool report_until_end(Diagnostics& diagnostics, StopSignal& stop, const std::atomic<bool>& ends) {
-    io::LiveDiagnostics words(io::LiveRunner::steady_now(), diagnostics.speaker());
+    io::LiveDiagnostics words(io::LiveRunner::steady_now(), diagnostics.source());
     auto next = Clock::now();
     bool stopped = false;
     while (!stopped && !ends && !runner_->has_failed()) {

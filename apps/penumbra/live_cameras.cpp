@@ -65,10 +65,10 @@ std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
     camera.name = name;
     camera.depth_topic = names.resolve(topic);
     camera.info_topic = resolved(names, topics.camera_info_topic)
-                            .value_or(io::info_topic_beside(camera.depth_topic));
+                            .value_or(io::camera_info_topic(camera.depth_topic));
     if (topics.color_topic) {
       camera.color_topic = names.resolve(*topics.color_topic);
-      camera.color_info_topic = io::info_topic_beside(camera.color_topic);
+      camera.color_info_topic = io::camera_info_topic(camera.color_topic);
     }
     cameras.push_back(std::move(camera));
   }

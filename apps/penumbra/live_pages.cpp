@@ -44,7 +44,7 @@ class LivePages::Page final : public io::FrameWatcher {
     std::vector<std::string> missing;
     if (statuses.back()->level >= Status::error) missing.push_back(statuses.back()->message);
     if (!note_.empty()) missing.push_back(note_);
-    view_.tell(std::move(diagnostics), std::move(missing));
+    view_.set_diagnostics(std::move(diagnostics), std::move(missing));
   }
 
  private:

@@ -17,7 +17,7 @@ io::NameResolver live_names(const LiveArguments& arguments) {
   return names;
 }
 
-io::LiveSpeaker live_speaker(const io::NameResolver& names) {
+io::DiagnosticSource diagnostic_source(const io::NameResolver& names) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   const std::string& space = names.name_space();

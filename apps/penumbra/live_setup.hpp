@@ -18,7 +18,7 @@ namespace penumbra::app {
 inline constexpr const char* diagnostics_topic = "/diagnostics";
 
 /// As whom it speaks there.
-[[nodiscard]] io::LiveSpeaker live_speaker(const io::NameResolver& names);
+[[nodiscard]] io::DiagnosticSource diagnostic_source(const io::NameResolver& names);
 
 /// Of a camera's result, before it is resolved; `camera`: its name, empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);

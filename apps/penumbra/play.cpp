@@ -14,7 +14,7 @@
 namespace penumbra::app {
 namespace {
 
-constexpr double told_lateness = 0.1;  // s
+constexpr double reported_lateness = 0.1;  // s
 
 void print_topics(const BagPlayer& player, int domain) {
   std::cout << "publishing on domain " << domain << ", until Ctrl-C or the bag's end\n";
@@ -42,7 +42,7 @@ int execute(const PlayArguments& arguments) {
       [](std::uint64_t sum, const PlayedTopic& topic) { return sum + topic.written; });
   std::cout << written << " messages published\n";
   tell_notes(player.notes());
-  if (player.most_late() > told_lateness)
+  if (player.most_late() > reported_lateness)
     tell_notes(std::vector{"up to " + fixed(player.most_late(), 1) +
                            " s behind the recording's pace; lower --rate, or choose --topics"});
   tell_notes(graph->take_complaints());

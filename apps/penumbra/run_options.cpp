@@ -222,7 +222,8 @@ void add_view(CLI::App& app, ViewArguments& view) {
            "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
            "", view.judging.input.path)
       ->required();
-  add_server(app, view.server, "where the page is served; 0: any that is free; default 8470, or the next free one");
+  add_server(app, view.server,
+             "where the page is served; 0: any that is free; default 8470, or the next free one");
   add_judging(app, view.judging);
   add_sequence(app, view.judging);
   add_bag(app, view.judging.input.bag);

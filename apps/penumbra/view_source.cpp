@@ -31,7 +31,6 @@ void check_is_something(const fs::path& input) {
       "*.db3), nor the results of a run (report.json)");
 }
 
-
 /// Returns whether a run wrote this folder, or it is its report.json.
 bool is_run_folder(const fs::path& input) {
   std::error_code error;

@@ -22,7 +22,7 @@ namespace penumbra::io {
 /// Reads a bag's messages, and decodes those whose definitions have the fields that are read.
 class BagInbox {
  public:
-  /// Throws InputError as open_bag.
+  /// Throws InputError like open_bag.
   explicit BagInbox(const std::filesystem::path& bag) : bag_(open_bag(bag)), name_(bag.string()) {}
 
   [[nodiscard]] std::span<const BagTopic> topics() const { return bag_->topics(); }
@@ -44,12 +44,12 @@ class BagInbox {
     return false;
   }
 
-  /// Counts a message of which `what` is wrong.
+  /// Counts a message with the fault `what`.
   void add_fault(const std::string& topic, std::int64_t log_time, const std::string& what) {
     faults_.add(topic, log_time, what);
   }
 
-  /// The bag's damages, and of each topic how many messages could not be used, one line each.
+  /// Returns the bag's faults and the number of unusable messages of each topic, one line each.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:

@@ -8,7 +8,8 @@
 namespace penumbra::io {
 namespace {
 
-/// For the end of an error's message: what of the bag is damaged may be what is missing.
+/// Returns the bag's faults for the end of an error message: the missing data may be in a damaged
+/// part.
 std::string damages_of(const BagInbox& inbox) {
   std::string damages;
   for (const std::string& note : inbox.notes()) damages += "; " + note;

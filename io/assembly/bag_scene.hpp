@@ -13,16 +13,17 @@
 
 namespace penumbra::io {
 
-/// What holds for a whole bag, and may be told anywhere in it: robot, camera, fixed frames.
+/// The data that holds for a whole bag: robot, camera and fixed frames. It may stand anywhere in
+/// the bag.
 struct BagScene {
   std::optional<std::string> description;  ///< the URDF
   std::optional<std::string> depth_frame;  ///< frame_id of the first depth image
   std::optional<CameraInfoMessage> camera_info, color_info;
   std::vector<TransformMessage> static_transforms;
-  FrameTree frames;  ///< of TF
+  FrameTree frames;  ///< the frames of TF
 };
 
-/// Looks for the scene of a bag, before its frames are read.
+/// Finds the scene of a bag before its frames are read.
 class BagSceneReader {
  public:
   /// Throws InputError as open_bag and choose_topics.
@@ -31,11 +32,11 @@ class BagSceneReader {
   [[nodiscard]] const BagTopics& topics() const { return topics_; }
   [[nodiscard]] const BagScene& scene() const { return scene_; }
 
-  /// Reads until robot and camera are known. Throws InputError that names the topic if they are
-  /// not.
+  /// Reads until robot and camera are known. Throws InputError that names the topic if the bag
+  /// lacks one.
   void read_robot_and_camera();
 
-  /// Reads on until `found`, or to the end: answers whether it was found.
+  /// Reads on until `found` returns true or the bag ends. Returns whether it was found.
   bool read_until(const std::function<bool(const BagScene&)>& found);
 
  private:

@@ -15,14 +15,14 @@
 namespace penumbra::io {
 namespace {
 
-/// How long images wait for their pose, in seconds of recording: at 10 joint states a second, three
-/// of which were lost, and 0.1 s of transport.
+/// How long images wait for their pose, in seconds of recording. Enough for 10 joint states a
+/// second with three lost, and 0.1 s of transport.
 constexpr double longest_wait = 0.5;
-/// How long for the camera_info and the color image of their stamp: drivers send them together, but
-/// some send one camera_info for all. Nanoseconds of recording.
+/// How long images wait for the camera_info and colour image with their stamp. Drivers send them
+/// together, but some send one camera_info for all images. Nanoseconds of recording.
 constexpr std::int64_t longest_companion_wait = 200'000'000;
 constexpr std::size_t most_colors = 64;
-constexpr std::size_t most_ready = 32;  // frames that wait for these
+constexpr std::size_t most_ready = 32;  // frames that wait for their camera_info and colour image
 
 FrameQueueOptions queue_options(const BagSourceOptions& options) {
   return {.policy = DropPolicy::every,
@@ -58,8 +58,8 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
       colors_(most_colors),
       targets_(robot, options_.camera.frame_id, options_.poses.frame_prefix) {
   check_range();
-  // Fixed frames hold before they are told, too. Of one that is told several times, what was told
-  // first holds until it is told anew.
+  // Fixed frames also hold before their message. If a frame is published several times, its first
+  // value holds until the second message.
   std::set<std::string> known;
   for (const TransformMessage& t : options_.scene.static_transforms)
     if (known.insert(t.child_frame_id).second)
@@ -84,7 +84,7 @@ bool BagSource::next(FrameData& data, Frame& frame) {
     if (ended_ && ready_.empty()) {
       if (given_ > 0) return false;
       throw InputError(inbox_.name() + ": none of its " + std::to_string(images_) +
-                       " depth images is wanted; mend --frames");
+                       " depth images is in the range; change --frames");
     }
     read_message();
   }
@@ -169,7 +169,7 @@ void BagSource::take_info(const BagMessage& message, const CameraInfoMessage& fi
   const bool differs = !is_same_camera(info, first);
   if (differs && !changes.differs())
     inbox_.add_fault(inbox_.topic_of(message).name, message.log_time,
-                     "it is another camera than at first");
+                     "is of another camera than the first one");
   changes.add_info(info.header.stamp, differs);
 }
 
@@ -287,9 +287,9 @@ void BagSource::present(FrameData& data, Frame& frame) {
 std::string BagSource::decode(const Waiting& image, DepthView& depth) {
   if (!image.fault.empty()) return image.fault;
   if (pairs_.are_certain() && image.stamp > 0 && !pairs_.covers(image.stamp))
-    return "its camera_info did not come, as those of other images did: it may be another camera's";
+    return "its camera_info is missing, although other images have one: it may be another camera's";
   if (camera_changes_.differs(image.stamp) || color_changes_.differs(image.stamp))
-    return "camera_info is of another camera than at first";
+    return "camera_info is of another camera than the first one";
   const auto decode_as = [&](auto message) -> std::string {
     if (std::string fault; !inbox_.decode(image.message, message, &fault)) return fault;
     return depth_.decode(message, depth);
@@ -324,8 +324,9 @@ std::vector<std::string> BagSource::notes() const {
     lines.push_back(bag + ": " + std::to_string(targets_.waiting()) +
                     " targets came after the last frame and are not judged");
   if (targets_.replaced() > 0)
-    lines.push_back(bag + ": " + std::to_string(targets_.replaced()) +
-                    " targets are not judged: newer ones of their names came before a frame did");
+    lines.push_back(
+        bag + ": " + std::to_string(targets_.replaced()) +
+        " targets are not judged: newer ones with their names came before the next frame");
   if (targets_.discarded() > 0)
     lines.push_back(bag + ": " + std::to_string(targets_.discarded()) +
                     " targets are not judged: no frame came for more than 1 s, or for " +

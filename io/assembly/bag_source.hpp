@@ -31,26 +31,28 @@ namespace penumbra::io {
 struct BagSourceOptions {
   BagTopics topics;
   BagScene scene;
-  Camera camera;  ///< of the images that are judged
-  /// The depth images' own, if they are to be brought to `camera` by TF; nothing: they are its.
+  Camera camera;  ///< of the judged images
+  /// The camera of the depth images if they have to be registered to `camera` by TF; nothing if it
+  /// is `camera`.
   std::optional<Camera> depth_camera = {};
   PoseOptions poses = {};
-  bool compare_sources = true;  ///< of JointBufferOptions and TransformBufferOptions
-  double time_offset = 0.0;     ///< FrameQueueOptions::time_offset
-  std::optional<std::int64_t> first, end = {};  ///< which frames are wanted
-  bool with_color = false;                      ///< for pictures
+  bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
+  double time_offset = 0.0;     ///< see FrameQueueOptions::time_offset
+  std::optional<std::int64_t> first, end = {};  ///< the range of frames to read
+  bool with_color = false;                      ///< with colour images, for pictures
 };
 
-/// A bag's depth images, numbered from 0 as they were recorded, each with the robot's pose at its
-/// own stamp. Each image comes out: one whose pose or pixels are not known with the status that
-/// says so. Targets come with the next frame after their messages.
+/// Reads a bag's depth images, numbered from 0 in the order of recording, each with the robot's
+/// pose at its own stamp. Returns every image; if its pose or pixels are not known, its status says
+/// so. Targets come with the next frame after their messages.
 class BagSource final : public FrameSource {
  public:
-  /// `robot` must outlive this. Throws InputError as open_bag and FrameQueue, and for frames that
-  /// the bag says it does not have.
+  /// `robot` must outlive this. Throws InputError like open_bag and FrameQueue, and for frames that
+  /// the bag does not have according to its message count.
   BagSource(const std::filesystem::path& bag, const Robot& robot, BagSourceOptions options);
 
-  /// Throws InputError if the bag turns out to have none of the wanted frames.
+  /// Reads the next frame. Throws InputError at the end if the bag has none of the requested
+  /// frames.
   bool next(FrameData& data, Frame& frame) override;
   [[nodiscard]] std::optional<std::size_t> size() const override { return size_; }
   [[nodiscard]] std::vector<std::string> notes() const override;
@@ -59,7 +61,7 @@ class BagSource final : public FrameSource {
   /// A depth image that waits for its pose.
   struct Waiting {
     std::vector<std::byte> payload;
-    BagMessage message;  // refers to the payload
+    BagMessage message;  // views into the payload
     std::int64_t stamp = 0;
     std::string fault;  // why it cannot be used
   };
@@ -100,14 +102,14 @@ class BagSource final : public FrameSource {
   TargetInbox targets_;
   std::map<std::uint64_t, Waiting> waiting_;  // by index
   std::deque<Ready> ready_;
-  Ready current_;  // what the caller works on
+  Ready current_;  // the frame that the caller uses
   TransformAnswer T_color_depth_;
   CameraChanges camera_changes_, color_changes_;
   InfoPairs pairs_;  // of the depth images
   std::optional<std::size_t> size_;
-  std::uint64_t images_ = 0;  // read so far
+  std::uint64_t images_ = 0;  // number read so far
   std::uint64_t given_ = 0;
-  std::int64_t now_ = 0;  // log time
+  std::int64_t now_ = 0;  // current log time
   bool ended_ = false;
 };
 

@@ -39,7 +39,7 @@ bool holds(std::string_view name, std::initializer_list<std::string_view> words)
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('/') + 1); }
 
-/// Of one image that was recorded in several ways: what is least changed first.
+/// Orders the encodings of one image: the least lossy first.
 int loss(const std::string& topic) {
   const std::string base = image_base(topic);
   if (topic == base) return 0;
@@ -89,7 +89,7 @@ class Chooser {
     return found;
   }
 
-  /// The topic that an option names.
+  /// Returns the topic that an option names.
   [[nodiscard]] TopicUse named(const std::string& role, const std::string& option,
                                const std::string& name, TopicTypes types) const {
     const std::string why = "as " + option + " says";
@@ -106,7 +106,8 @@ class Chooser {
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
-  /// The only one of the candidates; of one image in several forms the least changed.
+  /// Returns the only candidate. If one image was recorded in several encodings, returns the least
+  /// lossy one.
   [[nodiscard]] TopicUse only_image(const std::string& role, const std::string& option,
                                     std::vector<const BagTopic*> candidates,
                                     const std::string& why) const {
@@ -131,7 +132,7 @@ class Chooser {
   static std::string nothing_in(std::span<const BagTopic> topics) {
     for (const BagTopic& topic : topics)
       if (topic.encoding != "cdr")
-        return "is no bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
+        return "is not a bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
                printable(topic.encoding) + "'; cdr is wanted";
     return "holds no messages";
   }
@@ -157,9 +158,9 @@ TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
                  "; choose one with --depth-topic");
 }
 
-/// The camera_info that stands beside an image topic.
-const BagTopic* info_beside(const Chooser& chooser, const std::string& image) {
-  const std::string wanted = info_topic_beside(image);
+/// Returns the camera_info topic next to an image topic, or null.
+const BagTopic* find_info(const Chooser& chooser, const std::string& image) {
+  const std::string wanted = camera_info_topic(image);
   const auto found = chooser.of(TopicTypes(&info_type, 1),
                                 [&](const std::string& name) { return name == wanted; });
   return found.empty() ? nullptr : found.front();
@@ -177,8 +178,8 @@ TopicUse choose_info(const Chooser& chooser, const BagOptions& options, const st
     return Chooser::use("camera_info", *candidates.front(), "the only one");
   if (candidates.empty())
     chooser.refuse("has no camera_info (sensor_msgs/msg/CameraInfo) of " + printable(depth));
-  chooser.refuse("none of the camera_info topics stands beside " + printable(depth) + ": " +
-                 names_of(candidates) + "; choose one with " + option);
+  chooser.refuse("no camera_info topic is next to " + printable(depth) + ": " +
+                 names_of(candidates) + "; choose one with " + flag);
 }
 
 void choose_color(const Chooser& chooser, const BagOptions& options, bool with_color,
@@ -202,7 +203,7 @@ void choose_color(const Chooser& chooser, const BagOptions& options, bool with_c
                                       "the only images called color, for overlays");
 }
 
-/// The one with the usual name, or the only one.
+/// Returns the topic with the usual name, or the only one whose last part has that name.
 std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
                               std::string_view type, const std::string& name,
                               const std::string& choice) {
@@ -268,7 +269,7 @@ std::vector<TopicUse> BagTopics::all() const {
   return uses;
 }
 
-std::string info_topic_beside(const std::string& image_topic) {
+std::string camera_info_topic(const std::string& image_topic) {
   const std::string base = image_base(image_topic);
   return base.substr(0, base.rfind('/') + 1) + "camera_info";
 }

@@ -21,23 +21,23 @@ struct TopicUse {
   std::string name;
   std::string type;
   std::string why;
-  std::optional<std::uint64_t> messages = {};  ///< where the bag tells
+  std::optional<std::uint64_t> messages = {};  ///< if the bag has a count
 };
 
-/// Which topics of a bag say what.
+/// The topics to read from a bag, by role.
 struct BagTopics {
   PoseSource poses = PoseSource::joints;
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
-  std::optional<TopicUse> color_info;  ///< if depth images are brought to the color camera
+  std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
   std::vector<TopicUse> joints, transforms, targets;
   std::optional<TopicUse> description;
 
-  /// All of them, in the order in which they are told.
+  /// Returns all topics, in the order in which they are printed.
   [[nodiscard]] std::vector<TopicUse> all() const;
 };
 
-/// Several topics may be what is looked for, and none is named.
+/// Several topics match and the user named none of them.
 class AmbiguousTopics : public InputError {
   using InputError::InputError;
 };
@@ -47,8 +47,8 @@ class AmbiguousTopics : public InputError {
                                              std::span<const BagTopic> topics,
                                              const BagOptions& options, bool with_color);
 
-/// The camera_info that is looked for beside an image topic.
-[[nodiscard]] std::string info_topic_beside(const std::string& image_topic);
+/// Returns the name of the camera_info topic next to an image topic.
+[[nodiscard]] std::string camera_info_topic(const std::string& image_topic);
 
 /// Chooses by names and types; ignores topics without messages. `with_color`: pictures are drawn.
 /// Throws InputError that names the bag, the candidates and the option that chooses, where there is

@@ -9,7 +9,7 @@
 namespace penumbra::io {
 namespace {
 
-/// Images wait for their poses: 2 s and more at 90 Hz.
+/// Images wait for their poses: this covers more than 2 s at 90 Hz.
 constexpr std::size_t most_kept_infos = 256;
 
 }  // namespace
@@ -40,7 +40,7 @@ void CameraChanges::add_info(std::int64_t stamp, bool differs) {
 bool CameraChanges::differs(std::int64_t image) const {
   const bool is_of_before = InfoPairs::is_jump(image, std::max(newest_image_, newest_info_));
   const Info* before = nullptr;
-  const Info* next = nullptr;  // its own, if it has one
+  const Info* next = nullptr;  // the image's own, if it has one
   for (const Info& info : is_of_before ? before_ : infos_) {
     if (info.stamp < image - InfoPairs::same_stamp) {
       if (before == nullptr || info.stamp >= before->stamp) before = &info;

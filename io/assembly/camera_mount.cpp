@@ -17,7 +17,7 @@ void check_parent(const Robot& robot, const std::string& link) {
   throw InputError("--parent: '" + link + "' is no link of the robot" + near_names(link, known));
 }
 
-/// The link whose frame it is; empty: none's.
+/// Returns the link that has this frame, or an empty text.
 std::string link_of(const Robot& robot, const std::string& prefix, const std::string& frame) {
   if (!frame.starts_with(prefix)) return {};
   std::string link = frame.substr(prefix.size());

@@ -27,10 +27,10 @@ struct MountOptions {
 
 /// Where a camera is.
 struct CameraMount {
-  std::string frame;   ///< the judged images' in TF; empty: the camera's pose is T_parent_camera
-  std::string parent;  ///< link
+  std::string frame;   ///< of the judged images in TF; empty: T_parent_camera is the pose
+  std::string parent;  ///< a link of the robot
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
-  std::string told;  ///< by what, in words
+  std::string source;  ///< the source of the pose, for messages
 
   [[nodiscard]] bool operator==(const CameraMount& other) const {
     return frame == other.frame && parent == other.parent &&

@@ -16,9 +16,9 @@
 
 namespace penumbra::io {
 
-/// An image as it came, whose pixels are not decoded yet.
+/// A received image that is not decoded yet.
 struct KeptImage {
-  std::optional<ImageMessage> image;  ///< one of the two, which refers to what `owner` holds
+  std::optional<ImageMessage> image;  ///< one of the two is set; it views the data of `owner`
   std::optional<CompressedImageMessage> compressed;
   std::shared_ptr<const void> owner;
 
@@ -27,39 +27,42 @@ struct KeptImage {
   }
 };
 
-/// `owner` keeps the message's pixels alive; null: they are copied.
+/// Keeps a received image. `owner` keeps the message's pixels alive; if it is null, they are
+/// copied.
 template <typename M>
 [[nodiscard]] KeptImage keep_image(const M& message, std::shared_ptr<const void> owner = nullptr);
 
-/// Draws an image if it is one of `camera`; answers why not, or nothing.
+/// Decodes an image if it has the frame and size of `camera`. Returns why it does not, or an empty
+/// text.
 [[nodiscard]] std::string decode_color(const KeptImage& color, const Camera& camera,
                                        Image<Rgb8>& image);
 
-/// Color images, kept until the depth images of their stamps are shown. They are for pictures
-/// alone.
+/// Keeps colour images until the depth images with their stamps are shown. They are used for
+/// pictures only.
 class ColorImages {
  public:
-  /// Depth and color of one instant may be stamped apart by so much, nanoseconds.
+  /// The largest difference between the stamps of a depth image and its colour image, in
+  /// nanoseconds.
   static constexpr std::int64_t most_apart = 50'000'000;
   static constexpr const char* none_near = "no color image within 50 ms of the depth image's stamp";
 
-  /// `most_images`: that are kept at a time.
+  /// `most_images`: the number of images kept at a time.
   explicit ColorImages(std::size_t most_images) : most_images_(most_images) {}
 
   void add(KeptImage image);
 
-  /// Whether the one of `stamp`, or one after it, has come.
+  /// Returns whether an image with this stamp or a later one was received.
   [[nodiscard]] bool reaches(std::int64_t stamp) const { return newest_ >= stamp; }
 
-  /// The image that is nearest to `stamp`; null: none is near.
+  /// Returns the image nearest to `stamp`, or null if none is within most_apart.
   [[nodiscard]] const KeptImage* find(std::int64_t stamp) const;
 
-  /// Forgets what is older than a frame of `stamp` needs.
+  /// Removes images that are too old for a frame with this stamp.
   void forget_before(std::int64_t stamp);
 
  private:
   std::size_t most_images_;
-  std::deque<KeptImage> images_;  // as they came
+  std::deque<KeptImage> images_;  // in the order of arrival
   std::int64_t newest_ = 0;
 };
 

@@ -12,25 +12,26 @@
 
 namespace penumbra::io {
 
-/// Makes depth images of messages what the pipeline takes: of the judged camera's size, brought to
-/// it where they are another camera's.
+/// Converts depth images of messages to the input of the pipeline: checks their size, and registers
+/// them to the judged camera if they are of another camera.
 class DepthInput {
  public:
-  /// `depth_camera`: the depth images' own, if they are to be brought to `judged`.
+  /// `depth_camera`: the camera of the depth images, if they have to be registered to `judged`.
   DepthInput(const Camera& judged, const std::optional<Camera>& depth_camera);
 
-  /// Answers what is wrong with the message's image, one line, or nothing. `depth` refers to the
-  /// payload or to this, until the next call.
+  /// Decodes an image. Returns what is wrong with it, one line, or an empty text. `depth` views the
+  /// message's data or this object until the next call.
   template <typename M>
   [[nodiscard]] std::string decode(const M& message, DepthView& depth);
 
-  /// Answers why an image is not one of the camera, or nothing; it is empty then.
+  /// Returns why an image does not have the camera's size, or an empty text. Clears `depth` if the
+  /// size is wrong.
   [[nodiscard]] std::string check_size(DepthView& depth) const;
 
-  /// Whether images have to be brought to the judged camera.
+  /// Returns whether images have to be registered to the judged camera.
   [[nodiscard]] bool is_of_other_camera() const { return registration_.has_value(); }
 
-  /// Brings an image there, as TF says. Answers likewise.
+  /// Registers an image to the judged camera by TF. Returns why that fails, or an empty text.
   [[nodiscard]] std::string bring(const TransformAnswer& T_judged_depth, DepthView& depth);
 
  private:

@@ -9,21 +9,21 @@
 
 namespace penumbra::io {
 
-/// A frame's name as TF compares it: without one leading "/".
+/// Returns a frame's name as TF compares it: without one leading "/".
 [[nodiscard]] std::string_view frame_name(std::string_view name);
 
-/// Which frames hang below which, as TF tells it.
+/// The tree of frames, by TF.
 class FrameTree {
  public:
-  static constexpr std::size_t max_frames = 4096;  ///< as a TransformBuffer has
+  static constexpr std::size_t max_frames = 4096;  ///< as in TransformBuffer
 
-  /// The first parent of a frame stays. Answers whether it is news.
+  /// Adds a frame. A frame keeps its first parent. Returns whether the frame is new.
   bool add(std::string_view parent, std::string_view child);
 
   [[nodiscard]] bool has_parent(std::string_view frame) const { return parents_.contains(frame); }
-  /// The frame and those above it, nearest first.
+  /// Returns the frame and the frames above it, nearest first.
   [[nodiscard]] std::vector<std::string> chain(std::string_view frame) const;
-  /// Whether there is a way from one frame to the other.
+  /// Returns whether two frames are connected.
   [[nodiscard]] bool connects(std::string_view a, std::string_view b) const;
 
  private:

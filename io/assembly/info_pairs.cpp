@@ -11,10 +11,10 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t most_waiting_images = 8;
-/// Images may come late: 2 s and more at 90 Hz.
+/// Images may arrive late: this covers more than 2 s at 90 Hz.
 constexpr std::size_t most_infos = 256;
-/// A camera_info is no word on images that are older by more. Of a clock that began anew all that
-/// came before is later than what comes now.
+/// A camera_info does not apply to images that are older by more than this. After a clock reset all
+/// earlier messages have later stamps.
 constexpr std::int64_t longest_cover = 1'000'000'000;
 
 }  // namespace
@@ -29,10 +29,10 @@ void InfoPairs::match(ImageStamp& image, std::int64_t info) {
   likely_ = true;
 }
 
-void InfoPairs::look_for_two() {
+void InfoPairs::update_certainty() {
   for (std::size_t i = 1; i < images_.size(); ++i) {
     const std::int64_t one = images_[i - 1].info, other = images_[i].info;
-    certain_ |= one != 0 && other != 0 && one != other;  // one info for two images proves nothing
+    certain_ |= one != 0 && other != 0 && one != other;  // one camera_info may pair twice
   }
 }
 
@@ -46,7 +46,7 @@ void InfoPairs::add_image(std::int64_t stamp) {
   images_.push_back({stamp});
   if (images_.size() > most_waiting_images) images_.pop_front();
   for (const std::int64_t info : infos_) match(images_.back(), info);
-  look_for_two();
+  update_certainty();
 }
 
 void InfoPairs::add_info(std::int64_t stamp) {
@@ -58,7 +58,7 @@ void InfoPairs::add_info(std::int64_t stamp) {
   infos_.push_back(stamp);
   if (infos_.size() > most_infos) infos_.pop_front();
   for (ImageStamp& image : images_) match(image, stamp);
-  look_for_two();
+  update_certainty();
 }
 
 bool InfoPairs::covers(std::int64_t image) const {

@@ -10,40 +10,41 @@
 
 namespace penumbra::io {
 
-/// A camera_info and the images that it is of.
+/// A camera_info and the topic of its images.
 struct InfoOfImages {
   const CameraInfoMessage& info;
   std::string info_topic, image_topic;
 };
 
-/// What is known of a camera's images.
+/// The input of judged_cameras.
 struct CameraEvidence {
-  std::string source;  ///< the bag, for messages; empty: none
+  std::string source;  ///< the name of the bag for messages; may be empty
   InfoOfImages depth;
-  std::optional<InfoOfImages> color;  ///< if results are to fit the color image
+  std::optional<InfoOfImages> color;  ///< if depth is judged in the color image
   std::string depth_frame;            ///< frame_id of the depth images
-  bool info_is_named = false;         ///< the user says that this camera_info is theirs
-  bool is_rectified = false;          ///< the user says that all images are free of distortion
+  bool info_is_named = false;         ///< the user named this camera_info topic
+  bool is_rectified = false;          ///< the user set that all images have no distortion
 };
 
-/// The camera of the judged images, and the depth images' own if it is another.
+/// The camera of the judged images, and that of the depth images if it differs.
 struct JudgedCameras {
   Camera judged;
   std::optional<Camera> depth;
 };
 
-/// Throws InputError that names the topic, for what camera_of refuses and for a camera_info of
-/// another frame than the images.
+/// Returns the cameras. Throws InputError that names the topic if camera_of refuses it, or if a
+/// camera_info has another frame than the images.
 [[nodiscard]] JudgedCameras judged_cameras(const CameraEvidence& evidence);
 
-/// Whether two messages are of the same camera: all but the stamp.
+/// Returns whether two messages describe the same camera: all fields except the stamp are equal.
 [[nodiscard]] bool is_same_camera(const CameraInfoMessage& a, const CameraInfoMessage& b);
 
-/// Whether a topic is called as one of images without lens distortion is: its last part begins with
-/// "image_rect".
+/// Returns whether a topic name says that its images have no lens distortion: its last part begins
+/// with "image_rect".
 [[nodiscard]] bool is_called_rectified(const std::string& topic);
 
-/// A topic's name without what image_transport puts behind it: "/a/image" of "/a/image/compressed".
+/// Returns a topic name without the suffix of image_transport: "/a/image" for
+/// "/a/image/compressed".
 [[nodiscard]] std::string image_base(const std::string& topic);
 
 }  // namespace penumbra::io

@@ -8,13 +8,13 @@
 
 namespace penumbra::io {
 
-/// Counts messages that cannot be used, by topic, and keeps what was wrong with the first.
+/// Counts unusable messages by topic and keeps the fault of the first one.
 class MessageFaults {
  public:
   struct OfTopic {
     std::size_t messages = 0;
-    std::int64_t first = 0;  ///< when it came, nanoseconds of the caller's clock
-    std::string what;        ///< one line, of the first
+    std::int64_t first = 0;  ///< time of the first one, nanoseconds of the caller's clock
+    std::string what;        ///< fault of the first one, one line
   };
 
   void add(const std::string& topic, std::int64_t time, const std::string& what);

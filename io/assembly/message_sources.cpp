@@ -7,7 +7,7 @@
 namespace penumbra::io {
 namespace {
 
-/// FNV-1a of 64 bits.
+/// A 64-bit FNV-1a hash.
 class Key {
  public:
   void add(std::string_view text) {
@@ -25,14 +25,14 @@ class Key {
   std::uint64_t value_ = 0xCBF29CE484222325U;
 };
 
-std::string look_of(const JointStateMessage& state) {
-  std::string look = std::to_string(state.names.size()) + " joints";
-  if (state.names.size() == 1) look = "joint '" + printable(state.names[0]) + "'";
-  if (state.names.size() > 1) look += " from '" + printable(state.names[0]) + "'";
-  if (!state.velocities.empty()) look += ", velocities";
-  if (!state.efforts.empty()) look += ", efforts";
-  if (!state.header.frame_id.empty()) look += ", frame '" + printable(state.header.frame_id) + "'";
-  return look;
+std::string describe(const JointStateMessage& state) {
+  std::string text = std::to_string(state.names.size()) + " joints";
+  if (state.names.size() == 1) text = "joint '" + printable(state.names[0]) + "'";
+  if (state.names.size() > 1) text += " from '" + printable(state.names[0]) + "'";
+  if (!state.velocities.empty()) text += ", velocities";
+  if (!state.efforts.empty()) text += ", efforts";
+  if (!state.header.frame_id.empty()) text += ", frame '" + printable(state.header.frame_id) + "'";
+  return text;
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ const std::string& MessageSources::of_joints(const std::string& topic, std::uint
   for (const std::string& name : state.names) key.add(name);
   key.add((state.velocities.empty() ? 0U : 1U) + (state.efforts.empty() ? 0U : 2U));
   if (const auto found = names_.find(key.value()); found != names_.end()) return found->second;
-  return keep(key.value(), name_of(topic, publisher) + " (" + look_of(state) + ")");
+  return keep(key.value(), name_of(topic, publisher) + " (" + describe(state) + ")");
 }
 
 const std::string& MessageSources::of_transforms(const std::string& topic,
@@ -66,7 +66,7 @@ std::string MessageSources::name_of(const std::string& topic, std::uint64_t publ
 }
 
 const std::string& MessageSources::keep(std::uint64_t key, std::string name) {
-  if (names_.size() >= most) {  // who is still there gets another name, and is another source then
+  if (names_.size() >= most) {  // remaining publishers get new names and become new sources
     names_.clear();
     publishers_.clear();
   }

@@ -12,15 +12,15 @@
 
 namespace penumbra::io {
 
-/// Names for the publishers of joint states and transforms, as far as messages identify them: by
-/// the publisher's number, which a graph knows and a bag does not, and for joint states by the
-/// frame, the joints in their order, and whether there are velocities and efforts.
+/// Names the publishers of joint states and transforms. A publisher is identified by its number,
+/// which a graph has and a bag does not, and for joint states by the frame, the order of the
+/// joints, and the presence of velocities and efforts.
 class MessageSources {
  public:
-  static constexpr std::size_t most = 1024;  ///< that are remembered
+  static constexpr std::size_t most = 1024;  ///< largest number of names kept
 
-  /// `publisher`: a number that is no other one's on the topic; 0: not known. The name is valid
-  /// until the next call.
+  /// `publisher`: a unique number on the topic, or 0 if not known. The name is valid until the next
+  /// call.
   const std::string& of_joints(const std::string& topic, std::uint64_t publisher,
                                const JointStateMessage& state);
   const std::string& of_transforms(const std::string& topic, std::uint64_t publisher);
@@ -29,10 +29,10 @@ class MessageSources {
   std::string name_of(const std::string& topic, std::uint64_t publisher);
   const std::string& keep(std::uint64_t key, std::string name);
 
-  std::map<std::uint64_t, std::string> names_;  // by what sets them apart
+  std::map<std::uint64_t, std::string> names_;  // by the hash of the identifying fields
   std::set<std::string> used_;
-  std::map<std::pair<std::string, std::uint64_t>, std::size_t> publishers_;  // as they came
-  std::map<std::string, std::size_t> counts_;                                // of publishers
+  std::map<std::pair<std::string, std::uint64_t>, std::size_t> publishers_;  // in order
+  std::map<std::string, std::size_t> counts_;                                // number of publishers
 };
 
 }  // namespace penumbra::io

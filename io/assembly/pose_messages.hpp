@@ -12,19 +12,18 @@
 
 namespace penumbra::io {
 
-/// Of a history whose sources are compared, or not.
+/// Returns the options of a history that compares its sources or not.
 [[nodiscard]] PoseHistoryOptions history_options(bool compare_sources);
 
-/// Adds what a joint state of `source` (MessageSources) tells; how many of its positions were
-/// taken.
+/// Adds a joint state of `source` (see MessageSources). Returns the number of positions used.
 std::size_t add_to_history(const JointStateMessage& message, std::string_view source,
                            PoseHistory& history);
 
-/// Adds what a message of /tf or (static) of /tf_static tells.
+/// Adds a message of /tf, or of /tf_static if `is_static`.
 void add_to_history(const TfMessage& message, bool is_static, std::string_view source,
                     PoseHistory& history);
 
-/// What a history has refused, a line each.
+/// Returns the messages that a history refused, one line each.
 [[nodiscard]] std::vector<std::string> refusals_of(const PoseHistory& history);
 
 }  // namespace penumbra::io

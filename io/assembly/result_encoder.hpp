@@ -17,12 +17,12 @@
 
 namespace penumbra::io {
 
-/// The topics of results.
+/// The results that are published.
 enum class Result { virtual_depth, labels, mask, filtered_depth, points, targets, overlay };
 
 struct ResultTopic {
   Result result;
-  std::string_view name;  ///< below "/penumbra/"
+  std::string_view name;  ///< follows "/penumbra/"
   std::string_view type;
 };
 inline constexpr std::array result_topics = {
@@ -34,7 +34,7 @@ inline constexpr std::array result_topics = {
     ResultTopic{Result::targets, "targets", "penumbra_msgs/msg/Targets"},
     ResultTopic{Result::overlay, "overlay/compressed", "sensor_msgs/msg/CompressedImage"}};
 
-/// Where encoded results go: a bag, or ROS 2's graph.
+/// Receives encoded results: a bag or the graph of ROS 2.
 class ResultSink {
  public:
   ResultSink() = default;
@@ -42,20 +42,21 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
   virtual ~ResultSink() = default;
 
-  /// Whether this result is taken: others are not made.
+  /// Returns whether to make this result.
   [[nodiscard]] virtual bool wants(Result result) const = 0;
-  /// `payload`: the message in CDR, valid during the call.
+  /// Writes a result. `payload`: the message in CDR, valid during the call.
   virtual void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) = 0;
 };
 
-/// Makes messages of judged frames, those that their sink wants.
+/// Encodes the results of judged frames that a sink wants.
 class ResultEncoder {
  public:
-  /// `camera`: of the judged images as they come; `root`: the robot's root link.
+  /// `camera`: of the judged images as received; `root`: the robot's root link.
   ResultEncoder(const Camera& camera, std::string root)
       : results_(camera), root_(std::move(root)) {}
 
-  /// The report must have a stamp. `images.depth`: what was judged.
+  /// Encodes and writes the results of a frame. The report must have a stamp. `images.depth`: the
+  /// judged image.
   void encode(const FrameReport& report, const ShownImages& images, const ShownTargets& targets,
               ResultSink& sink);
 

@@ -14,17 +14,17 @@
 namespace penumbra::io {
 namespace {
 
-// One file of a recording. It is open while its time has come.
+// One file of a recording. It is open only while its messages are due.
 struct BagPart {
   std::filesystem::path file;
   std::int64_t start_time = 0;
   std::unique_ptr<BagReader> reader;
   BagMessage waiting;               // its next message
-  std::vector<std::size_t> topics;  // of the recording, by the file's own
-  std::size_t told_faults = 0;
+  std::vector<std::size_t> topics;  // index of the recording's topic for each topic of the file
+  std::size_t copied_faults = 0;
 };
 
-/// In no order.
+/// Returns the bags in a folder, in no order.
 std::vector<std::filesystem::path> bags_in(const std::filesystem::path& folder,
                                            std::error_code& fault) {
   std::vector<std::filesystem::path> files;
@@ -38,7 +38,7 @@ class BagFolder final : public BagReader {
  public:
   explicit BagFolder(const std::filesystem::path& folder) {
     std::string refusal;
-    for (const auto& file : files_of(folder)) look_into(file, refusal);
+    for (const auto& file : files_of(folder)) inspect(file, refusal);
     if (!any_read_) throw InputError(refusal);
     std::stable_sort(parts_.begin(), parts_.end(), [](const BagPart& a, const BagPart& b) {
       return a.start_time < b.start_time;
@@ -85,11 +85,15 @@ class BagFolder final : public BagReader {
     return files;
   }
 
-  // Files are opened twice: once for what they hold, and again when their time has come, so that
-  // not all are held open.
-  void look_into(const std::filesystem::path& file, std::string& refusal) {
-    BagPart part{
-        .file = file, .start_time = 0, .reader = {}, .waiting = {}, .topics = {}, .told_faults = 0};
+  // Reads the topics and start time of a file and closes it. The file is opened again when its
+  // messages are due, so that few files are open at a time.
+  void inspect(const std::filesystem::path& file, std::string& refusal) {
+    BagPart part{.file = file,
+                 .start_time = 0,
+                 .reader = {},
+                 .waiting = {},
+                 .topics = {},
+                 .copied_faults = 0};
     try {
       part.reader = open_bag_file(file);
     } catch (const InputError& error) {
@@ -135,22 +139,22 @@ class BagFolder final : public BagReader {
       const bool first = known == topics_.end();
       if (first) known = topics_.insert(known, std::move(topic));
       merge(qos, known->qos);
-      if (first) add_told_qos(*known);
+      if (first) set_qos(*known);
       count_messages(*known, count, first);
       part.topics.push_back(static_cast<std::size_t>(known - topics_.begin()));
     }
   }
 
-  void add_told_qos(BagTopic& topic) const {
+  void set_qos(BagTopic& topic) const {
     if (!metadata_) return;
-    const auto told = metadata_->qos.find({topic.name, topic.type});
-    if (told != metadata_->qos.end()) merge(told->second, topic.qos);
+    const auto stored = metadata_->qos.find({topic.name, topic.type});
+    if (stored != metadata_->qos.end()) merge(stored->second, topic.qos);
   }
 
   void count_messages(BagTopic& topic, const std::optional<std::uint64_t>& count, bool first) {
     if (metadata_) {
-      const auto told = metadata_->messages.find({topic.name, topic.type});
-      if (told != metadata_->messages.end()) topic.messages = told->second;
+      const auto stored = metadata_->messages.find({topic.name, topic.type});
+      if (stored != metadata_->messages.end()) topic.messages = stored->second;
     } else if (first) {
       topic.messages = count;
     } else if (topic.messages && count) {
@@ -162,11 +166,11 @@ class BagFolder final : public BagReader {
 
   void take_faults(BagPart& part) {
     const auto found = part.reader->faults();
-    for (; part.told_faults < found.size(); ++part.told_faults)
-      faults_.push_back(found[part.told_faults]);
+    for (; part.copied_faults < found.size(); ++part.copied_faults)
+      faults_.push_back(found[part.copied_faults]);
   }
 
-  // Of the open files, the one whose message comes first.
+  // Returns the open file with the earliest message.
   [[nodiscard]] std::optional<std::size_t> earliest() {
     std::erase_if(open_, [&](std::size_t i) { return parts_[i].reader == nullptr; });
     std::optional<std::size_t> first;
@@ -178,10 +182,10 @@ class BagFolder final : public BagReader {
   std::optional<BagMetadata> metadata_;
   std::vector<BagTopic> topics_;
   std::vector<std::string> faults_;
-  std::vector<BagPart> parts_;          // by start
+  std::vector<BagPart> parts_;          // by start time
   std::size_t next_part_ = 0;           // not yet opened again
   std::vector<std::size_t> open_;       // indices of parts, rising
-  std::optional<std::size_t> current_;  // whose message was given last
+  std::optional<std::size_t> current_;  // the file of the last returned message
   bool any_read_ = false;
 };
 

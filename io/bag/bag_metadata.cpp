@@ -6,7 +6,7 @@
 namespace penumbra::io {
 namespace {
 
-// Up to version 3 the paths begin with the recording's folder.
+// Up to version 3, paths begin with the recording's folder.
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) {
   std::filesystem::path beside = folder / name;
   std::filesystem::path above = folder.parent_path() / name;

@@ -12,17 +12,17 @@
 
 namespace penumbra::io {
 
-/// What `ros2 bag record` writes beside a recording's files when it ends.
+/// The metadata.yaml that `ros2 bag record` writes next to a recording's files when it ends.
 struct BagMetadata {
   std::vector<std::filesystem::path> files;  ///< in the order of recording; some may be missing
-  /// Messages by topic and type.
+  /// Number of messages by topic and type.
   std::map<std::pair<std::string, std::string>, std::uint64_t> messages;
-  std::map<std::pair<std::string, std::string>, OfferedQos> qos;  ///< likewise
+  std::map<std::pair<std::string, std::string>, OfferedQos> qos;  ///< by topic and type
 };
 
-/// Reads metadata.yaml of any version. Throws InputError with file and line for what it does not
-/// hold, for recordings without files and for such whose files or messages are compressed by
-/// themselves.
+/// Reads a metadata.yaml of any version. Throws InputError with file and line for missing or
+/// invalid entries, for recordings without files, and for recordings with compressed files or
+/// messages.
 [[nodiscard]] BagMetadata read_bag_metadata(const std::filesystem::path& file);
 
 }  // namespace penumbra::io

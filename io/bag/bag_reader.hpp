@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags of ROS 2, whatever they are stored in.
+// Bags of ROS 2 in any storage.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace penumbra::io {
 
-/// What a bag tells of how a topic's publishers offered it.
+/// The QoS that a topic's publishers offered, by the bag.
 struct OfferedQos {
-  std::optional<bool> latched;  ///< one of them was, at least; nothing: the bag does not tell
-  bool is_unreadable = false;   ///< it tells, but that cannot be read
+  std::optional<bool> latched;  ///< at least one publisher was; nothing: the bag does not say
+  bool is_unreadable = false;   ///< the bag has a QoS that cannot be read
 
   bool operator==(const OfferedQos&) const = default;
 };
@@ -23,15 +23,15 @@ struct OfferedQos {
 struct BagTopic {
   std::string name;  ///< "/joint_states"
   std::string type;  ///< "sensor_msgs/msg/JointState"
-  /// The type's text with those of all messages in it ("ros2msg"): the bag's own, or else the built
-  /// in one; empty where there is neither.
+  /// The message definition with all nested messages ("ros2msg"), from the bag or else built in;
+  /// empty if there is neither.
   std::string definition;
-  std::string encoding;                   ///< of its messages: "cdr"
-  std::optional<std::uint64_t> messages;  ///< how many, where the bag tells
+  std::string encoding;                   ///< of the messages: "cdr"
+  std::optional<std::uint64_t> messages;  ///< the number of messages, if the bag has a count
   OfferedQos qos = {};
 
   bool operator==(const BagTopic&) const = default;
-  /// Whether messages of both are of one topic, whoever publishes them.
+  /// Returns whether both are the same topic, possibly of different publishers.
   [[nodiscard]] bool is_same_topic(const BagTopic& other) const {
     return name == other.name && type == other.type && definition == other.definition &&
            encoding == other.encoding;
@@ -40,12 +40,13 @@ struct BagTopic {
 
 struct BagMessage {
   std::size_t topic = 0;            ///< index into topics()
-  std::int64_t log_time = 0;        ///< nanoseconds: when it was recorded
-  std::int64_t publish_time = 0;    ///< nanoseconds; log_time where the bag does not tell
+  std::int64_t log_time = 0;        ///< time of recording, nanoseconds
+  std::int64_t publish_time = 0;    ///< nanoseconds; log_time if the bag does not have it
   std::span<const std::byte> data;  ///< valid until the next call of next()
 };
 
-/// Gives the messages of a bag by log time. What of the bag is damaged is left out and told.
+/// Reads the messages of a bag in the order of log time. Damaged parts are left out and reported by
+/// faults().
 class BagReader {
  public:
   BagReader() = default;
@@ -53,21 +54,20 @@ class BagReader {
   BagReader& operator=(const BagReader&) = delete;
   virtual ~BagReader() = default;
 
-  /// Two topics of one name have different types. Files whose index lies may add topics while they
-  /// are read.
+  /// Returns the topics. Two topics with one name have different types. If a file's index is wrong,
+  /// topics may be added while it is read.
   [[nodiscard]] virtual std::span<const BagTopic> topics() const = 0;
 
-  /// False at the end.
+  /// Reads the next message. Returns false at the end.
   virtual bool next(BagMessage& message) = 0;
 
-  /// What was found wrong so far, one line each, which names the file. All of it is known at the
-  /// end.
+  /// Returns the faults found so far, one line each with the file's name. The list is complete at
+  /// the end.
   [[nodiscard]] virtual std::span<const std::string> faults() const = 0;
 };
 
-/// Opens *.mcap, *.db3 or the folder of a recording: the files of its metadata.yaml, or, where that
-/// is missing, all that lie there. Throws InputError that names the file where nothing can be read
-/// of it.
+/// Opens *.mcap, *.db3 or the folder of a recording: the files of its metadata.yaml or, without
+/// one, all bags in it. Throws InputError that names the file if nothing can be read.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path);
 
 }  // namespace penumbra::io

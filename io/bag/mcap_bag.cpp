@@ -32,7 +32,7 @@ class McapBag final : public BagReader {
   }
 
  private:
-  // Publishers of one topic have a channel each.
+  // Merges channels into topics: each publisher of a topic has a channel of its own.
   void take_channels() {
     for (const auto& [id, channel] : reader_.channels()) {
       if (topic_of_.contains(id)) continue;

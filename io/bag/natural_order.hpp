@@ -8,11 +8,11 @@
 
 namespace penumbra::io {
 
-/// Orders file names as people count: bag_2 before bag_10.
+/// Orders file names by their numbers: bag_2 before bag_10.
 [[nodiscard]] inline bool natural_less(const std::filesystem::path& left,
                                        const std::filesystem::path& right) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  // The digits in front, without leading zeros; they are taken off.
+  // Removes the leading digits and returns them without leading zeros.
   const auto take_digits = [&](std::string_view& rest) {
     std::size_t end = 0;
     while (end < rest.size() && is_digit(rest[end])) ++end;

@@ -9,9 +9,9 @@ constexpr OfferedQos unreadable{.latched = {}, .is_unreadable = true};
 OfferedQos of_list(const YamlNode& profiles) {
   OfferedQos qos;
   for (const YamlNode& profile : profiles.items()) {
-    const YamlNode* told = profile.find("durability");
-    if (told == nullptr) continue;
-    const std::string& durability = told->text();
+    const YamlNode* durability_node = profile.find("durability");
+    if (durability_node == nullptr) continue;
+    const std::string& durability = durability_node->text();
     if (durability == "1" || durability == "transient_local") qos.latched = true;
     if (durability == "2" || durability == "volatile") qos.latched = qos.latched.value_or(false);
   }

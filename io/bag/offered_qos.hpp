@@ -8,14 +8,14 @@
 
 namespace penumbra::io {
 
-/// What a recorder kept of the publishers' QoS, a list of profiles as YAML: with rmw's numbers up
-/// to Humble, with its words since. An empty text tells nothing.
+/// Reads the QoS of the publishers that a recorder stored: a YAML list of profiles, with rmw's
+/// numbers up to Humble and names since. An empty text gives an empty QoS.
 [[nodiscard]] OfferedQos read_offered_qos(const std::string& profiles);
 
-/// The same as a value of a metadata.yaml: a text or, since Jazzy, a list.
+/// Reads the value in a metadata.yaml: a text or, since Jazzy, a list.
 [[nodiscard]] OfferedQos read_offered_qos(const YamlNode& profiles);
 
-/// Of all publishers of both.
+/// Merges the QoS of further publishers into `qos`.
 void merge(const OfferedQos& other, OfferedQos& qos);
 
 }  // namespace penumbra::io

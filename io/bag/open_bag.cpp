@@ -20,7 +20,7 @@ std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error))
     throw InputError(file.string() + ": cannot be read: No such file or directory");
   throw InputError(file.string() +
-                   ": is no bag; *.mcap, *.db3 and folders with a metadata.yaml are");
+                   ": is not a bag; *.mcap, *.db3 and folders with a metadata.yaml are");
 }
 
 std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path) {

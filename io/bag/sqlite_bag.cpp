@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of rosbag2_storage_sqlite3, of any of its versions: `topics` and `messages`; since
-// Iron `message_definitions`, too.
+// Reads the tables of any version of rosbag2_storage_sqlite3: `topics`, `messages` and, since Iron,
+// `message_definitions`.
 #include <map>
 #include <utility>
 #include <vector>
@@ -23,8 +23,8 @@ class SqliteBag final : public BagReader {
   explicit SqliteBag(const std::filesystem::path& file) : database_(with_tables(file)) {
     if (!database_->fault().empty()) add_fault(database_->fault());
     read_topics();
-    // Two queries: the first needs the index alone, or sorts but numbers, and a damaged row costs
-    // no other.
+    // There are two queries: the first reads the index only or sorts numbers, and a damaged row
+    // does not affect the other rows.
     order_.emplace(*database_, "SELECT timestamp, rowid FROM messages ORDER BY timestamp, rowid");
     row_.emplace(*database_, "SELECT topic_id, data FROM messages WHERE rowid = ?");
   }
@@ -66,7 +66,8 @@ class SqliteBag final : public BagReader {
       topic_of_[*id] = topics_.size();
       topics_.push_back({std::move(*name), std::move(*type), std::move(definition),
                          std::move(*encoding), std::nullopt});
-      if (const auto told = qos.find(*id); told != qos.end()) topics_.back().qos = told->second;
+      if (const auto stored = qos.find(*id); stored != qos.end())
+        topics_.back().qos = stored->second;
     }
     if (step == SqliteQuery::Step::failed)
       add_fault("its topics cannot all be read: " + database_->failure());
@@ -98,7 +99,8 @@ class SqliteBag final : public BagReader {
     return definitions;
   }
 
-  // Where the next message stands; nothing at the end, or where the order itself is damaged.
+  // Returns the position of the next message, or nothing at the end or if the order itself is
+  // damaged.
   [[nodiscard]] std::optional<BagOrder> next_place() {
     if (ended_) return std::nullopt;
     const auto step = order_->step();
@@ -110,7 +112,7 @@ class SqliteBag final : public BagReader {
       }
       add_fault("the messages' times are damaged; the rest is left out");
     } else if (step == SqliteQuery::Step::failed) {
-      add_fault("is damaged behind " +
+      add_fault("is damaged after " +
                 (last_ ? "the message of " + std::to_string(last_->first) + " ns" : "its topics") +
                 " (" + database_->failure() + "); the rest is left out");
     }
@@ -131,7 +133,7 @@ class SqliteBag final : public BagReader {
     const auto topic = topic_of_.find(row_->integer(0).value_or(-1));
     const auto data = row_->blob(1);
     if (topic == topic_of_.end() || !data) {
-      add_fault(which + (data ? "is of a topic that the bag does not tell of" : "holds no bytes") +
+      add_fault(which + (data ? "is of a topic that the bag does not define" : "holds no bytes") +
                 "; left out");
       return false;
     }

@@ -18,8 +18,8 @@ constexpr std::string_view sqlite_magic{"SQLite format 3\0", 16};
 constexpr std::size_t page_size_at = 16;  // https://www.sqlite.org/fileformat.html, big-endian
 using FileStart = std::array<char, page_size_at + 2>;
 
-// A row costs some 40 steps of SQLite's virtual machine and has at least some 30 bytes. Only pages
-// that lead to themselves take more.
+// A row takes about 40 steps of SQLite's virtual machine and has at least about 30 bytes. Only
+// pages with cyclic references take more.
 constexpr std::uint64_t steps_per_byte = 16;
 constexpr std::uint64_t steps_at_least = 10'000'000;
 constexpr int steps_at_once = 1000;
@@ -35,7 +35,7 @@ std::filesystem::path with_suffix(std::filesystem::path file, const char* suffix
   return file;
 }
 
-// As SQLite wants names in its URIs: https://www.sqlite.org/uri.html
+// Returns the URI of a file for SQLite: https://www.sqlite.org/uri.html
 std::string uri_of(const std::filesystem::path& file, bool immutable) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).lexically_normal().string()) {
@@ -56,14 +56,15 @@ int count_down(void* left) {
   return steps == 0 || --steps == 0 ? 1 : 0;
 }
 
-// SQLite fills a page that is not whole with zeros, and messages there with them.
+// Records a fault if the file ends within a page: SQLite fills the rest with zeros, and messages in
+// it too.
 void check_pages(const std::filesystem::path& file, std::uint64_t size, const FileStart& start) {
   const auto high = static_cast<unsigned char>(start[page_size_at]);
   const auto low = static_cast<unsigned char>(start[page_size_at + 1]);
   const std::uint64_t page = high == 0 && low == 1 ? 65536 : 256ULL * high + low;
   if (page == 0 || size % page == 0) return;
   throw InputError(file.string() +
-                   ": is cut inside of a page; what stands before is readable after "
+                   ": is cut inside a page; the part before it is readable after "
                    "'truncate -s " +
                    std::to_string(size - size % page) + "' of a copy");
 }
@@ -74,8 +75,8 @@ bool answers(sqlite3* database, const char* query) {
 
 }  // namespace
 
-// A recorder that was killed leaves a journal beside its file, which must be read with it. Without
-// one nothing is written beside a recording.
+// A killed recorder leaves a journal next to its file, which has to be read too. Without a journal,
+// no file is written next to the recording.
 SqliteDatabase::SqliteDatabase(const std::filesystem::path& file) : file_(file) {
   InputFile input;
   input.open(file).require();
@@ -91,13 +92,14 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file) : file_(file) 
   if (open(!journal)) return;
   std::string first = failure();
   if (journal && open(true)) {
-    fault_ = "the journal beside it cannot be read (" + first + "); it is read without";
+    fault_ = "the journal next to it cannot be read (" + first + ") and is ignored";
     return;
   }
-  // Reads a file that is cut, too: its size need not be what its first page says.
+  // With this setting a truncated file can be read: its size may differ from the one in its first
+  // page.
   if (database_ != nullptr && answers(database_, "PRAGMA writable_schema=ON") &&
       answers(database_, "SELECT count(*) FROM sqlite_master")) {
-    fault_ = "is cut or damaged (" + first + "); what can be found is read";
+    fault_ = "is cut or damaged (" + first + "); the readable part is read";
     return;
   }
   close();

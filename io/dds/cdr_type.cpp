@@ -12,24 +12,26 @@
 namespace penumbra::io {
 namespace {
 
-// Cyclone DDS calls all of this from C: nothing may throw, and a null sample is its "no memory".
+// Cyclone DDS calls these functions from C: they must not throw. A null sample means "out of
+// memory".
 
 struct CdrType : ddsi_sertype {
   std::shared_ptr<ArrivalCounts> counts;
 };
 
-// Samples may outlive their type, so they share its counts.
+// Samples may outlive their type, so they share ownership of its counts.
 struct CdrSample : ddsi_serdata {
   std::unique_ptr<std::byte[]> bytes;
   std::uint32_t size = 0;
-  std::shared_ptr<ArrivalCounts> counts;  // of samples that arrived
+  std::shared_ptr<ArrivalCounts> counts;  // for received samples
   std::atomic<bool> taken = false;
 };
 
 const CdrSample* sample_of(const ddsi_serdata* data) { return static_cast<const CdrSample*>(data); }
 CdrSample* sample_of(ddsi_serdata* data) { return static_cast<CdrSample*>(data); }
 
-/// The protocol sends multiples of four bytes, so as many are there; the last ones are zero.
+/// Makes a sample. The protocol sends multiples of four bytes, so the size is rounded up and the
+/// padding is zero.
 CdrSample* new_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size) {
   std::unique_ptr<CdrSample> sample(new (std::nothrow) CdrSample);
   if (!sample) return nullptr;
@@ -50,12 +52,12 @@ ddsi_serdata* count_arrival(CdrSample* sample) {
   return sample;
 }
 
-/// Where RTPS 2.3 puts what (9.4.4, 9.4.5.3, 9.4.5.4): bytes from the start of a packet, and of a
-/// DATA or DATA_FRAG in it.
+/// Offsets of fields by RTPS 2.3 (9.4.4, 9.4.5.3, 9.4.5.4), in bytes from the start of a packet,
+/// and of a DATA or DATA_FRAG in it.
 constexpr std::size_t guid_prefix_at = 8, writer_at = 12, number_at = 16, header_end = 24;
 
-/// Counts what is missing by the writer's number of a sample, which Cyclone DDS does not pass on
-/// but leaves in the packet.
+/// Counts lost samples by the writer's sequence number, which Cyclone DDS does not pass on but
+/// leaves in the packet.
 void note_number(const CdrSample& sample, const nn_rdata& fragment) {
   const std::size_t start = NN_RDATA_SUBMSG_OFF(&fragment);
   const auto* const packet = reinterpret_cast<const std::byte*>(NN_RMSG_PAYLOAD(fragment.rmsg));
@@ -74,7 +76,7 @@ void note_number(const CdrSample& sample, const nn_rdata& fragment) {
   sample.counts->note_number(writer, (std::int64_t{high} << 32) | low);
 }
 
-bool keys_are_equal(const ddsi_serdata*, const ddsi_serdata*) { return true; }  // there are none
+bool keys_are_equal(const ddsi_serdata*, const ddsi_serdata*) { return true; }  // no keys
 
 std::uint32_t size_of(const ddsi_serdata* data) { return sample_of(data)->size; }
 
@@ -118,7 +120,7 @@ ddsi_serdata* from_key_hash(const ddsi_sertype* type, const ddsi_keyhash*) {
   return new_sample(type, SDK_KEY, 0);
 }
 
-/// Cyclone asks for it to dispose of instances; a sample in C++'s sense does not exist here.
+/// Cyclone calls this to dispose of instances. Samples have no C representation here.
 ddsi_serdata* from_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, const void*) {
   return kind == SDK_DATA ? nullptr : new_sample(type, kind, 0);
 }
@@ -187,12 +189,12 @@ void free_type(ddsi_sertype* type) {
   delete static_cast<CdrType*>(type);
 }
 
-// dds_takecdr and dds_writecdr, which are all that is called, know no samples in C's sense.
+// Only dds_takecdr and dds_writecdr are called. They need no samples in the C representation.
 void zero_samples(const ddsi_sertype*, void*, std::size_t) {}
 void realloc_samples(void**, const ddsi_sertype*, void*, std::size_t, std::size_t) {}
 void free_samples(const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {}
 
-bool are_equal(const ddsi_sertype* a, const ddsi_sertype* b) { return a == b; }  // counts differ
+bool are_equal(const ddsi_sertype* a, const ddsi_sertype* b) { return a == b; }  // by identity
 std::uint32_t hash_type(const ddsi_sertype*) { return 0; }
 
 const ddsi_sertype_ops type_functions = {
@@ -208,7 +210,7 @@ void ArrivalCounts::note_number(const Writer& writer, std::int64_t number) {
     lost += static_cast<std::uint64_t>(number - last->second - 1);
     last->second = number;
   }
-  if (last_.size() > most_writers) last_.clear();  // of publishers that come and go
+  if (last_.size() > most_writers) last_.clear();  // bounds the memory if publishers come and go
 }
 
 ddsi_sertype* make_cdr_type(const std::string& dds_name, std::shared_ptr<ArrivalCounts> counts) {

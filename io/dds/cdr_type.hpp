@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A type of DDS whose samples are bytes in CDR, whatever they mean.
+// A DDS type whose samples are CDR bytes of any message.
 #pragma once
 
 #include <array>
@@ -17,17 +17,17 @@
 
 namespace penumbra::io {
 
-/// What became of the samples that arrived as a type.
+/// Counts the received and lost samples of a type.
 class ArrivalCounts {
  public:
-  using Writer = std::array<std::byte, 16>;  // its GUID
+  using Writer = std::array<std::byte, 16>;  // the writer's GUID
 
   std::atomic<std::uint64_t> received = 0;
   std::atomic<std::uint64_t> overwritten = 0;
   std::atomic<std::uint64_t> lost = 0;
 
-  /// Of a sample in its order of arrival: those whose numbers lie between it and the one before are
-  /// lost.
+  /// Records the sequence number of a sample, in the order of arrival. Samples with numbers between
+  /// the previous one and this one are lost.
   void note_number(const Writer& writer, std::int64_t number);
 
  private:
@@ -37,19 +37,19 @@ class ArrivalCounts {
   std::map<Writer, std::int64_t> last_;
 };
 
-/// A new type of that DDS name for one topic entity, which then owns it. Samples that arrive as it
-/// are counted.
+/// Returns a new type with this DDS name for one topic entity, which then owns it. Samples received
+/// with this type are counted.
 [[nodiscard]] ddsi_sertype* make_cdr_type(const std::string& dds_name,
                                           std::shared_ptr<ArrivalCounts> counts);
 
-/// A sample to be written. Throws std::bad_alloc.
+/// Returns a sample to write. Throws std::bad_alloc.
 [[nodiscard]] ddsi_serdata* make_cdr_sample(const ddsi_sertype* type,
                                             std::span<const std::byte> bytes);
 
-/// The bytes of a sample of such a type, which live as long as it.
+/// Returns the bytes of a sample of such a type, valid while the sample exists.
 [[nodiscard]] std::span<const std::byte> cdr_bytes(const ddsi_serdata* sample);
 
-/// Owns one reference to a sample that was taken, which is overwritten no more.
+/// Owns one reference to a taken sample, which is not overwritten any more.
 [[nodiscard]] std::shared_ptr<const void> own_taken(ddsi_serdata* sample);
 
 }  // namespace penumbra::io

@@ -9,10 +9,10 @@
 namespace penumbra::io {
 namespace {
 
-constexpr int last_domain = 232;  // the ports of those beyond do not fit 16 bits
+constexpr int last_domain = 232;  // the ports of higher domains exceed 16 bits
 
 [[noreturn]] void refuse_domain(const std::string& what) {
-  throw InputError(what + ": no domain of DDS; wanted is a whole number from 0 to " +
+  throw InputError(what + ": is not a DDS domain; expected a whole number from 0 to " +
                    std::to_string(last_domain));
 }
 

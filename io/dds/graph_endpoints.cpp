@@ -17,7 +17,7 @@ using Hosts = std::map<Guid, std::string>;  // by participant
 
 Guid to_guid(const dds_guid_t& guid) { return std::to_array(guid.v); }
 
-/// Calls `take` for every sample of what is alive now.
+/// Calls `take` for each endpoint that is alive now.
 template <typename T, typename Take>
 void for_each_alive(dds_entity_t reader, Take take) {
   for (std::uint32_t room = 256;; room *= 2) {
@@ -37,7 +37,7 @@ void for_each_alive(dds_entity_t reader, Take take) {
   }
 }
 
-/// Cyclone DDS and Fast DDS each have a property for it.
+/// Returns the host by a property of Cyclone DDS or of Fast DDS.
 std::string host_of(const dds_qos_t* qos) {
   for (const char* const name : {"__Hostname", "fastdds.physical_data.host"}) {
     char* value = nullptr;

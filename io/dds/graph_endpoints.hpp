@@ -9,7 +9,7 @@
 
 namespace penumbra::io {
 
-/// What discovery tells of everybody's endpoints.
+/// Reads the endpoints of all participants from discovery.
 class GraphEndpoints {
  public:
   explicit GraphEndpoints(dds_entity_t participant);

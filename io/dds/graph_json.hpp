@@ -8,7 +8,7 @@
 
 namespace penumbra::io {
 
-/// What `topics --json` prints; what discovery does not tell is null.
+/// Returns the output of `topics --json`. Values that discovery does not have are null.
 [[nodiscard]] std::string graph_json(int domain, std::span<const GraphTopic> topics);
 
 }  // namespace penumbra::io

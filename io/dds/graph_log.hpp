@@ -6,11 +6,11 @@
 
 namespace penumbra::io {
 
-/// From now on what Cyclone DDS logs in this process is kept, the last 100 lines, in place of being
-/// printed.
+/// Keeps the last 100 log lines of Cyclone DDS in this process from now on, instead of printing
+/// them.
 void keep_logged_lines();
 
-/// The lines since the last call.
+/// Returns the lines since the last call.
 [[nodiscard]] std::vector<std::string> take_logged_lines();
 
 }  // namespace penumbra::io

@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view topic_prefix = "rt";
 constexpr std::string_view type_middle = "dds_";
 
-// Names come from strangers too, of any length: no regular expressions, whose matching is
-// recursive.
+// Names also come from other programs and have any length. So no regular expressions are used:
+// their matching is recursive.
 bool is_graph_word(std::string_view word) {
   if (word.empty() || (word[0] >= '0' && word[0] <= '9')) return false;
   for (const char c : word)
@@ -34,7 +34,7 @@ bool is_topic(std::string_view name) {
   return true;
 }
 
-/// The N words between separators, if there are N and each is one.
+/// Returns the N words between separators, or nothing if there are not N valid words.
 template <std::size_t N>
 std::optional<std::array<std::string_view, N>> words_of(std::string_view text,
                                                         std::string_view separator) {
@@ -56,8 +56,8 @@ bool is_kind(std::string_view word) { return word == "msg" || word == "srv" || w
 std::string dds_topic(std::string_view topic) {
   if (!is_topic(topic))
     throw InputError("topic '" + printable(topic) +
-                     "': no full name of a ROS 2 topic; one is /camera/depth/image_raw: letters, "
-                     "digits and _, no digit behind a /");
+                     "': is not a full ROS 2 topic name such as /camera/depth/image_raw: letters, "
+                     "digits and _, no digit after a /");
   return std::string(topic_prefix) + std::string(topic);
 }
 
@@ -65,7 +65,7 @@ std::string dds_type(std::string_view type) {
   const auto words = words_of<3>(type, "/");
   if (!words || !is_kind((*words)[1]))
     throw InputError("type '" + printable(type) +
-                     "': no message type of ROS 2; one is sensor_msgs/msg/Image");
+                     "': is not a ROS 2 message type such as sensor_msgs/msg/Image");
   const auto& [package, kind, name] = *words;
   return std::string(package) + "::" + std::string(kind) + "::" + std::string(type_middle) +
          "::" + std::string(name) + "_";

@@ -7,15 +7,17 @@
 
 namespace penumbra::io {
 
-// How ROS 2 names its topics and types in DDS.
+// Conversion between the names of topics and types in ROS 2 and in DDS.
 
-/// "rt/a/b" of "/a/b". Throws InputError for what is no full topic name.
+/// Returns "rt/a/b" for "/a/b". Throws InputError if it is not a full topic name.
 [[nodiscard]] std::string dds_topic(std::string_view topic);
 
-/// "sensor_msgs::msg::dds_::Image_" of "sensor_msgs/msg/Image". Throws InputError for what is none.
+/// Returns "sensor_msgs::msg::dds_::Image_" for "sensor_msgs/msg/Image". Throws InputError if it is
+/// not a message type.
 [[nodiscard]] std::string dds_type(std::string_view type);
 
-/// The way back; nothing for what is not ROS 2's topics: services, actions' parts, others' names.
+/// Returns the topic of a DDS name, or nothing if it is not a topic of ROS 2: services, parts of
+/// actions, other names.
 [[nodiscard]] std::optional<std::string> ros_topic(std::string_view dds_name);
 [[nodiscard]] std::optional<std::string> ros_type(std::string_view dds_name);
 

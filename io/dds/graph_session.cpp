@@ -12,21 +12,23 @@
 namespace penumbra::io {
 namespace {
 
-// Images of megabytes come as bursts of datagrams, which wait in the socket while others are read:
-// a default of 1 MiB loses some of them. The kernel cuts this to net.core.rmem_max. What is lost
-// all the same is asked for again after 10 ms, not 100: publishers of images keep few.
+// Images of megabytes arrive as bursts of datagrams, which wait in the socket while others are
+// read: the default buffer of 1 MiB loses some of them. The kernel limits the size to
+// net.core.rmem_max. Lost datagrams are requested again after 10 ms instead of 100, because
+// publishers of images keep few.
 constexpr std::string_view our_settings =
     R"(<CycloneDDS><Domain id="any"><Internal><SocketReceiveBufferSize max="16MiB"/>)"
     R"(<NackDelay>10ms</NackDelay></Internal></Domain></CycloneDDS>)";
 
-// Without multicast participants find each other by the ports of their numbers.
+// Without multicast, participants find each other by the ports of their numbers.
 constexpr std::string_view localhost_settings =
     R"(<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>)"
     R"(<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>)"
     R"(<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers>)"
     R"(</Discovery></Domain></CycloneDDS>)";
 
-// Shared memory would need a daemon, ends the process without it, and passes no bytes in CDR.
+// Shared memory is off: it needs a daemon, ends the process if there is none, and does not pass CDR
+// bytes.
 constexpr std::string_view last_settings =
     R"(<CycloneDDS><Domain id="any"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>)";
 
@@ -35,7 +37,8 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// Settings in XML or names of files, with commas between; later ones override earlier ones.
+/// Returns the settings, in XML or as file names, separated by commas. Later settings override
+/// earlier ones.
 std::string all_settings() {
   std::string all(our_settings);
   if (environment("ROS_LOCALHOST_ONLY") == "1") all += "," + std::string(localhost_settings);
@@ -44,7 +47,7 @@ std::string all_settings() {
   return all + "," + std::string(last_settings);
 }
 
-/// Why Cyclone DDS would not start, by the first line that it logged.
+/// Throws InputError with the first line that Cyclone DDS logged, or else `otherwise`.
 [[noreturn]] void refuse_graph(int domain, const std::string& otherwise) {
   const auto lines = take_logged_lines();
   std::string message =

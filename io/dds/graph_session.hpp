@@ -10,10 +10,10 @@ namespace penumbra::io {
 
 class GraphDomain;
 
-/// A participant of Cyclone DDS's and what one waits on. Its entities are deleted with it.
+/// A participant of Cyclone DDS and its wait set. Its entities are deleted with it.
 class GraphSession {
  public:
-  /// Throws InputError where Cyclone DDS refuses its settings or there is no network.
+  /// Throws InputError if Cyclone DDS refuses its settings or there is no network.
   explicit GraphSession(int domain);
   ~GraphSession();
   GraphSession(const GraphSession&) = delete;
@@ -24,11 +24,11 @@ class GraphSession {
   [[nodiscard]] dds_entity_t waker() const { return waker_; }
 
  private:
-  std::shared_ptr<GraphDomain> domain_;  // of this process; all its participants share it
+  std::shared_ptr<GraphDomain> domain_;  // shared by all participants of this process
   dds_entity_t participant_ = 0, waitset_ = 0, waker_ = 0;
 };
 
-/// What a function of Cyclone DDS's answered; throws InputError "WHAT: WHY" if it failed.
+/// Returns the result of a Cyclone DDS function. Throws InputError "WHAT: WHY" if it failed.
 dds_entity_t checked(dds_return_t result, const std::string& what);
 
 }  // namespace penumbra::io

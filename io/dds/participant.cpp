@@ -17,13 +17,13 @@
 namespace penumbra::io {
 namespace {
 
-/// One topic entity for each subscription and publication, as each has a type of its own.
+/// A topic entity. Each subscription and publication has one, because each has a type of its own.
 class DdsTopic {
  public:
   DdsTopic(std::shared_ptr<GraphSession> session, const std::string& topic, const std::string& type,
            std::shared_ptr<ArrivalCounts> counts)
       : session_(std::move(session)) {
-    const std::string name = dds_topic(topic);  // throws, so before there is a type
+    const std::string name = dds_topic(topic);  // may throw, so it precedes the type
     type_ = make_cdr_type(dds_type(type), std::move(counts));
     entity_ = dds_create_topic_sertype(session_->participant(), name.c_str(), &type_, nullptr,
                                        nullptr, nullptr);
@@ -40,7 +40,7 @@ class DdsTopic {
 
  private:
   std::shared_ptr<GraphSession> session_;
-  ddsi_sertype* type_ = nullptr;  // owned by the entity, once there is one
+  ddsi_sertype* type_ = nullptr;  // owned by the entity after that is made
   dds_entity_t entity_ = 0;
 };
 
@@ -64,7 +64,7 @@ class DdsSubscription final : public Subscription {
       dds_sample_info_t info;
       if (dds_takecdr(reader_, &data, 1, &info, DDS_ANY_STATE) != 1) return false;
       std::shared_ptr<const void> owner = own_taken(data);
-      if (!info.valid_data) continue;  // tells of a publisher's end, not a message
+      if (!info.valid_data) continue;  // the end of a publisher, not a message
       ++taken_;
       sample = {cdr_bytes(data), std::move(owner), info.source_timestamp, info.publication_handle};
       return true;

@@ -20,7 +20,7 @@ QosPointer make_qos(const TopicQos& qos) {
   dds_qset_durability(made.get(),
                       qos.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(made.get(), DDS_HISTORY_KEEP_LAST, qos.depth);
-  // What a latched topic keeps for those who come late.
+  // The history that a latched topic keeps for late subscribers.
   if (qos.latched)
     dds_qset_durability_service(made.get(), 0, DDS_HISTORY_KEEP_LAST, qos.depth,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);

@@ -15,13 +15,13 @@ struct DeleteQos {
 };
 using QosPointer = std::unique_ptr<dds_qos_t, DeleteQos>;
 
-/// As ROS 2's own participants say it.
+/// Returns the QoS in the form that ROS 2's own participants use.
 [[nodiscard]] QosPointer make_qos(const TopicQos& qos);
 
-/// What discovery tells of another's.
+/// Returns the QoS of a discovered endpoint.
 [[nodiscard]] TopicQos read_qos(const dds_qos_t* qos);
 
-/// DDS's number of a policy, as incompatible ones are told: "reliability".
+/// Returns the name of a policy by DDS's number, for incompatible QoS: "reliability".
 [[nodiscard]] std::string policy_name(std::uint32_t policy);
 
 }  // namespace penumbra::io

@@ -6,8 +6,8 @@
 namespace penumbra::io {
 namespace {
 
-// Two images of 1280x720, depth and colour, at once are 4.4 MiB in 70 datagrams. Measured at 30 Hz:
-// half of the colour images are lost with 1 MiB, none with 4 MiB (docs/ros2.md).
+// Two simultaneous images of 1280x720, depth and colour, are 4.4 MiB in 70 datagrams. Measured at
+// 30 Hz: half of the colour images are lost with 1 MiB, none with 4 MiB (docs/ros2.md).
 constexpr std::uint64_t enough = std::uint64_t{4} << 20;
 
 }  // namespace
@@ -21,8 +21,8 @@ std::optional<std::uint64_t> receive_buffer_limit() {
 
 std::string receive_buffer_advice(std::optional<std::uint64_t> limit) {
   if (!limit || *limit >= enough) return {};
-  return "the kernel gives a socket " + std::to_string(*limit / 1024) +
-         " KiB for what arrives, and large images are lost on the way: sudo sysctl -w "
+  return "the kernel limits the receive buffer to " + std::to_string(*limit / 1024) +
+         " KiB, and large images are lost: sudo sysctl -w "
          "net.core.rmem_max=16777216 (and in /etc/sysctl.d to keep it)";
 }
 

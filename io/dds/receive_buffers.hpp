@@ -7,11 +7,11 @@
 
 namespace penumbra::io {
 
-/// The most bytes that the kernel lets a socket hold for its reader (net.core.rmem_max); nothing
-/// where it does not tell.
+/// Returns the largest receive buffer in bytes that the kernel allows a socket (net.core.rmem_max),
+/// or nothing if it is not known.
 [[nodiscard]] std::optional<std::uint64_t> receive_buffer_limit();
 
-/// What to do where that limit costs images with QoS best effort; empty: nothing.
+/// Returns advice if the limit loses images with best effort QoS, or an empty text.
 [[nodiscard]] std::string receive_buffer_advice(std::optional<std::uint64_t> limit);
 
 }  // namespace penumbra::io

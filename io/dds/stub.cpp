@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of DDS where this build has none.
+// Replaces DDS in builds without it.
 #include <penumbra/base/error.hpp>
 
 #include <io/dds/participant.hpp>

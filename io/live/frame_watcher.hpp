@@ -8,7 +8,7 @@
 
 namespace penumbra::io {
 
-/// Receives a camera's frames as they were judged.
+/// Receives the judged frames of a camera.
 class FrameWatcher {
  public:
   FrameWatcher() = default;
@@ -16,12 +16,12 @@ class FrameWatcher {
   FrameWatcher& operator=(const FrameWatcher&) = delete;
   virtual ~FrameWatcher() = default;
 
-  /// Returns whether jobs should hold their colour image. Called by any thread.
+  /// Returns whether jobs should hold their colour image. Any thread may call this.
   [[nodiscard]] virtual bool wants_color() const = 0;
 
-  /// Takes a frame after its results were published. The camera's thread calls this and judges
-  /// nothing meanwhile: copy what is needed and return. `depth` is the judged image and may be
-  /// empty. All arguments are valid during the call only.
+  /// Receives a frame after its results were published. The camera's thread calls this and judges
+  /// no other frame meanwhile: copy the data you need and return. `depth` is the judged image and
+  /// may be empty. All arguments are valid during the call only.
   virtual void take(const LiveJob& job, const DepthView& depth, const FrameReport& report) = 0;
 };
 

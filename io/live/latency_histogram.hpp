@@ -9,7 +9,7 @@
 
 namespace penumbra::io {
 
-/// Durations in bins of 2 %, so that years of them take no more memory than one.
+/// A histogram of durations with bins of 2 %. Its size does not grow with the number of durations.
 class LatencyHistogram {
  public:
   void add(double milliseconds) {
@@ -20,7 +20,8 @@ class LatencyHistogram {
 
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// The duration that `share` of them do not exceed, milliseconds; nothing without any.
+  /// Returns the duration in milliseconds that the fraction `share` of the durations does not
+  /// exceed, or nothing if there are no durations.
   [[nodiscard]] std::optional<double> quantile(double share) const {
     if (count_ == 0) return std::nullopt;
     const auto wanted = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count_)));

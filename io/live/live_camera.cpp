@@ -154,23 +154,23 @@ void LiveCamera::drop_waiting(LiveDrop reason) {
   queued_.clear();
 }
 
-LiveCamera::Company LiveCamera::company_of(const Waiting& waiting, std::int64_t now) {
+LiveCamera::InfoState LiveCamera::find_info(const Waiting& waiting, std::int64_t now) {
   const std::int64_t stamp = waiting.image.header().stamp;
-  // One without a stamp has none; the queue drops it.
-  if (stamp <= 0 || !pairs_.are_likely() || pairs_.covers(stamp)) return Company::known;
-  if (now - waiting.arrived < companion_wait) return Company::awaited;
-  if (pairs_.are_certain()) return Company::missing;
-  pairs_.doubt();
-  return Company::known;
+  // An image without a stamp has no camera_info of its own. The queue drops it.
+  if (stamp <= 0 || !pairs_.are_likely() || pairs_.covers(stamp)) return InfoState::known;
+  if (now - waiting.arrived < companion_wait) return InfoState::awaited;
+  if (pairs_.are_certain()) return InfoState::missing;
+  pairs_.note_missing();
+  return InfoState::known;
 }
 
 void LiveCamera::admit(std::int64_t now) {
   while (setup_ && !arrived_.empty()) {
-    const Company company = company_of(arrived_.front(), now);
-    if (company == Company::awaited) return;
+    const InfoState state = find_info(arrived_.front(), now);
+    if (state == InfoState::awaited) return;
     Waiting waiting = std::move(arrived_.front());
     arrived_.pop_front();
-    if (company == Company::missing) {
+    if (state == InfoState::missing) {
       ++without_info_;
       drop(LiveDrop::no_camera_info);
       continue;

@@ -23,8 +23,8 @@
 namespace penumbra::io {
 
 struct LiveCameraOptions {
-  std::string name = {};         ///< empty: the only camera
-  std::string depth_topic = {};  ///< topics: for messages
+  std::string name = {};         ///< empty if there is one camera only
+  std::string depth_topic = {};  ///< the topic names are used in messages to the user
   std::string info_topic = {};
   std::string color_topic = {};       ///< empty: none
   std::string color_info_topic = {};  ///< empty: depth is judged in its own image
@@ -32,32 +32,32 @@ struct LiveCameraOptions {
   bool info_is_named = false;  ///< CameraEvidence
   bool is_rectified = false;   ///< likewise
   PoseSource poses = PoseSource::joints;
-  double time_offset = 0.0;    ///< FrameQueueOptions
+  double time_offset = 0.0;    ///< see FrameQueueOptions
   double max_wait = 0.2;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
 };
 
-/// Why an image was not judged.
+/// The reason why an image was not judged.
 enum class LiveDrop {
-  superseded,  ///< as DropReason has it, and so the next five
+  superseded,  ///< this and the next five are those of DropReason
   late,
   overflow,
   clock_jump,
   no_stamp,
   no_pose,
-  unreadable,  ///< the message cannot be decoded
-  not_ready,   ///< there was no robot, or no camera_info yet
-  changed,     ///< robot, camera_info or mount changed while it waited, or the image is from before
-  no_camera_info  ///< its own did not come, as others' did: it may be another camera's
+  unreadable,     ///< the message cannot be decoded
+  not_ready,      ///< no robot or no camera_info was known yet
+  changed,        ///< robot, camera_info or mount changed while it waited, or it was taken before
+  no_camera_info  ///< its own camera_info is missing, other images have one
 };
 inline constexpr std::size_t live_drops = 10;
 [[nodiscard]] std::string_view to_string(LiveDrop reason);
 
-/// What became of the depth images: received = judged + failed + dropped + waiting + in work.
+/// Counts depth images by result: received = judged + failed + dropped + waiting + in_work.
 struct LiveCounts {
   std::size_t received = 0;
-  std::size_t judged = 0;  ///< and published
-  std::size_t failed = 0;  ///< nothing could be said of them
+  std::size_t judged = 0;  ///< judged and published
+  std::size_t failed = 0;  ///< no result could be computed
   std::size_t waiting = 0;
   std::size_t in_work = 0;
   std::array<std::size_t, live_drops> dropped{};
@@ -69,24 +69,26 @@ struct LiveCounts {
 
 /// Targets that were never judged.
 struct LiveTargets {
-  std::size_t replaced = 0;  ///< newer ones of their names came first
-  /// TargetInbox::discarded, those that waited for another setup, and those of images that failed.
+  std::size_t replaced = 0;  ///< replaced by newer targets of the same name
+  /// Sums TargetInbox::discarded, the targets that waited when the setup changed, and the targets
+  /// of images that failed.
   std::size_t discarded = 0;
-  std::size_t early = 0;  ///< messages: there was no robot or no camera yet
+  std::size_t early = 0;  ///< messages received before robot and camera were known
 };
 
-/// The messages of one camera: keeps depth images until they can be judged, newest first. Knows no
-/// thread and no clock, as FrameQueue.
+/// Receives the messages of one camera and keeps depth images until they can be judged, newest
+/// first. Uses no threads and no clock, like FrameQueue.
 class LiveCamera {
  public:
-  /// Of drivers that send a camera_info with each image, how long an image waits for its own.
+  /// How long an image waits for its own camera_info if the driver sends one with each image, in
+  /// nanoseconds.
   static constexpr std::int64_t companion_wait = 100'000'000;
 
-  /// `robot` must outlive this. Throws InputError for what FrameQueue would refuse.
+  /// `robot` must outlive this. Throws InputError for options that FrameQueue refuses.
   LiveCamera(LiveCameraOptions options, const LiveRobot& robot);
 
   void take_depth(KeptImage image, std::int64_t now);
-  /// For images that cannot be decoded.
+  /// Counts an image that cannot be decoded.
   void drop_unreadable();
   void take_info(const CameraInfoMessage& info, std::int64_t now);
   void take_color_info(const CameraInfoMessage& info);
@@ -99,33 +101,34 @@ class LiveCamera {
       ++targets_.early;
   }
 
-  /// To be called when the robot may have changed.
+  /// Updates the setup. Call this when the robot may have changed.
   void follow_robot() { refresh(); }
 
-  /// The next image to be judged; false: none yet. `with_color`: with its colour image.
+  /// Sets `job` to the next image to judge. Returns false if no image is ready. `with_color`: adds
+  /// the colour image.
   bool next(std::int64_t now, bool with_color, LiveJob& job);
-  /// To be called once for each job.
+  /// Counts the outcome of a job. Call this once for each job.
   void done(const LiveOutcome& outcome);
-  /// When next() has something even if nothing comes.
+  /// Returns when next() will have an image even if no message arrives.
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
 
   [[nodiscard]] const LiveCameraOptions& options() const { return options_; }
   [[nodiscard]] LiveCounts counts() const;
-  /// By what images are judged now; null: setup_fault() says why, or robot or camera are not known.
+  /// Returns the current setup, or null if setup_fault() is set or robot or camera are not known.
   [[nodiscard]] const LiveSetup* setup() const { return setup_.get(); }
   [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
   [[nodiscard]] bool has_info() const { return info_.has_value(); }
   [[nodiscard]] bool lacks_color_info() const {
     return !options_.color_info_topic.empty() && !color_info_;
   }
-  /// How many images in succession were dropped as LiveDrop::no_camera_info until now.
+  /// Returns the number of consecutive images that were dropped as LiveDrop::no_camera_info.
   [[nodiscard]] std::size_t without_info() const { return without_info_; }
   [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
   [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
-  /// Stamp of the image that came last.
+  /// Returns the stamp of the last image.
   [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }
-  /// How often images come, nanoseconds: the shortest of the last intervals, as one that is long
-  /// may be a pause; nothing: not known yet.
+  /// Returns the period of the images in nanoseconds, or nothing if it is not known yet. It is the
+  /// shortest of the last intervals, because a long one may be a pause.
   [[nodiscard]] std::optional<std::int64_t> depth_period() const;
   [[nodiscard]] LiveTargets targets() const;
 
@@ -134,9 +137,9 @@ class LiveCamera {
     KeptImage image;
     std::int64_t arrived = 0;
   };
-  /// An image's own camera_info, where others came with theirs.
-  enum class Company { known, awaited, missing };
-  /// What a setup is made of.
+  /// The state of an image's own camera_info if the driver sends one with each image.
+  enum class InfoState { known, awaited, missing };
+  /// The inputs of a setup.
   struct Basis {
     const PosedRobot* robot = nullptr;
     std::uint64_t frames = 0, cameras = 0;
@@ -150,17 +153,17 @@ class LiveCamera {
   void drop_waiting(LiveDrop reason);
   void drop(LiveDrop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; }
   void admit(std::int64_t now);
-  [[nodiscard]] Company company_of(const Waiting& waiting, std::int64_t now);
+  [[nodiscard]] InfoState find_info(const Waiting& waiting, std::int64_t now);
 
   LiveCameraOptions options_;
   const LiveRobot& robot_;
   std::shared_ptr<LiveSetup> setup_;
-  Basis basis_;  // of the setup, or of the last try to make one
+  Basis basis_;  // of the setup, or of the last attempt to make one
   std::string setup_fault_;
   std::optional<CameraInfoMessage> info_, color_info_;
   std::uint64_t cameras_revision_ = 0;
   std::size_t camera_changes_ = 0;
-  std::int64_t valid_from_ = 0;   // images of earlier stamps are of another camera
+  std::int64_t valid_from_ = 0;   // images with earlier stamps come from another camera
   std::int64_t newest_info_ = 0;  // stamp
   InfoPairs pairs_;
   std::size_t without_info_ = 0;
@@ -172,8 +175,8 @@ class LiveCamera {
   LiveCounts counts_;
   std::optional<std::int64_t> last_depth_;
   std::int64_t last_stamp_ = 0;
-  std::deque<std::int64_t> intervals_;  // of the last depth images
-  LiveTargets targets_;                 // of former setups
+  std::deque<std::int64_t> intervals_;  // between the last depth images
+  LiveTargets targets_;                 // of previous setups
 };
 
 }  // namespace penumbra::io

@@ -15,13 +15,13 @@ namespace {
 
 using Status = DiagnosticStatusMessage;
 
-/// What does not come for so long has stopped, nanoseconds: of images, and as many of their own
-/// periods.
+/// A stream has stopped after this time without a message, in nanoseconds. Images are also given
+/// this number of their own periods.
 constexpr std::int64_t silence = 1'000'000'000;
 constexpr std::int64_t periods_awaited = 2;
 
-/// One that is lost is no trouble.
-constexpr std::size_t told_without_info = 3;
+/// Fewer consecutive images without camera_info are not reported: one may be lost.
+constexpr std::size_t least_without_info = 3;
 
 std::string decimal(double value, const char* unit) {
   std::array<char, 64> text{};
@@ -33,7 +33,7 @@ std::string seconds_since(std::int64_t then, std::int64_t now) {
   return decimal(static_cast<double>(now - then) * 1e-9, " s");
 }
 
-/// Why nothing comes on a topic, as far as the transport knows; empty: it does not.
+/// Returns why a topic has no messages, or an empty text if the transport gives no reason.
 std::string silence_of(const LiveLink& link, const LiveTopic& topic) {
   const std::string name = printable(topic.name);
   if (!link.other_type.empty())
@@ -42,12 +42,12 @@ std::string silence_of(const LiveLink& link, const LiveTopic& topic) {
   if (link.publishers > 0) return {};
   if (!link.refused_because.empty())
     return "the publisher of " + name + " offers another QoS (" + link.refused_because +
-           ") than is asked for" +
+           ") than requested" +
            (link.refused_because == "reliability" ? "; leave --reliable out" : "");
   return "no publisher of " + name;
 }
 
-/// The topics of a role, and of one camera where it has such.
+/// Calls `call` with the index of each topic of a role and camera.
 template <typename F>
 void for_each_topic(const LiveInbox& inbox, LiveRole role, std::size_t camera, const F& call) {
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
@@ -66,7 +66,7 @@ std::string why_silent(const LiveInbox& inbox, LiveRole role, std::size_t camera
       why += (why.empty() ? "" : "; ") + std::to_string(fault->second.messages) +
              " messages cannot be read: " + fault->second.what;
   });
-  return why.empty() ? "nothing comes from its publisher" : why;
+  return why.empty() ? "its publisher sends nothing" : why;
 }
 
 std::string since(const std::optional<std::int64_t>& last, std::int64_t now) {
@@ -121,7 +121,7 @@ void add_tally(Status& status, const LiveTally& tally) {
       add(status, "last " + std::string(stage.name), decimal(*time, " ms"));
 }
 
-/// With the names that report.json has.
+/// Adds the renderer, with the names of report.json.
 void add_renderer(Status& status, const RendererInfo& renderer) {
   const Json json = renderer_json(renderer);
   for (const auto& [key, value] : json.items())
@@ -142,8 +142,7 @@ std::string name_of(const LiveCamera& camera) {
 
 }  // namespace
 
-LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> links,
-                             std::int64_t now) {
+LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, std::int64_t now) {
   const LiveRobot& robot = inbox.robot();
   if (!robot.fault().empty()) return {Status::error, robot.fault()};
   if (robot.is_being_made())
@@ -161,13 +160,13 @@ LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> l
   const auto& used = robot.last_used_joints();
   if (by_joints && (!used || now - *used > silence))
     return {Status::error, "no joint states of the robot" + since(used, now) + ": " +
-                               (robot.unused_joints().empty() ? "none came since it is known"
+                               (robot.unused_joints().empty() ? "none came since the robot is known"
                                                               : robot.unused_joints())};
   return {};
 }
 
-LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
-                              std::span<const LiveLink> links, std::int64_t now) {
+LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
+                       std::int64_t now) {
   const LiveCamera& camera = inbox.camera(number);
   const LiveTally& tally = inbox.tally(number);
   const std::int64_t patience = silence + periods_awaited * camera.depth_period().value_or(0);
@@ -181,14 +180,14 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
     return {Status::error, "no camera_info of the color images yet: " +
                                why_silent(inbox, LiveRole::color_info, number, links)};
   if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
-  if (camera.without_info() >= told_without_info)
+  if (camera.without_info() >= least_without_info)
     return {Status::error,
             std::to_string(camera.without_info()) +
-                " images came without a camera_info of their own, as others had: they may be "
+                " images have no camera_info of their own, as others do: they may be "
                 "another camera's and are not judged: " +
                 why_silent(inbox, LiveRole::camera_info, number, links)};
   if (!inbox.robot().posed()) {
-    const LiveTrouble robot = trouble_of_robot(inbox, links, now);
+    const LiveFault robot = robot_fault(inbox, links, now);
     return {Status::error, "nothing can be judged: " + robot.why};
   }
   if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
@@ -201,26 +200,26 @@ LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t number,
   return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
 }
 
-DiagnosticStatusMessage LiveDiagnostics::begun(const std::string& about,
-                                               const LiveTrouble& trouble) const {
-  return {.level = trouble.level,
-          .name = speaker_.name + ": " + about,
-          .message = trouble.why,
-          .hardware_id = speaker_.hardware_id,
+DiagnosticStatusMessage LiveDiagnostics::make_status(const std::string& subject,
+                                                     const LiveFault& fault) const {
+  return {.level = fault.level,
+          .name = source_.name + ": " + subject,
+          .message = fault.why,
+          .hardware_id = source_.hardware_id,
           .values = {}};
 }
 
 DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const {
-  const LiveTrouble trouble = trouble_of_robot(inbox, links, period.now);
-  Status status = begun("robot", trouble);
+  const LiveFault current = robot_fault(inbox, links, period.now);
+  Status status = make_status("robot", current);
   if (const auto& posed = inbox.robot().posed()) {
-    if (status.message.empty()) status.message = posed->robot.name() + ", its pose is told";
+    if (status.message.empty()) status.message = posed->robot.name() + ", its pose is known";
     for (const std::string& line : refusals_of(posed->history)) add(status, "note", line);
     for (const std::string& line : posed->robot.notes()) add(status, "note", line);
   }
-  add_count(status, "robots told", inbox.robot().robots());
+  add_count(status, "robots received", inbox.robot().robots());
   for (const auto& [topic, fault] : inbox.faults().all())
     add(status, "unreadable in " + printable(topic),
         std::to_string(fault.messages) + ", the first: " + fault.what);
@@ -235,14 +234,14 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
                                                        const Period& period) const {
   const LiveCamera& camera = inbox.camera(number);
   const LiveCounts counts = camera.counts();
-  const LiveTrouble trouble = trouble_of_camera(inbox, number, links, period.now);
+  const LiveFault current = camera_fault(inbox, number, links, period.now);
   const double rate = static_cast<double>(counts.judged - judged_[number]) / period.seconds;
-  Status status = begun(name_of(camera), trouble);
-  if (trouble.why.empty()) status.message = decimal(rate, " frames/s judged");
+  Status status = make_status(name_of(camera), current);
+  if (current.why.empty()) status.message = decimal(rate, " frames/s judged");
   add(status, "judged per second", decimal(rate, ""));
   if (camera.setup() != nullptr)
     add(status, "camera on link",
-        camera.setup()->mount.parent + ", by " + camera.setup()->mount.told);
+        camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
   if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
   add_tally(status, inbox.tally(number));

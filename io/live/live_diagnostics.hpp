@@ -14,49 +14,48 @@
 
 namespace penumbra::io {
 
-/// What the transport knows of a subscription.
+/// The state of a subscription, as the transport reports it.
 struct LiveLink {
-  bool is_open = false;  ///< it is subscribed to
+  bool is_open = false;  ///< subscribed
   int publishers = 0;
   std::uint64_t lost = 0;            ///< by the transport
-  std::uint64_t overwritten = 0;     ///< by newer ones, before they were read
-  std::string refused_because = {};  ///< a publisher's QoS does not fit: the policy; empty: none
-  std::string other_type =
-      {};  ///< the topic's messages are of this type, which is not the one wanted
+  std::uint64_t overwritten = 0;     ///< replaced by newer messages before they were read
+  std::string refused_because = {};  ///< the incompatible QoS policy; empty: none
+  std::string other_type = {};       ///< the published type if it is not the expected one
 };
 
-/// When a report is made.
+/// The time of a report.
 struct LiveMoment {
-  std::int64_t now = 0;         ///< of the inbox's clock
+  std::int64_t now = 0;         ///< on the inbox's clock
   std::int64_t system_now = 0;  ///< nanoseconds since 1970
 };
 
-/// Why a camera's results do not come, or cannot be trusted, in one line; empty: they do.
-struct LiveTrouble {
+/// The reason why results are missing or unreliable, in one line; empty if there is no fault.
+struct LiveFault {
   std::uint8_t level = DiagnosticStatusMessage::ok;
   std::string why;
 };
 
-/// Who says it: several may be on one graph.
-struct LiveSpeaker {
-  std::string name = "penumbra";  ///< begins each status's name
-  std::string hardware_id = {};   ///< the machine
+/// Names the sender of diagnostics, because one graph may have several.
+struct DiagnosticSource {
+  std::string name = "penumbra";  ///< the prefix of each status name
+  std::string hardware_id = {};   ///< the name of the machine
 };
 
-/// Tells how it goes, for diagnostic_msgs: one status of the robot, and one of each camera, with
-/// rates since the last report and, where nothing is published, the reason.
+/// Makes diagnostic_msgs: one status of the robot and one of each camera. A status has the rates
+/// since the last report and, if nothing is published, the reason.
 class LiveDiagnostics {
  public:
-  explicit LiveDiagnostics(std::int64_t started, LiveSpeaker speaker = {})
-      : before_(started), speaker_(std::move(speaker)) {}
+  explicit LiveDiagnostics(std::int64_t started, DiagnosticSource source = {})
+      : before_(started), source_(std::move(source)) {}
 
-  /// `links`: one for each of inbox.topics().
+  /// Returns the diagnostics now. `links`: one for each of inbox.topics().
   [[nodiscard]] DiagnosticArrayMessage report(const LiveInbox& inbox,
                                               std::span<const LiveLink> links,
                                               const LiveMoment& moment);
 
  private:
-  /// Since the last report.
+  /// The time since the last report.
   struct Period {
     std::int64_t now;
     double seconds;
@@ -70,18 +69,18 @@ class LiveDiagnostics {
   [[nodiscard]] double rate_of(const LiveInbox& inbox, std::size_t topic,
                                const Period& period) const;
 
-  [[nodiscard]] DiagnosticStatusMessage begun(const std::string& about,
-                                              const LiveTrouble& trouble) const;
+  [[nodiscard]] DiagnosticStatusMessage make_status(const std::string& subject,
+                                                    const LiveFault& fault) const;
 
-  std::int64_t before_;                // when the last report was made
-  std::vector<std::size_t> judged_;    // of each camera, until then
-  std::vector<std::size_t> received_;  // of each topic, until then
-  LiveSpeaker speaker_;
+  std::int64_t before_;                // time of the last report
+  std::vector<std::size_t> judged_;    // of each camera, at the last report
+  std::vector<std::size_t> received_;  // of each topic, at the last report
+  DiagnosticSource source_;
 };
 
-[[nodiscard]] LiveTrouble trouble_of_robot(const LiveInbox& inbox, std::span<const LiveLink> links,
-                                           std::int64_t now);
-[[nodiscard]] LiveTrouble trouble_of_camera(const LiveInbox& inbox, std::size_t camera,
-                                            std::span<const LiveLink> links, std::int64_t now);
+[[nodiscard]] LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links,
+                                    std::int64_t now);
+[[nodiscard]] LiveFault camera_fault(const LiveInbox& inbox, std::size_t camera,
+                                     std::span<const LiveLink> links, std::int64_t now);
 
 }  // namespace penumbra::io

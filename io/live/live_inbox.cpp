@@ -10,7 +10,8 @@
 namespace penumbra::io {
 namespace {
 
-/// Beyond that a stamp is of another clock: a simulation's, or one that is not set. Nanoseconds.
+/// Stamps with a larger latency come from another clock: a simulation's, or one that is not set.
+/// Nanoseconds.
 constexpr std::int64_t longest_latency = 60'000'000'000;
 
 std::string type_of_images(const std::string& topic) {
@@ -158,7 +159,8 @@ void LiveInbox::receive_targets_as(std::size_t topic, const LiveMessage& message
                                    std::int64_t now) {
   M found;
   if (!decode(topic, message, now, found)) return;
-  // Pixels are those of the camera that they name; if none is called so, each says what is wrong.
+  // Pixel coordinates belong to the camera that the message names. If no camera has that frame, all
+  // cameras take the message and report the mismatch.
   const auto is_meant = [&](const std::unique_ptr<LiveCamera>& camera) {
     return is_of_pixels<M> && camera->setup() != nullptr &&
            frame_name(camera->setup()->cameras.judged.frame_id) ==

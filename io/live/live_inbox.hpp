@@ -19,7 +19,7 @@
 
 namespace penumbra::io {
 
-/// What a topic says.
+/// The content of a topic.
 enum class LiveRole {
   description,
   joints,
@@ -34,13 +34,13 @@ enum class LiveRole {
 
 struct LiveTopic {
   LiveRole role = LiveRole::depth;
-  std::size_t camera = 0;  ///< for those of one camera
+  std::size_t camera = 0;  ///< for topics of one camera
   std::string name = {};
-  std::string type = {};  ///< empty: one of several, see LiveInbox::set_type
-  bool latched = false;   ///< told once, to who comes late, too
+  std::string type = {};  ///< empty if there are several, see LiveInbox::set_type
+  bool latched = false;   ///< published once, and kept for late subscribers
 };
 
-/// Names are those on the graph, with remapping and namespaces.
+/// Topic names are those on the graph, after remapping and with namespaces.
 struct LiveOptions {
   LiveRobotOptions robot = {};
   PoseSource poses = PoseSource::joints;
@@ -52,52 +52,53 @@ struct LiveOptions {
   std::vector<LiveCameraOptions> cameras = {};
 };
 
-/// A message as it came: CDR.
+/// A received message in CDR.
 struct LiveMessage {
   std::span<const std::byte> data;
-  std::shared_ptr<const void> owner;  ///< keeps `data` alive; null: what stays is copied
-  std::uint64_t publisher = 0;        ///< a number that is no other one's; 0: not known
+  std::shared_ptr<const void> owner;  ///< keeps `data` alive; null: data that is kept is copied
+  std::uint64_t publisher = 0;        ///< a unique number; 0: not known
 };
 
-/// What a camera's images came to.
+/// The results of a camera's images.
 struct LiveTally {
   std::map<std::string, std::size_t, std::less<>> statuses;  ///< frames by status
   LatencyHistogram latency;      ///< from stamp to published, ms of the system's clock
   LatencyHistogram processing;   ///< from arrival to published, ms
-  std::size_t beyond_clock = 0;  ///< images stamped by another clock than the system's: no latency
+  std::size_t beyond_clock = 0;  ///< images with stamps of another clock; no latency
   LiveOutcome last;
-  std::optional<RendererInfo> renderer;        ///< that drew last; nothing: none yet
+  std::optional<RendererInfo> renderer;        ///< the last one; nothing if no image was judged yet
   std::optional<std::int64_t> last_published;  ///< on the caller's clock
 };
 
-/// All that was told on the graph: one robot, its cameras. Knows no transport, no thread and no
-/// clock: `now` is nanoseconds of a steady clock. One thread at a time; only jobs may be worked on
-/// meanwhile.
+/// Receives the messages of the graph: one robot and its cameras. Uses no transport, threads or
+/// clock: `now` is nanoseconds of a steady clock. Use one thread at a time; only jobs may be
+/// processed meanwhile.
 class LiveInbox {
  public:
-  /// Throws InputError for what LiveCamera refuses.
+  /// Throws InputError for options that LiveCamera refuses.
   explicit LiveInbox(const LiveOptions& options);
 
-  /// What is to be subscribed to.
+  /// Returns the topics to subscribe to.
   [[nodiscard]] std::span<const LiveTopic> topics() const { return topics_; }
-  /// Says of which type the messages of a topic of targets are.
+  /// Sets the message type of a target topic.
   void set_type(std::size_t topic, const std::string& type) { topics_[topic].type = type; }
-  /// The types that targets may have.
+  /// Returns the message types that targets may have.
   [[nodiscard]] static std::span<const std::string> target_types();
 
-  /// Takes a message of topics()[topic]. What cannot be read is counted.
+  /// Receives a message of topics()[topic]. Messages that cannot be read are counted.
   void receive(std::size_t topic, const LiveMessage& message, std::int64_t now);
 
-  /// As LiveRobot has it: who receives a robot_description has the robot made.
+  /// Returns LiveRobot::take_order(). Call this after a robot_description was received.
   [[nodiscard]] std::unique_ptr<const RobotOrder> take_order() { return robot_.take_order(); }
   void place(MadeRobot made);
   void retry_robot() { robot_.retry(); }
 
-  /// As LiveCamera has it.
+  /// See LiveCamera::next.
   bool next(std::size_t camera, std::int64_t now, bool with_color, LiveJob& job) {
     return cameras_[camera]->next(now, with_color, job);
   }
-  /// To be called once for each job; `system_now`: nanoseconds since 1970.
+  /// Counts the outcome of a job. Call this once for each job. `system_now`: nanoseconds since
+  /// 1970.
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
             std::int64_t system_now);
   [[nodiscard]] std::optional<std::int64_t> wake_at(std::size_t camera) const {
@@ -110,7 +111,7 @@ class LiveInbox {
   [[nodiscard]] const LiveCamera& camera(std::size_t i) const { return *cameras_[i]; }
   [[nodiscard]] const LiveTally& tally(std::size_t i) const { return tallies_[i]; }
   [[nodiscard]] const MessageFaults& faults() const { return faults_; }
-  /// Messages of each topic, in the order of topics().
+  /// Returns the number of messages of each topic, in the order of topics().
   [[nodiscard]] std::span<const std::size_t> received() const { return received_; }
 
  private:

@@ -22,9 +22,9 @@
 
 namespace penumbra::io {
 
-/// By what a camera's images are judged, and the images that wait for it: another robot, another
-/// camera_info or another mount is another setup. What does not change may be read at any time, the
-/// rest as LiveInbox says.
+/// The robot, camera and mount that a camera's images are judged with, and the images that wait.
+/// Another robot, camera_info or mount gives another setup. Constant members may be read at any
+/// time; see LiveInbox for the others.
 struct LiveSetup {
   LiveSetup(std::shared_ptr<PosedRobot> of, JudgedCameras cameras_, CameraMount where,
             const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
@@ -41,29 +41,29 @@ struct LiveSetup {
   TargetInbox targets;
 };
 
-/// A depth image whose turn it is.
+/// A depth image to judge.
 struct LiveJob {
   std::shared_ptr<LiveSetup> setup;
   KeptImage image;
   std::int64_t arrived = 0;  ///< on the caller's clock
   QueuedFrame pose;
-  TransformAnswer T_judged_depth;   ///< if the setup has a depth camera of its own
+  TransformAnswer T_judged_depth;   ///< if the setup has a separate depth camera
   std::span<const Target> targets;  ///< valid until the setup's next job
-  bool with_overlay = true;         ///< false: none is drawn even if it is wanted
-  std::optional<KeptImage> color;   ///< if it was asked for and has come
+  bool with_overlay = true;         ///< false: no overlay is drawn even if a sink wants it
+  std::optional<KeptImage> color;   ///< if it was requested and received
 };
 
-/// What became of it.
+/// The outcome of a job.
 struct LiveOutcome {
   bool is_published = false;
-  std::string fault;  ///< why nothing could be said of the image; empty if it is published
+  std::string fault;  ///< why the image could not be judged; empty if it is published
   FrameStatus status = FrameStatus::ok;
-  std::string message;               ///< one line for every status but ok
-  std::size_t unjudged_targets = 0;  ///< that came with an image of which nothing could be said
+  std::string message;               ///< one line; empty for the status ok
+  std::size_t unjudged_targets = 0;  ///< targets of an image that could not be judged
   StageTimes timing;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
-  std::optional<RendererInfo> renderer;  ///< that drew; nothing: it could not be made
+  std::optional<RendererInfo> renderer;  ///< the renderer used; nothing if it could not be made
 };
 
 }  // namespace penumbra::io

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_named = 3;
 
-/// Of a joint state of which no position is taken.
+/// Returns why no position of a joint state is used.
 std::string why_unused(const JointStateMessage& message, const Robot& robot) {
   const auto is_known = [&](const std::string& name) {
     const auto names = robot.variables();
@@ -34,7 +34,8 @@ std::string why_unused(const JointStateMessage& message, const Robot& robot) {
 
 MadeRobot make_robot(const RobotOrder& order) {
   try {
-    // Meshes of relative paths would be looked for where the program happens to have been started.
+    // The folder is "/", because relative mesh paths would otherwise be resolved from the working
+    // folder of the program.
     return {order.number,
             std::make_shared<PosedRobot>(Robot::parse(order.description, "/", order.options),
                                          history_options(order.compare_sources)),

@@ -8,7 +8,8 @@
 namespace penumbra::io {
 namespace {
 
-/// Drawing an overlay takes longer than all else, and people look at it: not all need one.
+/// The shortest time between overlays, in nanoseconds. Drawing one takes longer than all other
+/// steps, and people look at them, so not every frame needs one.
 constexpr std::int64_t overlay_period = 200'000'000;
 
 template <typename Clock>

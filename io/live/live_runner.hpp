@@ -20,21 +20,21 @@
 
 namespace penumbra::io {
 
-/// Judges what comes on the graph: one thread for each camera and one that makes robots, beside the
-/// one that receives.
+/// Judges the messages of the graph. One thread serves each camera, one makes robots, and one
+/// receives.
 ///
-/// One mutex guards the inbox: robot, poses, images that wait, counts. It is held while a message
-/// is taken and while a job is picked, never while one is worked on or a robot's meshes are read,
-/// so that nothing waits for rendering, for files or for the network. A sink is written to by its
-/// camera's thread alone, without the mutex.
+/// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
+/// is received and while a job is picked, and never while a job is processed or meshes are read. So
+/// no thread waits for rendering, files or the network. Only the camera's thread writes to its
+/// sink, without the mutex.
 class LiveRunner {
  public:
   using RobotMaker = std::function<MadeRobot(const RobotOrder&)>;
 
   static constexpr std::chrono::seconds default_robot_retry{5};
 
-  /// `sinks`: one for each camera, which must outlive this. `robot_retry`: how long after a robot
-  /// could not be made that is tried again. Throws as LiveInbox.
+  /// `sinks`: one for each camera; they must outlive this. `robot_retry`: the time after which a
+  /// robot that could not be made is tried again. Throws like LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
              const std::vector<ResultSink*>& sinks, RobotMaker maker = make_robot,
              std::chrono::milliseconds robot_retry = default_robot_retry);
@@ -47,25 +47,25 @@ class LiveRunner {
   void watch(std::size_t camera, FrameWatcher& watcher) { cameras_[camera].watcher = &watcher; }
 
   void start();
-  /// Ends the threads once they have done what they are at: reading a robot's meshes, too. What
-  /// waits is left.
+  /// Ends the threads after their current job, which may be reading a robot's meshes. Waiting
+  /// images are not judged.
   void stop();
 
-  /// From any thread.
+  /// Receives a message. Any thread may call this.
   void receive(std::size_t topic, const LiveMessage& message);
 
-  /// Reads the inbox while nothing changes.
+  /// Calls `read` with the inbox while it does not change.
   template <typename F>
-  auto with_inbox(const F& look) {
+  auto with_inbox(const F& read) {
     const std::lock_guard lock(mutex_);
-    return look(inbox_);
+    return read(inbox_);
   }
 
-  /// Nanoseconds of the clock that the inbox is told of, and since 1970.
+  /// Return nanoseconds of the inbox's clock, and since 1970.
   [[nodiscard]] static std::int64_t steady_now();
   [[nodiscard]] static std::int64_t system_now();
 
-  /// Whether a thread ended by an exception, which is fault().
+  /// Returns whether a thread ended by an exception, which fault() returns.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
   [[nodiscard]] std::exception_ptr fault();
 
@@ -74,7 +74,7 @@ class LiveRunner {
     ResultSink* sink = nullptr;
     FrameWatcher* watcher = nullptr;
     std::unique_ptr<LiveWorker> worker;
-    std::int64_t next_overlay = 0;  // not before; the thread's own
+    std::int64_t next_overlay = 0;  // earliest time; used by this thread only
     std::thread thread;
   };
   void work(std::size_t camera);

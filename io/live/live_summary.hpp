@@ -13,21 +13,21 @@
 
 namespace penumbra::io {
 
-/// What of a camera's results was published: what nobody subscribes to is not.
+/// Counts the published results of a camera. Results without a subscriber are not published.
 struct WrittenResults {
-  std::array<std::size_t, result_topics.size()> written = {};  ///< by Result
-  std::size_t not_written = 0;  ///< that slow subscribers kept from being published
+  std::array<std::size_t, result_topics.size()> written = {};  ///< indexed by Result
+  std::size_t not_written = 0;  ///< not published because subscribers were too slow
 };
 
-/// How long live went on.
+/// The duration and outcome of a `penumbra live`.
 struct LiveRun {
   double seconds = 0.0;
   double cpu_seconds = 0.0;                  ///< of all threads
-  std::vector<WrittenResults> results = {};  ///< of each of the inbox's cameras
-  std::string fault = {};                    ///< what ended it before its time; empty: nothing did
+  std::vector<WrittenResults> results = {};  ///< one for each camera of the inbox
+  std::string fault = {};                    ///< the fault that ended it; empty if there was none
 };
 
-/// What came of all messages, as JSON. `links`: one for each of inbox.topics().
+/// Returns the outcome of all messages as JSON. `links`: one for each of inbox.topics().
 [[nodiscard]] std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> links,
                                             const LiveRun& run);
 

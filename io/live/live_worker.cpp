@@ -10,7 +10,7 @@
 namespace penumbra::io {
 namespace {
 
-/// Leaves overlays out.
+/// Forwards all results except overlays.
 class WithoutOverlay final : public ResultSink {
  public:
   explicit WithoutOverlay(ResultSink& to) : to_(to) {}
@@ -95,7 +95,7 @@ std::string LiveWorker::read_depth(const LiveJob& job, DepthView& depth) {
   }
   if (!fault.empty() || !tools_->depth.is_of_other_camera()) return fault;
   if (!has_pose(job.pose.pose.status)) {
-    depth = no_depth_;  // there is no telling where it would lie
+    depth = no_depth_;  // its position is not known
     return {};
   }
   return tools_->depth.bring(job.T_judged_depth, depth);

@@ -14,20 +14,19 @@
 
 namespace penumbra::io {
 
-/// Judges the images of one camera. One instance serves one thread at a time; no lock is needed
-/// while it works.
+/// Judges the images of one camera. Use one thread at a time; no lock is needed meanwhile.
 class LiveWorker {
  public:
-  /// `config`: its camera's pose and parent are the setups' own.
+  /// `config`: the camera's pose and parent are replaced by those of each setup.
   explicit LiveWorker(PipelineConfig config) : config_(std::move(config)) {}
 
   /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
-  /// What is not known is written as unknown. For another setup than before renderer and all are
-  /// made anew. Throws DeviceError as Pipeline does.
+  /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
+  /// like Pipeline.
   LiveOutcome judge(LiveJob& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
 
  private:
-  /// What is made for a setup.
+  /// The objects made for a setup.
   struct Tools {
     Tools(const LiveSetup& setup, const PipelineConfig& config);
     Pipeline pipeline;
@@ -42,10 +41,10 @@ class LiveWorker {
   PipelineConfig config_;
   std::shared_ptr<LiveSetup> setup_;
   std::unique_ptr<Tools> tools_;
-  std::string fault_;    // why there are no tools
-  std::string message_;  // of the frame
+  std::string fault_;    // why `tools_` is null
+  std::string message_;  // of the current frame
   std::size_t judged_ = 0;
-  DepthView no_depth_;  // of the images' kind
+  DepthView no_depth_;  // empty, of the images' pixel type
   Image<Rgb8> color_;
 };
 

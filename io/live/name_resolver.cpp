@@ -10,7 +10,8 @@
 namespace penumbra::io {
 namespace {
 
-/// Letters, digits and _ between single slashes, no part with a digit first: ROS 2's rule.
+/// Returns whether this is a name by ROS 2's rule: letters, digits and _ between single slashes, no
+/// part starting with a digit.
 bool is_name(std::string_view name) {
   if (name.empty() || name.ends_with('/')) return false;
   bool starts = true;  // a part begins here
@@ -34,15 +35,16 @@ NameResolver::NameResolver(std::string_view name_space) {
   if (name_space.empty() || name_space == "/") return;
   if (!is_name(name_space))
     throw InputError("--namespace '" + printable(name_space) +
-                     "': is no name of ROS 2; expected letters, digits and _ between slashes");
+                     "': is not a name of ROS 2; expected letters, digits and _ between slashes");
   name_space_ = (name_space.starts_with('/') ? "" : "/") + std::string(name_space);
 }
 
 std::string NameResolver::expand(std::string_view name) const {
   if (!is_name(name))
-    throw InputError("'" + printable(name) +
-                     "' is no name of a topic; expected letters, digits and _ between slashes, as "
-                     "/camera/depth/image_raw");
+    throw InputError(
+        "'" + printable(name) +
+        "' is not a topic name; expected letters, digits and _ between slashes, such as "
+        "/camera/depth/image_raw");
   return name.starts_with('/') ? std::string(name) : name_space_ + "/" + std::string(name);
 }
 

@@ -9,23 +9,24 @@
 
 namespace penumbra::io {
 
-/// Names of topics as a node of ROS 2 has them: those without a "/" before them stand in its
-/// namespace, and each may be remapped. For one thread.
+/// Resolves topic names like a node of ROS 2: relative names are in its namespace, and each name
+/// may be remapped. Use one thread at a time.
 class NameResolver {
  public:
-  /// `name_space`: "" or "cell", "/cell/arm". Throws InputError for what is none.
+  /// `name_space`: "", "cell" or "/cell/arm". Throws InputError if it is not a name.
   explicit NameResolver(std::string_view name_space = "");
 
-  /// "FROM:=TO"; throws InputError for anything else, and a FROM that is remapped already.
+  /// Adds the rule "FROM:=TO". Throws InputError for other texts and for a FROM that is remapped
+  /// already.
   void remap(std::string_view rule);
 
-  /// The name on the graph: "/cell/joint_states" of "joint_states". Throws InputError for what is
-  /// no name of a topic.
+  /// Returns the name on the graph: "/cell/joint_states" for "joint_states". Throws InputError if
+  /// it is not a topic name.
   [[nodiscard]] std::string resolve(std::string_view name) const;
 
-  /// "" or "/cell".
+  /// Returns "" or "/cell".
   [[nodiscard]] const std::string& name_space() const { return name_space_; }
-  /// Names that are remapped, but were never asked for until now.
+  /// Returns the names that are remapped but were never resolved.
   [[nodiscard]] std::vector<std::string> unused() const;
 
  private:
@@ -33,7 +34,7 @@ class NameResolver {
 
   std::string name_space_;  // "" or "/cell"
   std::map<std::string, std::string, std::less<>> rules_;
-  mutable std::set<std::string> used_;  // of the rules
+  mutable std::set<std::string> used_;  // names of rules that were used
 };
 
 }  // namespace penumbra::io

@@ -9,7 +9,7 @@
 
 namespace penumbra::io::mcap {
 
-/// Bytes that are not set before they are written, in memory that is kept from use to use.
+/// A buffer of uninitialised bytes that keeps its memory when it is reused.
 class ByteBuffer {
  public:
   ByteBuffer() = default;
@@ -30,17 +30,17 @@ class ByteBuffer {
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
   [[nodiscard]] std::span<const std::byte> view() const { return {memory_.get(), size_}; }
 
-  /// Makes room for at least `count` bytes. The first size() stay as they are.
+  /// Makes room for at least `count` bytes and keeps the first size() bytes.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
-    if (size_ == 0) memory_.reset();  // never both at once
+    if (size_ == 0) memory_.reset();  // frees the old memory first
     auto larger = std::make_unique_for_overwrite<std::byte[]>(count);
     if (size_ > 0) std::copy_n(memory_.get(), size_, larger.get());
     memory_ = std::move(larger);
     capacity_ = count;
   }
 
-  /// New bytes have no value yet.
+  /// Changes the size. New bytes are uninitialised.
   void resize(std::size_t count) {
     reserve(count);
     size_ = count;

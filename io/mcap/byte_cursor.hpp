@@ -13,8 +13,8 @@ namespace penumbra::io::mcap {
 
 static_assert(std::endian::native == std::endian::little, "MCAP's numbers are copied as they lie");
 
-/// Reads MCAP's basic types one after another. Whatever does not fit in the bytes ends the reading:
-/// ok() is false from then on, and all that is read is empty or zero.
+/// Reads MCAP's basic types one after another. A value that exceeds the bytes ends the reading:
+/// ok() is false from then on, and all further values are empty or zero.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -42,7 +42,7 @@ class ByteCursor {
     return value;
   }
 
-  /// Bytes behind their number: texts, maps, arrays.
+  /// Reads a byte count and that many bytes: a text, map or array.
   std::span<const std::byte> counted() { return bytes(number<std::uint32_t>()); }
 
   std::string text() {

@@ -11,16 +11,16 @@
 
 namespace penumbra::io::mcap {
 
-/// A chunk that stands in the file, as the index tells of it.
+/// A written chunk, for the index.
 struct WrittenChunk {
   ChunkHead head;
   std::uint64_t offset = 0;
-  std::uint64_t length = 0;                              // of the chunk's record
-  std::map<std::uint16_t, std::uint64_t> index_offsets;  // of message indexes, by channel
-  std::uint64_t index_length = 0;                        // of all of them
+  std::uint64_t length = 0;                              // of the chunk record
+  std::map<std::uint16_t, std::uint64_t> index_offsets;  // offset of each channel's message index
+  std::uint64_t index_length = 0;                        // of all message indexes
 };
 
-/// Gathers a chunk's records and where its messages stand.
+/// Collects the records of a chunk and the positions of its messages.
 class ChunkBuilder {
  public:
   void add(const Schema& schema) { put_schema(records_, schema); }
@@ -33,8 +33,8 @@ class ChunkBuilder {
   [[nodiscard]] std::uint64_t start_time() const { return start_time_; }  ///< 0 without messages
   [[nodiscard]] std::uint64_t end_time() const { return end_time_; }
 
-  /// Appends the message indexes, which will stand at `offset` in the file, and notes them in
-  /// `chunk`.
+  /// Appends the message indexes, which will be at `offset` in the file, and stores their positions
+  /// in `chunk`.
   void put_message_indexes(RecordBuilder& to, std::uint64_t offset, WrittenChunk& chunk) const;
 
   void clear();

@@ -17,18 +17,18 @@ constexpr std::size_t spare_compressed = std::size_t{64} << 20;  // kept from ch
 
 bool is_later_version(Opcode opcode) { return opcode > Opcode::data_end; }
 
-// What is wrong with a message, or nothing.
+// Returns what is wrong with a message, or an empty text.
 std::string take_message(std::span<const std::byte> content, std::uint64_t at,
                          std::vector<LoadedChunk::Entry>& messages) {
   const auto message = parse_message_head(content);
   if (!message) return "a message is shorter than its head; left out";
   if (std::max(message->log_time, message->publish_time) > latest_time)
-    return "messages with times behind the year 2262 are left out";
+    return "messages with times after the year 2262 are left out";
   messages.push_back({message->log_time, at, content.size()});
   return {};
 }
 
-// Goes through a chunk's records; those behind damage are left out.
+// Reads a chunk's records up to the first damaged one.
 void take_records(const MessagePlace& place, LoadedChunk& chunk, Definitions& definitions,
                   FaultLog& faults) {
   const auto records = chunk.records.view();
@@ -96,7 +96,7 @@ std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& rec
   const std::uint64_t records_at = place.offset + record_head_bytes + chunk->records_offset;
   if (chunk->compression.empty()) {
     if (chunk->uncompressed_size != chunk->records_size)
-      return "a chunk that is not compressed tells of two sizes";
+      return "an uncompressed chunk has two different sizes";
     if (!read(records_at, chunk->records_size, records)) return cut;
   } else {
     if (!read(records_at, chunk->records_size, compressed_)) return cut;
@@ -105,7 +105,7 @@ std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& rec
     if (!fault.empty()) return "a chunk " + fault;
   }
   if (chunk->uncompressed_crc != 0 && crc32(records.view()) != chunk->uncompressed_crc)
-    return "a chunk has another checksum than it should";
+    return "a chunk has a wrong checksum";
   return {};
 }
 

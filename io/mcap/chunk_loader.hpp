@@ -10,30 +10,31 @@
 
 namespace penumbra::io::mcap {
 
-/// A chunk in memory, or a stretch of records outside of chunks.
+/// A chunk in memory, or a range of records outside of chunks.
 struct LoadedChunk {
   struct Entry {
     std::uint64_t log_time = 0;
-    std::uint64_t content = 0;  ///< where the message's content begins in `records`
+    std::uint64_t content = 0;  ///< offset of the message's content in `records`
     std::uint64_t length = 0;   ///< of the content
   };
 
   ByteBuffer records;
-  std::vector<Entry> messages;  ///< by log time; those of one time as they stand in the file
+  std::vector<Entry> messages;  ///< by log time, then in the file's order
 
   [[nodiscard]] std::size_t footprint() const {
     return records.capacity() + messages.capacity() * sizeof(Entry);
   }
 };
 
-/// Reads chunks, decompresses and checks them.
+/// Reads, decompresses and checks chunks.
 class ChunkLoader {
  public:
   /// The file must outlive this.
   explicit ChunkLoader(const InputFile& file) : file_(&file) {}
 
-  /// Loads what stands at `place` and takes the schemas and channels there into `definitions`. A
-  /// chunk that is damaged gives no message, one with damaged records those before: a fault each.
+  /// Loads the records at `place` and adds their schemas and channels to `definitions`. A damaged
+  /// chunk gives no messages; a chunk with damaged records gives the messages before the damage.
+  /// Each is a fault.
   void load(const MessagePlace& place, LoadedChunk& chunk, Definitions& definitions,
             FaultLog& faults);
 

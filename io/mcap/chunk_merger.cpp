@@ -8,7 +8,7 @@
 namespace penumbra::io::mcap {
 namespace {
 
-// Memory of finished chunks that the next ones use.
+// Finished chunks whose memory is reused.
 constexpr std::size_t spare_chunks = 2;
 constexpr std::size_t most_spare_bytes = std::size_t{16} << 20;  // each
 
@@ -29,7 +29,7 @@ void ChunkMerger::complete_definitions() {
   };
   for (const MessagePlace& place : layout_->places) {
     bool known = false;
-    if (place.channels_told) {
+    if (place.channels_known) {
       known = std::all_of(place.channels.begin(), place.channels.end(), complete);
     } else if (layout_->summary_has_channels) {
       const auto& channels = layout_->definitions.channels();

@@ -10,9 +10,9 @@
 
 namespace penumbra::io::mcap {
 
-/// Gives a file's messages by log time, those of one time in the file's order. Holds the chunks
-/// that overlap in time; where they take too much memory, those that are needed last are dropped
-/// and loaded again in their turn.
+/// Returns a file's messages by log time, then in the file's order. It holds the chunks that
+/// overlap in time. If these take too much memory, it drops the chunks needed last and loads them
+/// again when they are due.
 class ChunkMerger {
  public:
   static constexpr std::size_t most_held_bytes = std::size_t{96} << 20;
@@ -20,25 +20,26 @@ class ChunkMerger {
   struct Item {
     MessageHead head;
     std::span<const std::byte> data;  ///< valid until the next call
-    std::uint64_t place = 0;          ///< offset of its chunk
+    std::uint64_t place = 0;          ///< offset of the message's chunk
   };
 
-  /// All must outlive this. `held_bytes`: of chunks in memory, unless a single one has more.
+  /// All arguments must outlive this. `held_bytes`: the limit for chunks in memory; a single larger
+  /// chunk is still loaded.
   ChunkMerger(const InputFile& file, FileLayout& layout, FaultLog& faults,
               std::size_t held_bytes = most_held_bytes);
 
   [[nodiscard]] std::optional<Item> next();
 
-  /// Takes in the schemas and channels of chunks that may hold ones not yet known.
+  /// Reads the schemas and channels of chunks that may define missing ones.
   void complete_definitions();
 
  private:
-  struct Run {  // a chunk whose messages are being given
+  struct Run {  // a chunk whose messages are being returned
     const MessagePlace* place = nullptr;
-    std::size_t next = 0;  // of its messages
+    std::size_t next = 0;  // index of the next message
     std::size_t count = 0;
-    std::uint64_t time = 0;              // of the next one
-    std::unique_ptr<LoadedChunk> chunk;  // null: dropped meanwhile
+    std::uint64_t time = 0;              // log time of the next message
+    std::unique_ptr<LoadedChunk> chunk;  // null: dropped, to be loaded again
   };
 
   static bool later(const Run& a, const Run& b);
@@ -54,10 +55,10 @@ class ChunkMerger {
   FileLayout* layout_;
   FaultLog* faults_;
   std::size_t most_held_;
-  std::vector<const MessagePlace*> order_;  // by start
+  std::vector<const MessagePlace*> order_;  // by start time
   std::size_t next_place_ = 0;
-  std::vector<Run> runs_;  // a heap: the earliest message in front
-  Run current_;            // whose message was given last; no place: none
+  std::vector<Run> runs_;  // a heap with the earliest message first
+  Run current_;            // the run of the last returned message; no place: none
   std::uint64_t last_time_ = 0;
   std::size_t held_ = 0;
   std::vector<std::unique_ptr<LoadedChunk>> spare_;

@@ -14,18 +14,18 @@
 namespace penumbra::io::mcap {
 namespace {
 
-constexpr std::uint64_t unbacked_bytes = std::uint64_t{64} << 20;  // without regard to the input
-constexpr std::uint64_t most_ratio = 64;                           // beyond
+constexpr std::uint64_t unbacked_bytes = std::uint64_t{64} << 20;  // allowed for any input
+constexpr std::uint64_t most_ratio = 64;                           // limit above that
 
-// Room that the first attempt has: ordinary chunks shrink less.
+// The room of the first attempt in proportion to the input: ordinary chunks shrink less.
 constexpr std::uint64_t first_bytes = std::uint64_t{64} << 10;
 constexpr std::uint64_t first_ratio = 16;
 constexpr std::uint64_t growth = 4;
 
-// LZ4 decodes blocks of this size straight into a buffer with room for a whole one.
+// LZ4 decodes blocks of this size directly into a buffer with room for a whole one.
 constexpr std::size_t lz4_block = std::size_t{64} << 10;
 
-// The fastest; recorders must keep up with cameras.
+// The fastest level, because recorders must keep up with cameras.
 constexpr int zstd_level = 1;
 
 std::uint64_t first_room(std::uint64_t compressed, std::uint64_t size) {
@@ -45,8 +45,8 @@ std::string undone(std::string_view codec, std::string_view reason) {
   return "cannot be decompressed as " + std::string(codec) + ": " + std::string(reason);
 }
 
-// Zstandard wants its window in one piece, and a frame may claim a window of any size: a whole
-// frame is decompressed at once, where the window is the result itself.
+// Zstandard needs its window in one piece, and a frame may claim a window of any size. So a whole
+// frame is decompressed at once, and the result itself is the window.
 std::string zstd_decompress(ZSTD_DCtx* context, std::span<const std::byte> from, std::uint64_t size,
                             ByteBuffer& to) {
   for (std::uint64_t room = first_room(from.size(), size);; room = std::min(size, growth * room)) {
@@ -172,7 +172,7 @@ void Compressor::compress(std::span<const std::byte> from, ByteBuffer& to) {
                                from.size(), zstd_level);
     failed = ZSTD_isError(result) != 0;
   }
-  if (failed) throw std::runtime_error("a chunk could not be compressed");  // room was made for all
+  if (failed) throw std::runtime_error("a chunk could not be compressed");  // there is room
   to.resize(result);
 }
 

@@ -14,11 +14,12 @@ namespace penumbra::io::mcap {
 
 enum class Compression { none, lz4, zstd };
 
-/// As chunks spell it: "", "lz4", "zstd".
+/// Returns the name in chunks: "", "lz4", "zstd".
 [[nodiscard]] std::string_view to_string(Compression compression);
 
-/// Most bytes that `compressed` ones may become. Chunks of blank images shrink a thousandfold and
-/// more, but have not more than 64 MB; beyond that, more than 64-fold is a bomb's.
+/// Returns the largest size that `compressed` bytes may decompress to. Chunks of blank images
+/// shrink a thousandfold and more, but have at most 64 MB. Beyond 64 MB, a ratio over 64 is treated
+/// as a decompression bomb.
 [[nodiscard]] std::uint64_t most_decompressed(std::uint64_t compressed);
 
 class Decompressor {
@@ -29,7 +30,7 @@ class Decompressor {
   Decompressor& operator=(Decompressor&&) noexcept;
 
   /// Decompresses LZ4 or Zstandard frames into `to`, which must become `size` bytes. Memory grows
-  /// with what really comes out, whatever `size` claims. Answers what is wrong, or nothing.
+  /// with the actual output, whatever `size` claims. Returns what is wrong, or an empty text.
   [[nodiscard]] std::string decompress(std::string_view compression,
                                        std::span<const std::byte> from, std::uint64_t size,
                                        ByteBuffer& to);
@@ -46,7 +47,8 @@ class Compressor {
   Compressor(const Compressor&) = delete;
   Compressor& operator=(const Compressor&) = delete;
 
-  /// The same bytes for the same input, always. Must not be called for Compression::none.
+  /// Compresses bytes. The same input always gives the same output. Do not call it for
+  /// Compression::none.
   void compress(std::span<const std::byte> from, ByteBuffer& to);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen bytes a step through sixteen tables ("slicing"): Kounavis and Berry, A Systematic
+// Processes sixteen bytes a step with sixteen tables ("slicing"): Kounavis and Berry, A Systematic
 // Approach to Building High Performance Software-Based CRC Generators, 2005.
 #include <array>
 #include <bit>
@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "bytes are taken four 
 constexpr std::size_t slices = 16;
 using CrcTables = std::array<std::array<std::uint32_t, 256>, slices>;
 
-// tables[k][b]: what a byte b does to the state when k zero bytes follow it.
+// tables[k][b]: the effect of a byte b on the state if k zero bytes follow it.
 constexpr CrcTables make_crc_tables() {
   CrcTables tables{};
   for (std::uint32_t b = 0; b < 256; ++b) {
@@ -39,7 +39,7 @@ std::uint32_t four_bytes(const std::byte* from) {
   return value;
 }
 
-// What four bytes do that are followed by `zeros` of the step's sixteen.
+// Returns the effect of four bytes that are followed by `zeros` of the step's sixteen.
 std::uint32_t folded(std::uint32_t bytes, std::size_t zeros) {
   return crc_tables[zeros + 3][bytes & 0xff] ^ crc_tables[zeros + 2][bytes >> 8 & 0xff] ^
          crc_tables[zeros + 1][bytes >> 16 & 0xff] ^ crc_tables[zeros][bytes >> 24];

@@ -7,8 +7,7 @@
 
 namespace penumbra::io::mcap {
 
-/// The CRC-32 of zlib and Ethernet (polynomial 0xEDB88320, reflected), of bytes that come in
-/// pieces.
+/// The CRC-32 of zlib and Ethernet (polynomial 0xEDB88320, reflected), computed piece by piece.
 class Crc32 {
  public:
   void add(std::span<const std::byte> bytes);

@@ -10,7 +10,7 @@
 namespace penumbra::io::mcap {
 namespace {
 
-// Records outside of chunks are read in stretches of about this size.
+// Records outside of chunks are read in ranges of about this size.
 constexpr std::uint64_t stretch_bytes = std::uint64_t{4} << 20;
 
 constexpr std::size_t search_block = std::size_t{256} << 10;
@@ -76,7 +76,7 @@ void DataWalk::take(const RecordHead& head, std::uint64_t offset) {
       break;
   }
   if (const std::string fault = fault_of_passed(head, offset, *window_); !fault.empty())
-    return pass_over(head, offset, fault);
+    return skip(head, offset, fault);
   if (head.opcode == Opcode::message_index) take_message_index(offset);
   if (head.opcode == Opcode::footer) end_ = {offset, 0};
   if (head.opcode == Opcode::data_end) {
@@ -85,15 +85,16 @@ void DataWalk::take(const RecordHead& head, std::uint64_t offset) {
   }
 }
 
-// Records of other programs may be many: each kind is told of once.
-void DataWalk::pass_over(const RecordHead& head, std::uint64_t offset, const std::string& fault) {
-  if (head.opcode > Opcode::data_end && !strange_.insert(head.opcode).second) return;
-  faults_->add(offset, fault + "; its " + std::to_string(head.length) + " bytes are passed over");
+// Skips a record. Files of other programs may have many unknown records, so each kind is reported
+// once.
+void DataWalk::skip(const RecordHead& head, std::uint64_t offset, const std::string& fault) {
+  if (head.opcode > Opcode::data_end && !reported_.insert(head.opcode).second) return;
+  faults_->add(offset, fault + "; its " + std::to_string(head.length) + " bytes are skipped");
 }
 
 void DataWalk::take_definition(const RecordHead& head, std::uint64_t offset) {
   if (head.length > max_definition_bytes)
-    return pass_over(head, offset, "a schema or channel is far too long");
+    return skip(head, offset, "a schema or channel is far too long");
   const auto content =
       window_->view(offset + record_head_bytes, static_cast<std::size_t>(head.length));
   layout_->definitions.add(head.opcode, content, offset, *faults_);
@@ -113,7 +114,7 @@ void DataWalk::take_message(const RecordHead& head, std::uint64_t offset) {
     places.emplace_back();
     places.back().offset = offset;
     places.back().start_time = time;
-    places.back().loose = places.back().channels_told = true;
+    places.back().loose = places.back().channels_known = true;
   }
   MessagePlace& place = places.back();
   place.length += record_head_bytes + head.length;
@@ -140,10 +141,11 @@ void DataWalk::take_message_index(std::uint64_t offset) {
   const auto channel = cursor.number<std::uint16_t>();
   if (layout_->places.empty() || layout_->places.back().loose || !cursor.ok()) return;
   layout_->places.back().channels.push_back(channel);
-  layout_->places.back().channels_told = true;
+  layout_->places.back().channels_known = true;
 }
 
-// A chunk's head holds so many things that agree that nothing else is taken for one.
+// Returns whether a chunk begins here. The fields of a chunk's head must agree in so many ways that
+// other bytes do not pass.
 bool DataWalk::is_chunk(std::span<const std::byte> bytes, std::uint64_t left) const {
   if (bytes.size() < record_head_bytes || left < record_head_bytes) return false;
   const RecordHead head = parse_head(bytes);

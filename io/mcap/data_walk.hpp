@@ -12,30 +12,30 @@
 
 namespace penumbra::io::mcap {
 
-/// Goes through the records of a file's data without reading the messages.
+/// Walks through the records of a file's data section without reading the messages.
 class DataWalk {
  public:
   struct End {
     std::uint64_t offset = 0;
-    std::uint32_t crc = 0;  // of all bytes before; 0: none
+    std::uint32_t crc = 0;  // of all bytes before the record; 0: none
   };
 
   DataWalk(FileWindow& window, FileLayout& layout, FaultLog& faults)
       : window_(&window), layout_(&layout), faults_(&faults) {}
 
-  /// Adds to the layout what stands between two offsets; stops where the data's end is said. Behind
-  /// damage it goes on at the next chunk that can be made out.
+  /// Adds the records between two offsets to the layout and stops at the end of the data section.
+  /// After damage it continues at the next recognisable chunk.
   void run(std::uint64_t begin, std::uint64_t end);
 
-  /// Where the file says that its data end; nothing: not met yet.
+  /// Returns the end of the data section by the file, or nothing if it was not reached yet.
   [[nodiscard]] const std::optional<End>& end() const { return end_; }
-  /// Whether damage was met.
+  /// Returns whether damage was found.
   [[nodiscard]] bool damaged() const { return damaged_; }
 
  private:
   [[nodiscard]] std::string fault_of(const RecordHead& head, std::uint64_t left) const;
   void take(const RecordHead& head, std::uint64_t offset);
-  void pass_over(const RecordHead& head, std::uint64_t offset, const std::string& fault);
+  void skip(const RecordHead& head, std::uint64_t offset, const std::string& fault);
   void take_definition(const RecordHead& head, std::uint64_t offset);
   void take_message(const RecordHead& head, std::uint64_t offset);
   void take_chunk(const RecordHead& head, std::uint64_t offset);
@@ -48,7 +48,7 @@ class DataWalk {
   FaultLog* faults_;
   std::optional<End> end_;
   bool damaged_ = false;
-  std::set<Opcode> strange_;  // kinds of other programs that were told of
+  std::set<Opcode> reported_;  // unknown record kinds that were reported
 };
 
 }  // namespace penumbra::io::mcap

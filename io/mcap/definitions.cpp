@@ -8,7 +8,7 @@
 namespace penumbra::io::mcap {
 namespace {
 
-// Whether the definition is new and fits.
+// Returns whether the definition is new and consistent.
 template <typename T>
 bool keep(std::map<std::uint16_t, T>& all, std::optional<T>& found, const std::string& kind,
           std::uint64_t offset, FaultLog& faults) {
@@ -23,7 +23,7 @@ bool keep(std::map<std::uint16_t, T>& all, std::optional<T>& found, const std::s
   }
   if (known->second != *found)
     faults.add(offset, kind + " " + std::to_string(found->id) +
-                           " is not what it was before in the file; the first one holds");
+                           " has another definition earlier in the file; the first one holds");
   return false;
 }
 
@@ -40,7 +40,7 @@ void Definitions::add(Opcode opcode, std::span<const std::byte> content, std::ui
   if (opcode == Opcode::schema) {
     auto schema = parse_schema(content);
     if (schema && schema->id == 0)
-      faults.add(offset, "a schema has the id 0, which stands for none; left out");
+      faults.add(offset, "a schema has the id 0, which means no schema; left out");
     else
       kept = keep(schemas_, schema, "schema", offset, faults);
   } else {

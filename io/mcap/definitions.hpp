@@ -10,18 +10,18 @@
 
 namespace penumbra::io::mcap {
 
-/// The schemas and channels that a file has told of so far.
+/// The schemas and channels found in a file so far.
 class Definitions {
  public:
-  /// Takes in a schema's or channel's record that stands at `offset`, or in a chunk there. The
-  /// first of an id holds; another one of the same id is a fault.
+  /// Adds a schema or channel record that is at `offset` or in the chunk there. The first
+  /// definition of an id holds; a different one with the same id is a fault.
   void add(Opcode opcode, std::span<const std::byte> content, std::uint64_t offset,
            FaultLog& faults);
 
   [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
   [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
 
-  /// Whether a channel is known, and its schema.
+  /// Returns whether a channel and its schema are known.
   [[nodiscard]] bool complete(std::uint16_t channel) const;
 
  private:

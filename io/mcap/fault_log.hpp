@@ -10,8 +10,8 @@
 
 namespace penumbra::io::mcap {
 
-/// A file's faults, each once, in the order of finding. Of the many that a file made of damage has
-/// only the first are kept.
+/// The faults of a file, each once, in the order of discovery. If there are very many, only the
+/// first are kept.
 class FaultLog {
  public:
   static constexpr std::size_t most = 1000;
@@ -21,7 +21,7 @@ class FaultLog {
     const auto same = [&](const Fault& f) { return f.offset == offset && f.what == what; };
     if (std::any_of(faults_.begin(), faults_.end(), same)) return;
     if (faults_.size() == most)
-      faults_.push_back({offset, "here and behind: more faults, which are not listed"});
+      faults_.push_back({offset, "from here on: more faults, which are not listed"});
     else
       faults_.push_back({offset, what});
   }

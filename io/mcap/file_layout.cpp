@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t crc_step = std::size_t{1} << 20;
 
-// Where the records behind the header begin.
+// Reads the header and returns the offset after it.
 std::uint64_t read_header(FileWindow& window, HeaderRecord& header, FaultLog& faults) {
   const std::uint64_t at = magic_bytes.size();
   const auto bytes = window.view(at, record_head_bytes);
@@ -30,22 +30,23 @@ std::uint64_t read_header(FileWindow& window, HeaderRecord& header, FaultLog& fa
   return at;
 }
 
-// What lies between indexed chunks is looked at: it may hold messages that no index tells of.
-void walk_beside(DataWalk& walk, FileSummary& summary, std::uint64_t begin, FileLayout& layout) {
+// Walks through the ranges between indexed chunks, which may hold messages that are not in the
+// index.
+void walk_between(DataWalk& walk, FileSummary& summary, std::uint64_t begin, FileLayout& layout) {
   for (ChunkIndexRecord& chunk : summary.chunks) {
     walk.run(begin, chunk.offset);
     MessagePlace& place = layout.places.emplace_back();
     place.offset = chunk.offset;
     place.length = chunk.length;
     place.start_time = chunk.start_time;
-    place.channels_told = !chunk.channels.empty();
+    place.channels_known = !chunk.channels.empty();
     place.channels = std::move(chunk.channels);
     begin = chunk.offset + chunk.length + chunk.message_index_length;
   }
   walk.run(begin, summary.start);
 }
 
-// Messages outside of chunks have no checksum but the whole data's.
+// Checks the checksum of the data section, the only one that covers messages outside of chunks.
 void check_data_crc(FileWindow& window, const FileLayout& layout, const DataWalk::End& end,
                     FaultLog& faults) {
   const bool any_loose = std::any_of(layout.places.begin(), layout.places.end(),
@@ -61,7 +62,7 @@ void check_data_crc(FileWindow& window, const FileLayout& layout, const DataWalk
   }
   if (crc.value() != end.crc)
     faults.add(end.offset,
-               "the data has another checksum than it should; messages outside of "
+               "the data has a wrong checksum; messages outside of "
                "chunks may be damaged");
 }
 
@@ -80,7 +81,7 @@ FileLayout read_layout(const InputFile& file, FaultLog& faults) {
     layout.definitions = std::move(summary->definitions);
     layout.statistics = std::move(summary->statistics);
     layout.summary_has_channels = !layout.definitions.channels().empty();
-    walk_beside(walk, *summary, begin, layout);
+    walk_between(walk, *summary, begin, layout);
   } else {
     walk.run(begin, file.size());
   }

@@ -9,7 +9,7 @@ namespace penumbra::io::mcap {
 namespace {
 
 constexpr std::size_t crc_block = std::size_t{256} << 10;
-constexpr std::uint64_t least_chunk_bytes = record_head_bytes + 40;  // of an empty one
+constexpr std::uint64_t least_chunk_bytes = record_head_bytes + 40;  // size of an empty chunk
 
 bool has_summary_crc(FileWindow& window, const FooterRecord& footer) {
   const std::uint64_t end = window.file_size() - magic_bytes.size() - sizeof footer.summary_crc;
@@ -26,10 +26,10 @@ bool has_summary_crc(FileWindow& window, const FooterRecord& footer) {
 
 bool is_needed(Opcode opcode) {
   return opcode == Opcode::schema || opcode == Opcode::channel || opcode == Opcode::statistics ||
-         opcode == Opcode::chunk_index;  // attachments and metadata are not looked for
+         opcode == Opcode::chunk_index;  // attachments and metadata are not read
 }
 
-// Whether the record could be read.
+// Reads a record of the summary. Returns whether it is valid.
 bool take(FileSummary& summary, const RecordHead& head, std::span<const std::byte> content,
           std::uint64_t offset, FaultLog& faults) {
   switch (head.opcode) {
@@ -109,7 +109,7 @@ std::optional<FileSummary> read_summary(FileWindow& window, const FooterRecord& 
     return refuse("should begin at " + std::to_string(footer.summary_start) +
                   ", which lies outside of the file");
   if (footer.summary_crc != 0 && !has_summary_crc(window, footer))
-    return refuse("has another checksum than it should");
+    return refuse("has a wrong checksum");
   FileSummary summary;
   summary.start = footer.summary_start;
   if (!take_all(window, summary, faults)) return refuse("is damaged");

@@ -10,19 +10,19 @@
 
 namespace penumbra::io::mcap {
 
-/// What the writer put behind its data so that nobody need read it all.
+/// The summary after the data section, which makes it unnecessary to read the whole file.
 struct FileSummary {
-  std::uint64_t start = 0;  ///< offset of its first record
+  std::uint64_t start = 0;  ///< offset of the summary's first record
   Definitions definitions;
   std::optional<Statistics> statistics;
-  std::vector<ChunkIndexRecord> chunks;  ///< by offset; they do not overlap and lie in the data
+  std::vector<ChunkIndexRecord> chunks;  ///< by offset; within the data, no overlaps
 };
 
-/// The last record of a whole file; nothing where the file was cut.
+/// Returns the footer, the last record of a complete file, or nothing if the file is truncated.
 [[nodiscard]] std::optional<FooterRecord> read_footer(FileWindow& window);
 
-/// Reads what the footer tells of. Nothing where there is no summary, or a damaged one, which is a
-/// fault. `data_begin`: end of the file's header.
+/// Reads the summary that the footer points to. Returns nothing if there is none, or if it is
+/// damaged, which is a fault. `data_begin`: end of the file's header.
 [[nodiscard]] std::optional<FileSummary> read_summary(FileWindow& window,
                                                       const FooterRecord& footer,
                                                       std::uint64_t data_begin, FaultLog& faults);

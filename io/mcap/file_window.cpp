@@ -6,8 +6,8 @@
 namespace penumbra::io::mcap {
 namespace {
 
-constexpr std::size_t short_block = std::size_t{4} << 10;   // after a leap
-constexpr std::size_t long_block = std::size_t{256} << 10;  // where one goes on
+constexpr std::size_t short_block = std::size_t{4} << 10;   // block size after a jump
+constexpr std::size_t long_block = std::size_t{256} << 10;  // block size for sequential reading
 
 }  // namespace
 

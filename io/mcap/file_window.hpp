@@ -10,8 +10,8 @@
 
 namespace penumbra::io::mcap {
 
-/// A part of a file in memory, which moves to where it is looked at. Files are read, not mapped:
-/// one that is cut while it is read ends the reading, not the program.
+/// A part of a file in memory that moves with the accesses. Files are read, not mapped, so that a
+/// file that is truncated meanwhile ends the reading and not the program.
 class FileWindow {
  public:
   /// The file must outlive this.
@@ -19,7 +19,7 @@ class FileWindow {
 
   [[nodiscard]] std::uint64_t file_size() const { return file_->size(); }
 
-  /// `count` bytes from `offset` on, fewer at the file's end; valid until the next call.
+  /// Returns `count` bytes from `offset`, fewer at the end of the file; valid until the next call.
   [[nodiscard]] std::span<const std::byte> view(std::uint64_t offset, std::size_t count);
 
  private:

@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::uint64_t most_looked_at = std::uint64_t{64} << 10;
 constexpr std::uint64_t index_entry_bytes = 16;
-constexpr std::uint64_t most_later_bytes = 64;  // of fields that later versions may add
+constexpr std::uint64_t most_later_bytes = 64;  // for fields that later versions may add
 
-// Takes a text; whether it is one.
+// Reads a text. Returns whether it is valid.
 bool take_name(ByteCursor& cursor) {
   const auto name = cursor.counted();
   return cursor.ok() && std::find(name.begin(), name.end(), std::byte{0}) == name.end();
 }
 
-// Whether a record's fields end where it ends, or shortly before.
+// Returns whether a record's fields fill the record, except for a few later fields.
 bool fill(std::uint64_t fields, std::uint64_t length) {
   return fields <= length && length - fields <= most_later_bytes;
 }
@@ -33,7 +33,7 @@ bool is_attachment(ByteCursor cursor, std::uint64_t length) {
   const std::size_t whole = cursor.rest().size();
   cursor.bytes(2 * sizeof(std::uint64_t));  // times
   bool named = take_name(cursor);
-  named = take_name(cursor) && named;  // its media type
+  named = take_name(cursor) && named;  // media type
   const auto data = cursor.number<std::uint64_t>();
   const std::uint64_t head = whole - cursor.rest().size();
   constexpr std::uint64_t crc = sizeof(std::uint32_t);
@@ -68,7 +68,7 @@ std::string fault_of_passed(const RecordHead& head, std::uint64_t offset, FileWi
     case Opcode::footer:
       return content_at + head.length + magic_bytes.size() == window.file_size()
                  ? ""
-                 : "a footer stands where the file does not end";
+                 : "a footer is not at the end of the file";
     default:
       return head.opcode > Opcode::data_end
                  ? "a record of kind " + std::to_string(static_cast<int>(head.opcode)) +

@@ -9,8 +9,8 @@
 
 namespace penumbra::io::mcap {
 
-/// What is wrong with a record of the data that the reader does not need, at `offset`; nothing: it
-/// may be passed over. A flipped bit of its kind's number would hide a chunk else.
+/// Returns what is wrong with a record at `offset` that the reader does not need, or an empty text
+/// if it may be skipped. Without this check, a flipped bit in a record's kind could hide a chunk.
 [[nodiscard]] std::string fault_of_passed(const RecordHead& head, std::uint64_t offset,
                                           FileWindow& window);
 

@@ -45,8 +45,8 @@ struct Reader::State {
   FaultLog faults;
   FileLayout layout;
   std::optional<ChunkMerger> merger;
-  std::set<std::uint16_t> strange;  // channels that the file does not tell of
-  std::uint64_t read = 0;           // messages
+  std::set<std::uint16_t> strange;  // channels that the file does not define
+  std::uint64_t read = 0;           // number of messages read
 };
 
 Reader::Reader(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {}
@@ -71,7 +71,7 @@ bool Reader::next(Message& message) {
     if (!channels().contains(head.channel)) {
       if (state_->strange.insert(head.channel).second)
         state_->faults.add(item->place, "messages of channel " + std::to_string(head.channel) +
-                                            ", of which the file does not tell, are left out");
+                                            ", which the file does not define, are left out");
       continue;
     }
     ++state_->read;

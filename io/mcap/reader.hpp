@@ -13,35 +13,36 @@
 
 namespace penumbra::io::mcap {
 
-/// Reads an MCAP file: chunks without compression, of lz4 and of zstd, or none; with or without
-/// index and summary; also one that its recorder did not finish, or that is damaged. Whatever of it
-/// can be read is read; each damaged chunk, and where the file is cut, is a fault.
-/// Memory follows what the file really holds, whatever sizes it claims, and is bounded by about
-/// 200 MB or a few times the largest chunk.
+/// Reads an MCAP file: chunks that are uncompressed, lz4 or zstd, or no chunks; with or without
+/// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
+/// chunk and a truncation is a fault.
+///
+/// Memory is bounded by about 200 MB or a few times the largest chunk. It follows the actual
+/// content of the file, not the sizes that it claims.
 class Reader {
  public:
-  /// Throws InputError that names the file where it cannot be read or does not begin as MCAP does.
+  /// Throws InputError that names the file if it cannot be read or does not begin like MCAP.
   explicit Reader(const std::filesystem::path& file);
   ~Reader();
   Reader(Reader&&) noexcept;
   Reader& operator=(Reader&&) noexcept;
 
   [[nodiscard]] const std::string& profile() const;  ///< "ros2"
-  [[nodiscard]] const std::string& library() const;  ///< that wrote the file
+  [[nodiscard]] const std::string& library() const;  ///< the library that wrote the file
 
-  /// By id; all that messages refer to are there from the start, but in files whose index lies.
+  /// Returns the schemas by id. All schemas of messages are there from the start, except in files
+  /// with a wrong index.
   [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const;
   [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const;
 
-  /// What the writer counted, where the file tells.
+  /// Returns the writer's statistics, if the file has them.
   [[nodiscard]] const std::optional<Statistics>& statistics() const;
 
-  /// The next message by log time; those of one time come in the file's order. Its data are valid
-  /// until the next call. False at the end. Messages of channels that the file does not tell of are
-  /// left out, which is a fault.
+  /// Reads the next message by log time, then in the file's order. Its data is valid until the next
+  /// call. Returns false at the end. Messages of undefined channels are left out, which is a fault.
   bool next(Message& message);
 
-  /// What was found wrong so far, in the order of finding. All of it is known at the end.
+  /// Returns the faults found so far, in the order of discovery. The list is complete at the end.
   [[nodiscard]] const std::vector<Fault>& faults() const;
 
  private:

@@ -47,7 +47,7 @@ void put_statistics(RecordBuilder& to, const Statistics& statistics) {
 }
 
 void put_chunk_head(RecordBuilder& to, const ChunkHead& head) {
-  // The records stand behind the head, and elsewhere in memory: the length is told ahead.
+  // The length is computed first, because the records follow the head and are elsewhere in memory.
   const std::uint64_t own = 3 * sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) +
                             head.compression.size() + sizeof(std::uint64_t);
   to.number(static_cast<std::uint8_t>(Opcode::chunk));

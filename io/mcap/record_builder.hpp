@@ -13,7 +13,7 @@
 
 namespace penumbra::io::mcap {
 
-/// Puts records together, one behind another: begin(), its fields in order, end().
+/// Builds records one after another: call begin(), add the fields in order, call end().
 class RecordBuilder {
  public:
   [[nodiscard]] std::span<const std::byte> view() const { return bytes_.view(); }
@@ -34,7 +34,7 @@ class RecordBuilder {
     bytes(std::as_bytes(std::span(&value, 1)));
   }
 
-  /// Texts must be shorter than 4 GB.
+  /// Appends a text, which must be shorter than 4 GB.
   void text(std::string_view value) {
     number(static_cast<std::uint32_t>(value.size()));
     bytes(std::as_bytes(std::span(value)));
@@ -46,7 +46,7 @@ class RecordBuilder {
   }
   void end() { end_counted<std::uint64_t>(record_); }
 
-  /// Opens something that stands behind the number of its bytes; answers what closes it.
+  /// Opens a field that is preceded by its byte count. Returns the value that closes it.
   template <typename T>
   [[nodiscard]] std::size_t begin_counted() {
     number(T{0});
@@ -63,11 +63,11 @@ class RecordBuilder {
   std::size_t record_ = 0;
 };
 
-// Each appends one record.
+// Each function appends one record.
 void put_schema(RecordBuilder& to, const Schema& schema);
 void put_channel(RecordBuilder& to, const Channel& channel);
 void put_statistics(RecordBuilder& to, const Statistics& statistics);
-/// Of the chunk's own head, records_offset apart.
+/// Appends the head of a chunk record, except records_offset.
 void put_chunk_head(RecordBuilder& to, const ChunkHead& head);
 
 }  // namespace penumbra::io::mcap

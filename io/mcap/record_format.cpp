@@ -94,7 +94,7 @@ std::optional<ChunkIndexRecord> parse_chunk_index(std::span<const std::byte> con
   ByteCursor offsets(cursor.counted());
   while (offsets.ok() && !offsets.rest().empty()) {
     index.channels.push_back(offsets.number<std::uint16_t>());
-    offsets.number<std::uint64_t>();  // of the message index: the chunk's own content is read
+    offsets.number<std::uint64_t>();  // offset of the message index; the chunk itself is read
   }
   index.message_index_length = cursor.number<std::uint64_t>();
   cursor.counted();                         // compression, as in the chunk

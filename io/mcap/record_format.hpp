@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MCAP's records as they lie in the file: https://mcap.dev/spec
+// The records of MCAP in the file: https://mcap.dev/spec
 #pragma once
 
 #include <array>
@@ -38,20 +38,20 @@ inline constexpr std::array<std::byte, 8> magic_bytes{
 
 inline constexpr std::uint64_t record_head_bytes = 9;    // opcode and length
 inline constexpr std::uint64_t message_head_bytes = 22;  // channel, sequence and times
-inline constexpr std::uint64_t footer_bytes = 20;        // of its content
+inline constexpr std::uint64_t footer_bytes = 20;        // size of the content
 inline constexpr std::uint64_t end_bytes = record_head_bytes + footer_bytes + magic_bytes.size();
-inline constexpr std::uint64_t most_chunk_head_bytes = 72;  // with a name of 32 bytes
+inline constexpr std::uint64_t most_chunk_head_bytes = 72;  // with a compression name of 32 bytes
 
-/// Of all schemas and channels of a file; ROS 2's have a few kilobytes each. No other record that
-/// is taken into memory, but messages and chunks, may have more either.
+/// The limit for all schemas and channels of a file; those of ROS 2 have a few kilobytes each. It
+/// also limits every other record in memory, except messages and chunks.
 inline constexpr std::uint64_t max_definition_bytes = std::uint64_t{64} << 20;
 
 struct RecordHead {
   Opcode opcode{};
-  std::uint64_t length = 0;  // of the content behind it
+  std::uint64_t length = 0;  // of the content after the head
 };
 
-/// Must have record_head_bytes.
+/// Parses a record's head from record_head_bytes bytes.
 [[nodiscard]] RecordHead parse_head(std::span<const std::byte> bytes);
 
 struct HeaderRecord {
@@ -72,7 +72,7 @@ struct ChunkHead {
   std::uint32_t uncompressed_crc = 0;  // 0: none
   std::string compression;
   std::uint64_t records_size = 0;    // compressed
-  std::uint64_t records_offset = 0;  // from the content's start
+  std::uint64_t records_offset = 0;  // from the start of the content
 };
 
 struct ChunkIndexRecord {
@@ -91,8 +91,8 @@ struct MessageHead {
   std::uint64_t publish_time = 0;
 };
 
-// Each reads a record's content; nothing where its fields do not fit. Bytes behind the last field
-// are of later versions.
+// Each function parses a record's content. It returns nothing if the fields exceed the content.
+// Bytes after the last field belong to later versions and are ignored.
 [[nodiscard]] std::optional<HeaderRecord> parse_header(std::span<const std::byte> content);
 [[nodiscard]] std::optional<FooterRecord> parse_footer(std::span<const std::byte> content);
 [[nodiscard]] std::optional<Schema> parse_schema(std::span<const std::byte> content);
@@ -100,7 +100,7 @@ struct MessageHead {
 [[nodiscard]] std::optional<Statistics> parse_statistics(std::span<const std::byte> content);
 [[nodiscard]] std::optional<ChunkIndexRecord> parse_chunk_index(std::span<const std::byte> content);
 [[nodiscard]] std::optional<MessageHead> parse_message_head(std::span<const std::byte> content);
-/// Needs at most most_chunk_head_bytes of the content.
+/// Parses a chunk's head. Needs at most most_chunk_head_bytes of the content.
 [[nodiscard]] std::optional<ChunkHead> parse_chunk_head(std::span<const std::byte> content);
 
 }  // namespace penumbra::io::mcap

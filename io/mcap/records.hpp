@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an MCAP file holds: https://mcap.dev/spec
+// The content of an MCAP file: https://mcap.dev/spec
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace penumbra::io::mcap {
 
-/// How the messages of channels are laid out.
+/// The message layout of channels.
 struct Schema {
   std::uint16_t id = 0;  ///< never 0
   std::string name;      ///< "sensor_msgs/msg/Image"
@@ -20,7 +20,7 @@ struct Schema {
   bool operator==(const Schema&) const = default;
 };
 
-/// One publisher's messages of one topic.
+/// The messages of one publisher of a topic.
 struct Channel {
   std::uint16_t id = 0;
   std::uint16_t schema_id = 0;  ///< 0: none
@@ -34,12 +34,12 @@ struct Channel {
 struct Message {
   std::uint16_t channel = 0;  ///< id
   std::uint32_t sequence = 0;
-  std::int64_t log_time = 0;      ///< nanoseconds: when it was recorded
+  std::int64_t log_time = 0;      ///< time of recording, nanoseconds
   std::int64_t publish_time = 0;  ///< nanoseconds
   std::span<const std::byte> data;
 };
 
-/// What the writer counted.
+/// The statistics of the writer.
 struct Statistics {
   std::uint64_t messages = 0;
   std::uint16_t schemas = 0;
@@ -52,13 +52,13 @@ struct Statistics {
   std::map<std::uint16_t, std::uint64_t> channel_messages;  ///< by channel id; empty: not counted
 };
 
-/// Something of a file that could not be read, or is not as it should be.
+/// A part of a file that is unreadable or wrong.
 struct Fault {
-  std::uint64_t offset = 0;  ///< byte of the file where it begins
-  std::string what;          ///< one line: what is wrong and what was left out
+  std::uint64_t offset = 0;  ///< offset in the file
+  std::string what;          ///< one line: the fault and what was left out
 };
 
-/// No record may be longer: what claims to be is damaged.
+/// The largest record. A record that claims more is damaged.
 inline constexpr std::uint64_t max_record_bytes = std::uint64_t{1} << 30;
 
 }  // namespace penumbra::io::mcap

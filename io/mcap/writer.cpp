@@ -20,7 +20,7 @@ constexpr std::size_t most_chunk_size = max_record_bytes / 2;
 }  // namespace
 
 struct Writer::State {
-  // Where a group of records of one kind stands in the summary.
+  // The position of a group of records of one kind in the summary.
   struct SummaryGroup {
     Opcode opcode{};
     std::uint64_t start = 0;
@@ -48,7 +48,7 @@ struct Writer::State {
   std::uint64_t offset = 0;  // bytes written
   Crc32 data_crc;
   Crc32 summary_crc;
-  RecordBuilder records;  // that are being put together
+  RecordBuilder records;  // records being built
   ChunkBuilder chunk;
   ByteBuffer compressed;
   std::map<std::uint16_t, Schema> schemas;
@@ -59,7 +59,7 @@ struct Writer::State {
 };
 
 void Writer::State::check_usable() const {
-  if (failed) throw InputError(path.string() + ": could not be written to before; it is not whole");
+  if (failed) throw InputError(path.string() + ": an earlier write failed; the file is incomplete");
   assert(!closed && "nothing may be written after close()");
 }
 
@@ -214,7 +214,7 @@ void Writer::write(std::uint16_t channel, std::int64_t log_time, std::int64_t pu
     throw InputError(s.path.string() + ": a message of " + known->second.topic + " has " +
                      std::to_string(data.size()) + " bytes; less than 512 MB are written");
   const auto time = static_cast<std::uint64_t>(log_time);
-  // A message that would make the chunk too long begins the next one.
+  // A message that would make the chunk too large begins the next chunk.
   if (s.chunk.size() + data.size() > most_chunk_size) s.finish_chunk();
   s.chunk.add({channel, sequence, time, static_cast<std::uint64_t>(publish_time)}, data);
   Statistics& all = s.statistics;

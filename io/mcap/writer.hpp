@@ -16,17 +16,18 @@ namespace penumbra::io::mcap {
 
 struct WriterOptions {
   Compression compression = Compression::zstd;
-  /// Bytes of messages after which a chunk is closed, before compression; at most 512 MB. What
-  /// stands in an open chunk is lost when the program ends without close().
+  /// A chunk is closed after this many bytes of messages before compression; at most 512 MB. The
+  /// open chunk is lost if the program ends without close().
   std::size_t chunk_size = std::size_t{1} << 20;
   std::string profile;  ///< "ros2" for bags
 };
 
 /// Writes an MCAP file of chunks with message and chunk index, summary, statistics and checksums.
-/// The same calls give the same bytes. Chunks that do not shrink, and such of more than
-/// 64 MB that shrink more than 64-fold, are stored as they are.
-/// Whatever the system refuses (a full disk) throws InputError that names the file; the writer then
-/// refuses all further calls. Without close() the file ends behind its last whole chunk.
+/// The same calls give the same bytes. Chunks that do not shrink, and chunks of more than 64 MB
+/// that shrink more than 64-fold, are stored uncompressed.
+///
+/// A system error (for example, a full disk) throws InputError that names the file; all further
+/// calls are refused. Without close() the file ends after its last whole chunk.
 class Writer {
  public:
   Writer(const std::filesystem::path& file, WriterOptions options);
@@ -34,21 +35,22 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Answers the schema's id. At most 65,535 schemas; throws InputError for more.
+  /// Adds a schema and returns its id. Throws InputError for more than 65,535 schemas.
   std::uint16_t add_schema(std::string name, std::string encoding, std::string data);
 
-  /// Answers the channel's id. `schema_id`: of add_schema(), or 0 for none. At most 65,536
-  /// channels; throws InputError for more.
+  /// Adds a channel and returns its id. `schema_id`: of add_schema(), or 0 for none. Throws
+  /// InputError for more than 65,536 channels.
   std::uint16_t add_channel(std::string topic, std::string message_encoding,
                             std::uint16_t schema_id,
                             std::map<std::string, std::string> metadata = {});
 
-  /// `channel`: of add_channel(). Times in nanoseconds since 1970; throws InputError for earlier
-  /// ones, and for messages of 512 MB and more. Messages may come in any order.
+  /// Writes a message. `channel`: of add_channel(). Times are nanoseconds since 1970. Throws
+  /// InputError for earlier times and for messages of 512 MB and more. Messages may come in any
+  /// order.
   void write(std::uint16_t channel, std::int64_t log_time, std::int64_t publish_time,
              std::uint32_t sequence, std::span<const std::byte> data);
 
-  /// Finishes the file. Nothing may be written afterwards.
+  /// Finishes the file. Do not write afterwards.
   void close();
 
  private:

@@ -10,7 +10,7 @@
 
 namespace penumbra::io {
 
-/// Frames that were judged, or are being: those there are can be read meanwhile, by any thread.
+/// An archive of judged frames, which may still grow. Any thread may read the frames meanwhile.
 class FrameArchive {
  public:
   FrameArchive() = default;
@@ -18,14 +18,15 @@ class FrameArchive {
   FrameArchive& operator=(const FrameArchive&) = delete;
   virtual ~FrameArchive() = default;
 
-  /// Frames so far.
+  /// Returns the number of frames so far.
   [[nodiscard]] virtual std::size_t size() const = 0;
   [[nodiscard]] virtual bool is_complete() const = 0;
-  /// report.json so far, of its frames those from the given one on.
+  /// Returns report.json so far, with the frames from index `from` on.
   [[nodiscard]] virtual SharedBytes report(std::size_t from) const = 0;
-  /// The i-th in the report's order; null: there is none (yet). This must outlive it.
+  /// Returns frame i in the report's order, or null if it does not exist (yet). This must outlive
+  /// the frame.
   [[nodiscard]] virtual std::unique_ptr<PacketFrame> frame(std::size_t i) const = 0;
-  /// What cannot be shown and which command gives it, a sentence each.
+  /// Returns what cannot be shown and the command that provides it, one sentence each.
   [[nodiscard]] virtual std::vector<std::string> missing() const = 0;
 };
 

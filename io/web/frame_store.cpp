@@ -14,7 +14,7 @@ namespace {
 
 constexpr int jpeg_quality = 90;
 
-/// The image in the report's space.
+/// Returns the image in the geometry of the report's images.
 template <typename T>
 ImageView<const T> rectified(const Rectification* rectification, ImageView<const T> raw,
                              Image<T>& image) {
@@ -48,7 +48,7 @@ std::string marks_json(std::span<const TargetMark> marks) {
 
 }  // namespace
 
-/// One frame of the store.
+/// A frame of the store.
 class FrameStore::StoredFrame final : public PacketFrame {
  public:
   StoredFrame(const FrameStore& store, std::string report, const Entry& entry)

@@ -19,8 +19,8 @@ namespace penumbra::io {
 /// file, so that recordings may be longer than the memory, and bags be looked at in any order.
 class FrameStore final : public FrameArchive, public RunOutput {
  public:
-  /// `rectification` brings recorded images to the report's; null where they fit, else it must
-  /// outlive this. Throws InputError where no temporary file can be made.
+  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
+  /// already. It must outlive this. Throws InputError if no temporary file can be made.
   explicit FrameStore(const Rectification* rectification);
 
   // By one thread; save() throws InputError where the disk is full.
@@ -28,7 +28,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void save(const FrameReport& report, const FrameData& data, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
-  // By any thread.
+  // Any thread may call these.
   [[nodiscard]] std::size_t size() const override;
   [[nodiscard]] bool is_complete() const override;
   [[nodiscard]] SharedBytes report(std::size_t from) const override;
@@ -37,10 +37,10 @@ class FrameStore final : public FrameArchive, public RunOutput {
 
  private:
   class StoredFrame;
-  /// An image's place, and what it is.
+  /// The position, type and size of an image.
   struct Kept {
     SpoolPlace place;
-    const char* type = nullptr;  // null: there is none
+    const char* type = nullptr;  // null: no image
     int width = 0, height = 0;
   };
   struct Entry {
@@ -60,16 +60,16 @@ class FrameStore final : public FrameArchive, public RunOutput {
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;
 
-  // Of the thread that adds.
+  // Used by the adding thread only.
   Image<Rgb8> color_;
   Image<float> metres_, rectified_;
   std::vector<std::byte> file_;
   std::string pixels_;
 
   mutable std::mutex mutex_;
-  std::string text_;           // of the report so far
-  std::size_t head_size_ = 0;  // of it, before the frames
-  std::string end_;            // of the report; empty until it is known
+  std::string text_;           // the report so far
+  std::size_t head_size_ = 0;  // size of its part before the frames
+  std::string end_;            // end of the report; empty until it is known
   std::vector<Entry> entries_;
   std::size_t without_color_ = 0;
   std::string first_without_color_;

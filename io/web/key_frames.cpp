@@ -19,7 +19,7 @@ std::vector<std::string> state_of(const FrameReport& report) {
   return state;
 }
 
-/// Returns a picture for a page that is one file: "data:image/jpeg;base64,...".
+/// Returns a picture that is embedded in a page: "data:image/jpeg;base64,...".
 std::string picture_uri(ImageView<const Rgb8> image) {
   constexpr int quality = 80;
   std::vector<std::byte> jpeg;
@@ -44,7 +44,7 @@ void KeyFrames::add(const FrameReport& report, ImageView<const Rgb8> overlay) {
   if (frame > 0 && state == state_) return;
   state_ = std::move(state);
   pictures_.push_back({frame, picture_uri(overlay)});
-  if (pictures_.size() == most_frames) thin_out();  // the last frame needs a place
+  if (pictures_.size() == most_frames) thin_out();  // the last frame needs room
 }
 
 void KeyFrames::thin_out() {

@@ -14,15 +14,16 @@
 namespace penumbra::io {
 
 /// The frames that a report shows: the first, the last, and those where a verdict or the frame's
-/// status changes. Of more than most_frames those that follow closest on another are left out.
+/// status changes. If there are more than most_frames, those closest to their predecessors are left
+/// out.
 class KeyFrames {
  public:
   static constexpr std::size_t most_frames = 24;
 
-  /// `overlay`: the frame's augmented view.
+  /// Adds a frame. `overlay`: its colour image with labels and targets.
   void add(const FrameReport& report, ImageView<const Rgb8> overlay);
 
-  /// [{"index": i, "image": "data:image/jpeg;base64,..."}], i counted from 0.
+  /// Returns [{"index": i, "image": "data:image/jpeg;base64,..."}], with i counted from 0.
   [[nodiscard]] std::string json() const;
 
  private:
@@ -33,7 +34,7 @@ class KeyFrames {
   void thin_out();
 
   std::vector<Picture> pictures_;
-  std::vector<std::string> state_;  // of the last frame: its status, its targets and verdicts
+  std::vector<std::string> state_;  // status, targets and verdicts of the last frame
   Image<Rgb8> last_;
   std::size_t frames_ = 0;
 };

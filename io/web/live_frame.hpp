@@ -21,7 +21,7 @@ namespace penumbra::io {
 /// A set of parts, by Part.
 using PartSet = std::bitset<part_count>;
 
-/// The robot and the camera of a LiveSetup, as pages show them. For several threads.
+/// The robot and the camera of a LiveSetup, in the form that pages show. Thread-safe.
 class LiveScene {
  public:
   LiveScene(const LiveSetup& setup, std::uint64_t number)
@@ -43,8 +43,8 @@ class LiveScene {
   mutable std::optional<CloudMaker> cloud_;
 };
 
-/// Keeps what pages need of a judged frame. Colour is decoded, and depth converted to metres, when
-/// they are asked for.
+/// The parts of a judged frame that pages need. Colour is decoded and depth converted to metres on
+/// demand.
 class LiveFrame final : public PacketFrame {
  public:
   /// Copies the parts in `kept`.
@@ -59,7 +59,7 @@ class LiveFrame final : public PacketFrame {
   /// Returns whether these parts were kept.
   [[nodiscard]] bool has_kept(const PartSet& parts) const { return (parts & ~kept_).none(); }
   [[nodiscard]] const LiveScene& scene() const { return *scene_; }
-  [[nodiscard]] std::uint64_t index() const { return index_; }  ///< the report's
+  [[nodiscard]] std::uint64_t index() const { return index_; }  ///< index in the report
   [[nodiscard]] std::int64_t stamp() const { return stamp_; }
 
  private:

@@ -25,7 +25,7 @@ Json json_of(const std::vector<LiveView::Diagnostic>& diagnostics) {
   return json;
 }
 
-/// {"type": "want", "with": [...], "step": 4}; nothing: it is not that.
+/// Parses {"type": "want", "with": [...], "step": 4}. Returns nothing for other messages.
 std::optional<Wanted> wanted_of(const Json& message) {
   std::string with;
   const auto names = message.find("with");
@@ -39,7 +39,7 @@ std::optional<Wanted> wanted_of(const Json& message) {
   return parse_wanted(with, step == message.end() ? "" : step->dump());
 }
 
-/// Returns what a frame must hold for a client that wants these.
+/// Returns the parts that a frame must have for a client that wants these.
 PartSet needed_for(const std::vector<Part>& wanted) {
   PartSet needed;
   for (const Part part : wanted) needed.set(static_cast<std::size_t>(part));
@@ -59,7 +59,7 @@ std::vector<std::string> missing_links(const Robot& robot) {
 
 }  // namespace
 
-/// One browser. It is sent the newest frame when it says that it has drawn the last one.
+/// A browser. It gets the newest frame after it reports that it has drawn the last one.
 class LiveView::Client final : public WebChannel {
  public:
   explicit Client(LiveView& view) : view_(view) {
@@ -67,7 +67,7 @@ class LiveView::Client final : public WebChannel {
     ++view_.clients_;
   }
   ~Client() override {
-    std::shared_ptr<const LiveFrame> last;  // destroyed without the lock
+    std::shared_ptr<const LiveFrame> last;  // destroyed after the lock is released
     const std::lock_guard lock(view_.mutex_);
     count_needed(-1);
     if (--view_.clients_ == 0) last = std::move(view_.frame_);
@@ -95,7 +95,7 @@ class LiveView::Client final : public WebChannel {
     if (!is_ready_) return std::nullopt;
     const Moment moment = view_.now();
     const auto& frame = moment.frame;
-    // A frame of before the client's last wish may lack a part: the next one has it.
+    // A frame from before the client's last request may lack a part. The next frame has it.
     if (!frame || frame == sent_.lock() || !frame->has_kept(needed_)) return std::nullopt;
     const std::uint64_t dropped =
         last_ && frame->index() > *last_ ? frame->index() - *last_ - 1 : 0;
@@ -124,7 +124,7 @@ class LiveView::Client final : public WebChannel {
   PartSet needed_;
   bool is_ready_ = false;
   std::weak_ptr<const LiveFrame> sent_;
-  std::optional<std::uint64_t> last_;  // index of the frame that was sent last
+  std::optional<std::uint64_t> last_;  // index of the last frame sent
 };
 
 LiveView::LiveView(std::string input) : input_(std::move(input)) {}
@@ -136,7 +136,7 @@ bool LiveView::show(const LiveJob& job, const DepthView& depth, const FrameRepor
   {
     const std::lock_guard lock(mutex_);
     judged_at_.push_back(now);
-    // The last interval stays, however long: a slow camera has a rate, too.
+    // The last interval is kept, however long it is, so that a slow camera has a rate too.
     while (judged_at_.size() > 2 && now - judged_at_.front() > rate_window) judged_at_.pop_front();
     if (setup_.lock() != job.setup) {
       scene_ = std::make_shared<LiveScene>(*job.setup, scene_ ? scene_->version + 1 : 1);
@@ -154,7 +154,8 @@ bool LiveView::show(const LiveJob& job, const DepthView& depth, const FrameRepor
   return true;
 }
 
-void LiveView::tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing) {
+void LiveView::set_diagnostics(std::vector<Diagnostic> diagnostics,
+                               std::vector<std::string> missing) {
   const std::lock_guard lock(mutex_);
   diagnostics_ = std::move(diagnostics);
   missing_ = std::move(missing);

@@ -18,23 +18,23 @@ namespace penumbra::io {
 
 /// Serves the page and the frames of a camera that is judged live. Each client gets the newest
 /// frame when it is ready for one. Any thread may call all members. The mutex is held only while
-/// pointers and texts are copied, so the thread that judges never waits for a client.
+/// pointers and texts are copied, so the judging thread never waits for a client.
 class LiveView final : public WebHandler {
  public:
   struct Diagnostic {
     std::string level, message;
   };
 
-  /// `input`: what the page is told that it shows.
+  /// `input`: the name of the input, which the page shows.
   explicit LiveView(std::string input);
 
-  /// Takes the newest frame, as FrameWatcher::take. Copies only the parts that clients want, and
+  /// Takes the newest frame, like FrameWatcher::take. Copies only the parts that clients want, and
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
   bool show(const LiveJob& job, const DepthView& depth, const FrameReport& report,
             std::int64_t now);
-  /// Sets the statuses of `penumbra live` and what is missing.
-  void tell(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
+  /// Sets the diagnostics of `penumbra live` and the list of missing data.
+  void set_diagnostics(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
   /// Returns whether a client needs this part.
   [[nodiscard]] bool needs(Part part) const;
@@ -44,7 +44,7 @@ class LiveView final : public WebHandler {
 
  private:
   class Client;
-  /// All that a client is sent, as it is now.
+  /// The current content for a client.
   struct Moment {
     std::shared_ptr<const LiveScene> scene;  // null: no frame was judged yet
     std::shared_ptr<const LiveFrame> frame;
@@ -59,13 +59,13 @@ class LiveView final : public WebHandler {
   const std::string input_;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
-  std::deque<std::int64_t> judged_at_;      // in the last two seconds; the last two in any case
-  std::weak_ptr<const LiveSetup> setup_;    // scene_'s
+  std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two
+  std::weak_ptr<const LiveSetup> setup_;    // the setup of scene_
   std::shared_ptr<const LiveScene> scene_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::string> missing_;
   std::size_t clients_ = 0;
-  std::array<std::size_t, part_count> needed_{};  // by how many clients
+  std::array<std::size_t, part_count> needed_{};  // number of clients that need each part
 };
 
 }  // namespace penumbra::io

@@ -15,32 +15,33 @@
 
 namespace penumbra::io {
 
-/// What a frame's packet may hold beside its report.
+/// The parts that a frame's packet may have in addition to its report.
 enum class Part { color, overlay, labels, links, vdi, depth, cloud };
 
 inline constexpr std::size_t part_count = 7;
 
 [[nodiscard]] std::string_view to_string(Part part);
 
-/// What a client wants of each frame.
+/// The parts that a client wants of each frame.
 struct Wanted {
   std::vector<Part> parts;
-  int step = 4;  ///< of the cloud: every step-th pixel in both directions
+  int step = 4;  ///< for the cloud: every step-th pixel in both directions
 
   static constexpr int max_step = 64;
 };
 
-/// Of "color,labels" and "4"; empty texts: none, and the default. Nothing for what is neither.
+/// Parses "color,labels" and "4". Empty texts give no parts and the default step. Returns nothing
+/// for invalid texts.
 [[nodiscard]] std::optional<Wanted> parse_wanted(std::string_view parts, std::string_view step);
 
-/// An image, or the cloud, as it is sent: row-major, little endian; metres; 0 is nothing.
+/// An image or the cloud in the form that is sent: row-major, little endian, metres; 0 is no value.
 struct PartBytes {
   std::string type;  ///< image/jpeg, image/png, u8, u16, f32, xyzlrgb
   int width = 0, height = 0;
   SharedBytes bytes;
 };
 
-/// A frame as it is judged and drawn.
+/// A judged frame.
 class PacketFrame {
  public:
   PacketFrame() = default;
@@ -48,33 +49,33 @@ class PacketFrame {
   PacketFrame& operator=(const PacketFrame&) = delete;
   virtual ~PacketFrame() = default;
 
-  /// Its object of report.json.
+  /// Returns the frame's object in report.json.
   [[nodiscard]] virtual std::string report() const = 0;
   /// "link_poses": [...], "camera_pose": ..., and "marks": [...] where targets can be outlined
   [[nodiscard]] virtual std::string poses() const = 0;
-  /// Nothing: the frame has none. Not asked for Part::cloud.
+  /// Returns a part other than Part::cloud, or nothing if the frame does not have it.
   [[nodiscard]] virtual std::optional<PartBytes> part(Part part) const = 0;
-  /// The pixels of Part::color; null: there is none.
+  /// Returns the pixels of Part::color, or null if there are none.
   [[nodiscard]] virtual std::shared_ptr<const Image<Rgb8>> color_pixels() const;
 };
 
-/// The points that a depth image shows. For several threads.
+/// Makes point clouds of depth images. Thread-safe.
 class CloudMaker {
  public:
-  /// Of the images that the parts are.
+  /// `camera`: the camera of the parts' images.
   explicit CloudMaker(const Camera& camera);
 
-  /// Of every step-th pixel that has a depth: x, y, z in the optical frame, metres, label, colour
-  /// (grey where there is none). Nothing without depth or labels.
+  /// Returns a point for every step-th pixel with depth: x, y, z in the optical frame, metres,
+  /// label, and colour (grey if there is none). Returns nothing without depth or labels.
   [[nodiscard]] std::optional<PartBytes> make(const PacketFrame& frame, int step) const;
 
  private:
   int width_, height_;
-  std::vector<float> rays_;  // x and y for each pixel, z being 1; NaN where there is none
+  std::vector<float> rays_;  // x and y at z = 1 for each pixel; NaN: no ray
 };
 
-/// A frame's packet: length of the JSON, the JSON, the parts. `cloud` may be null; `more` is added
-/// to the JSON: empty, or ", " and members.
+/// Returns a frame's packet: the length of the JSON, the JSON, the parts. `cloud` may be null.
+/// `more` is added to the JSON: empty, or ", " and members.
 [[nodiscard]] std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wanted,
                                                    const CloudMaker* cloud,
                                                    std::uint64_t scene_version,

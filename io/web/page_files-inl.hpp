@@ -7,7 +7,7 @@
 
 namespace penumbra::io {
 
-/// All of web/dist; made by embed_files.cmake.
+/// Returns all files of web/dist; embed_files.cmake generates it.
 [[nodiscard]] std::span<const PageFile> page_files();
 
 }  // namespace penumbra::io

@@ -20,7 +20,7 @@ std::string script_json(std::string_view json) {
   return text;
 }
 
-/// Puts JSON between the tags of the script with this id.
+/// Inserts JSON into the script element with this id.
 void fill_in(std::string& page, std::string_view id, std::string_view json) {
   const std::string tag = "<script type=\"application/json\" id=\"" + std::string(id) + "\">";
   const auto start = page.find(tag);

@@ -19,14 +19,14 @@ namespace {
 constexpr std::size_t name_digits = 6;
 constexpr std::array saved_kinds{Part::overlay, Part::labels, Part::links, Part::vdi};
 
-/// Throws InputError for a file that lies outside of the folder, behind a link.
+/// Throws InputError for a file that is outside of the folder through a link.
 void check_is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
   const auto root = std::filesystem::weakly_canonical(folder, error);
   const auto real = std::filesystem::weakly_canonical(file, error);
   const auto end = std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first;
   if (error || end != root.end())
-    throw InputError(file.string() + ": leads out of the run's folder and is not shown");
+    throw InputError(file.string() + ": is outside of the run's folder and is not shown");
 }
 
 template <typename T>
@@ -63,7 +63,7 @@ std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part
 
 }  // namespace
 
-/// One frame of a run: what was saved of it.
+/// The saved images of a frame.
 class RunFolder::SavedFrame final : public PacketFrame {
  public:
   SavedFrame(const RunFolder& folder, std::size_t i) : folder_(folder), i_(i) {}

@@ -12,20 +12,20 @@
 
 namespace penumbra::io {
 
-/// A report.json as it was read.
+/// The content of a report.json.
 struct RunReport {
   std::string input;
   ImageSpace image = ImageSpace::raw;
   std::vector<std::string> links;
-  std::vector<std::int64_t> indices;  ///< of the frames
-  std::vector<std::string> frames;    ///< as they stand in the report
+  std::vector<std::int64_t> indices;  ///< index of each frame
+  std::vector<std::string> frames;    ///< the report's text of each frame
   std::string start, end;             ///< the report's text around the frames
 
-  /// Throws InputError where the file is no report of a run, or that of another version.
+  /// Reads a file. Throws InputError if it is not the report of a run or has another version.
   [[nodiscard]] static RunReport read(const std::filesystem::path& file);
 };
 
-/// The results of a run in a folder: its report and the images that it saved.
+/// The results of a run in a folder: its report and saved images.
 class RunFolder final : public FrameArchive {
  public:
   RunFolder(std::filesystem::path folder, RunReport report);

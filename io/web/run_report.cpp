@@ -34,7 +34,7 @@ RunReport RunReport::read(const std::filesystem::path& file) {
     report.start.pop_back();
     report.start += ",\n\"frames\": [";
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string() + ": is no report of penumbra run (" + error.what() +
+    throw InputError(file.string() + ": is not a report of penumbra run (" + error.what() +
                      "); a folder that run wrote with -o is wanted");
   }
   return report;

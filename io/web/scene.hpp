@@ -14,7 +14,7 @@
 
 namespace penumbra::io {
 
-/// What is drawn of a robot: the very triangles of its renderer.
+/// The drawing of a robot: the triangles of its renderer.
 struct Scene {
   std::uint64_t version = 1;
   SharedBytes json;      ///< {"server", "version", "root", "links": [{"name", "meshes": [...]}]}
@@ -23,11 +23,11 @@ struct Scene {
 
 [[nodiscard]] Scene make_scene(const Robot& robot, std::uint64_t version = 1);
 
-/// Of links whose geometry is not known.
+/// Makes the scene of links whose geometry is not known.
 [[nodiscard]] Scene make_scene(std::span<const std::string> links);
 
-/// "link_poses": [[x, y, z, qx, qy, qz, qw]...], "camera_pose": [...], all in the root link's
-/// frame; null where the robot's pose is not known.
+/// Returns "link_poses": [[x, y, z, qx, qy, qz, qw]...], "camera_pose": [...], all in the root
+/// link's frame; null if the robot's pose is not known.
 [[nodiscard]] std::string poses_json(std::span<const Eigen::Isometry3d> T_root_link,
                                      const std::optional<Eigen::Isometry3d>& T_root_camera,
                                      std::size_t links);

@@ -5,8 +5,8 @@
 
 namespace penumbra::io {
 
-/// Of this process, and of no other: a page that was served by another one on the same port sees
-/// by it that what it has is not from here.
+/// Returns an identifier of this process. A page uses it to detect that its data comes from another
+/// server on the same port.
 [[nodiscard]] const std::string& server_id();
 
 }  // namespace penumbra::io

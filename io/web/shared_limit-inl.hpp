@@ -10,15 +10,15 @@
 
 namespace penumbra::io {
 
-/// What clients may use all together: bytes that wait for them, or connections. When they use more,
-/// the oldest use is given up, so that one client cannot take it from the others.
+/// A limit on what all clients use together: bytes that wait for them, or connections. When the
+/// limit is exceeded, the oldest use is ended, so that one client cannot take everything.
 class SharedLimit {
  public:
   explicit SharedLimit(std::size_t most) : most_(most) {}
 
   struct Use {
     std::size_t size;
-    std::function<void()> give_up;  // may be called by any thread
+    std::function<void()> give_up;  // any thread may call it
   };
   using Place = std::list<Use>::iterator;
 
@@ -36,8 +36,8 @@ class SharedLimit {
   }
 
  private:
-  /// What gives up is called without the mutex: the client may be destroyed by it, and remove its
-  /// use.
+  /// Adds a use. The caller calls `given_up` without the mutex, because that may destroy a client,
+  /// which removes its use.
   Place add(Use use, std::vector<std::function<void()>>& given_up) {
     const std::lock_guard lock(mutex_);
     size_ += use.size;
@@ -55,7 +55,7 @@ class SharedLimit {
   std::size_t most_;
 };
 
-/// A connection's use of a limit.
+/// The use of a limit by a connection.
 class Seat {
  public:
   Seat() = default;
@@ -63,7 +63,7 @@ class Seat {
   Seat& operator=(const Seat&) = delete;
   ~Seat() { leave(); }
 
-  /// Takes the newest place of a limit, and leaves the former one.
+  /// Becomes the newest use of a limit and leaves the former limit.
   void take(SharedLimit& limit, std::function<void()> give_up) {
     leave();
     place_ = limit.add({1, std::move(give_up)});

@@ -14,7 +14,7 @@
 namespace penumbra::io {
 namespace {
 
-// Larger ones would look like bombs to the decompressor.
+// The decompressor refuses larger blocks as decompression bombs.
 constexpr std::size_t most_packed = std::size_t{48} << 20U;
 
 std::filesystem::path temporary_folder() {

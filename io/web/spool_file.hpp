@@ -12,7 +12,7 @@
 
 namespace penumbra::io {
 
-/// Where something stands in a spool file.
+/// The position of a content in a spool file.
 struct SpoolPlace {
   std::uint64_t offset = 0;
   std::size_t stored = 0;  ///< bytes in the file
@@ -20,20 +20,21 @@ struct SpoolPlace {
   bool is_packed = false;
 };
 
-/// A temporary file without a name: the system takes it away with the program, however that ends.
+/// A temporary file without a name. The system removes it when the program ends in any way.
 class SpoolFile {
  public:
-  /// In TMPDIR, else in /var/tmp, which is on a disk. Throws InputError where it cannot be made.
+  /// Makes the file in TMPDIR, else in /var/tmp, which is on a disk. Throws InputError if it cannot
+  /// be made.
   SpoolFile();
   ~SpoolFile();
   SpoolFile(const SpoolFile&) = delete;
   SpoolFile& operator=(const SpoolFile&) = delete;
 
-  /// Adds bytes, compressed where `pack` says so. By one thread at a time. Throws InputError where
-  /// the disk is full.
+  /// Adds bytes, compressed if `pack` is set. Use one thread at a time. Throws InputError if the
+  /// disk is full.
   SpoolPlace append(std::span<const std::byte> bytes, bool pack);
 
-  /// By any thread. Throws std::runtime_error where the disk fails.
+  /// Reads a content. Any thread may call this. Throws std::runtime_error if the disk fails.
   [[nodiscard]] std::string read(const SpoolPlace& place) const;
 
   [[nodiscard]] std::uint64_t size() const { return end_; }

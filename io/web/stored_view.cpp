@@ -33,7 +33,7 @@ std::string query_of(const WebRequest& request, const char* name) {
   return at == request.query.end() ? std::string() : at->second;
 }
 
-/// The index in "/api/frames/17/packet"; nothing: the path is another.
+/// Returns the index in "/api/frames/17/packet", or nothing for other paths.
 std::optional<std::size_t> packet_index(std::string_view path) {
   if (!path.starts_with(frames_path) || !path.ends_with(packet_end) ||
       path.size() <= frames_path.size() + packet_end.size())
@@ -63,7 +63,7 @@ std::string session_json(const SessionInfo& info, std::size_t frames,
 std::optional<WebAnswer> page_answer(const std::string& path) {
   const PageFile* const file = find_page_file(path == "/" ? "/index.html" : path);
   if (file == nullptr) return std::nullopt;
-  // Names of assets hold a hash of what is in them.
+  // Asset names contain a hash of the content.
   return WebAnswer{.type = std::string(file->type),
                    .body = {shared_bytes(std::string(file->bytes))},
                    .keeps = path.starts_with("/assets/")};

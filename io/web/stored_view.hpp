@@ -13,33 +13,33 @@
 
 namespace penumbra::io {
 
-/// What a page is told of what it shows.
+/// Describes the input of a page.
 struct SessionInfo {
-  std::string mode = "stored";  ///< or live
+  std::string mode = "stored";  ///< "stored" or "live"
   std::string input;
   std::vector<std::string> links;
   std::optional<Camera> camera = {};  ///< of the parts' images
   ImageSpace image = ImageSpace::raw;
-  std::vector<Part> parts = {};  ///< that can be had
+  std::vector<Part> parts = {};  ///< available parts
 };
 
-/// GET /api/session.
+/// Returns the answer to GET /api/session.
 [[nodiscard]] std::string session_json(const SessionInfo& info, std::size_t frames,
                                        std::optional<std::size_t> expected, bool is_complete,
                                        std::uint64_t scene_version,
                                        const std::vector<std::string>& missing);
 
-/// The page's files; nothing where it has none of this path.
+/// Returns the file of the page with this path, or nothing.
 [[nodiscard]] std::optional<WebAnswer> page_answer(const std::string& path);
 
-/// GET /api/scene and /api/scene.bin, of this version and server where the query names them;
-/// nothing for other paths.
+/// Returns the answer to GET /api/scene or /api/scene.bin, for this version and server if the query
+/// names them; nothing for other paths.
 [[nodiscard]] std::optional<WebAnswer> scene_answer(const WebRequest& request, const Scene& scene);
 
 /// Serves the page and frames of an archive.
 class StoredView final : public WebHandler {
  public:
-  /// `archive` must outlive this. `expected`: how many frames there will be, where it is known.
+  /// `archive` must outlive this. `expected`: the final number of frames, if known.
   StoredView(SessionInfo info, Scene scene, const FrameArchive& archive,
              std::optional<std::size_t> expected);
 

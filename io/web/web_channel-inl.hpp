@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server's connections share, and those that became WebSockets.
+// The shared state of the server's connections, and the WebSocket connections.
 #pragma once
 
 #include <chrono>
@@ -38,27 +38,27 @@ inline std::size_t size_of(const std::vector<SharedBytes>& body) {
 
 class Channel;
 
-/// What the connections share.
+/// The shared state of all connections.
 struct Shared {
   Shared(const WebOptions& options_, WebHandler& handler_, WebGuard guard_)
       : options(options_),
         handler(handler_),
         guard(std::move(guard_)),
-        strangers(options.max_strangers),
-        guests(options.max_connections),
+        unauthenticated(options.max_unauthenticated),
+        authenticated(options.max_connections),
         waiting(options.max_waiting_bytes) {}
 
   WebOptions options;
   WebHandler& handler;
   WebGuard guard;
-  SharedLimit strangers;  // connections that have not shown the token
-  SharedLimit guests;     // those that have; the one that was used last is the newest
-  SharedLimit waiting;    // bytes
+  SharedLimit unauthenticated;  // connections that have not shown the token
+  SharedLimit authenticated;    // connections that have; the last used is the newest
+  SharedLimit waiting;          // bytes
   std::mutex channels_mutex;
   std::list<std::weak_ptr<Channel>> channels;
 };
 
-/// Has a client give its connection up, on its strand; may be called by any thread.
+/// Returns a function that ends a client's connection on its strand. Any thread may call it.
 template <typename Client>
 std::function<void()> close_of(std::weak_ptr<Client> weak) {
   return [weak = std::move(weak)] {
@@ -67,11 +67,11 @@ std::function<void()> close_of(std::weak_ptr<Client> weak) {
   };
 }
 
-/// A WebSocket client. One message is on its way at a time; what to send next is asked for when it
-/// has gone, so that a slow client holds one message and misses those in between.
+/// A WebSocket client. One message is sent at a time, and the next one is requested after that. So
+/// a slow client holds one message and misses those in between.
 class Channel : public std::enable_shared_from_this<Channel> {
  public:
-  static constexpr std::size_t most_message_bytes = 4 * 1024;  // of a client's
+  static constexpr std::size_t most_message_bytes = 4 * 1024;  // for messages of clients
 
   Channel(beast::tcp_stream stream, Shared& shared, std::unique_ptr<WebChannel> channel)
       : shared_(shared), stream_(std::move(stream)), channel_(std::move(channel)) {}
@@ -84,7 +84,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
     times.keep_alive_pings = true;
     stream_.set_option(times);
     stream_.read_message_max(most_message_bytes);
-    stream_.auto_fragment(false);  // into 4 KB
+    stream_.auto_fragment(false);  // no fragments of 4 KB
     stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
       {
@@ -106,7 +106,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
 
  private:
   [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
-  void stay() { seat_.take(shared_.guests, close_of(weak_from_this())); }
+  void stay() { seat_.take(shared_.authenticated, close_of(weak_from_this())); }
 
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -133,7 +133,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
   std::optional<std::vector<SharedBytes>> next() {
     try {
       return channel_->next();
-    } catch (const std::exception&) {  // as 500 is of requests
+    } catch (const std::exception&) {  // like status 500 for requests
       close(websocket::close_code::internal_error);
       return std::nullopt;
     }
@@ -165,7 +165,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
   websocket::stream<beast::tcp_stream> stream_;
   std::unique_ptr<WebChannel> channel_;
   beast::flat_buffer buffer_;
-  std::vector<SharedBytes> message_;  // on its way
+  std::vector<SharedBytes> message_;  // being sent
   bool sending_ = false, closing_ = false;
 };
 

@@ -24,7 +24,7 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-/// "name:port" in two, IPv6 in brackets; the port of "name" is HTTP's own.
+/// Splits "name:port", with IPv6 in brackets. The default port is that of HTTP.
 std::pair<std::string, std::string> split_host(std::string_view host) {
   const auto colon = host.rfind(':');
   const auto bracket = host.rfind(']');
@@ -33,7 +33,8 @@ std::pair<std::string, std::string> split_host(std::string_view host) {
   return {lower(host.substr(0, colon)), std::string(host.substr(colon + 1))};
 }
 
-/// Digits and dots, or brackets: no name that a DNS server could make anything of.
+/// Returns whether a name is an IP address: digits and dots, or brackets. DNS cannot resolve such a
+/// name.
 bool is_ip_literal(const std::string& name) {
   if (name.starts_with('[')) return name.ends_with(']');
   return !name.empty() && std::all_of(name.begin(), name.end(),
@@ -44,7 +45,8 @@ bool is_loopback_name(const std::string& name) {
   return name == "localhost" || name == "127.0.0.1" || name == "[::1]";
 }
 
-/// Browsers send a host's cookies to all of its ports: each server has a name of its own.
+/// Returns the cookie's name. Browsers send a host's cookies to all of its ports, so each server
+/// has its own name.
 std::string cookie_name(std::uint16_t port) { return "penumbra_" + std::to_string(port); }
 
 }  // namespace
@@ -68,7 +70,8 @@ std::optional<WebAnswer> WebGuard::refuse(const WebSender& sender) const {
   if (!is_own_host(*sender.host))
     return web_error(403, "this server does not serve under that name; open " +
                               (token_.empty() ? url() : std::string("the address it printed")));
-  // Browsers name the origin of every WebSocket and of every request that a foreign page reads.
+  // Browsers send the origin of every WebSocket and of every request whose answer a foreign page
+  // reads.
   if (sender.origin && lower(*sender.origin) != "http://" + lower(*sender.host))
     return web_error(403, "pages of another origin are not served");
   return std::nullopt;
@@ -133,7 +136,7 @@ bool equal_secrets(std::string_view a, std::string_view b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     difference |=
         static_cast<unsigned>(static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]));
-  // Kept from being turned into a comparison that ends early.
+  // Volatile, so that the compiler does not make a comparison that ends early.
   volatile unsigned kept = difference;
   return kept == 0;
 }

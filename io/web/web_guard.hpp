@@ -10,14 +10,14 @@
 
 namespace penumbra::io {
 
-/// What of a request tells who sends it. Views into the request; nothing: the header is not there,
-/// or there is more than one Host.
+/// The headers that identify the sender of a request, as views into the request. Nothing if the
+/// header is missing, or if there is more than one Host.
 struct WebSender {
   std::optional<std::string_view> host, origin;
   std::string_view cookies;
 };
 
-/// Where a server listens.
+/// The address that a server listens on.
 struct WebPlace {
   std::string address;  ///< as given
   std::uint16_t port = 0;
@@ -25,23 +25,24 @@ struct WebPlace {
   std::string machine = {};  ///< this machine's name
 };
 
-/// Refuses what other web pages may make a browser send: requests under a foreign name (DNS
-/// rebinding) or from a foreign origin. Bound to more than the loopback it wants a token, too.
+/// Refuses requests that other web pages make a browser send: requests for a foreign name (DNS
+/// rebinding) or from a foreign origin. If the server listens on more than the loopback, it also
+/// requires a token.
 class WebGuard {
  public:
   /// `token`: empty for none.
   WebGuard(WebPlace place, std::string token);
 
-  /// Why a request is refused; nothing: it is not.
+  /// Returns the answer that refuses a request, or nothing if the request is allowed.
   [[nodiscard]] std::optional<WebAnswer> refuse(const WebSender& sender) const;
 
-  /// Whether the sender showed the token, in its cookie. True where none is wanted.
+  /// Returns whether the sender's cookie has the token, or no token is required.
   [[nodiscard]] bool knows_token(const WebSender& sender) const;
-  /// Whether a request's query holds it.
+  /// Returns whether a request's query has the token.
   [[nodiscard]] bool brings_token(const WebRequest& request) const;
-  /// The value of Set-Cookie.
+  /// Returns the value of Set-Cookie.
   [[nodiscard]] std::string cookie() const;
-  /// What a user opens.
+  /// Returns the URL for the user.
   [[nodiscard]] std::string url() const;
 
  private:
@@ -51,10 +52,10 @@ class WebGuard {
   std::string token_;
 };
 
-/// 128 random bits in hexadecimal.
+/// Returns 128 random bits in hexadecimal.
 [[nodiscard]] std::string random_token();
 
-/// Takes the same time wherever the texts differ.
+/// Compares texts in a time that does not depend on where they differ.
 [[nodiscard]] bool equal_secrets(std::string_view a, std::string_view b);
 
 }  // namespace penumbra::io

@@ -8,8 +8,8 @@
 
 namespace penumbra::io {
 
-/// Path and query of a request's target ("/api/x?with=a%2Cb"); nothing for what is none: no '/' at
-/// its start, '%' without two digits, control characters, also encoded ones.
+/// Parses path and query of a request's target ("/api/x?with=a%2Cb"). Returns nothing if it is
+/// invalid: no '/' at its start, '%' without two digits, or control characters, also encoded ones.
 [[nodiscard]] std::optional<WebRequest> parse_target(std::string_view target);
 
 }  // namespace penumbra::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The server; its connections are Boost.Beast's and Asio's.
+// The server, on Boost.Beast and Asio.
 #include <array>
 #include <mutex>
 #include <sstream>
@@ -20,11 +20,12 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::uint32_t most_header_bytes = 8 * 1024;
-constexpr int send_buffer_bytes = 512 * 1024;  // of the kernel, for each connection
+constexpr int send_buffer_bytes = 512 * 1024;  // kernel buffer of each connection
 constexpr auto closing_time = std::chrono::seconds(2);
 constexpr auto accept_pause = std::chrono::milliseconds(100);
 
-// Scripts, styles and images come from here alone; nothing frames the page or is sent elsewhere.
+// Scripts, styles and images are loaded from this server only. No other page may frame the page,
+// and it sends nothing elsewhere.
 constexpr const char* content_policy =
     "default-src 'self'; img-src 'self' blob: data:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -49,7 +50,7 @@ std::string machine_name() {
   return name.data();
 }
 
-/// An HTTP client: reads a request, answers it, reads the next.
+/// An HTTP client. Reads and answers one request at a time.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(tcp::socket socket, Shared& shared)
@@ -65,7 +66,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void run() {
-    seat_.take(shared_.strangers, close_of(weak_from_this()));
+    seat_.take(shared_.unauthenticated, close_of(weak_from_this()));
     asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
   }
 
@@ -82,7 +83,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void refuse_malformed(beast::error_code error) {
-    if (error == beast::error::timeout) return;  // the stream closed itself: the place is free
+    if (error == beast::error::timeout) return;  // the stream is closed already
     if (error == http::error::end_of_stream ||
         error.category() != http::make_error_code(http::error::bad_method).category())
       return close();
@@ -92,7 +93,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return answer(web_error(431, "the request's header is larger than 8 KiB"));
     if (error == http::error::unexpected_body || error == http::error::body_limit)
       return answer(web_error(413, "requests have no body here"));
-    answer(web_error(400, "the request is no HTTP"));
+    answer(web_error(400, "the request is not HTTP"));
   }
 
   void handle() {
@@ -105,17 +106,17 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (request.method() != http::verb::get && !is_head_)
       return answer(web_error(405, "only GET and HEAD are served"));
     const auto target = parse_target(view_of(request.target()));
-    if (!target) return answer(web_error(400, "the request's path is none"));
+    if (!target) return answer(web_error(400, "the request's path is invalid"));
     const bool brings_token = shared_.guard.brings_token(*target);
     if (!brings_token && !shared_.guard.knows_token(sender))
       return answer(web_error(401, "the token is missing; open the address that was printed"));
-    seat_.take(shared_.guests, close_of(weak_from_this()));
+    seat_.take(shared_.authenticated, close_of(weak_from_this()));
     if (brings_token) return admit();
     if (websocket::is_upgrade(request)) return upgrade(request, *target);
     answer(made_answer(*target));
   }
 
-  /// The token goes into a cookie and out of the address, where histories would keep it.
+  /// Moves the token from the URL to a cookie, because browser histories keep URLs.
   void admit() {
     extra_.emplace_back(http::field::location, "/");
     extra_.emplace_back(http::field::set_cookie, shared_.guard.cookie());
@@ -183,7 +184,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     drain();
   }
 
-  /// Closing over bytes that were not read would take the answer back from the client.
+  /// Reads the remaining bytes. Closing with unread bytes would discard the answer.
   void drain() {
     buffer_.clear();
     stream_.async_read_some(buffer_.prepare(most_header_bytes),
@@ -197,22 +198,23 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Shared& shared_;
   Seat seat_;
   beast::tcp_stream stream_;
-  asio::any_io_executor executor_ = stream_.get_executor();  // also once the stream is handed on
+  asio::any_io_executor executor_ = stream_.get_executor();  // outlives a move of the stream
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
-  std::vector<SharedBytes> body_;  // on its way
+  std::vector<SharedBytes> body_;  // being sent
   std::vector<std::pair<http::field, std::string>> extra_;
   std::size_t drained_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = true, is_head_ = false;
-  bool is_upgraded_ = false;  // the stream is the channel's
+  bool is_upgraded_ = false;  // the channel owns the stream
 };
 
 asio::ip::address address_of(const std::string& text) {
   beast::error_code error;
   auto address = asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
   if (error)
-    throw InputError("--address " + text + ": is no IP address; 127.0.0.1 serves this machine, " +
+    throw InputError("--address " + text +
+                     ": is not an IP address; 127.0.0.1 serves this machine, " +
                      "0.0.0.0 all that reach it");
   return address;
 }
@@ -269,7 +271,7 @@ struct WebServer::State {
                           });
   }
 
-  /// Where the system has no descriptors left, for one.
+  /// Waits before the next accept, for example if no file descriptors are left.
   void wait_to_accept() {
     pause.expires_after(accept_pause);
     pause.async_wait([this](beast::error_code error) {
@@ -277,7 +279,7 @@ struct WebServer::State {
     });
   }
 
-  std::unique_ptr<Shared> shared;  // before the context: connections live as long as that
+  std::unique_ptr<Shared> shared;  // destroyed after the context, which holds the connections
   asio::io_context context;
   tcp::acceptor acceptor;
   asio::steady_timer pause;

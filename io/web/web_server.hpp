@@ -17,35 +17,35 @@ struct WebOptions {
   std::uint16_t last_port = 0;        ///< if `port` is in use, the next one up to this is taken
   int threads = 2;
 
-  /// Connections that have shown the token (or asked for something, where none is wanted). For more
-  /// of them the one that was idle for longest is closed.
+  /// Limit for connections that have shown the token, or that sent a request if none is required.
+  /// Above it, the connection that was idle the longest is closed.
   std::size_t max_connections = 256;
-  /// Connections that have not. For more of them the oldest is closed.
-  std::size_t max_strangers = 64;
-  /// Bytes of answers that wait for their clients, all together; for more of them the oldest is
-  /// given up, and its connection closed.
+  /// Limit for connections that have not. Above it, the oldest is closed.
+  std::size_t max_unauthenticated = 64;
+  /// Limit for the bytes of all answers that wait for their clients. Above it, the oldest answer is
+  /// dropped and its connection closed.
   std::size_t max_waiting_bytes = std::size_t{256} << 20U;
-  std::chrono::milliseconds request_time{10'000};  ///< a request must be there in this time
-  std::chrono::milliseconds answer_time{60'000};   ///< and its answer be taken in this one
+  std::chrono::milliseconds request_time{10'000};  ///< time limit to receive a request
+  std::chrono::milliseconds answer_time{60'000};   ///< time limit to send its answer
 };
 
-/// HTTP and WebSocket over TCP. Requests are small and have no body: GET and HEAD. What a browser
-/// would be made to send by other pages is refused (WebGuard); bound to more than the loopback, it
-/// wants a token.
+/// An HTTP and WebSocket server over TCP. Requests are GET and HEAD, small and without a body.
+/// Requests that other pages make a browser send are refused (WebGuard). If the server listens on
+/// more than the loopback, it requires a token.
 class WebServer {
  public:
-  /// Listens and serves. `handler` must outlive this. Throws InputError where the address or the
-  /// port cannot be had, or this build has no server.
+  /// Listens and serves. `handler` must outlive this. Throws InputError if the address or port is
+  /// not available, or if this build has no server.
   WebServer(const WebOptions& options, WebHandler& handler);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  /// What a user opens, with the token.
+  /// Returns the URL for the user, with the token.
   [[nodiscard]] std::string url() const;
   [[nodiscard]] std::uint16_t port() const;
 
-  /// Channels may have something to send. By any thread.
+  /// Asks all channels for their next message. Any thread may call this.
   void wake();
 
  private:

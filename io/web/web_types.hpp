@@ -11,30 +11,30 @@
 
 namespace penumbra::io {
 
-/// Bytes that several answers may share.
+/// Bytes that several answers can share.
 using SharedBytes = std::shared_ptr<const std::string>;
 
 [[nodiscard]] inline SharedBytes shared_bytes(std::string bytes) {
   return std::make_shared<const std::string>(std::move(bytes));
 }
 
-/// What was asked for: only GET and HEAD come so far.
+/// A GET or HEAD request.
 struct WebRequest {
   std::string path;                          ///< decoded, starts with '/'
-  std::map<std::string, std::string> query;  ///< decoded; of doubled names the last
+  std::map<std::string, std::string> query;  ///< decoded; the last value of each name
 };
 
 struct WebAnswer {
   int status = 200;
   std::string type = "application/json";
-  std::vector<SharedBytes> body;  ///< sent one behind another
-  bool keeps = false;             ///< never changes under its path: a browser may keep it
+  std::vector<SharedBytes> body;  ///< sent one after another
+  bool keeps = false;  ///< the content of this path never changes, so browsers may cache it
 };
 
-/// {"error": "one line"}.
+/// Returns the answer {"error": "one line"}.
 [[nodiscard]] WebAnswer web_error(int status, std::string_view line);
 
-/// One WebSocket client. Its members are called one at a time, by any thread.
+/// A WebSocket client. Any thread calls its members, one at a time.
 class WebChannel {
  public:
   WebChannel() = default;
@@ -42,15 +42,15 @@ class WebChannel {
   WebChannel& operator=(const WebChannel&) = delete;
   virtual ~WebChannel() = default;
 
-  /// A text from the client. False: it is not understood, and the connection is closed.
+  /// Takes a text from the client. Returns false if it is invalid; then the connection is closed.
   [[nodiscard]] virtual bool take(std::string_view text) = 0;
 
-  /// The message to send now, sent one behind another; nothing: there is none yet. Asked for after
-  /// take(), after WebServer::wake() and when the last message has gone.
+  /// Returns the parts of the message to send now, or nothing if there is none yet. Called after
+  /// take(), after WebServer::wake() and after the last message was sent.
   [[nodiscard]] virtual std::optional<std::vector<SharedBytes>> next() = 0;
 };
 
-/// What a server serves. Called by several threads at a time.
+/// The content of a server. Several threads call it at the same time.
 class WebHandler {
  public:
   WebHandler() = default;
@@ -60,7 +60,7 @@ class WebHandler {
 
   [[nodiscard]] virtual WebAnswer answer(const WebRequest& request) = 0;
 
-  /// Of a WebSocket handshake; null: there is no channel of this path.
+  /// Opens a channel for a WebSocket handshake. Returns null if there is no channel with this path.
   [[nodiscard]] virtual std::unique_ptr<WebChannel> open_channel(const std::string& path) = 0;
 };
 

@@ -22,7 +22,7 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--camera", "a b=/b"}, "--camera: 'a b' is not a name"},
       {{"--remap", "/nobody:=/b"}, "--remap '/nobody': nothing here is called so"},
       {{"--remap", "/penumbra/labels:=/b", "--camera", "a=/x"}, "--remap '/penumbra/labels'"},
-      {{"--camera", "a=/x y"}, "no name of a topic"},
+      {{"--camera", "a=/x y"}, "not a topic name"},
       {{"--camera", "a=/x", "--depth-topic", "/y"}, "leave one of them out"},
       {{"--camera", "a=/x", "--camera", "b=/y", "--parent", "base"}, "--parent"},
       {{"--publish", "labels,depth"}, "'depth'"},

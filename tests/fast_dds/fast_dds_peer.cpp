@@ -165,7 +165,7 @@ struct Pattern {
 void say(const std::string& line) { std::cout << line << std::endl; }
 
 /// Waits for a line on stdin; false: it ended.
-bool is_told_to_go() {
+bool may_continue() {
   std::string line;
   return static_cast<bool>(std::getline(std::cin, line));
 }
@@ -180,7 +180,7 @@ void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos&
     std::this_thread::sleep_for(5ms);
   }
   if (!qos.latched) say("matched");
-  if (!is_told_to_go()) return;
+  if (!may_continue()) return;
   std::uint32_t refused = 0;
   auto next = std::chrono::steady_clock::now();
   for (std::uint32_t number = 0; number < pattern.count; ++number) {

@@ -229,7 +229,7 @@ void LiveSoak::break_and_mend(std::mt19937_64& random) {
 void LiveSoak::soak_in_chaos(std::chrono::seconds length) {
   auto random = seeded_random(static_cast<std::uint64_t>(system_now()));
   SoakScene scene;
-  scene.troubles = {.lost = 0.2, .longest_delay = 60};
+  scene.joint_faults = {.lost = 0.2, .longest_delay = 60};
   scene.seed = random();
   ASSERT_NO_FATAL_FAILURE(begin(scene, true));
   std::this_thread::sleep_for(1s);

@@ -59,8 +59,8 @@ std::int64_t system_now() {
       .count();
 }
 
-JointFeed::JointFeed(int hertz, const JointTroubles& troubles, std::uint64_t seed)
-    : hertz_(hertz), troubles_(troubles), random_(seed), thread_([this] { feed(); }) {}
+JointFeed::JointFeed(int hertz, const JointFaults& faults, std::uint64_t seed)
+    : hertz_(hertz), faults_(faults), random_(seed), thread_([this] { feed(); }) {}
 
 JointFeed::~JointFeed() {
   ends_ = true;
@@ -78,8 +78,8 @@ void JointFeed::kill() {
 }
 
 void JointFeed::feed() {
-  std::uniform_int_distribution<std::int64_t> delay(0, troubles_.longest_delay);
-  std::bernoulli_distribution is_lost(troubles_.lost);
+  std::uniform_int_distribution<std::int64_t> delay(0, faults_.longest_delay);
+  std::bernoulli_distribution is_lost(faults_.lost);
   for (std::int64_t tick = system_now(); !ends_;) {
     tick = next_tick(std::max(tick, system_now()), hertz_);
     std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
@@ -114,7 +114,7 @@ std::string topic_of(Part part) {
 }
 
 SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
-    : domain_(domain), scene_(scene), joints_(scene.joint_hertz, scene.troubles, scene.seed) {
+    : domain_(domain), scene_(scene), joints_(scene.joint_hertz, scene.joint_faults, scene.seed) {
   description_ = make_peer(
       domain, {"publish", "rt/robot_description", "std_msgs::msg::dds_::String_", latched});
   description_->give(encoded(io::StringMessage{live_urdf}));

@@ -26,7 +26,7 @@ namespace penumbra::test {
 [[nodiscard]] std::int64_t system_now();
 
 /// What happens to joint states on the way.
-struct JointTroubles {
+struct JointFaults {
   double lost = 0.0;      ///< share
   int longest_delay = 0;  ///< ms, each one's own: they overtake one another
 };
@@ -34,7 +34,7 @@ struct JointTroubles {
 /// Tells joint states evenly, by a process that may be killed and replaced.
 class JointFeed {
  public:
-  JointFeed(int hertz, const JointTroubles& troubles, std::uint64_t seed);
+  JointFeed(int hertz, const JointFaults& faults, std::uint64_t seed);
   ~JointFeed();
   JointFeed(const JointFeed&) = delete;
   JointFeed& operator=(const JointFeed&) = delete;
@@ -52,7 +52,7 @@ class JointFeed {
   void tell_until(std::int64_t time);
 
   int hertz_;
-  JointTroubles troubles_;
+  JointFaults faults_;
   std::mt19937_64 random_;
   std::mutex mutex_;
   std::unique_ptr<PeerProcess> process_;  // guarded by mutex_; changed by its owner's thread alone
@@ -71,7 +71,7 @@ struct SoakScene {
   LiveLens lens = large_lens;
   int hertz = 30;
   int joint_hertz = 100;
-  JointTroubles troubles = {};
+  JointFaults joint_faults = {};
   std::uint64_t seed = 0;
   bool with_color = true;
 };

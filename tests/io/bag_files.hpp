@@ -74,7 +74,7 @@ class BagDatabase {
 
 struct BagContent {
   std::vector<io::BagTopic> topics;
-  std::vector<Told> messages;  ///< schema: the topic's type; sequence is 0
+  std::vector<RecordedMessage> messages;  ///< schema: the topic's type; sequence is 0
   std::vector<std::string> faults;
 };
 

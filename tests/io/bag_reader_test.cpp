@@ -10,10 +10,10 @@ namespace penumbra::io {
 namespace {
 
 using test::BagContent;
-using test::Told;
+using test::RecordedMessage;
 
-Told said(const std::string& topic, const std::string& type, std::int64_t time,
-          const std::string& data) {
+RecordedMessage said(const std::string& topic, const std::string& type, std::int64_t time,
+                     const std::string& data) {
   return {topic, type, 0, time, time, data};
 }
 
@@ -22,7 +22,7 @@ class Bags : public testing::Test {
   // One topic in one file of a recording.
   void mcap(const std::string& name, const std::vector<std::int64_t>& times,
             const std::string& topic = "/a") {
-    std::vector<Told> messages;
+    std::vector<RecordedMessage> messages;
     messages.reserve(times.size());
     for (const std::int64_t time : times) messages.push_back(said(topic, "p/msg/A", time, name));
     test::write_mcap(path(name),
@@ -38,7 +38,7 @@ class Bags : public testing::Test {
   }
   static std::string times(const BagContent& all) {
     std::string text;
-    for (const Told& m : all.messages)
+    for (const RecordedMessage& m : all.messages)
       text += std::to_string(m.log_time) + m.data.substr(0, 1) + " ";
     return text;
   }
@@ -60,8 +60,8 @@ TEST_F(Bags, OneTopicHasManyPublishers) {
   ASSERT_EQ(all.topics.size(), 2U);
   EXPECT_EQ(all.topics[0], (BagTopic{"/a", "p/msg/A", "int32 a\n", "cdr", 2}));
   EXPECT_EQ(all.topics[1], (BagTopic{"/a", "p/msg/B", "", "cdr", 0}));
-  const Told expected{"/a", "p/msg/A", 0, 5, 4, "0123"};
-  EXPECT_EQ(all.messages, (std::vector<Told>{expected, expected}));
+  const RecordedMessage expected{"/a", "p/msg/A", 0, 5, 4, "0123"};
+  EXPECT_EQ(all.messages, (std::vector<RecordedMessage>{expected, expected}));
   EXPECT_TRUE(all.faults.empty());
 }
 

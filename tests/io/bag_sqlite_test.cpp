@@ -10,7 +10,7 @@ namespace {
 
 using test::BagContent;
 using test::BagDatabase;
-using test::Told;
+using test::RecordedMessage;
 
 class SqliteBags : public testing::Test {
  protected:
@@ -25,9 +25,9 @@ class SqliteBags : public testing::Test {
   std::filesystem::path file_ = folder_.path() / "a b?#%.db3";  // a name that a URI must spell
 };
 
-std::vector<Told> random_messages(std::size_t count, std::size_t most_bytes) {
+std::vector<RecordedMessage> random_messages(std::size_t count, std::size_t most_bytes) {
   std::mt19937_64 random = test::seeded_random(91);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(random() % 3);
     const auto time = static_cast<std::int64_t>(random() % 500);
@@ -38,11 +38,12 @@ std::vector<Told> random_messages(std::size_t count, std::size_t most_bytes) {
   return messages;
 }
 
-void put(BagDatabase& database, const std::vector<Told>& messages) {
+void put(BagDatabase& database, const std::vector<RecordedMessage>& messages) {
   for (int i = 0; i < 3; ++i)
     database.topic(i + 1, "/t" + std::to_string(i), "p/msg/T" + std::to_string(i));
   database.run("BEGIN");
-  for (const Told& m : messages) database.message(m.topic.back() - '0' + 1, m.log_time, m.data);
+  for (const RecordedMessage& m : messages)
+    database.message(m.topic.back() - '0' + 1, m.log_time, m.data);
   database.run("COMMIT");
 }
 
@@ -110,8 +111,8 @@ TEST_F(SqliteBags, TellWhatRowsAreWrong) {
   ASSERT_EQ(all.faults.size(), 3U) << testing::PrintToString(all.faults);
   EXPECT_EQ(all.faults[0], file_.string() + ": a topic's row is damaged; left out");
   EXPECT_EQ(all.faults[1], file_.string() +
-                               ": message 2 is of a topic that the bag does not tell "
-                               "of; left out");
+                               ": message 2 is of a topic that the bag does not "
+                               "define; left out");
   EXPECT_EQ(all.faults[2], file_.string() + ": message 30 holds no bytes; left out");
 }
 
@@ -141,7 +142,7 @@ class SqliteDamage : public SqliteBags {
       database.run("INSERT INTO message_definitions VALUES(" + std::to_string(i + 1) +
                    ", 'p/msg/T" + std::to_string(i) + "', 'ros2msg', 'int32 a', '')");
   }
-  std::vector<Told> messages_ = random_messages(120, 300);
+  std::vector<RecordedMessage> messages_ = random_messages(120, 300);
 };
 
 TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
@@ -154,7 +155,7 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
     if (!all.topics.empty()) {
       EXPECT_FALSE(all.faults.empty()) << length;
     }
-    for (const Told& m : all.messages)
+    for (const RecordedMessage& m : all.messages)
       ASSERT_NE(std::find(messages_.begin(), messages_.end(), m), messages_.end()) << length;
     most = std::max(most, all.messages.size());
   }

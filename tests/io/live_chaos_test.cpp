@@ -85,18 +85,19 @@ TEST(LiveChaos, NoLabelImageIsOfAWrongPose) {
     bench.tell_all();
     script.play(bench);
     LiveTruth truth;
-    EXPECT_GT(expect_true_labels(bench.results.told, truth), 100U);
+    EXPECT_GT(expect_true_labels(bench.results.published, truth), 100U);
     const io::LiveCounts counts = bench.counts();
     std::size_t all = counts.judged + counts.failed + counts.waiting;
     for (const std::size_t dropped : counts.dropped) all += dropped;
     EXPECT_EQ(all, counts.received);
     EXPECT_EQ(counts.failed, 0U);
     // Results are back within a second of the joint states' return.
-    const bool is_back = std::any_of(
-        bench.results.told.begin(), bench.results.told.end(), [&](const KeptResults::Told& one) {
-          return one.result == io::Result::virtual_depth && one.stamp > start + 4 * seconds &&
-                 one.stamp < start + 5 * seconds;
-        });
+    const bool is_back = std::any_of(bench.results.published.begin(), bench.results.published.end(),
+                                     [&](const KeptResults::Published& one) {
+                                       return one.result == io::Result::virtual_depth &&
+                                              one.stamp > start + 4 * seconds &&
+                                              one.stamp < start + 5 * seconds;
+                                     });
     EXPECT_TRUE(is_back);
   }
 }
@@ -111,10 +112,10 @@ TEST(LiveChaos, AClockThatJumpsBackTwice) {
   for (const std::int64_t begin : {start, start - 300 * seconds, start - 450 * seconds}) {
     Script script(random);
     script.write(begin, 3 * seconds);
-    bench.results.told.clear();
+    bench.results.published.clear();
     bench.now = begin;  // the clock of waits jumps, too
     script.play(bench);
-    EXPECT_GT(expect_true_labels(bench.results.told, truth), 30U) << begin;
+    EXPECT_GT(expect_true_labels(bench.results.published, truth), 30U) << begin;
   }
 }
 

@@ -6,9 +6,9 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/name_resolver.hpp>
-#include <io/live/trouble_news.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -105,7 +105,7 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   tell(bench_.now, {"spin"}, std::nan(""));
   expect_says(robot(), Status::error, "no position that can be used");
   tell(bench_.now, {"gripper", "spin"}, 0.1);
-  expect_says(robot(), Status::ok, "its pose is told");
+  expect_says(robot(), Status::ok, "its pose is known");
   for (int i = 0; i < 30; ++i) {
     bench_.now += 100 * milliseconds;
     tell(bench_.now, {"a", "b", "c", "d"}, 0.1);
@@ -135,18 +135,19 @@ io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string
   return message;
 }
 
-TEST(TroubleNews, TellsEachStatusByItself) {
-  io::TroubleNews news;
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
-  EXPECT_EQ(news.look(of_cameras("no images for 1.2 s", "")), Words{"left: no images for 1.2 s"});
-  EXPECT_EQ(news.look(of_cameras("no images for 12.5 s", "")), Words{});
-  EXPECT_EQ(news.look(of_cameras("no images for 13.0 s", "no camera_info yet")),
+TEST(DiagnosticChanges, ReportEachStatusByItself) {
+  io::DiagnosticChanges changes;
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("no images for 1.2 s", "")),
+            Words{"left: no images for 1.2 s"});
+  EXPECT_EQ(changes.update(of_cameras("no images for 12.5 s", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("no images for 13.0 s", "no camera_info yet")),
             Words{"right: no camera_info yet"});
-  EXPECT_EQ(news.look(of_cameras("no images for 14.0 s", "3 images are bad")),
+  EXPECT_EQ(changes.update(of_cameras("no images for 14.0 s", "3 images are bad")),
             Words{"right: 3 images are bad"});
-  EXPECT_EQ(news.look(of_cameras("", "4 images are bad")), Words{"left: well again"});
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{"penumbra: all is judged"});
-  EXPECT_EQ(news.look(of_cameras("", "")), Words{});
+  EXPECT_EQ(changes.update(of_cameras("", "4 images are bad")), Words{"left: recovered"});
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{"penumbra: no faults"});
+  EXPECT_EQ(changes.update(of_cameras("", "")), Words{});
 }
 
 TEST(NameResolver, ExpandsAndRemaps) {

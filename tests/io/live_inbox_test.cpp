@@ -40,7 +40,7 @@ TEST_F(LiveInboxTest, JudgesAnImageAtItsStamp) {
   for (const io::ResultTopic& topic : io::result_topics)
     EXPECT_EQ(bench_.results.count(topic.result), 1U) << topic.name;
   EXPECT_EQ(status(), "ok");
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 1U);
   const auto labels = bench_.results.last<io::ImageMessage>(io::Result::labels);
   EXPECT_EQ(labels.header.stamp, start);
   EXPECT_EQ(labels.header.frame_id, "optical");
@@ -121,11 +121,11 @@ TEST_F(LiveInboxTest, TwoPublishersThatDisagreeAreNoPose) {
   for (std::int64_t t = start + 40 * milliseconds; t <= later + 20 * milliseconds;
        t += 20 * milliseconds)
     bench_.tell_joints(t, 7);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   bench_.tell_depth(later);
   ASSERT_EQ(bench_.work(), 1U);
   EXPECT_EQ(status(), "ok");
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 1U);
 }
 
 TEST_F(LiveInboxTest, PublishersThatAgreeAndADriverThatStartsAgainAreWell) {
@@ -143,7 +143,7 @@ TEST_F(LiveInboxTest, PublishersThatAgreeAndADriverThatStartsAgainAreWell) {
   const auto& statuses = bench_.inbox.tally(0).statuses;
   EXPECT_EQ(statuses.size(), 2U) << "three are stale, until the first driver counts as silent";
   EXPECT_EQ(statuses.count("ok"), 1U);
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 16U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 16U);
 }
 
 TEST_F(LiveInboxTest, WithoutTheCamerasTransformAllIsUnknown) {
@@ -184,10 +184,10 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   bench_.tell_depth(start + 50 * milliseconds);
   EXPECT_EQ(bench_.work(), 0U) << "it is from before the change";
   EXPECT_EQ(bench_.counts().of(io::LiveDrop::changed), 2U);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
   LiveTruth other({.focal = 90.0});
-  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 1U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, other), 1U);
   EXPECT_EQ(bench_.inbox.camera(0).camera_changes(), 1U);
 }
 

@@ -64,7 +64,7 @@ class LiveMemory : public testing::Test {
     bench_.tell_depth(stamp_of(i));
     bench_.work();
     bench_.now += period;
-    bench_.results.told.clear();
+    bench_.results.published.clear();
   }
   static std::int64_t stamp_of(std::size_t i) {
     return start + static_cast<std::int64_t>(i) * period;

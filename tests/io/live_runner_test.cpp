@@ -26,9 +26,9 @@ class SharedResults final : public io::ResultSink {
     const std::lock_guard lock(mutex_);
     results_.write(result, stamp, payload);
   }
-  [[nodiscard]] std::vector<KeptResults::Told> told() {
+  [[nodiscard]] std::vector<KeptResults::Published> published() {
     const std::lock_guard lock(mutex_);
-    return results_.told;
+    return results_.published;
   }
 
  private:
@@ -95,9 +95,9 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
   EXPECT_FALSE(runner.fault());
   LiveTruth truth;
   for (SharedResults* results : {&left_, &right_}) {
-    const auto told = results->told();
-    EXPECT_GT(expect_true_labels(told, truth), 0U);
-    EXPECT_EQ(told.back().stamp, 1000 * seconds + (frames - 1) * 33 * milliseconds);
+    const auto published = results->published();
+    EXPECT_GT(expect_true_labels(published, truth), 0U);
+    EXPECT_EQ(published.back().stamp, 1000 * seconds + (frames - 1) * 33 * milliseconds);
   }
 }
 
@@ -146,13 +146,13 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   runner.with_inbox([&](const io::LiveInbox& inbox) {
     EXPECT_TRUE(inbox.robot().is_being_made());
     EXPECT_EQ(inbox.camera(0).counts().of(io::LiveDrop::not_ready), 10U);
-    const auto trouble = io::trouble_of_robot(inbox, links, io::LiveRunner::steady_now());
-    EXPECT_NE(trouble.why.find("is being made"), std::string::npos) << trouble.why;
+    const auto fault = io::robot_fault(inbox, links, io::LiveRunner::steady_now());
+    EXPECT_NE(fault.why.find("is being made"), std::string::npos) << fault.why;
     return true;
   });
   may_go_on.set_value();
   LiveTruth truth;
-  for (int i = 0; i < 1000 && left_.told().empty(); ++i) {
+  for (int i = 0; i < 1000 && left_.published().empty(); ++i) {
     const std::int64_t stamp = start + seconds + i * 10 * milliseconds;
     say("/joint_states", live_joints(stamp));
     say("/left/depth", live_depth(stamp));
@@ -160,7 +160,7 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   }
   runner.stop();
   EXPECT_FALSE(runner.fault());
-  EXPECT_GT(expect_true_labels(left_.told(), truth), 0U);
+  EXPECT_GT(expect_true_labels(left_.published(), truth), 0U);
 }
 
 }  // namespace

@@ -125,12 +125,12 @@ class LiveTruth {
 /// Keeps what is published.
 class KeptResults final : public io::ResultSink {
  public:
-  struct Told {
+  struct Published {
     io::Result result;
     std::int64_t stamp;
     std::vector<std::byte> payload;
   };
-  std::vector<Told> told;
+  std::vector<Published> published;
   std::map<io::Result, bool> wanted;  ///< all that are not named are
 
   [[nodiscard]] bool wants(io::Result result) const override {
@@ -138,24 +138,25 @@ class KeptResults final : public io::ResultSink {
     return found == wanted.end() || found->second;
   }
   void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
-    told.push_back({result, stamp, {payload.begin(), payload.end()}});
+    published.push_back({result, stamp, {payload.begin(), payload.end()}});
   }
   [[nodiscard]] std::size_t count(io::Result result) const {
-    return static_cast<std::size_t>(std::count_if(
-        told.begin(), told.end(), [&](const Told& one) { return one.result == result; }));
+    return static_cast<std::size_t>(
+        std::count_if(published.begin(), published.end(),
+                      [&](const Published& one) { return one.result == result; }));
   }
   /// The last one of a kind.
   template <typename M>
   M last(io::Result result) {
     M message;
-    for (auto one = told.rbegin(); one != told.rend(); ++one) {
+    for (auto one = published.rbegin(); one != published.rend(); ++one) {
       if (one->result != result) continue;
       last_ = one->payload;
       const auto fault = io::Decoder<M>().decode(last_, message);
       EXPECT_FALSE(fault) << *fault;
       return message;
     }
-    ADD_FAILURE() << "nothing was told";
+    ADD_FAILURE() << "nothing was published";
     return message;
   }
 
@@ -219,12 +220,12 @@ class LiveBench {
   KeptResults results;
 };
 
-/// Each published label image of `told` is the truth of its stamp, or says nothing. Answers how
-/// many say something.
-inline std::size_t expect_true_labels(const std::vector<KeptResults::Told>& told,
+/// Each published label image of `published` is the truth of its stamp, or says nothing. Answers
+/// how many say something.
+inline std::size_t expect_true_labels(const std::vector<KeptResults::Published>& published,
                                       LiveTruth& truth) {
   std::size_t known = 0;
-  for (const auto& one : told) {
+  for (const auto& one : published) {
     if (one.result != io::Result::labels) continue;
     io::ImageMessage image;
     const auto fault = io::Decoder<io::ImageMessage>().decode(one.payload, image);

@@ -12,8 +12,8 @@
 namespace penumbra::io::mcap {
 namespace {
 
-using test::Told;
-using test::ToldFile;
+using test::McapContents;
+using test::RecordedMessage;
 
 // Files here have a few thousand bytes: nothing may ask for more memory than the readers' blocks.
 constexpr std::size_t large_memory = std::size_t{2} << 20;
@@ -30,17 +30,17 @@ class McapDamage : public testing::TestWithParam<Compression> {
     whole_ = test::read_bytes(file_);
   }
 
-  ToldFile read(const std::string& bytes) {
+  McapContents read(const std::string& bytes) {
     folder_.write("a.mcap", bytes);
     const test::MemoryShortage none(large_memory, 0);
-    ToldFile all;
+    McapContents all;
     test::refusal([&] { all = test::read_mcap(file_); });
     return all;
   }
 
   // Every message is one that was written, and none comes twice.
-  void expect_genuine(const ToldFile& all, std::size_t at) {
-    std::vector<Told> expected = messages_, found = all.messages;
+  void expect_genuine(const McapContents& all, std::size_t at) {
+    std::vector<RecordedMessage> expected = messages_, found = all.messages;
     std::sort(expected.begin(), expected.end());
     std::sort(found.begin(), found.end());
     ASSERT_TRUE(std::includes(expected.begin(), expected.end(), found.begin(), found.end())) << at;
@@ -63,7 +63,7 @@ class McapDamage : public testing::TestWithParam<Compression> {
 
   test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "a.mcap";
-  std::vector<Told> messages_;
+  std::vector<RecordedMessage> messages_;
   std::string whole_;
 };
 
@@ -81,7 +81,7 @@ TEST_P(McapDamage, EveryTruncationKeepsTheChunksBefore) {
   ASSERT_GT(whole_at.size(), 3U);
   ASSERT_EQ(messages, messages_.size());
   for (std::size_t length = 0; length < whole_.size(); ++length) {
-    const ToldFile all = read(whole_.substr(0, length));
+    const McapContents all = read(whole_.substr(0, length));
     if (length < test::mcap_file::magic.size()) {
       ASSERT_TRUE(all.messages.empty());  // it was refused
       continue;
@@ -114,7 +114,7 @@ TEST_P(McapDamage, ADamagedChunkIsOneFault) {
     std::string damaged = whole_;
     damaged[place.offset + place.length - 1] =
         static_cast<char>(damaged[place.offset + place.length - 1] ^ 0x40);
-    const ToldFile all = read(damaged);
+    const McapContents all = read(damaged);
     ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
     EXPECT_EQ(all.fault_offsets[0], place.offset);
     EXPECT_HAS(all.faults[0], "its messages are left out");
@@ -144,7 +144,7 @@ TEST_P(McapDamage, SurvivesMuchRandomDamage) {
           damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 200));
       }
     }
-    const ToldFile all = read(damaged);
+    const McapContents all = read(damaged);
     ASSERT_LE(all.messages.size(), 40 * messages_.size()) << i;
   }
 }
@@ -161,7 +161,7 @@ TEST(McapClaims, LongSchemasArePassedOver) {
   const auto path = folder.write("a.mcap", magic + header() + '\x03' + u64(length));
   std::filesystem::resize_file(path, data_start() + 9 + length);  // takes no room on the disk
   const test::MemoryShortage none(large_memory, 0);
-  const ToldFile all = test::read_mcap(path);
+  const McapContents all = test::read_mcap(path);
   ASSERT_EQ(all.faults.size(), 2U);
   EXPECT_HAS(all.faults[0], "100000000 bytes");
 }
@@ -187,7 +187,7 @@ TEST(McapClaims, TakeNoMemory) {
   for (const std::string& bytes : files) {
     const auto path = folder.write("a.mcap", bytes);
     const test::MemoryShortage none(large_memory, 0);
-    const ToldFile all = test::read_mcap(path);
+    const McapContents all = test::read_mcap(path);
     EXPECT_TRUE(all.messages.empty());
     EXPECT_EQ(none.asked(), 0U);
   }

@@ -82,22 +82,22 @@ inline std::uint64_t data_start() { return magic.size() + header().size(); }
 }  // namespace mcap_file
 
 /// A message with its channel, so that it can be compared.
-struct Told {
+struct RecordedMessage {
   std::string topic, schema;
   std::uint32_t sequence = 0;
   std::int64_t log_time = 0, publish_time = 0;
   std::string data;
 
-  auto operator<=>(const Told&) const = default;
+  auto operator<=>(const RecordedMessage&) const = default;
 };
 
-inline std::ostream& operator<<(std::ostream& out, const Told& told) {
-  return out << told.topic << " " << told.schema << " #" << told.sequence << " at " << told.log_time
-             << " with " << told.data.size() << " bytes";
+inline std::ostream& operator<<(std::ostream& out, const RecordedMessage& message) {
+  return out << message.topic << " " << message.schema << " #" << message.sequence << " at "
+             << message.log_time << " with " << message.data.size() << " bytes";
 }
 
-struct ToldFile {
-  std::vector<Told> messages;
+struct McapContents {
+  std::vector<RecordedMessage> messages;
   std::vector<std::string> faults;
   std::vector<std::uint64_t> fault_offsets;
 };
@@ -115,7 +115,7 @@ inline std::span<const std::byte> as_bytes(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-inline Told told(const io::mcap::Reader& reader, const io::mcap::Message& message) {
+inline RecordedMessage recorded(const io::mcap::Reader& reader, const io::mcap::Message& message) {
   const auto& channel = reader.channels().at(message.channel);
   const auto schema = reader.schemas().find(channel.schema_id);
   return {channel.topic,        schema == reader.schemas().end() ? "-" : schema->second.name,
@@ -123,11 +123,11 @@ inline Told told(const io::mcap::Reader& reader, const io::mcap::Message& messag
           message.publish_time, bytes_of(message.data)};
 }
 
-inline ToldFile read_mcap(const std::filesystem::path& file) {
-  ToldFile all;
+inline McapContents read_mcap(const std::filesystem::path& file) {
+  McapContents all;
   io::mcap::Reader reader(file);
   for (io::mcap::Message message; reader.next(message);)
-    all.messages.push_back(told(reader, message));
+    all.messages.push_back(recorded(reader, message));
   for (const auto& fault : reader.faults()) {
     EXPECT_EQ(fault.what.find('\n'), std::string::npos);
     all.faults.push_back(fault.what);
@@ -140,10 +140,10 @@ inline ToldFile read_mcap(const std::filesystem::path& file) {
 
 /// `messages` on channels of their topics, in their order.
 inline void write_mcap(const std::filesystem::path& file, const io::mcap::WriterOptions& options,
-                       const std::vector<Told>& messages) {
+                       const std::vector<RecordedMessage>& messages) {
   io::mcap::Writer writer(file, options);
   std::map<std::string, std::uint16_t> schemas, channels;
-  for (const Told& m : messages) {
+  for (const RecordedMessage& m : messages) {
     if (!schemas.contains(m.schema) && m.schema != "-")
       schemas[m.schema] = writer.add_schema(m.schema, "ros2msg", "int32 of_" + m.schema + "\n");
     if (!channels.contains(m.topic)) {
@@ -156,9 +156,10 @@ inline void write_mcap(const std::filesystem::path& file, const io::mcap::Writer
 }
 
 /// As a reader gives them.
-inline std::vector<Told> by_time(std::vector<Told> messages) {
-  std::stable_sort(messages.begin(), messages.end(),
-                   [](const Told& a, const Told& b) { return a.log_time < b.log_time; });
+inline std::vector<RecordedMessage> by_time(std::vector<RecordedMessage> messages) {
+  std::stable_sort(
+      messages.begin(), messages.end(),
+      [](const RecordedMessage& a, const RecordedMessage& b) { return a.log_time < b.log_time; });
   return messages;
 }
 

@@ -9,16 +9,17 @@ namespace penumbra::io::mcap {
 namespace {
 
 using namespace test::mcap_file;
-using test::Told;
-using test::ToldFile;
+using test::McapContents;
+using test::RecordedMessage;
 
-Told hand_made(const std::string& topic, std::int64_t time, const std::string& data = "data") {
+RecordedMessage hand_made(const std::string& topic, std::int64_t time,
+                          const std::string& data = "data") {
   return {topic, "p/msg/A", static_cast<std::uint32_t>(time), time, time, data};
 }
 
 class McapReader : public testing::Test {
  protected:
-  ToldFile read(const std::string& bytes) {
+  McapContents read(const std::string& bytes) {
     return test::read_mcap(folder_.write("a.mcap", bytes));
   }
 
@@ -27,23 +28,24 @@ class McapReader : public testing::Test {
 };
 
 TEST_F(McapReader, ReadsTheSmallestFiles) {
-  const ToldFile empty = read(file(""));
+  const McapContents empty = read(file(""));
   EXPECT_TRUE(empty.messages.empty());
   EXPECT_TRUE(empty.faults.empty()) << empty.faults[0];
   EXPECT_TRUE(
       read(magic + header() + footer()).faults.empty());  // the specification's "empty file"
-  const ToldFile one = read(file(channel(3, 0, "/x") + message(3, 5)));
+  const McapContents one = read(file(channel(3, 0, "/x") + message(3, 5)));
   ASSERT_EQ(one.messages.size(), 1U);
-  EXPECT_EQ(one.messages[0], (Told{"/x", "-", 5, 5, 5, "data"}));
+  EXPECT_EQ(one.messages[0], (RecordedMessage{"/x", "-", 5, 5, 5, "data"}));
   EXPECT_TRUE(one.faults.empty());
 }
 
 TEST_F(McapReader, MergesWithoutAnyIndexByTime) {
-  const std::vector<Told> expected = {hand_made("/b", 1), hand_made("/a", 2), hand_made("/a", 3),
-                                      hand_made("/b", 3), hand_made("/b", 4), hand_made("/a", 9)};
+  const std::vector<RecordedMessage> expected = {hand_made("/b", 1), hand_made("/a", 2),
+                                                 hand_made("/a", 3), hand_made("/b", 3),
+                                                 hand_made("/b", 4), hand_made("/a", 9)};
   const std::string late = chunk(3, 9, definitions_ + message(0, 9) + message(0, 3));
   const std::string early = chunk(1, 4, message(7, 3) + message(7, 1) + message(7, 4));
-  const ToldFile all = read(file(late + early + message(0, 2)));
+  const McapContents all = read(file(late + early + message(0, 2)));
   EXPECT_EQ(all.messages, expected);
   EXPECT_TRUE(all.faults.empty());
 }
@@ -54,8 +56,9 @@ TEST_F(McapReader, FindsWhatTheIndexPassesOver) {
   const std::string loose = message(0, 4);
   const std::uint64_t at = data_start();
   const std::string index = chunk_index(6, 6, at + first.size() + loose.size(), second.size());
-  const ToldFile all = read(file(first + loose + second, definitions_ + index));
-  const std::vector<Told> expected = {hand_made("/a", 4), hand_made("/a", 5), hand_made("/b", 6)};
+  const McapContents all = read(file(first + loose + second, definitions_ + index));
+  const std::vector<RecordedMessage> expected = {hand_made("/a", 4), hand_made("/a", 5),
+                                                 hand_made("/b", 6)};
   EXPECT_EQ(all.messages, expected);
   EXPECT_TRUE(all.faults.empty());
 }
@@ -75,11 +78,11 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
   };
 
   // What the index passes over is found, so that no message is missing.
-  const ToldFile elsewhere = with(chunk_index(5, 9, at + 1, only.size() - 1));
+  const McapContents elsewhere = with(chunk_index(5, 9, at + 1, only.size() - 1));
   ASSERT_FALSE(elsewhere.faults.empty());
   EXPECT_HAS(elsewhere.faults.back(), "there is no chunk of");
 
-  const ToldFile twice =
+  const McapContents twice =
       with(chunk_index(5, 9, at, only.size()) + chunk_index(5, 9, at, only.size()));
   EXPECT_EQ(twice.messages.size(), 2U);
   ASSERT_EQ(twice.faults.size(), 1U);
@@ -88,7 +91,7 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
   EXPECT_HAS(with(chunk_index(5, 9, at, ~0ULL)).faults[0], "outside of the data");
 
   const std::string second = chunk(7, 7, message(7, 7));
-  const ToldFile late =
+  const McapContents late =
       read(file(only + second, definitions_ + chunk_index(8, 9, at, only.size()) +
                                    chunk_index(7, 7, at + only.size(), second.size())));
   ASSERT_EQ(late.messages.size(), 3U);
@@ -113,7 +116,7 @@ TEST_F(McapReader, NamesEveryOtherFault) {
       {compressed_chunk("", 5, "abcd"), "two sizes"},
       {std::string(30, '\0') + message(0, 1), "no record"}};
   for (const auto& [data, named] : cases) {
-    const ToldFile all = read(file(data));
+    const McapContents all = read(file(data));
     ASSERT_FALSE(all.faults.empty()) << named;
     EXPECT_HAS(all.faults[0], named);
   }
@@ -122,10 +125,10 @@ TEST_F(McapReader, NamesEveryOtherFault) {
 TEST_F(McapReader, TrustsNoLooseMessageWhoseChecksumIsWrong) {
   const std::string start = magic + header() + channel(0, 0, "/a") + message(0, 1);
   EXPECT_TRUE(read(start + data_end(crc(start)) + footer()).faults.empty());
-  const ToldFile wrong = read(start + data_end(crc(start) + 1) + footer());
+  const McapContents wrong = read(start + data_end(crc(start) + 1) + footer());
   ASSERT_EQ(wrong.faults.size(), 1U);
   EXPECT_EQ(wrong.fault_offsets[0], start.size());
-  EXPECT_HAS(wrong.faults[0], "another checksum");
+  EXPECT_HAS(wrong.faults[0], "wrong checksum");
 }
 
 TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
@@ -135,11 +138,11 @@ TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
   std::string bytes = magic + header() + first + second + third + data_end() + footer();
   const std::size_t at = data_start() + first.size();
   bytes.replace(at + 1, 8, u64(1ULL << 60));
-  const ToldFile all = read(bytes);
+  const McapContents all = read(bytes);
   ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
   EXPECT_EQ(all.fault_offsets[0], at);
   EXPECT_HAS(all.faults[0], std::to_string(second.size()) + " bytes are left out");
-  EXPECT_EQ(all.messages, (std::vector<Told>{hand_made("/a", 1), hand_made("/b", 3)}));
+  EXPECT_EQ(all.messages, (std::vector<RecordedMessage>{hand_made("/a", 1), hand_made("/b", 3)}));
 }
 
 TEST_F(McapReader, RefusesWhatIsNoMcap) {
@@ -156,7 +159,7 @@ TEST_F(McapReader, RefusesWhatIsNoMcap) {
 // However little may be held, the messages and their order stay.
 TEST_F(McapReader, HoldsNoMoreThanAsked) {
   std::mt19937_64 random = test::seeded_random(52);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (std::uint32_t i = 0; i < 2000; ++i)
     messages.push_back({"/t" + std::to_string(i % 5), "p/msg/A", i,
                         static_cast<std::int64_t>(random() % 1000), 7,
@@ -184,7 +187,7 @@ TEST_F(McapReader, SaysWhenMessagesAreMissing) {
   const std::string only = chunk(5, 5, definitions_ + message(0, 5));
   const std::string counts = record(
       0x0b, u64(2) + u16(1) + u32(2) + u32(0) + u32(0) + u32(1) + u64(5) + u64(5) + text(""));
-  const ToldFile all = read(file(only, definitions_ + counts));
+  const McapContents all = read(file(only, definitions_ + counts));
   ASSERT_EQ(all.faults.size(), 1U);
   EXPECT_HAS(all.faults[0], "2 messages");
 }

@@ -16,10 +16,10 @@
 namespace penumbra::io::mcap {
 namespace {
 
-using test::Told;
+using test::RecordedMessage;
 
 // As the scripts' common.mjs.
-std::string line(const Told& message) {
+std::string line(const RecordedMessage& message) {
   std::ostringstream out;
   out << message.topic << ' ' << message.schema << ' ' << message.sequence << ' '
       << message.log_time << ' ' << message.publish_time << ' ' << message.data.size() << ' '
@@ -27,9 +27,9 @@ std::string line(const Told& message) {
   return out.str();
 }
 
-std::string lines(const std::vector<Told>& messages) {
+std::string lines(const std::vector<RecordedMessage>& messages) {
   std::string all;
-  for (const Told& message : messages) all += line(message) + "\n";
+  for (const RecordedMessage& message : messages) all += line(message) + "\n";
   return all;
 }
 
@@ -66,7 +66,7 @@ TEST(McapReference, ReadsEveryFileOfOurs) {
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zstd}) {
     for (const std::size_t chunk_size : {std::size_t{1}, std::size_t{3000}, std::size_t{1} << 20}) {
       for (const std::size_t count : {0, 1, 200}) {
-        std::vector<Told> messages;
+        std::vector<RecordedMessage> messages;
         for (std::uint32_t i = 0; i < count; ++i) {
           const std::string number = std::to_string(random() % 3);
           messages.push_back({"/t" + number, number == "0" ? "-" : "p/msg/T" + number, i,

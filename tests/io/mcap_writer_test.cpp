@@ -9,7 +9,7 @@
 namespace penumbra::io::mcap {
 namespace {
 
-using test::Told;
+using test::RecordedMessage;
 
 class McapWriter : public testing::Test {
  protected:
@@ -19,7 +19,7 @@ class McapWriter : public testing::Test {
 
 TEST_F(McapWriter, KeepsMessagesOfEverySize) {
   std::mt19937_64 random = test::seeded_random(63);
-  std::vector<Told> messages;
+  std::vector<RecordedMessage> messages;
   for (const std::size_t size : {0, 1, 70'000, 3'000'000, 5}) {
     std::string data(size, '\0');
     for (char& c : data) c = static_cast<char>(random());

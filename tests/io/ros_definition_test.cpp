@@ -63,10 +63,9 @@ TEST(RosDefinition, NamesTheFirstDifference) {
   EXPECT_HAS(difference("int32 x\nC[] y\nint32"), "'int32 ' in place of");
   EXPECT_HAS(difference("int32 x\nC[] y\nuint8 \x1b[0m"), "'uint8 ?[0m'");
   EXPECT_EQ(MessageDefinition("a/msg/B", "").difference({"a/C", {}}), "lacks a/C");
-  EXPECT_HAS(refusal([] {
-               MessageDefinition("a/B", std::string(MessageDefinition::max_text + 1, '#'));
-             }),
-             "bytes; at most");
+  EXPECT_HAS(
+      refusal([] { MessageDefinition("a/B", std::string(MessageDefinition::max_text + 1, '#')); }),
+      "bytes; at most");
 }
 
 TEST(RosDefinition, BuiltInTextsHoldTheirDependencies) {

@@ -6,7 +6,7 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/live/trouble_news.hpp>
+#include <io/live/diagnostic_changes.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -15,7 +15,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_sign(char c) { return c == '-' || c == '+'; }
 
-/// Where a number ends that begins at `i`, with its sign and exponent; `i` where none does.
+/// Returns the end of the number that begins at `i`, with its sign and exponent, or `i` if no
+/// number begins there.
 std::size_t number_end(std::string_view text, std::size_t i) {
   const auto digit_at = [&](std::size_t at) { return at < text.size() && is_digit(text[at]); };
   const std::size_t first = i + (is_sign(text[i]) ? 1 : 0);
@@ -30,8 +31,8 @@ std::size_t number_end(std::string_view text, std::size_t i) {
   return exponent;
 }
 
-/// A message without its numbers. Which joints contradict each other is no kind: of an arm that
-/// moves it is now these, now those.
+/// Returns a message without its numbers. Joints that contradict each other all give the same kind,
+/// because the joints change while an arm moves.
 std::string kind_of(std::string_view message) {
   const std::string_view disagree = to_string(FrameStatus::poses_disagree);
   if (message.starts_with(disagree)) return std::string(disagree);
@@ -46,21 +47,21 @@ std::string kind_of(std::string_view message) {
 
 }  // namespace
 
-std::vector<std::string> TroubleNews::look(const DiagnosticArrayMessage& message) {
+std::vector<std::string> DiagnosticChanges::update(const DiagnosticArrayMessage& message) {
   std::vector<std::string> lines;
   std::map<std::string, std::string> now;
   for (const DiagnosticStatusMessage& status : message.status) {
     if (status.level == DiagnosticStatusMessage::ok) continue;
     std::string kind = kind_of(status.message);
-    const auto told = told_.find(status.name);
-    if (told == told_.end() || told->second != kind)
+    const auto found = reported_.find(status.name);
+    if (found == reported_.end() || found->second != kind)
       lines.push_back(status.name + ": " + status.message);
     now[status.name] = std::move(kind);
   }
-  for (const auto& [name, kind] : told_)
-    if (!now.empty() && !now.contains(name)) lines.push_back(name + ": well again");
-  if (now.empty() && !told_.empty()) lines.emplace_back("penumbra: all is judged");
-  told_ = std::move(now);
+  for (const auto& [name, kind] : reported_)
+    if (!now.empty() && !now.contains(name)) lines.push_back(name + ": recovered");
+  if (now.empty() && !reported_.empty()) lines.emplace_back("penumbra: no faults");
+  reported_ = std::move(now);
   return lines;
 }
 
