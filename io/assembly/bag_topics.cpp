@@ -171,15 +171,15 @@ TopicUse choose_info(const Chooser& chooser, const BagOptions& options, const st
   if (options.camera_info_topic)
     return chooser.named("camera_info", option, *options.camera_info_topic,
                          TopicTypes(&info_type, 1));
-  if (const BagTopic* beside = info_beside(chooser, depth))
-    return Chooser::use("camera_info", *beside, "it stands beside the depth images");
+  if (const BagTopic* info = find_info(chooser, depth))
+    return Chooser::use("camera_info", *info, "next to the depth images");
   const auto candidates = chooser.of(TopicTypes(&info_type, 1));
   if (candidates.size() == 1)
     return Chooser::use("camera_info", *candidates.front(), "the only one");
   if (candidates.empty())
     chooser.refuse("has no camera_info (sensor_msgs/msg/CameraInfo) of " + printable(depth));
   chooser.refuse("no camera_info topic is next to " + printable(depth) + ": " +
-                 names_of(candidates) + "; choose one with " + flag);
+                 names_of(candidates) + "; choose one with " + option);
 }
 
 void choose_color(const Chooser& chooser, const BagOptions& options, bool with_color,
@@ -187,11 +187,10 @@ void choose_color(const Chooser& chooser, const BagOptions& options, bool with_c
   const TopicTypes types = image_types;
   if (options.color_topic) {
     topics.color = chooser.named("color", "--color-topic", *options.color_topic, types);
-    const BagTopic* info = info_beside(chooser, topics.color->name);
+    const BagTopic* info = find_info(chooser, topics.color->name);
     if (info == nullptr)
-      chooser.refuse("--color-topic: no camera_info stands beside " +
-                     printable(*options.color_topic));
-    topics.color_info = Chooser::use("color camera_info", *info, "it stands beside these images");
+      chooser.refuse("--color-topic: no camera_info is next to " + printable(*options.color_topic));
+    topics.color_info = Chooser::use("color camera_info", *info, "next to these images");
     return;
   }
   if (!with_color) return;

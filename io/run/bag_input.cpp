@@ -83,7 +83,7 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
                .poses = std::string(to_string(topics.poses)),
                .camera_frame = frame,
                .camera_link = mount.parent,
-               .camera_by = mount.told,
+               .camera_by = mount.source,
                .time_offset = options.bag.time_offset,
                .first_publisher = options.bag.first_publisher};
   for (const TopicUse& use : topics.all())
@@ -104,7 +104,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& tell) {
   Robot robot = load_robot(options, reader, robot_options);
   const CameraMount mount = mount_in_bag(options, reader, robot, cameras.judged.frame_id);
   tell("camera: frame '" + printable(cameras.judged.frame_id) + "' on link '" + mount.parent +
-       "', by " + mount.told);
+       "', by " + mount.source);
   if (cameras.depth)
     reader.read_until([&](const BagScene& scene) {
       return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);

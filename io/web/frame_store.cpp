@@ -3,7 +3,7 @@
 #include <cstring>
 #include <utility>
 
-#include <io/json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/metres-inl.hpp>
