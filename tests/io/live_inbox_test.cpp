@@ -249,7 +249,7 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
     return judged;
   };
   EXPECT_EQ(drive(start, 5, 60.0, 1), 5U);
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
   bench_.now += 200 * milliseconds;
   EXPECT_EQ(bench_.work(), 0U);
@@ -258,12 +258,12 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
   LiveTruth other({.focal = 90.0});
-  EXPECT_EQ(expect_true_labels(bench_.results.told, other), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, other), 3U);
   // Again, now by a clock that begins anew: what came before is later than all that comes.
-  bench_.results.told.clear();
+  bench_.results.published.clear();
   EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);
   EXPECT_EQ(drive(start - 899 * seconds, 3, 60.0, 3), 3U);
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), 3U);
 }
 
 TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
@@ -283,7 +283,7 @@ TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   EXPECT_EQ(counts.of(io::LiveDrop::no_camera_info), 0U);
   EXPECT_EQ(judged + counts.of(io::LiveDrop::superseded), 60U);
   EXPECT_GT(judged, 50U);
-  EXPECT_EQ(expect_true_labels(bench_.results.told, truth_), judged);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), judged);
 }
 
 /// Where the robot is known, but no depth: it is unknown there, and the rest is free of it.
@@ -304,7 +304,7 @@ TEST_F(LiveInboxTest, CompressedDepthIsJudgedAsWhatItHolds) {
       return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
     };
     EXPECT_EQ(judge(start, data.size()), "ok");
-    EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 1U);
+    EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 1U);
     const std::int64_t next = start + 33 * milliseconds;
     EXPECT_EQ(judge(next, data.size() / 2), "bad_depth");
     const auto labels = bench.results.last<io::ImageMessage>(io::Result::labels);
@@ -336,7 +336,7 @@ TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
     }
     EXPECT_EQ(judge(stamp), "ok") << i;
   }
-  EXPECT_EQ(expect_true_labels(bench.results.told, truth_), 30U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 30U);
   EXPECT_NE(judge(start + 10 * seconds), "ok") << "what was told last is no pose of now";
 }
 

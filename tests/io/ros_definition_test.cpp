@@ -136,7 +136,7 @@ TEST(RosDefinition, DamagedTextsThrowInputErrorsOnly) {
     for (std::size_t n = 1 + random() % 8; n > 0 && !text.empty(); --n)
       text[random() % text.size()] =
           random() % 2 == 0 ? spice[random() % spice.size()] : static_cast<char>(random());
-    test::only_input_errors([&] { Decoder<TargetsMessage>("penumbra_msgs/Targets", text); });
+    test::refusal([&] { Decoder<TargetsMessage>("penumbra_msgs/Targets", text); });
   }
 }
 

@@ -81,7 +81,7 @@ Lines notes_of_positions(const std::vector<std::vector<double>>& frames) {
 /// Expects one note with these parts.
 void expect_note(const Lines& lines, std::initializer_list<std::string_view> parts) {
   ASSERT_EQ(lines.size(), 1U);
-  for (const std::string_view part : parts) EXPECT_TRUE(holds(lines[0], part));
+  for (const std::string_view part : parts) EXPECT_TRUE(test::holds(lines[0], part));
 }
 
 TEST(SequenceNotes, ARobotInNoFrameIsTold) {
@@ -179,8 +179,8 @@ TEST(SequenceNotes, TargetsThatAreForgottenOrNotHandledAreTold) {
   notes.add(report, {});
   const Lines lines = notes.lines();
   ASSERT_EQ(lines.size(), 3U);
-  for (const char* part : {"1 frame", "forgotten"}) EXPECT_TRUE(holds(lines[1], part));
-  for (const char* part : {"2 frames", "handle"}) EXPECT_TRUE(holds(lines[2], part));
+  for (const char* part : {"1 frame", "forgotten"}) EXPECT_TRUE(test::holds(lines[1], part));
+  for (const char* part : {"2 frames", "handle"}) EXPECT_TRUE(test::holds(lines[2], part));
 }
 
 TEST(SequenceNotes, JointsBeyondTheirLimitsAreTold) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/random.hpp>
 #include <tests/support/run_length.hpp>
+#include <tests/support/shapes.hpp>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
 
@@ -19,37 +20,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// A ring of tube: closed, wound outwards.
+using test::append;
+
 TriangleMesh torus(std::uint32_t rows, std::uint32_t columns) {
-  TriangleMesh mesh;
-  const auto index = [&](std::uint32_t i, std::uint32_t j) {
-    return (i % rows) * columns + j % columns;
-  };
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      const double a = 2 * std::numbers::pi * i / rows;
-      const double b = 2 * std::numbers::pi * j / columns;
-      const double r = 0.3 + 0.1 * std::cos(b);
-      mesh.vertices.push_back(
-          Vector3d(r * std::cos(a), r * std::sin(a), 0.1 * std::sin(b)).cast<float>());
-      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-    }
-  }
-  return mesh;
+  return test::torus(rows, columns, 0.3, 0.1);
 }
 
 TriangleMesh turned(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
-}
-
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const auto& [a, b, c] : other.triangles) {
-    mesh.triangles.push_back({a + shift, b + shift, c + shift});
-  }
 }
 
 /// A surface of revolution about z, wound outwards where the profile (radius, z) runs upwards with

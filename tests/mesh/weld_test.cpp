@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tests/mesh/signed_volume.hpp>
 #include <tests/support/random.hpp>
+#include <tests/support/shapes.hpp>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/mesh/weld.hpp>
@@ -39,35 +40,8 @@ TriangleMesh soup_of(const TriangleMesh& mesh) {
   return soup;
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : other.triangles)
-    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-}
-
-/// A closed torus of rows x columns quads.
-TriangleMesh torus(std::uint32_t rows, std::uint32_t columns, double ring, double tube) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      const double a = 2 * std::numbers::pi * i / rows;
-      const double b = 2 * std::numbers::pi * j / columns;
-      const double r = ring + tube * std::cos(b);
-      mesh.vertices.push_back(
-          Eigen::Vector3d(r * std::cos(a), r * std::sin(a), tube * std::sin(b)).cast<float>());
-      const std::uint32_t i1 = (i + 1) % rows;
-      const std::uint32_t j1 = (j + 1) % columns;
-      const std::uint32_t p = i * columns + j;
-      const std::uint32_t q = i1 * columns + j;
-      const std::uint32_t r1 = i1 * columns + j1;
-      const std::uint32_t s = i * columns + j1;
-      mesh.triangles.push_back({p, q, r1});
-      mesh.triangles.push_back({p, r1, s});
-    }
-  }
-  return mesh;
-}
+using test::append;
+using test::torus;
 
 bool is_watertight(const TriangleMesh& mesh) { return PreparedMesh(mesh).watertight; }
 

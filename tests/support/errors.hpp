@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <concepts>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ std::string message_of(Call&& call) {
 }
 
 /// Expects an InputError whose message holds all parts: the file, the element, the remedy.
-template <typename Call>
+template <std::invocable Call>
 void expect_refused(Call&& call, std::initializer_list<std::string_view> parts) {
   const std::string message = message_of(call);
   for (const std::string_view part : parts) EXPECT_TRUE(holds(message, part));
