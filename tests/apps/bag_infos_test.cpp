@@ -40,7 +40,7 @@ TEST_F(BagInfosTest, AnImageWithoutItsOwnCameraInfoIsNotJudgedByAnotherOnes) {
   EXPECT_EQ(status(0), "ok");
   EXPECT_EQ(status(1), "ok");
   EXPECT_EQ(status(2), "bad_depth");
-  EXPECT_NE(report()["frames"][2]["message"].get<std::string>().find("its camera_info did not"),
+  EXPECT_NE(report()["frames"][2]["message"].get<std::string>().find("its camera_info"),
             std::string::npos);
 }
 

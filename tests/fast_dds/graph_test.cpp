@@ -71,7 +71,7 @@ TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }
   unsetenv("CYCLONEDDS_URI");
-  EXPECT_EQ(message_of([&] { return io::join_graph({.domain = domain.id()}); }), "");
+  EXPECT_EQ(refusal([&] { return io::join_graph({.domain = domain.id()}); }), "");
 }
 
 TEST(Graph, AMessageOutlivesItsSubscriptionAndParticipant) {

@@ -177,7 +177,7 @@ TEST_F(Bags, RefusesWhatItCannotRead) {
   EXPECT_HAS(refusal(folder_.path()), "holds no recording: neither metadata.yaml nor *.mcap");
   EXPECT_HAS(refusal(path("a.bag")), "a.bag: cannot be read: No such file");
   folder_.write("a.bag", "#ROSBAG V2.0\n");
-  EXPECT_HAS(refusal(path("a.bag")), "a.bag: is no bag; *.mcap, *.db3 and folders");
+  EXPECT_HAS(refusal(path("a.bag")), "*.mcap, *.db3 and folders");
   EXPECT_HAS(refusal(path("a.db3.zstd")), "is compressed as a whole");
   EXPECT_HAS(refusal(path("a.mcap")), "No such file");
   metadata("rosbag2_bagfile_information:\n  version: 5\n");

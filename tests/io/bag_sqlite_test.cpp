@@ -166,9 +166,9 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
     ASSERT_TRUE(all.topics.empty()) << length;  // it was refused
   }
   folder_.write("b.db3", whole.substr(0, 2 * page + 7));
-  EXPECT_HAS(
-      test::refusal([&] { static_cast<void>(open_bag(folder_.path() / "b.db3")); }),
-      "b.db3: is cut inside of a page; what stands before is readable after 'truncate -s 8192'");
+  const std::string message =
+      test::refusal([&] { static_cast<void>(open_bag(folder_.path() / "b.db3")); });
+  for (const char* part : {"b.db3: is cut", "'truncate -s 8192'"}) EXPECT_HAS(message, part);
 }
 
 TEST_F(SqliteDamage, SurvivesRandomDamage) {

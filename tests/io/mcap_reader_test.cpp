@@ -113,7 +113,7 @@ TEST_F(McapReader, NamesEveryOtherFault) {
       {compressed_chunk("zstd", 4, "abcd"), "zstd"},
       {compressed_chunk("lz4", 4, "abcd"), "lz4"},
       {compressed_chunk("lz4", 1ULL << 40, "abcd"), "decompress from 4"},
-      {compressed_chunk("", 5, "abcd"), "two sizes"},
+      {compressed_chunk("", 5, "abcd"), "two different sizes"},
       {std::string(30, '\0') + message(0, 1), "no record"}};
   for (const auto& [data, named] : cases) {
     const McapContents all = read(file(data));
