@@ -190,7 +190,7 @@ made_again='^Example[.]IsReproducible$'
 # tests, and narrower vectors say no more.
 scenes='Backends/(Bodies|ClosedForm|Coverage|NearPlane)[.].*'
 many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_.*_threads[2-9])"
-many+='|cpu_SSE4|RenderersMadeAndDropped|OffsetGrid.RealLinks'
+many+='|cpu_SSE4|RenderersMadeAndDropped'
 # Where one thread of ours runs there is no race to find; one robot's threads are like another's.
 one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest'
 one_thread+='|GlEnvironment|GlFaults.LetARendererFail|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'

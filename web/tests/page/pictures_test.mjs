@@ -27,7 +27,7 @@ const pagePanels = {
   picture: ['#picture', 0.035],
   targets: ['#target-list', 0.2],
   details: ['#details', 0.07],
-  player: ['#transport', 0.06],
+  player: ['#transport', 0.03],
   timeline: ['#timeline-panel', 0.065],
 };
 const reportPanels = {
