@@ -12,9 +12,9 @@ namespace {
 /// What `run` judges, as its options say.
 struct Input {
   explicit Input(const io::InputOptions& options)
-      : input(io::open_input(options,
-                             [this](const std::string& line) { told.values.push_back(line); })) {}
-  Frozen<std::string> told;
+      : input(io::open_input(
+            options, [this](const std::string& line) { messages.values.push_back(line); })) {}
+  Frozen<std::string> messages;
   io::RunInput input;
 };
 
@@ -122,8 +122,7 @@ void bind_input_classes(py::module_& m) {
   py::class_<Input, std::shared_ptr<Input>>(
       m, "Input",
       "What `penumbra run` takes: a recording folder or a ROS 2 bag (*.mcap, *.db3 or a folder). "
-      "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, out "
-      "of "
+      "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, from "
       "its message.")
       .def("__iter__",
            [](const std::shared_ptr<Input>& self) {
@@ -149,8 +148,8 @@ void bind_input_classes(py::module_& m) {
           "beyond", [](const Input& self) { return self.input.beyond; },
           "What verdicts make of beyond; None: it does not say.")
       .def_property_readonly(
-          "told", [](const Input& self) { return self.told; },
-          "What of a bag is taken, a line each.");
+          "messages", [](const Input& self) { return self.messages; },
+          "Which topics and poses of a bag are used, a line each.");
 }
 
 }  // namespace

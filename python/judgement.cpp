@@ -39,7 +39,7 @@ void bind_judgements(py::module_& m) {
       Field{"occluded", &J::occluded, "Fraction hidden by the robot."},
       Field{"front", &J::front, "Fraction before the robot."},
       Field{"unknown", &J::unknown, "Fraction not known."},
-      Field{"clear", &J::clear, "Fraction beside the robot."},
+      Field{"clear", &J::clear, "Fraction without robot."},
       Field{"hidden_by_other", &J::hidden_by_other,
             "Fraction hidden by something else; None: not known."},
       Field{"measured", &J::measured, "Fraction that is seen and measured; None: not known."},

@@ -96,11 +96,11 @@ void bind_report_parts(py::module_& m) {
       "occluded + unknown + beyond.");
   using P = PixelCounts;
   show_fields(pixels, Field{"robot", &P::robot, "Of the robot; None: its pose is not known."},
-              Field{"front", &P::front, "Before the robot."},
+              Field{"front", &P::front, "Something real in front of the robot."},
               Field{"occluded", &P::occluded, "The sensor sees the robot."},
               Field{"unknown", &P::unknown, "Not measured."},
               Field{"beyond", &P::beyond, "The sensor sees past the model."},
-              Field{"fringe", &P::fringe, "Beside the robot: depth not to be trusted."},
+              Field{"fringe", &P::fringe, "Next to the robot: depth not to be trusted."},
               Field{"uncovered", &P::uncovered, "That the lens model does not reach."});
   py::class_<StageTimes> times(m, "StageTimes",
                                "Wall time of the stages, milliseconds; None: not run.");

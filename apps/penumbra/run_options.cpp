@@ -70,7 +70,7 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   std::vector<CLI::Option*> options{
       add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
                bag.depth_topic),
-      add_text(app, "--camera-info-topic", "default: beside the depth images", "TOPIC",
+      add_text(app, "--camera-info-topic", "default: next to the depth images", "TOPIC",
                bag.camera_info_topic),
       add_text(app, "--color-topic",
                "judge in this camera's image: depth is brought there by tf, if it is another's",

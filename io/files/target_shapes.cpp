@@ -169,7 +169,7 @@ void read_ellipse(const YamlNode& node, KeypointTarget& target) {
   for (const char* const key : keys) {
     const YamlNode* found = node.find(key);
     if (found == nullptr) continue;
-    if (given != nullptr) found->fail("stands beside " + given->key() + "; keep one");
+    if (given != nullptr) found->fail("cannot be combined with " + given->key() + "; keep one");
     given = found;
   }
   if (given == nullptr) return;
@@ -328,7 +328,8 @@ ShapeSource read_shape(const TargetReader& reader) {
     const YamlNode* found = reader.node.find(kind.key);
     if (found == nullptr) continue;
     if (chosen != nullptr)
-      found->fail("stands beside " + std::string(chosen->key) + "; a target has one of them");
+      found->fail("cannot be combined with " + std::string(chosen->key) +
+                  "; a target has one of them");
     chosen = &kind;
   }
   if (chosen == nullptr) {

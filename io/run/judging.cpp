@@ -88,7 +88,7 @@ RunResult Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
 std::vector<std::string> Judging::judge_frames(RunOutput& output,
                                                const std::function<bool()>& go_on,
                                                RunResult& result) {
-  SequenceNotes doubts(pipeline_.robot(), {.image = options_.image});
+  SequenceNotes sequence(pipeline_.robot(), {.image = options_.image});
   MissingParts missing(pipeline_.robot(), pipeline_.rule().fringe_reach);
   FrameData data;
   Frame frame;
@@ -97,7 +97,7 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
       if (targets_) frame.targets = targets_->of_frame(data.index);
       const FrameReport& report = pipeline_.process(frame);
       result.statistics.add(report);
-      doubts.add(report, frame.joints.positions);
+      sequence.add(report, frame.joints.positions);
       missing.add(report);
       if (!data.color_message.empty() && result.frames_without_color++ == 0)
         result.first_without_color = data.color_message;
@@ -109,7 +109,7 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
     result.device_fault = "frame " + std::to_string(data.index) +
                           " and later ones are not judged: " + without_device(error);
   }
-  std::vector<std::string> notes = doubts.lines();
+  std::vector<std::string> notes = sequence.lines();
   append(notes, missing.lines());
   return notes;
 }

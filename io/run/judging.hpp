@@ -42,7 +42,7 @@ struct JudgingOptions {
   bool no_targets = false;                       ///< not the recording's either
 };
 
-/// What a run came to.
+/// The outcome of a run.
 struct RunResult {
   Statistics statistics;
   std::vector<std::string> notes;        ///< a line each
@@ -70,7 +70,7 @@ class Judging {
   [[nodiscard]] RunResult run(RunOutput& output, const std::function<bool()>& go_on);
 
  private:
-  /// Returns what is doubtful of the frames.
+  /// Returns notes on likely mistakes in the input.
   std::vector<std::string> judge_frames(RunOutput& output, const std::function<bool()>& go_on,
                                         RunResult& result);
 

@@ -303,6 +303,8 @@ class GltfReader {
       if (corner >= mesh.vertices.size())
         damaged("glTF: a face names vertex " + std::to_string(corner) + " of " +
                 std::to_string(mesh.vertices.size()));
+    if (mode == 4 && corners.size() % 3 != 0)
+      damaged("glTF: " + std::to_string(corners.size()) + " corners do not make whole triangles");
     const std::size_t step = mode == 4 ? 3 : 1;
     for (std::size_t i = 2; i < corners.size(); i += step) {
       if (mode == 4) mesh.triangles.push_back({corners[i - 2], corners[i - 1], corners[i]});

@@ -84,7 +84,7 @@ struct TrackedPose {
 /// Follows one target's pose: a Kalman filter on R^3 x SO(3) that takes an estimate only if enough
 /// of its target was visible, and predicts the pose meanwhile.
 ///
-/// An estimate of a target of which the share s was seen has the weight w = s^5 (0.4^5 if less was
+/// If the share s of the target was seen, its estimate has the weight w = s^5 (0.4^5 if less was
 /// seen): its covariance is divided by w, and its gate is multiplied by w. Such estimates are less
 /// exact, and more often wrong. The power is measured (docs/experiments.md).
 ///

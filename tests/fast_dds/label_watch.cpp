@@ -5,6 +5,7 @@
 #include "stamped_message.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <future>
 #include <sstream>
 
@@ -62,9 +63,10 @@ std::optional<std::int64_t> LabelWatch::known_after(std::int64_t arrival, std::i
   return std::nullopt;
 }
 
-std::size_t LabelWatch::count() {
+std::size_t LabelWatch::known_count() {
   const std::lock_guard lock(mutex_);
-  return heard_.size();
+  return static_cast<std::size_t>(
+      std::count_if(heard_.begin(), heard_.end(), std::mem_fn(&HeardLabels::is_known)));
 }
 
 std::uint64_t LabelWatch::newest_number() {

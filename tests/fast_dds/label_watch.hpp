@@ -47,7 +47,7 @@ class LabelWatch {
   /// they came.
   [[nodiscard]] std::optional<std::int64_t> known_after(std::int64_t arrival, std::int64_t stamp,
                                                         std::chrono::seconds at_most);
-  [[nodiscard]] std::size_t count();
+  [[nodiscard]] std::size_t known_count();
   /// The sequence number of the last one; 0: none was heard.
   [[nodiscard]] std::uint64_t newest_number();
   void end();

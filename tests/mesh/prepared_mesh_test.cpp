@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 using test::append;
+using test::revolved;
 
 TriangleMesh torus(std::uint32_t rows, std::uint32_t columns) {
   return test::torus(rows, columns, 0.3, 0.1);
@@ -28,28 +29,6 @@ TriangleMesh torus(std::uint32_t rows, std::uint32_t columns) {
 
 TriangleMesh turned(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
-}
-
-/// A surface of revolution about z, wound outwards where the profile (radius, z) runs upwards with
-/// the body on its inner side. Open at profile ends off the axis.
-TriangleMesh revolved(const std::vector<Eigen::Vector2f>& profile, std::uint32_t around) {
-  TriangleMesh mesh;
-  for (const Eigen::Vector2f& p : profile) {
-    for (std::uint32_t i = 0; i < around; ++i) {
-      const double a = 2 * std::numbers::pi * i / around;
-      mesh.vertices.emplace_back(p.x() * static_cast<float>(std::cos(a)),
-                                 p.x() * static_cast<float>(std::sin(a)), p.y());
-    }
-  }
-  for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
-    for (std::uint32_t i = 0; i < around; ++i) {
-      const std::uint32_t a = row * around + i;
-      const std::uint32_t b = row * around + (i + 1) % around;
-      mesh.triangles.push_back({a, b, b + around});
-      mesh.triangles.push_back({a, b + around, a + around});
-    }
-  }
   return mesh;
 }
 

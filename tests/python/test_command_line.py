@@ -94,7 +94,7 @@ def test_an_input_is_what_run_takes():
     frames = list(given)
     assert [frame.index for frame in frames] == [2, 3, 4]
     assert frames[0].color.shape == (480, 640, 3) and given.targets.name == "targets.yaml"
-    assert iter(given).size == 3 and given.told == ()
+    assert iter(given).size == 3 and given.messages == ()
     shown = given.camera.intrinsics.width, given.camera.intrinsics.height
     assert shown == (640, 480) and given.config.camera_parent == "base_link"
 
@@ -102,7 +102,7 @@ def test_an_input_is_what_run_takes():
 def test_a_bag_tells_what_is_taken_of_it():
     skip_without_data()
     given = penumbra.open_input(BAG, color=True, bag=BAG_OPTIONS)
-    assert any(line.startswith("depth: /camera/") for line in given.told)
+    assert any(line.startswith("depth: /camera/") for line in given.messages)
     frames = iter(given)
     first = next(frames)
     assert first.depth.shape == first.color.shape[:2] == (720, 1280)
