@@ -14,10 +14,10 @@ import sys
 
 from performance_table import table
 
-# Key in metrics.json, head of the column, digits. The file has more, and confidence intervals.
+# Key in metrics.json, head of the column or name of the table, digits. The file has more, and
+# confidence intervals.
 COLUMNS = {
-    "conveyor": (("translation_p95_mm", "p95 error hidden, mm", 1),
-                 ("wrong_accepted_hidden", "wrong accepted hidden, per run", 2)),
+    "conveyor": (("translation_p95_mm", "error", 1), ("wrong_accepted_hidden", "wrong", 2)),
     "handover": (("translation_p95_mm", "p95 error hidden, mm", 0),
                  ("on_robot_accepted", "on the body accepted, per run", 2),
                  ("refused_before_robot_percent", "hands in front refused, %", 1)),
@@ -35,17 +35,28 @@ def cell(measure, digits):
 
 
 def tables(metrics):
-    """Name between the marks, and table, of each kind of detection."""
-    columns = COLUMNS[metrics["experiment"]]
-    for lane, detection in metrics["detections"].items():
-        rows = [(method["name"], *(cell(method["summary"][key], digits)
-                                   for key, _, digits in columns))
-                for method in detection["methods"].values()]
-        yield (f'{metrics["experiment"]} {lane}',
-               table(("method", *(head for _, head, _ in columns)), rows))
+    """Name between the marks, and table: one per measure if there are several kinds of detections."""
+    experiment, kinds = metrics["experiment"], metrics["detections"]
+    columns = COLUMNS[experiment]
+    methods = next(iter(kinds.values()))["methods"]
+
+    def summary(kind, method):
+        return kinds[kind]["methods"][method]["summary"]
+
+    if len(kinds) == 1:
+        (kind,) = kinds
+        rows = [(methods[method]["name"], *(cell(summary(kind, method)[key], digits)
+                                            for key, _, digits in columns)) for method in methods]
+        yield f"{experiment} {kind}", table(("method", *(head for _, head, _ in columns)), rows)
+        return
+    for key, name, digits in columns:
+        rows = [(methods[method]["name"], *(cell(summary(kind, method)[key], digits)
+                                            for kind in kinds)) for method in methods]
+        heads = (kind.replace("_", ", ") for kind in kinds)
+        yield f"{experiment} {name}", table(("method", *heads), rows)
 
 
-def told(metrics):
+def readme_figures(metrics):
     lane, keys, methods = README[metrics["experiment"]]
     for method in methods:
         summary = metrics["detections"][lane]["methods"][method]["summary"]
@@ -79,7 +90,7 @@ def main():
                 sys.exit(f'{page}: "{mark}" stands {found} times between begin and end, not once')
         if page is None:
             print(f'README.md, {metrics["experiment"]}, seeds {metrics["seeds"]}:')
-            print("\n".join(told(metrics)) + "\n")
+            print("\n".join(readme_figures(metrics)) + "\n")
     if page:
         page.write_text(text)
 
