@@ -35,7 +35,7 @@ Target target_of(const std::optional<Eigen::Vector3d>& point) {
   target.shape = RegionTarget{.region = detected, .expected_depth = 1.87};
   target.depth_margin = 0.10;              // metres: the depth is of its middle
   target.handling = PointTrackerConfig{};  // held while it is hidden
-  target.estimate = TargetEstimate{.value = std::monostate()};  // there is none in this frame
+  target.estimate = TargetEstimate{.value = std::monostate()};  // not detected in this frame
   if (point) target.estimate->value = *point;
   return target;
 }

@@ -3,7 +3,7 @@
 """The experiments' tables of docs/experiments.md, from what `penumbra_research` measured.
 
 experiment_tables.py METRICS.json...: prints them, and the figures in README.md.
-experiment_tables.py --into docs/experiments.md METRICS.json...: replaces what stands between
+experiment_tables.py --into docs/experiments.md METRICS.json...: replaces the text between
 "<!-- begin NAME -->" and "<!-- end NAME -->" there.
 """
 import argparse
@@ -87,7 +87,7 @@ def main():
             pattern = re.compile(rf"(<!-- begin {mark} -->\n).*?(<!-- end {mark} -->)", re.DOTALL)
             text, found = pattern.subn(lambda match: match[1] + rows + "\n" + match[2], text)
             if found != 1:
-                sys.exit(f'{page}: "{mark}" stands {found} times between begin and end, not once')
+                sys.exit(f'{page}: "{mark}" is marked {found} times, not once')
         if page is None:
             print(f'README.md, {metrics["experiment"]}, seeds {metrics["seeds"]}:')
             print("\n".join(readme_figures(metrics)) + "\n")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the shipped recording anew, to the same bytes.
+# Makes the shipped recording again, with the same bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/packages.sh --install build

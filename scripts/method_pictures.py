@@ -17,7 +17,7 @@ from PIL import Image
 import penumbra
 
 ROOT = pathlib.Path(__file__).parents[1]
-FRAME = 6            # the hand stands before the arm, and the arm before the cube
+FRAME = 6            # the hand is in front of the arm, and the arm in front of the cube
 RANGE = (0.8, 2.4)   # metres, of the depth images' colours
 MOST = 0.1           # metres, of the difference's colours
 NO_DEPTH, NO_DIFFERENCE = (0, 0, 0), (215, 215, 215)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The one home of Debian package names.
+# All Debian package names are here.
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
 # matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
 # page's tests), docs (the site), bench, lint.
-# OpenGL is tested on Mesa's software driver; a GPU's own driver beside libegl1 and libopengl0
-# serves as well.
+# OpenGL is tested on Mesa's software driver; the driver of a GPU next to libegl1 and libopengl0
+# also works.
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshoptimizer-dev

@@ -10,7 +10,7 @@ import numpy as np
 import penumbra
 from penumbra import Verdict
 
-# Okabe and Ito's colours, told apart by the colour-blind, too.
+# Okabe and Ito's colours, which colour-blind people can distinguish.
 COLORS = {Verdict.visible: "#009e73", Verdict.partial: "#e69f00", Verdict.hidden: "#d55e00",
           Verdict.unknown: "#999999", Verdict.out_of_view: "#56b4e9"}
 
