@@ -4,27 +4,32 @@
 #include <limits>
 #include <string>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/camera/distortion.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 
 namespace penumbra {
 
-/// The sensor's own range, metres: depths outside of it are no measurements. It limits what the
-/// sensor can say, not what is rendered.
+/// The sensor's range, metres: depths outside of it are no measurements. It does not limit what is
+/// rendered.
 struct DepthRange {
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
 };
 
-/// A calibrated depth camera: what its images are like, not where it is.
+/// A calibrated depth camera, without its pose.
 struct Camera {
-  Intrinsics intrinsics;  ///< of the image as it comes
-  Distortion distortion;  ///< of the image as it comes; none where it is already rectified
+  Intrinsics intrinsics;  ///< of the image as received
+  Distortion distortion;  ///< of the image as received; none if it is already rectified
   DepthRange range;
   std::string frame_id;  ///< the optical frame; may be empty
 
-  /// Throws InputError, with the values it got, unless 0 <= near < far.
-  void check() const;
+  /// Throws InputError, with the values, unless 0 <= near < far.
+  void check() const {
+    if (!(range.near >= 0 && range.near < range.far))
+      throw InputError("camera: the range from " + std::to_string(range.near) + " to " +
+                       std::to_string(range.far) + " metres must be 0 <= near < far");
+  }
 };
 
 }  // namespace penumbra

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// With z = (x, y), r = |z|, p = (p2, p1) and R the radial factor, the polynomial models are
+// With z = (x, y), r = |z|, p = (p2, p1) and the radial factor R, the polynomial models are
 //   distort(z) = z R(r^2) + 2 (p . z) z + p r^2.
-// Its derivative is symmetric: radial eigenvalues f'(r) and f(r) / r with f(r) = r R(r^2), and a
-// tangential part between -6 |p| r and 6 |p| r. Where f' and f / r exceed 6 |p| r it is positive
-// definite, and so one-to-one on the disc.
+// The derivative is symmetric. It is the sum of a radial part with the eigenvalues f'(r) and f(r) /
+// r, where f(r) = r R(r^2), and of a tangential part between -6 |p| r and 6 |p| r. It is positive
+// definite, and distort() one-to-one on the disc, while f' and f / r exceed 6 |p| r.
 // The images of the circles |z| = r are then nested, and z is parallel to w = y - p r^2 for
-// y = distort(z). That leaves one unknown: r is where f(r) + 2 r^2 p . w / |w| grows past |w|.
+// y = distort(z). One unknown remains: r is the root of f(r) + 2 r^2 p . w / |w| - |w|.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/distortion.hpp>
-#include <penumbra/camera/polynomial-inl.hpp>
 
 namespace penumbra {
 namespace {
-
-using detail::Polynomial;
 
 constexpr double right_angle = std::numbers::pi / 2;
 
@@ -26,42 +24,37 @@ bool all_zero(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double k) { return k == 0; });
 }
 
-std::string_view expected_count(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::plumb_bob:
-      return "5 (k1 k2 p1 p2 k3) or 4";
-    case DistortionModel::rational_polynomial:
-      return "8 (k1 k2 p1 p2 k3 k4 k5 k6)";
-    case DistortionModel::equidistant:
-      return "4 (k1 k2 k3 k4)";
-    case DistortionModel::none:
-      break;
-  }
-  return "no coefficients, or only 0";
-}
+struct ModelRow {
+  DistortionModel model;
+  std::string_view name;
+  std::string_view expected;  // coefficients
+  std::array<std::size_t, 3> counts;
+};
 
-bool count_fits(DistortionModel model, std::span<const double> k) {
-  switch (model) {
-    case DistortionModel::plumb_bob:
-      return k.size() == 4 || k.size() == 5;
-    case DistortionModel::rational_polynomial:
-      return k.size() == 8 || k.size() == 12 || k.size() == 14;
-    case DistortionModel::equidistant:
-      return k.size() == 4;
-    case DistortionModel::none:
-      break;
-  }
-  return all_zero(k);
-}
+constexpr ModelRow models[] = {
+    {DistortionModel::none, "none", "only coefficients that are 0", {}},
+    {DistortionModel::plumb_bob, "plumb_bob", "5 (k1 k2 p1 p2 k3) or 4", {4, 5}},
+    {DistortionModel::rational_polynomial,
+     "rational_polynomial",
+     "8 (k1 k2 p1 p2 k3 k4 k5 k6)",
+     {8, 12, 14}},
+    {DistortionModel::equidistant, "equidistant", "4 (k1 k2 k3 k4)", {4}}};
+
+const ModelRow& row_of(DistortionModel model) { return models[static_cast<std::size_t>(model)]; }
 
 void check_coefficients(DistortionModel model, std::string_view name, std::span<const double> k) {
+  const auto& counts = row_of(model).counts;
+  const bool fits =
+      model == DistortionModel::none
+          ? all_zero(k)
+          : !k.empty() && std::find(counts.begin(), counts.end(), k.size()) != counts.end();
   std::ostringstream what;
   what << "distortion model \"" << name << "\": ";
   const auto odd = std::find_if(k.begin(), k.end(), [](double c) { return !std::isfinite(c); });
   if (odd != k.end()) {
     what << "coefficient " << odd - k.begin() + 1 << " is " << *odd << ", not a finite number";
-  } else if (!count_fits(model, k)) {
-    what << "it has " << k.size() << " coefficients and needs " << expected_count(model);
+  } else if (!fits) {
+    what << "it has " << k.size() << " coefficients and needs " << row_of(model).expected;
   } else if (model == DistortionModel::rational_polynomial && !all_zero(k.subspan(8))) {
     what << "coefficients 9 to " << k.size()
          << " (thin prism, tilt) are not supported and must be 0";
@@ -69,13 +62,6 @@ void check_coefficients(DistortionModel model, std::string_view name, std::span<
     return;
   }
   throw InputError(what.str());
-}
-
-/// The polynomial in x whose coefficients are those of x^2, x^4, ...
-Polynomial in_squares(std::span<const double> even) {
-  Polynomial result(2 * even.size() - 1, 0.0);
-  for (std::size_t i = 0; i < even.size(); ++i) result[2 * i] = even[i];
-  return result;
 }
 
 template <std::size_t N>
@@ -92,47 +78,19 @@ double horner_derivative(const std::array<double, N>& a, double x) {
   return sum;
 }
 
-/// Up to where n(x) / d(x), the derivative of x n(x) / d(x) and d(x) stay positive, the first two
-/// by more than 6 p x.
-double monotone_until(const Polynomial& n, const Polynomial& d, double p) {
-  using detail::add, detail::derivative, detail::multiply;
-  const Polynomial minus_6px{0, -6 * p};
-  const Polynomial minus_d = multiply({-1}, d);
-  // d^2 times the derivative of x n / d
-  const Polynomial slope =
-      add(multiply(n, d), multiply({0, 1}, add(multiply(derivative(n), d),
-                                               multiply(n, multiply({-1}, derivative(d))))));
-  return std::min({detail::positive_until(d),
-                   detail::positive_until(add(n, multiply(minus_6px, d))),
-                   detail::positive_until(add(slope, multiply(minus_6px, multiply(d, d))))});
-}
-
 }  // namespace
 
 DistortionModel distortion_model(std::string_view name) {
-  if (name.empty() || name == "none") return DistortionModel::none;
-  if (name == "plumb_bob") return DistortionModel::plumb_bob;
-  if (name == "rational_polynomial") return DistortionModel::rational_polynomial;
-  if (name == "equidistant" || name == "fisheye" || name == "kannala_brandt4")
-    return DistortionModel::equidistant;
+  if (name.empty()) return DistortionModel::none;
+  if (name == "fisheye" || name == "kannala_brandt4") return DistortionModel::equidistant;
+  for (const ModelRow& row : models)
+    if (row.name == name) return row.model;
   throw InputError("distortion model \"" + std::string(name) +
                    "\" is unknown; known are plumb_bob, rational_polynomial, equidistant "
                    "(also called fisheye, kannala_brandt4) and none");
 }
 
-std::string_view to_string(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::plumb_bob:
-      return "plumb_bob";
-    case DistortionModel::rational_polynomial:
-      return "rational_polynomial";
-    case DistortionModel::equidistant:
-      return "equidistant";
-    case DistortionModel::none:
-      break;
-  }
-  return "none";
-}
+std::string_view to_string(DistortionModel model) { return row_of(model).name; }
 
 Distortion::Distortion(std::string_view name, std::span<const double> k)
     : model_(distortion_model(name)) {
@@ -147,13 +105,35 @@ Distortion::Distortion(std::string_view name, std::span<const double> k)
     if (k.size() > 5) denominator_ = {1, k[5], k[6], k[7]};
     tangential_ = {k[3], k[2]};
   }
-  constexpr double off_the_root = 1 - 1e-9;  // by more than rounding, so that no pole is crossed
-  const double end = off_the_root * monotone_until(in_squares(numerator_), in_squares(denominator_),
-                                                   tangential_.norm());
+  max_parameter_ = find_max_parameter();
   if (model_ != DistortionModel::equidistant)
-    max_radius_ = end;
-  else if (end < right_angle)
-    max_radius_ = std::tan(end);
+    max_radius_ = max_parameter_;
+  else if (max_parameter_ < right_angle)
+    max_radius_ = std::tan(max_parameter_);
+}
+
+/// Searches the first parameter where the conditions above fail, in small steps and by bisection.
+double Distortion::find_max_parameter() const {
+  constexpr double step = 1e-3;
+  constexpr double largest_radius = 100;     // 89.4 degrees
+  constexpr double off_the_root = 1 - 1e-9;  // keeps rounding away from a pole
+  const double limit = model_ == DistortionModel::equidistant ? right_angle : largest_radius;
+  const double tangential = 6 * tangential_.norm();
+  const auto is_monotone = [&](double x) {
+    return horner(denominator_, x * x) > 0 && radial(x) > tangential * x * x &&
+           radial_derivative(x) > tangential * x;
+  };
+  double low = 0;
+  double high = step;
+  for (; is_monotone(high); high += step * (1 + high)) {
+    if (high >= limit) return limit;
+    low = high;
+  }
+  for (int halvings = 0; halvings < 60; ++halvings) {
+    const double middle = 0.5 * (low + high);
+    (is_monotone(middle) ? low : high) = middle;
+  }
+  return std::min(low * off_the_root, limit);
 }
 
 Eigen::Vector2d Distortion::distort(const Eigen::Vector2d& z) const {
@@ -185,19 +165,15 @@ std::optional<Eigen::Vector2d> Distortion::undistort(const Eigen::Vector2d& y) c
   if (is_none()) return y;
   if (y == Eigen::Vector2d::Zero()) return y;
   if (!y.allFinite()) return std::nullopt;
-  constexpr double far_away = 1e9;  // of the plane z = 1: no lens puts a ray there
-  double end = max_parameter();
-  if (!std::isfinite(end))
-    for (end = 1; end < far_away && !(excess(end, y) > 0);) end *= 2;
-  if (!(excess(end, y) > 0)) return std::nullopt;
+  if (!(excess(max_parameter_, y) > 0)) return std::nullopt;
 
-  const double parameter = solve(y, end);
+  const double parameter = solve(y, max_parameter_);
   const Eigen::Vector2d w = y - tangential_ * (parameter * parameter);
   const double r = model_ == DistortionModel::equidistant ? std::tan(parameter) : parameter;
   return Eigen::Vector2d(w.normalized() * r);
 }
 
-/// Distorted radius f at the parameter.
+/// Returns the distorted radius f at the parameter.
 double Distortion::radial(double parameter) const {
   const double s = parameter * parameter;
   return parameter * horner(numerator_, s) / horner(denominator_, s);
@@ -212,8 +188,8 @@ double Distortion::radial_derivative(double parameter) const {
              (d * d);
 }
 
-/// How far the image of the circle at the parameter reaches beyond the distorted point: negative
-/// where the point lies outside of it.
+/// Returns how far the image of the circle at the parameter extends beyond the distorted point;
+/// negative if the point lies outside of it.
 double Distortion::excess(double parameter, const Eigen::Vector2d& y) const {
   const double s = parameter * parameter;
   const Eigen::Vector2d w = y - tangential_ * s;
@@ -232,13 +208,8 @@ double Distortion::excess_derivative(double parameter, const Eigen::Vector2d& y)
   return radial_derivative(parameter) + 6 * parameter * along - 4 * cube * across2 / length;
 }
 
-double Distortion::max_parameter() const {
-  return model_ == DistortionModel::equidistant ? std::min(std::atan(max_radius_), right_angle)
-                                                : max_radius_;
-}
-
-/// The parameter of the distorted point, which is less than `end`: Newton's steps, and halving of
-/// the bracket where a step leaves it or gains less than halving would.
+/// Returns the parameter of the distorted point, which is less than `end`, by Newton's method, with
+/// bisection where a step leaves the bracket or converges slowly.
 double Distortion::solve(const Eigen::Vector2d& y, double end) const {
   constexpr int max_steps = 200;       // halving alone needs fewer
   constexpr double precision = 4e-16;  // two units in the last place

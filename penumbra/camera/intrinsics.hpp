@@ -14,7 +14,7 @@ class Intrinsics {
   static constexpr int max_pixels = 1 << 26;  ///< largest width times height; 8 K has half of it
   static constexpr double max_focal = 1e7;    ///< largest fx or fy; telescopes have 1e5
 
-  /// Lengths in pixels. Throws InputError, with the values it got, unless 0 < fx, fy <= max_focal,
+  /// Lengths in pixels. Throws InputError, with the values, unless 0 < fx, fy <= max_focal,
   /// cx and cy are finite, 1 <= width, height <= max_size and width * height <= max_pixels.
   Intrinsics(int width, int height, double fx, double fy, double cx, double cy);
 
@@ -25,20 +25,20 @@ class Intrinsics {
   [[nodiscard]] double cx() const { return cx_; }
   [[nodiscard]] double cy() const { return cy_; }
 
-  /// The camera whose pixels each cover a block of bx x by of this one's: cx' = (cx + 0.5) / bx -
+  /// Returns the camera whose pixels each cover a block of bx x by pixels: cx' = (cx + 0.5) / bx -
   /// 0.5. Throws InputError unless the block is at least one pixel and at most the image.
   [[nodiscard]] Intrinsics binned(int bx, int by) const;
 
-  /// The camera whose image is the window of this one's that starts at (x, y).
-  /// Throws InputError unless the window lies inside the image.
+  /// Returns the camera of a window of this image that starts at (x, y). Throws InputError unless
+  /// the window lies inside the image.
   [[nodiscard]] Intrinsics cropped(int x, int y, int width, int height) const;
 
-  /// The ray of image point (u, v), with z = 1.
+  /// Returns the ray of image point (u, v), with z = 1.
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const {
     return {(u - cx_) / fx_, (v - cy_) / fy_, 1.0};
   }
 
-  /// Image point of a point in the optical frame; z must not be 0.
+  /// Returns the image of a point in the optical frame; z must not be 0.
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p) const {
     return {fx_ * p.x() / p.z() + cx_, fy_ * p.y() / p.z() + cy_};
   }

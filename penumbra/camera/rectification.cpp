@@ -18,13 +18,13 @@
 namespace penumbra {
 namespace {
 
-using Point = Eigen::Vector2f;  // of the plane z = 1; a thousandth of a pixel is precise enough
+using Point = Eigen::Vector2f;  // on the plane z = 1
 
-/// What a pinhole image must hold.
+/// The rays that a pinhole image must contain.
 struct Extent {
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array2d high = -low;
-  double stretch = 0;  // the most raw pixels that a step of one pixel of the raw focal length makes
+  double stretch = 0;  // the largest scale relative to the raw focal length
 
   void add(const Extent& other) {
     low = low.min(other.low);
@@ -40,8 +40,8 @@ double largest_singular_value(const Eigen::Matrix2d& m) {
   return std::sqrt(0.5 * (sum + std::sqrt(std::max(sum * sum - 4 * det * det, 0.0))));
 }
 
-/// The pinhole image of that extent: focal lengths so that no pixel is larger than a raw one, and a
-/// principal point whole pixels from the raw one. Nothing if it would be too large.
+/// Returns the pinhole image of that extent, with focal lengths so that no pixel is larger than a
+/// raw one, and with the principal point whole pixels from the raw one; nothing if it is too large.
 std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw) {
   if (!(extent.stretch <= Rectification::max_stretch)) return std::nullopt;
   const Eigen::Array2d focal = extent.stretch * Eigen::Array2d(raw.fx(), raw.fy());
@@ -57,19 +57,19 @@ std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw
                     centre.x() + shift.x(), centre.y() + shift.y());
 }
 
-/// What rays need by their angle from the optical axis, so that the widest cone that fits can be
-/// chosen.
+/// Extents of rays by their angle from the optical axis, to choose the widest cone that fits.
 class ExtentByAngle {
  public:
   explicit ExtentByAngle(double max_angle) : max_angle_(max_angle) {}
 
   void add(const Eigen::Vector2d& ray, double stretch) {
-    const double share = std::atan(ray.norm()) / max_angle_;
-    const auto bin = std::min(static_cast<std::size_t>(share * bins_.size()), bins_.size() - 1);
+    const double fraction = std::atan(ray.norm()) / max_angle_;
+    const auto bin = std::min(static_cast<std::size_t>(fraction * bins_.size()), bins_.size() - 1);
     bins_[bin].add({ray.array(), ray.array(), stretch});
   }
 
-  /// The pinhole image of the widest cone that fits and its half angle. Throws if there is none.
+  /// Returns the pinhole image of the widest cone that fits and its half angle, or throws
+  /// LensError.
   [[nodiscard]] std::pair<Intrinsics, double> widest(const Intrinsics& raw) const {
     std::optional<Intrinsics> best;
     double angle = 0;
@@ -86,7 +86,7 @@ class ExtentByAngle {
       std::ostringstream what;
       what << "camera: the lens distortion reaches no pixel of the " << raw.width() << " x "
            << raw.height() << " image within " << max_angle_ * 180 / std::numbers::pi
-           << " degrees of the optical axis; distortion coefficients and intrinsics must fit";
+           << " degrees of the optical axis; check the distortion coefficients and intrinsics";
       throw LensError(what.str());
     }
     return {*best, angle};
@@ -97,7 +97,7 @@ class ExtentByAngle {
   std::array<Extent, 256> bins_;
 };
 
-/// Index of the pixel nearest to `image_point` in an image of that size, or no_pixel outside.
+/// Returns the index of the pixel nearest to `image_point`, or no_pixel outside of the image.
 std::int32_t nearest(const Eigen::Vector2d& image_point, const Intrinsics& image) {
   const double u = std::floor(image_point.x() + 0.5);
   const double v = std::floor(image_point.y() + 0.5);
@@ -115,7 +115,7 @@ Eigen::Vector2d project(const Eigen::Vector2d& ray, const Intrinsics& image) {
 struct Rectification::Plan {
   Intrinsics pinhole;
   double half_angle;
-  Image<Point> rays;  // of raw pixels; NaN where not covered
+  Image<Point> rays;  // of raw pixels; NaN if not covered
 };
 
 Rectification::Rectification(const Camera& raw, double max_half_angle)
@@ -131,7 +131,7 @@ Rectification::Rectification(const Camera& raw, const Plan& plan)
   for (std::size_t i = 0; i < to_pinhole_.size(); ++i) {
     const Eigen::Vector2d ray = plan.rays.data()[i].cast<double>();
     if (ray.hasNaN()) continue;
-    // The outermost rays lie half a pixel outside of the outermost pixel centres, but for rounding.
+    // The outermost rays are up to half a pixel outside of the outermost pixel centres.
     const Eigen::Vector2d inside = project(ray, pinhole_).cwiseMax(low).cwiseMin(high);
     to_pinhole_.data()[i] = nearest(inside, pinhole_);
   }
@@ -178,11 +178,11 @@ void Rectification::map_pinhole(const Camera& raw) {
   }
 }
 
-/// Lists for every pinhole tile the raw tiles that it feeds.
+/// Lists the raw tiles that get pixels from each pinhole tile.
 void Rectification::list_tiles() {
   const TileMask pinhole(pinhole_.width(), pinhole_.height());
   const TileMask raw(to_pinhole_.width(), to_pinhole_.height());
-  std::vector<std::vector<RawTiles>> fed(pinhole.rows.size() * 64);
+  std::vector<std::vector<RawTiles>> targets(pinhole.rows.size() * 64);
   for (int v = 0; v < raw.height; ++v) {
     const auto row = static_cast<std::uint32_t>(v / TileMask::tile_height);
     for (int u = 0; u < raw.width; ++u) {
@@ -190,12 +190,12 @@ void Rectification::list_tiles() {
       if (i == no_pixel) continue;
       const int tile =
           i / pinhole.width / TileMask::tile_height * 64 + i % pinhole.width / pinhole.tile_width;
-      auto& list = fed[static_cast<std::size_t>(tile)];
+      auto& list = targets[static_cast<std::size_t>(tile)];
       if (list.empty() || list.back().row != row) list.push_back({row, 0});
       list.back().columns |= std::uint64_t{1} << (u / raw.tile_width);
     }
   }
-  for (const auto& list : fed) {
+  for (const auto& list : targets) {
     first_.push_back(static_cast<std::uint32_t>(tiles_.size()));
     tiles_.insert(tiles_.end(), list.begin(), list.end());
   }

@@ -12,33 +12,33 @@
 
 namespace penumbra {
 
-/// Distortion coefficients with which no ray reaches the image.
+/// The lens model reaches no pixel of the image.
 class LensError : public InputError {
  public:
   using InputError::InputError;
 };
 
 /// Maps between a camera's raw, distorted image and a pinhole image that covers it, computed once.
-/// Both ways take the nearest pixel: depths are never mixed.
+/// Both maps take the nearest pixel: depths are never mixed.
 ///
 /// The pinhole image covers every raw pixel whose ray the lens model reaches (inside
-/// Distortion::max_radius()) within half_angle() of the optical axis. Its pixels are nowhere larger
-/// than a raw pixel in any direction, so that the ray of raw_to_pinhole() is off by no more than
-/// half a pixel's diagonal (0.71 raw pixels). Without distortion, and inside that angle, it is the
-/// raw image.
+/// Distortion::max_radius()) within half_angle() of the optical axis. None of its pixels is larger
+/// than a raw pixel in any direction, so the ray of raw_to_pinhole() is off by at most half a
+/// pixel's diagonal (0.71 raw pixels). Without distortion, and inside that angle, it is the raw
+/// image.
 class Rectification {
  public:
   static constexpr std::int32_t no_pixel = -1;
 
-  /// Most pixels of a pinhole image, or four times the raw image's where that is more.
+  /// The most pixels of a pinhole image, or four times those of the raw image if that is more.
   static constexpr std::size_t max_pixels = std::size_t{1} << 25;
 
-  /// Most raw pixels to a pixel of the raw focal length: no real lens stretches so much.
+  /// The largest scale of the pinhole image relative to the raw focal length.
   static constexpr double max_stretch = 4;
 
   /// Covers rays up to `max_half_angle` (radians, below 90 degrees) from the optical axis, or up to
-  /// a smaller angle, see half_angle(), where the pinhole image would exceed max_pixels or
-  /// Intrinsics::max_size or the lens exceeds max_stretch.
+  /// a smaller angle, see half_angle(), if the pinhole image would exceed max_pixels,
+  /// Intrinsics::max_size or max_stretch.
   /// Throws LensError if the lens model reaches no pixel of the image.
   explicit Rectification(const Camera& raw, double max_half_angle = 1.3);
 
@@ -47,15 +47,15 @@ class Rectification {
   /// Rays farther than this from the optical axis, radians, are not covered.
   [[nodiscard]] double half_angle() const { return half_angle_; }
 
-  /// For every raw pixel the index v * width + u of its pinhole pixel, or no_pixel where the lens
-  /// model does not reach or the pinhole image does not cover: such pixels are unknown.
+  /// For every raw pixel the index v * width + u of its pinhole pixel, or no_pixel if the lens
+  /// model does not reach it or the pinhole image does not cover it: such pixels are unknown.
   [[nodiscard]] ImageView<const std::int32_t> raw_to_pinhole() const { return to_pinhole_.view(); }
 
-  /// For every pinhole pixel the index v * width + u of the raw pixel seen there, or no_pixel.
+  /// For every pinhole pixel the index v * width + u of its raw pixel, or no_pixel.
   [[nodiscard]] ImageView<const std::int32_t> pinhole_to_raw() const { return to_raw_.view(); }
 
-  /// Makes `raw`, a mask of the raw image's size, mark the tiles that hold a raw pixel whose
-  /// pinhole pixel lies in a marked tile. Costs by marked tiles and allocates nothing.
+  /// Marks in `raw`, a mask of the raw image's size, exactly the tiles with a raw pixel whose
+  /// pinhole pixel lies in a marked tile. The cost depends on the marked tiles. Allocates nothing.
   void touched_raw(const TileMask& pinhole, TileMask& raw) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over blocks have a fixed length and no branch, so that compilers make vectors of them.
+// Loops over blocks have a fixed length and no branches, so that compilers vectorise them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,39 +12,39 @@
 namespace penumbra {
 namespace {
 
-/// Without a branch, so that loops over pixels become vectors.
+/// a && b without a branch.
 constexpr bool both(bool a, bool b) { return (static_cast<int>(a) & static_cast<int>(b)) != 0; }
 
 constexpr auto unreachable = std::numeric_limits<float>::quiet_NaN();
 
-/// Footprints of neighbours meet but for rounding, and where the image of a square is none.
+/// Closes gaps between footprints of neighbours, due to rounding and perspective.
 constexpr float footprint_overlap = 1.0F / 16;  // pixels
 
-/// Pixels; images are at most half as wide.
+/// Pixels; images are at most half as large.
 constexpr float farthest_pixel = 65536.0F;
 
 constexpr auto nearest_z = static_cast<float>(DepthRegistration::min_depth);
 constexpr auto farthest_z = static_cast<float>(DepthRegistration::max_depth);
 
-/// Behind every depth.
+/// Larger than every depth.
 template <typename T>
 constexpr T unseen = std::numeric_limits<T>::max();
 
-/// 0 where the kind has no number for it.
+/// Stores 0 if the type cannot hold the depth.
 void store_depth(float metres, std::uint16_t& to) {
   const float rounded = 1e3F * metres + 0.5F;
   to = rounded < 65535.0F ? static_cast<std::uint16_t>(rounded) : std::uint16_t{0};
 }
 void store_depth(float metres, float& to) { to = metres; }
 
-/// The first pixel whose centre is not before x, from 0 to `size`.
+/// Returns the first pixel whose centre is at least x, from 0 to `size`.
 inline int first_pixel(float x, float size) {
   const float inside = std::min(std::max(0.0F, x), size);  // 0 for NaN
   const int below = static_cast<int>(inside);
   return below + (static_cast<float>(below) < inside ? 1 : 0);
 }
 
-/// The corners without a branch, as most footprints have at most 2 x 2 pixels.
+/// Writes the corners without a branch: most footprints have at most 2 x 2 pixels.
 template <typename Box, typename T>
 void splat(const Box& box, T depth, ImageView<T> out) {
   const auto put = [&](T& pixel) { pixel = depth < pixel ? depth : pixel; };
@@ -66,10 +66,6 @@ Camera checked_camera(const Camera& camera) {
 
 }  // namespace
 
-void DepthRegistration::Row::resize(std::size_t size) {
-  for (std::vector<float>* part : {&u, &v, &z, &depth}) part->assign(size, 0.0F);
-}
-
 DepthRegistration::DepthRegistration(const Camera& from, const Camera& to)
     : from_(checked_camera(from)),
       to_(checked_camera(to)),
@@ -87,7 +83,9 @@ DepthRegistration::DepthRegistration(const Camera& from, const Camera& to)
       rays_y_(u, v) = static_cast<float>(point->y());
     }
   }
-  for (Row& row : rows_) row.resize(static_cast<std::size_t>(rays_x_.width()));
+  for (Row& row : rows_)
+    row.u = row.v = row.z = row.depth =
+        std::vector<float>(static_cast<std::size_t>(rays_x_.width()));
 }
 
 DepthView DepthRegistration::warp(const DepthView& depth, const Eigen::Isometry3d& T_to_from) {
@@ -101,7 +99,8 @@ DepthView DepthRegistration::warp(const DepthView& depth, const Eigen::Isometry3
 template <typename T>
 DepthView DepthRegistration::warp_into(Image<T>& out, ImageView<const T> depth) {
   if (depth.width != from_.intrinsics.width() || depth.height != from_.intrinsics.height())
-    throw std::invalid_argument("DepthRegistration: the depth image has not the camera's size");
+    throw std::invalid_argument(
+        "DepthRegistration: the depth image must have the size of the camera's image");
   if (out.empty()) out = Image<T>(to_.intrinsics.width(), to_.intrinsics.height());
   T* const end = out.data() + out.size();
   std::fill(out.data(), end, unseen<T>);
@@ -138,7 +137,7 @@ void DepthRegistration::land_row(ImageView<const T> image, int v, Row& row) cons
   }
 }
 
-// Leaves points on the plane z = 1 of `to`.
+// Writes points on the plane z = 1 of `to`.
 void DepthRegistration::land_block(const float* depth, int u, int v, Row& row) const {
   const float* const rays_x = &rays_x_(u + 1, v + 1);
   const float* const rays_y = &rays_y_(u + 1, v + 1);
@@ -171,7 +170,7 @@ void DepthRegistration::bend_block(int u, Row& row) const {
   }
 }
 
-// Far outside is as good as nowhere, and so is a ray that a lens does not reach (NaN).
+// Drops points far outside of the image and rays that a lens does not reach (NaN).
 void DepthRegistration::keep_landed(const float* depth, int u, Row& row) const {
   float* const to_u = &row.u[static_cast<std::size_t>(u) + 1];
   float* const to_v = &row.v[static_cast<std::size_t>(u) + 1];
@@ -215,8 +214,8 @@ void DepthRegistration::splat_row(int v, Image<T>& out) const {
       const auto i = static_cast<std::size_t>(u - first);
       const auto at = static_cast<std::size_t>(u) + 1;
       if (rows_[1].depth[at] <= 0.0F) continue;
-      const Box box = all.amid[i] != 0 ? Box{all.u0[i], all.u1[i], all.v0[i], all.v1[i]}
-                                       : footprint_at_edge(u, v);
+      const Box box = all.is_valid[i] != 0 ? Box{all.u0[i], all.u1[i], all.v0[i], all.v1[i]}
+                                           : footprint_at_edge(u, v);
       T depth{};
       store_depth(rows_[1].z[at], depth);
       if (depth != T{0} && box.u0 < box.u1 && box.v0 < box.v1) splat(box, depth, out.view());
@@ -231,7 +230,7 @@ DepthRegistration::Footprints DepthRegistration::footprints(int u) const {
   const auto height = static_cast<float>(to_.intrinsics.height());
   constexpr auto reach = static_cast<float>(max_reach);
   Footprints out;
-  // Half the ways to the neighbours, added to the pixel's own place.
+  // Half-way to the neighbours.
   const auto spans = [&](const float* own, const float* above, const float* below, float size,
                          std::array<int, block>& begin, std::array<int, block>& end) {
     for (std::size_t i = 0; i < block; ++i) {
@@ -252,8 +251,8 @@ DepthRegistration::Footprints DepthRegistration::footprints(int u) const {
     const float after = std::abs(depth[i + 1] - depth[i]);
     const float up = std::abs(above[i] - depth[i]);
     const float down = std::abs(below[i] - depth[i]);
-    out.amid[i] = both(std::max(before, after) <= slope_u_ * depth[i],
-                       std::max(up, down) <= slope_v_ * depth[i]);
+    out.is_valid[i] = both(std::max(before, after) <= slope_u_ * depth[i],
+                           std::max(up, down) <= slope_v_ * depth[i]);
   }
   return out;
 }
@@ -267,24 +266,20 @@ DepthRegistration::Box DepthRegistration::footprint_at_edge(int u, int v) const 
   const Eigen::Vector2f below = half_way(own, rows_[2][i], ray(u, v + 1), slope_v_);
   const Eigen::Vector2f low = left.cwiseMin(right) + above.cwiseMin(below);
   const Eigen::Vector2f high = left.cwiseMax(right) + above.cwiseMax(below);
-  return box_of({own.u + low.x(), own.u + high.x(), own.v + low.y(), own.v + high.y()}, own);
-}
-
-DepthRegistration::Box DepthRegistration::box_of(const Span& span, const Landing& own) const {
   const auto width = static_cast<float>(to_.intrinsics.width());
   const auto height = static_cast<float>(to_.intrinsics.height());
   constexpr auto reach = static_cast<float>(max_reach);
-  return {first_pixel(std::max(span.u0 - footprint_overlap, own.u - reach), width),
-          first_pixel(std::min(span.u1 + footprint_overlap, own.u + reach), width),
-          first_pixel(std::max(span.v0 - footprint_overlap, own.v - reach), height),
-          first_pixel(std::min(span.v1 + footprint_overlap, own.v + reach), height)};
+  return {first_pixel(std::max(own.u + low.x() - footprint_overlap, own.u - reach), width),
+          first_pixel(std::min(own.u + high.x() + footprint_overlap, own.u + reach), width),
+          first_pixel(std::max(own.v + low.y() - footprint_overlap, own.v - reach), height),
+          first_pixel(std::min(own.v + high.y() + footprint_overlap, own.v + reach), height)};
 }
 
 Eigen::Vector2f DepthRegistration::half_way(const Landing& own, const Landing& other,
                                             const Ray& other_ray, float slope) const {
   const bool one_surface =
       other.depth > 0.0F && std::abs(own.depth - other.depth) <= slope * own.depth;
-  // A neighbour of another surface stands for where this one would go on.
+  // Where this surface would continue behind a neighbour on another surface.
   const Landing end = one_surface ? other : land(other_ray, own.depth);
   if (end.depth <= 0.0F) return Eigen::Vector2f::Zero();
   return {0.5F * (end.u - own.u), 0.5F * (end.v - own.v)};

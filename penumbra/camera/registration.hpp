@@ -12,41 +12,40 @@
 
 namespace penumbra {
 
-/// Brings depth images of one camera into the image of another: what that would measure of the
-/// surfaces that the first one sees. Of those in one pixel the nearest is taken.
+/// Transforms depth images of one camera into the image of another: what that camera would measure
+/// of the surfaces that the first one sees. The nearest surface in a pixel counts.
 ///
-/// A source pixel covers its footprint on the surface, which reaches half-way to its neighbours on
-/// the same surface, so that no holes open where the second camera has more pixels or looks
-/// steeper. Its depth stands in all of it: depths are never mixed, and an edge between surfaces is
-/// as sharp as in the source. Where the source has no measurement, and where only the second camera
-/// sees, there is none.
+/// A source pixel covers its footprint on the surface, which extends half-way to its neighbours on
+/// the same surface, so that no holes open where the second camera has more pixels or a steeper
+/// view. The whole footprint has the pixel's depth: depths are never mixed, and edges stay as sharp
+/// as in the source. There is no measurement where the source has none or only the second camera
+/// sees.
 ///
-/// What the first camera sees beside something that it cannot measure may show through that: the
-/// second one looks past the edge. That is no fault that a depth image could tell.
+/// A surface behind one that the first camera cannot measure may appear in front of the gap in the
+/// second camera's image: no depth image shows this fault.
 class DepthRegistration {
  public:
-  /// Depths outside of these, metres, in either camera are no measurements: nearer, a pixel would
-  /// cover much of an image; farther, millimetres do not reach (of uint16), or nothing does.
+  /// Depths outside of this range, metres, in either camera are no measurements.
   static constexpr double min_depth = 0.01;
   static constexpr double max_depth = 1e6;
 
-  /// Neighbours are on one surface if that is no steeper than this, of depth by width: 83 degrees.
+  /// Neighbours are on one surface if its slope, depth by width, is at most this: 83 degrees.
   static constexpr double max_slope = 8.0;
 
-  /// Pixels that a footprint reaches from its centre, at most.
+  /// The largest extent of a footprint from its centre, pixels.
   static constexpr int max_reach = 16;
 
-  /// Both lenses may have distortion; pixels and rays that a lens model does not reach are left
-  /// out, and depths outside of `from.range`. Throws InputError as Camera::check.
+  /// Ignores pixels and rays that a lens model does not reach and depths outside of `from.range`.
+  /// Throws InputError as Camera::check.
   DepthRegistration(const Camera& from, const Camera& to);
 
-  /// `depth` must have the size of `from`, or std::invalid_argument is thrown; the result has the
-  /// size of `to`, the kind of `depth`, 0 where nothing is measured, and is valid until the next
-  /// call. Allocates nothing after the first of its kind.
+  /// Returns an image of the size of `to` and the type of `depth`, 0 where nothing is measured,
+  /// valid until the next call. Throws std::invalid_argument unless `depth` has the size of `from`.
+  /// Allocates only in the first call with a type.
   DepthView warp(const DepthView& depth, const Eigen::Isometry3d& T_to_from);
 
  private:
-  static constexpr int block = 16;  // pixels that are worked on at a time
+  static constexpr int block = 16;  // pixels that are processed together
 
   struct Ray {
     float x, y;  // on the plane z = 1; NaN where the lens does not reach
@@ -55,24 +54,20 @@ class DepthRegistration {
   struct Landing {
     float u = 0.0F, v = 0.0F;
     float z = 0.0F;      // metres, in `to`
-    float depth = 0.0F;  // metres, in `from`; 0: nothing is measured, or it lands nowhere
+    float depth = 0.0F;  // metres, in `from`; 0: no measurement, or outside of the image
   };
-  /// Landings of a row of `from`, with a pixel that is nowhere before it, and some behind.
+  /// Landings of a row of `from`, with one empty pixel before it and some after it.
   struct Row {
     std::vector<float> u, v, z, depth;
-    void resize(std::size_t size);
     [[nodiscard]] Landing operator[](std::size_t i) const { return {u[i], v[i], z[i], depth[i]}; }
   };
   struct Box {
     int u0, u1, v0, v1;
   };
-  struct Span {
-    float u0, u1, v0, v1;
-  };
-  /// Footprints of a block of pixels amid a surface; of others they mean nothing.
+  /// Footprints of a block of pixels, valid where all neighbours are on the pixel's surface.
   struct Footprints {
     std::array<int, block> u0, u1, v0, v1;
-    std::array<int, block> amid;  // whether all neighbours are on the pixel's surface
+    std::array<int, block> is_valid;
   };
 
   [[nodiscard]] Ray ray(int u, int v) const {
@@ -86,7 +81,6 @@ class DepthRegistration {
   [[nodiscard]] Landing land(const Ray& ray, float depth) const;
   [[nodiscard]] Footprints footprints(int u) const;
   [[nodiscard]] Box footprint_at_edge(int u, int v) const;
-  [[nodiscard]] Box box_of(const Span& span, const Landing& own) const;
   [[nodiscard]] Eigen::Vector2f half_way(const Landing& own, const Landing& other,
                                          const Ray& other_ray, float slope) const;
   template <typename T>
@@ -96,8 +90,8 @@ class DepthRegistration {
 
   Camera from_;
   Camera to_;
-  Image<float> rays_x_, rays_y_;    // of the image and a pixel around it
-  float slope_u_, slope_v_;         // of depth by depth, between neighbours of one surface
+  Image<float> rays_x_, rays_y_;    // of the image and a border of one pixel
+  float slope_u_, slope_v_;         // largest relative difference of depth on one surface
   Eigen::Vector2f focal_, centre_;  // of `to`
   Eigen::Matrix3f rotation_;        // T_to_from of this call
   Eigen::Vector3f translation_;
