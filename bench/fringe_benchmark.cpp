@@ -78,16 +78,14 @@ int main(int argc, char** argv) {
   using namespace penumbra::bench;
   benchmark::Initialize(&argc, argv);
   const auto real = std::make_shared<const RealScene>(real_scene());
-  std::vector<std::string> isas = penumbra::simd_target_names();
-  isas.emplace_back("scalar");
-  for (const std::string& isa : isas)
+  for (const std::string& isa : penumbra::simd_target_names())
     for (const int reach : {0, penumbra::LabelRule{}.fringe_reach})
       benchmark::RegisterBenchmark(
           (isa + ", fringe_reach " + std::to_string(reach)).c_str(),
           [real, reach, isa](benchmark::State& state) { classify(state, *real, reach, isa); })
           ->UseManualTime()
           ->ComputeStatistics("min", least)
-          ->Iterations(isa == "scalar" ? 20 : 400)
+          ->Iterations(400)
           ->Unit(benchmark::kMicrosecond);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

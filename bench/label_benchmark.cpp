@@ -87,10 +87,8 @@ void classify(benchmark::State& state, const BenchScene& scene, const Case& c,
 
 void add_all(BenchScene made) {
   const auto scene = std::make_shared<const BenchScene>(std::move(made));
-  std::vector<std::string> isas = simd_target_names();
-  isas.emplace_back("scalar");
   for (const Case& c : all_cases()) {
-    for (const std::string& isa : isas) {
+    for (const std::string& isa : simd_target_names()) {
       benchmark::RegisterBenchmark(
           (scene->name + ", " + c.name + ", " + isa).c_str(),
           [scene, c, isa](benchmark::State& state) { classify(state, *scene, c, isa); })

@@ -113,7 +113,7 @@ void bind_classifier(py::module_& m) {
   classifier
       .def(py::init<int, int, const LabelRule&, const std::string&>(), py::arg("width"),
            py::arg("height"), py::arg("rule"), py::arg("isa") = std::string(),
-           "isa: a SIMD target by name, scalar, or empty: the best there is. Raises InputError for "
+           "isa: a SIMD target by name, or empty: the best one. Raises InputError for "
            "a rule or a size out of bounds.")
       // The first one is taken for what a renderer gave alone; all else gets the array's errors.
       .def("classify", &classify_rendered, py::arg("virtual_depth"), py::arg("measured"),

@@ -14,20 +14,20 @@ namespace penumbra::labelling {
 
 inline constexpr float millimetres_per_metre = 1000.0f;
 
-/// The buffers of the flood that finds the fringe (LabelRule), over blocks of 2 x 2 pixels.
+/// The buffers of the flood fill that finds the fringe (LabelRule), over blocks of 2 x 2 pixels.
 struct Fringe {
   static constexpr std::uint16_t farthest = 0x7ffe;  ///< millimetres; a robot farther has no fringe
 
   Fringe(int width, int height, int reach_pixels);
 
-  /// A block on the robot's outline, and the depths that the flood from it may take: those in
-  /// [nearest, farthest] that differ from their neighbour's by at most `step`, millimetres.
+  /// A block on the robot's outline. The flood from it continues to depths in [nearest, farthest]
+  /// that differ from their neighbour's by at most `step`, millimetres.
   struct Source {
     std::uint16_t nearest, farthest, step;
     std::int16_t x, y;
   };
 
-  /// In one number, so that a neighbour of the same source is one sum away.
+  /// Packed into one number, so that one sum gives a neighbour with the same source.
   struct Block {
     std::uint64_t bits;
 
@@ -47,20 +47,20 @@ struct Fringe {
 
   int reach;  ///< pixels; 0: no fringe
   std::size_t pitch;
-  /// Near the robot, with a rim of zeros: of each block the nearest depth of its occluded pixels,
-  /// in millimetres; without any that of its clear pixels, with the bit is_open until the flood
-  /// takes it; without any 0.
+  /// Near the robot, with a border of zeros: the nearest depth of the occluded pixels of each
+  /// block, in millimetres; without any, that of its clear pixels, with the bit is_open until the
+  /// flood reaches it; without any, 0.
   std::vector<std::uint16_t> blocks;
   std::vector<Source> sources;
-  std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood took
+  std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood reached
   TileMask reachable;
 };
 
-/// Labels the fringe in the labelled images and marks its tiles as touched. Returns its number of
+/// Labels the fringe in a labelled image and marks its tiles as touched. Returns the number of its
 /// pixels.
 using LabelFringe = std::size_t (*)(Fringe&, Work&, const DepthView& measured);
 
-/// Compiled for a SIMD target (a bit of simd_target).
+/// Returns the kernel for a SIMD target (a bit of simd_target).
 [[nodiscard]] LabelFringe fringe_kernel(std::int64_t target);
 
 }  // namespace penumbra::labelling

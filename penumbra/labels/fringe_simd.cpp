@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
 constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
 constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
-static_assert(clear == 0);  // painted over by or
+static_assert(clear == 0);  // fringe is written by or
 
 constexpr std::uint16_t is_open = 0x8000;  // a flag at the depth of a clear block
 constexpr std::uint16_t farthest = Fringe::farthest;
@@ -32,7 +32,7 @@ constexpr std::uint16_t nothing = 0xffff;
 
 HWY_INLINE std::uint16_t millimetres(std::uint16_t depth) { return depth; }
 
-/// Rounded; 0 where it is not in (0, farthest].
+/// Rounds; 0 if it is not in (0, farthest].
 HWY_INLINE std::uint16_t millimetres(float depth) {
   const float rounded = depth * millimetres_per_metre + 0.5f;
   return rounded > 0.0f && rounded < farthest + 1.0f ? static_cast<std::uint16_t>(rounded)
@@ -42,9 +42,9 @@ HWY_INLINE std::uint16_t millimetres(float depth) {
 using D = hn::CappedTag<std::uint16_t, 16>;
 using V = hn::VFromD<D>;
 constexpr int lanes = static_cast<int>(hn::MaxLanes(D()));
-constexpr int chunk = 2 * lanes;  // pixels; a tile is whole chunks
+constexpr int chunk = 2 * lanes;  // pixels; divides a tile
 
-/// A chunk of a row, as whole vectors may read it; its first `count` pixels are in the image.
+/// A chunk of a row for whole vectors; its first `count` pixels are in the image.
 struct Chunk {
   template <typename T>
   HWY_INLINE Chunk(const std::uint8_t* row_labels, const T* row_depth, int count) {
@@ -68,8 +68,8 @@ struct Chunk {
   const std::uint16_t* depth = own_depth.data();
 };
 
-/// What pixels give to their blocks. The least of a block counts: the depth of an occluded one,
-/// that of a clear one with is_open, or nothing.
+/// Returns the ranks of pixels: the depth of an occluded one, the depth of a clear one with
+/// is_open, or nothing. A block takes the least.
 HWY_INLINE V ranks(const std::uint8_t* labels, const std::uint16_t* depth, V near, V far) {
   const hn::Rebind<std::uint8_t, D> bytes;
   const auto d = hn::LoadU(D(), depth);
@@ -81,7 +81,7 @@ HWY_INLINE V ranks(const std::uint8_t* labels, const std::uint16_t* depth, V nea
   return hn::IfThenElse(is_any, flagged, hn::Set(D(), nothing));
 }
 
-/// The blocks of two chunks, one above the other.
+/// Returns the blocks of two chunks, one above the other.
 HWY_INLINE V blocks_of(const Chunk& above, const Chunk& below, V near, V far) {
   const auto left = hn::Min(ranks(above.labels, above.depth, near, far),
                             ranks(below.labels, below.depth, near, far));
@@ -91,10 +91,10 @@ HWY_INLINE V blocks_of(const Chunk& above, const Chunk& below, V near, V far) {
   return hn::IfThenZeroElse(hn::Eq(least, hn::Set(D(), nothing)), least);
 }
 
-/// In all tiles that the flood may reach.
+/// Fills the blocks of all tiles that the flood may reach.
 template <typename T>
 void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured) {
-  constexpr int ahead = 4;  // rows; those around the robot were not read before
+  constexpr int ahead = 4;  // rows to prefetch
   const ImageView<const std::uint8_t> labels = work.labels.view();
   const auto near = hn::Set(D(), millimetres(work.rule.millimetres.near));
   const auto far = hn::Set(
@@ -120,7 +120,7 @@ void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured) {
   });
 }
 
-/// Blocks of the robot that have an open one among their eight neighbours.
+/// Finds the blocks of the robot with an open one among their eight neighbours.
 HWY_INLINE void find_sources(Fringe& flood, const Work& work) {
   const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
   const auto row_around = [](const std::uint16_t* at) HWY_ATTR {
@@ -204,19 +204,19 @@ HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
   return hn::CountTrue(Four(), is_fringe);
 }
 
-/// Takes blocks breadth first, so that each comes from a near part of the outline, and labels those
-/// clear pixels of each whose depth is about the block's. Returns the number of these pixels.
+/// Visits blocks breadth first, so that each comes from a near part of the outline, and labels the
+/// clear pixels of each that are near the block's depth. Returns the number of these pixels.
 template <typename T>
 std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
-  struct Way {
+  struct Step {
     std::uint64_t block;
     std::ptrdiff_t offset;
   };
   const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
-  const std::array<Way, 4> ways = {
+  const std::array<Step, 4> steps = {
       {{-std::uint64_t{0x10000}, -pitch}, {-std::uint64_t{1}, -1}, {1, 1}, {0x10000, pitch}}};
-  const int goes_on = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
-  // Copies: writes to labels, as bytes, may change any member for all the compiler knows.
+  const int continues = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
+  // Local copies: writes to bytes may alias any member.
   const ImageView<std::uint8_t> labels = work.labels.view();
   Fringe::Block* const queue = flood.queue.get();
   const Fringe::Source* const sources = flood.sources.data();
@@ -230,15 +230,15 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
     const int depth = *here;
     count += paint(work.touched, labels, measured, from, depth, 2 * source.step);
     const int dx = from.x() - source.x, dy = from.y() - source.y;
-    if (dx * dx + dy * dy > goes_on) continue;
+    if (dx * dx + dy * dy > continues) continue;
     const int least = std::max<int>(depth - source.step, source.nearest);
     const int most = std::min<int>(depth + source.step, source.farthest);
     const auto first = static_cast<std::uint32_t>(least | is_open);
     const auto span = static_cast<std::uint32_t>(most - least);
-    for (const Way& way : ways) {  // without branches: which are taken is hard to predict
-      std::uint16_t& next = here[way.offset];
+    for (const Step& to : steps) {  // without unpredictable branches
+      std::uint16_t& next = here[to.offset];
       const bool is_taken = next - first <= span;
-      queue[end].bits = from.bits + way.block;
+      queue[end].bits = from.bits + to.block;
       end += is_taken;
       next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled per SIMD target: which front pixels are confirmed, 64 pixels to a word.
+// Compiled per SIMD target: the clean-up of front pixels, 64 pixels per word.
 #if defined(PENUMBRA_FRONT_CLEANUP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef PENUMBRA_FRONT_CLEANUP_INL
 #undef PENUMBRA_FRONT_CLEANUP_INL
@@ -41,7 +41,7 @@ struct Box {
   int w0, w1, v0, v1;
 };
 
-/// The certain tiles' box, a word wider on both sides.
+/// Returns the box around the tiles, a word wider on both sides.
 inline Box box_of(const TileMask& tiles) {
   std::uint64_t columns = 0;
   int first = 0, last = 0;
@@ -83,28 +83,28 @@ HWY_INLINE VW any_right(const std::uint64_t* row, int reach) {
   return here;
 }
 
-/// Whether a row's pixels have a certain one within `reach` left and right of them, or above and
-/// below.
-HWY_INLINE VW between_certain(Work& work, int v, int w, int reach) {
-  const std::uint64_t* const row = work.certain.row(v) + w;
+/// Bit u of the result: whether there is foreground within `reach` pixels on the left and right of
+/// pixel u, or above and below.
+HWY_INLINE VW between_foreground(Work& work, int v, int w, int reach) {
+  const std::uint64_t* const row = work.foreground.row(v) + w;
   VW above = hn::Zero(W()), below = above;
   for (std::ptrdiff_t s = 1; s <= reach; ++s) {
-    above = hn::Or(above, hn::LoadU(W(), row - s * work.certain.pitch()));
-    below = hn::Or(below, hn::LoadU(W(), row + s * work.certain.pitch()));
+    above = hn::Or(above, hn::LoadU(W(), row - s * work.foreground.pitch()));
+    below = hn::Or(below, hn::LoadU(W(), row + s * work.foreground.pitch()));
   }
   return hn::Or(hn::And(any_left(row, reach), any_right(row, reach)), hn::And(above, below));
 }
 
-/// scratch = what counts as certain, worn away from the right by width - 1 pixels.
+/// scratch = the foreground with filled holes, eroded from the right by width - 1 pixels.
 inline void erode_rows(Work& work, const Box& box, int width) {
   for (int v = box.v0; v < box.v1; ++v) {
     std::uint64_t* const out = work.scratch.row(v);
     for (int w = box.w0; w < box.w1; w += words()) {
-      VW certain = hn::LoadU(W(), work.certain.row(v) + w);
+      VW foreground = hn::LoadU(W(), work.foreground.row(v) + w);
       const VW holes = hn::LoadU(W(), work.unmeasured.row(v) + w);
       if (!hn::AllTrue(W(), hn::Eq(holes, hn::Zero(W()))))
-        certain = hn::Or(certain, hn::And(holes, between_certain(work, v, w, width)));
-      hn::StoreU(certain, W(), out + w);
+        foreground = hn::Or(foreground, hn::And(holes, between_foreground(work, v, w, width)));
+      hn::StoreU(foreground, W(), out + w);
     }
     for (int n = 1, s; n < width; n += s) {
       s = std::min(n, width - n);
@@ -114,7 +114,7 @@ inline void erode_rows(Work& work, const Box& box, int width) {
   }
 }
 
-/// Each pixel of scratch stays only with the width - 1 below it.
+/// Erodes scratch from below by width - 1 pixels.
 inline void erode_columns(Work& work, const Box& box, int width) {
   for (int n = 1, s; n < width; n += s) {
     s = std::min(n, width - n);
@@ -127,7 +127,7 @@ inline void erode_columns(Work& work, const Box& box, int width) {
   }
 }
 
-/// Spreads each pixel of scratch over the width - 1 to its right and the width - 1 below it.
+/// Dilates scratch by width - 1 pixels to the right and down.
 inline void dilate(Work& work, const Box& box, int width) {
   for (int n = 1, s; n < width; n += s) {
     s = std::min(n, width - n);
@@ -148,29 +148,29 @@ inline void dilate(Work& work, const Box& box, int width) {
   }
 }
 
-/// Keeps of scratch the seeds, inside `seeds`, and clears the rest of `box`.
+/// Keeps only the seeds in scratch, all inside `seeds`, and clears the rest of `box`.
 inline void keep_seeds(Work& work, const Box& box, const Box& seeds) {
   for (int v = box.v0; v < box.v1; ++v) {
     std::uint64_t* const row = work.scratch.row(v);
     const bool inside = seeds.v0 <= v && v < seeds.v1;
     for (int w = box.w0; w < box.w1; w += words()) {
-      const VW front =
-          hn::And(hn::LoadU(W(), work.front.row(v) + w), hn::LoadU(W(), work.certain.row(v) + w));
+      const VW front = hn::And(hn::LoadU(W(), work.front.row(v) + w),
+                               hn::LoadU(W(), work.foreground.row(v) + w));
       const VW kept = hn::And(hn::LoadU(W(), row + w), front);
       hn::StoreU(inside ? kept : hn::Zero(W()), W(), row + w);
     }
   }
 }
 
-/// Makes front pixels occluded that scratch, shifted by `reach` down and to the right, does not
-/// confirm; outside of `confirmed`, all of them. Returns how many.
-inline std::size_t drop_front(Work& work, const Box& confirmed, int reach) {
+/// Makes front pixels occluded that are not in scratch, which is shifted by `reach` down and to the
+/// right; outside of `valid`, all of them. Returns how many.
+inline std::size_t drop_front(Work& work, const Box& valid, int reach) {
   std::size_t dropped = 0;
   work.front_tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v) {
       for (int w = u0 / 64; w < (u1 + 63) / 64; ++w) {
         std::uint64_t drop = work.front.row(v)[w];
-        if (confirmed.v0 <= v && v < confirmed.v1 && confirmed.w0 <= w && w < confirmed.w1) {
+        if (valid.v0 <= v && v < valid.v1 && valid.w0 <= w && w < valid.w1) {
           const std::uint64_t* const shifted = work.scratch.row(v + reach) + w;
           drop &= ~(reach == 0 ? shifted[0] : shifted[0] >> reach | shifted[1] << (64 - reach));
         }
@@ -184,12 +184,12 @@ inline std::size_t drop_front(Work& work, const Box& confirmed, int reach) {
   return dropped;
 }
 
-/// Makes front pixels that are not confirmed occluded; returns how many.
-inline std::size_t drop_unconfirmed(Work& work) {
+/// Makes front pixels without a seed nearby occluded; returns how many.
+inline std::size_t drop_isolated(Work& work) {
   const int width = work.rule.width;
   const int reach = work.rule.reach;
-  if (!any(work.certain_tiles)) return drop_front(work, {0, 0, 0, 0}, 0);
-  const Box seeds = box_of(work.certain_tiles);
+  if (!any(work.foreground_tiles)) return drop_front(work, {0, 0, 0, 0}, 0);
+  const Box seeds = box_of(work.foreground_tiles);
   const Box squares{seeds.w0, seeds.w1, seeds.v0 - (width - 1), seeds.v1 + (width - 1)};
   erode_rows(work, squares, width);
   erode_columns(work, squares, width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled per SIMD target: the vectors that pixels are compared in, and a rule as such vectors.
+// Compiled per SIMD target: vectors of pixels, and a rule as such vectors.
 #if defined(PENUMBRA_LABEL_VECTORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef PENUMBRA_LABEL_VECTORS_INL
 #undef PENUMBRA_LABEL_VECTORS_INL
@@ -31,7 +31,7 @@ using VI = hn::Vec<I>;
 using VB = hn::Vec<B>;
 
 constexpr int lanes = static_cast<int>(hn::MaxLanes(F()));
-constexpr int chunk = 4 * lanes;  // pixels: as many as a vector has bytes; a tile is whole chunks
+constexpr int chunk = 4 * lanes;  // pixels: as many as a vector has bytes; divides a tile
 
 HWY_INLINE VF load_metres(const float* depth) { return hn::LoadU(F(), depth); }
 
@@ -64,9 +64,9 @@ struct Criteria {
 
   HWY_INLINE VF tolerance(VF z) const { return hn::Add(a, hn::Mul(hn::Add(b, hn::Mul(c, z)), z)); }
 
-  /// Whether near <= d <= far. The bits of positive floats are ordered as the floats are, and those
-  /// of all others, read as unsigned, come after: one unsigned comparison, which is a signed one of
-  /// numbers shifted by 2^31.
+  /// Whether near <= d <= far. The bits of positive floats have the order of the floats, and those
+  /// of all others, as unsigned numbers, are larger: one unsigned comparison, done as a signed one
+  /// of numbers shifted by 2^31.
   HWY_INLINE hn::Mask<I> measured(VF d) const {
     return hn::Gt(end, hn::Sub(hn::BitCast(I(), d), first));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the classifier and its kernels, SIMD and scalar, share.
+// What the classifier and its kernels share.
 #pragma once
 
 #include <array>
@@ -16,35 +16,30 @@ namespace penumbra::labelling {
 
 inline constexpr float metres_per_millimetre = 0.001f;
 
-[[nodiscard]] inline float metres(float depth) { return depth; }
-[[nodiscard]] inline float metres(std::uint16_t depth) {
-  return static_cast<float>(depth) * metres_per_millimetre;
-}
-
 /// Measurements lie in [near, far], metres; near is not 0 and far is finite.
 struct MeasuredRange {
   float near, far;
 };
 
-/// A LabelRule as the kernels take it. All arithmetic is float32, products and sums each rounded.
+/// A LabelRule for the kernels. All arithmetic is float32, without fused multiply-add.
 struct Rule {
   explicit Rule(const LabelRule& rule);
 
   float a, b, c;
-  float beyond_factor;  ///< infinite where beyond is folded
+  float beyond_factor;  ///< infinite if beyond is folded
   MeasuredRange metres;
-  /// The same for depths converted as load_metres does: millimetres * metres_per_millimetre is not
-  /// always the float nearest to the depth, as 3.0 m at the end of a range is.
+  /// The range for millimetres * metres_per_millimetre, which is not always the float nearest to
+  /// the depth.
   MeasuredRange millimetres;
   int width;  ///< front_min_width
-  int cells;  ///< how many cells the edge margin reaches; 0: no margin
-  int reach;  ///< how far from a seed a front pixel is confirmed
+  int cells;  ///< the edge margin, cells
+  int reach;  ///< how far from a seed a pixel stays front
 
   [[nodiscard]] bool cleans_up() const { return width > 0; }
 };
 
-/// One bit per pixel: bit u % 64 of row(v)[u / 64]. `margin` rows of zeros lie above and below and
-/// words of zeros beside each row, so that neighbours may be read without asking where they are.
+/// One bit per pixel: bit u % 64 of row(v)[u / 64]. A border of zeros allows reading neighbours of
+/// any pixel: `margin` rows above and below, and words next to each row.
 class BitRows {
  public:
   static constexpr int margin = 2 * LabelRule::max_width;
@@ -68,13 +63,13 @@ class BitRows {
 
  private:
   static constexpr std::ptrdiff_t left = 2;
-  static constexpr std::ptrdiff_t spare = 8;  // words that whole vectors may run over
+  static constexpr std::ptrdiff_t spare = 8;  // words, for whole vectors
   std::ptrdiff_t pitch_;
   std::vector<std::uint64_t> bits_;
 };
 
-/// The nearest virtual depth of each cell of LabelRule::cell pixels squared, infinite where it
-/// holds no robot; with a rim of such cells, so that neighbours may be read unasked.
+/// The nearest virtual depth of each cell of LabelRule::cell pixels squared, infinite without
+/// robot, with a border of such cells.
 class Cells {
  public:
   Cells(int width, int height, int reach);
@@ -83,51 +78,49 @@ class Cells {
   void clear(int u0, int u1, int v0, int v1);  ///< the cells of pixels [u0, u1) x [v0, v1)
 
  private:
-  static constexpr int spare = 16;  // cells that whole vectors may run over
+  static constexpr int spare = 16;  // cells, for whole vectors
   int reach_;
   std::ptrdiff_t pitch_;
   std::vector<float> depth_;
 };
 
-using Counts = std::array<std::size_t, label_count>;  ///< clear is left 0
+using Counts = std::array<std::size_t, label_count>;  ///< clear is always 0
 
 /// The buffers of one classifier.
 struct Work {
   Work(int width, int height, const Rule& rule);
 
-  /// Takes the touched tiles of a new image and clears what the last one left.
+  /// Sets the touched tiles of a new image and clears the buffers of the last one.
   void begin(const TileMask& new_touched);
 
-  /// Fills rim_tiles: those beside front_tiles that hold pixels whose being certain decides about a
-  /// front pixel.
+  /// Fills rim_tiles: tiles without front pixels whose foreground decides about front pixels.
   void mark_rim();
 
-  /// The touched tiles whose cells decide which pixels of `tiles` are certain and that were not
-  /// marked before.
+  /// Returns the touched tiles whose cells decide which pixels of `tiles` are foreground, except
+  /// those of earlier calls.
   const TileMask& mark_cells(const TileMask& tiles);
 
   Rule rule;
   int width;
   int height;
   Image<std::uint8_t> labels;
-  TileMask touched;  ///< tiles of `labels` that may hold other than clear
+  TileMask touched;  ///< outside of these tiles `labels` is clear
 
-  // Of the clean-up, which looks at tiles near front pixels alone.
-  TileMask front_tiles;    ///< tiles that hold bits of `front`
-  TileMask certain_tiles;  ///< tiles that hold pixels both front and certain
+  // The clean-up processes only tiles near front pixels.
+  TileMask front_tiles;       ///< tiles with bits of `front`
+  TileMask foreground_tiles;  ///< tiles with pixels that are both front and foreground
   TileMask rim_tiles;
-  BitRows front, certain, unmeasured, scratch;
+  BitRows front, foreground, unmeasured, scratch;
   Cells cells;
 
-  std::vector<float> nearest, limits;  ///< one row of pixels each, with room for whole vectors
-  Image<std::uint8_t> marks;           ///< the scalar twin's, which has no use for bit rows
+  std::vector<float> nearest, limits;  ///< one row of pixels each, for whole vectors
 
  private:
-  TileMask cell_tiles_;  // tiles whose cells are filled
+  TileMask cell_tiles_;  // tiles with filled cells
   TileMask scratch_tiles_;
 };
 
-/// The tiles of tile row j that hold pixels at most `pixels` from a marked tile in u and v.
+/// Returns the tiles of tile row j with pixels at most `pixels` from a marked tile in u and v.
 [[nodiscard]] std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels);
 
 [[nodiscard]] inline bool any(const TileMask& tiles) {
@@ -137,26 +130,10 @@ struct Work {
 }
 
 /// Labels the touched tiles of one image and cleans up, after Work::begin.
-struct Kernels {
-  Counts (*label_millimetres)(Work&, ImageView<const float> virtual_depth,
-                              ImageView<const std::uint16_t> measured);
-  Counts (*label_metres)(Work&, ImageView<const float> virtual_depth,
-                         ImageView<const float> measured);
+using LabelKernel = Counts (*)(Work&, ImageView<const float> virtual_depth,
+                               const DepthView& measured);
 
-  Counts label(Work& work, ImageView<const float> virtual_depth,
-               ImageView<const std::uint16_t> measured) const {
-    return label_millimetres(work, virtual_depth, measured);
-  }
-  Counts label(Work& work, ImageView<const float> virtual_depth,
-               ImageView<const float> measured) const {
-    return label_metres(work, virtual_depth, measured);
-  }
-};
-
-/// Kernels for a SIMD target (a bit of simd_target).
-[[nodiscard]] Kernels simd_kernels(std::int64_t target);
-
-/// The plain twin, which follows LabelRule's words and not the SIMD kernels' ways.
-[[nodiscard]] Kernels scalar_kernels();
+/// Returns the kernel for a SIMD target (a bit of simd_target).
+[[nodiscard]] LabelKernel label_kernel(std::int64_t target);
 
 }  // namespace penumbra::labelling

@@ -8,9 +8,22 @@
 namespace penumbra::labelling {
 namespace {
 
-constexpr int vector_room = 128;  // pixels that whole vectors may run over a row's end
+constexpr int vector_room = 128;  // pixels, for whole vectors at a row's end
 
 int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
+
+/// Returns the range of the millimetres whose nearest floats, in metres, lie in a range; without
+/// the saturated value.
+MeasuredRange in_millimetres(const MeasuredRange& range) {
+  constexpr int count = saturated_depth;
+  const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
+  int first = 0;
+  while (first < count && nearest(first) < range.near) ++first;
+  int end = first;
+  while (end < count && nearest(end) <= range.far) ++end;
+  return {static_cast<float>(first) * metres_per_millimetre,
+          static_cast<float>(end - 1) * metres_per_millimetre};
+}
 
 }  // namespace
 
@@ -24,23 +37,6 @@ std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
   const int in_image = tiles_across(tiles.width, tiles.tile_width);
   return bits & (~std::uint64_t{0} >> (64 - in_image));
 }
-
-namespace {
-
-/// The range of millimetres whose depths, as floats nearest to them, lie in a range; saturated ones
-/// do not.
-MeasuredRange in_millimetres(const MeasuredRange& range) {
-  constexpr int count = saturated_depth;
-  const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
-  int first = 0;
-  while (first < count && nearest(first) < range.near) ++first;
-  int end = first;
-  while (end < count && nearest(end) <= range.far) ++end;
-  return {static_cast<float>(first) * metres_per_millimetre,
-          static_cast<float>(end - 1) * metres_per_millimetre};
-}
-
-}  // namespace
 
 Rule::Rule(const LabelRule& rule)
     : a(static_cast<float>(rule.tolerance.a)),
@@ -80,10 +76,10 @@ Work::Work(int image_width, int image_height, const Rule& label_rule)
       labels(image_width, image_height),
       touched(image_width, image_height),
       front_tiles(touched),
-      certain_tiles(touched),
+      foreground_tiles(touched),
       rim_tiles(touched),
       front(image_width, image_height),
-      certain(image_width, image_height),
+      foreground(image_width, image_height),
       unmeasured(image_width, image_height),
       scratch(image_width, image_height),
       cells(image_width, image_height, rule.cells),
@@ -94,10 +90,10 @@ Work::Work(int image_width, int image_height, const Rule& label_rule)
 
 void Work::begin(const TileMask& new_touched) {
   front_tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (BitRows* rows : {&front, &certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
+    for (BitRows* rows : {&front, &foreground, &unmeasured}) rows->clear(u0, u1, v0, v1);
   });
   rim_tiles.for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (BitRows* rows : {&certain, &unmeasured}) rows->clear(u0, u1, v0, v1);
+    for (BitRows* rows : {&foreground, &unmeasured}) rows->clear(u0, u1, v0, v1);
   });
   cell_tiles_.for_each_span([&](int u0, int u1, int v0, int v1) { cells.clear(u0, u1, v0, v1); });
   TileMask& stale = scratch_tiles_;
@@ -109,19 +105,20 @@ void Work::begin(const TileMask& new_touched) {
       std::fill(&labels(u0, v), &labels(u0, v) + (u1 - u0), std::uint8_t{0});
   });
   touched = new_touched;
-  for (TileMask* mask : {&front_tiles, &certain_tiles, &rim_tiles, &cell_tiles_, &scratch_tiles_}) {
+  for (TileMask* mask :
+       {&front_tiles, &foreground_tiles, &rim_tiles, &cell_tiles_, &scratch_tiles_}) {
     mask->tile_width = touched.tile_width;
     std::fill(mask->rows.begin(), mask->rows.end(), std::uint64_t{0});
   }
 }
 
 void Work::mark_rim() {
-  if (!any(certain_tiles)) return;
-  // A square that holds a seed ends width - 1 pixels from it at the most, and a pixel without
-  // measurement in it looks for certain ones `width` further.
+  if (!any(foreground_tiles)) return;
+  // The square of a seed ends at most width - 1 pixels from it, and its pixels without measurement
+  // depend on foreground `width` pixels further.
   const int pixels = 2 * rule.width - 1;
   for (std::size_t j = 0; j < rim_tiles.rows.size(); ++j)
-    rim_tiles.rows[j] = marked_around(certain_tiles, j, pixels) & ~front_tiles.rows[j];
+    rim_tiles.rows[j] = marked_around(foreground_tiles, j, pixels) & ~front_tiles.rows[j];
 }
 
 const TileMask& Work::mark_cells(const TileMask& tiles) {

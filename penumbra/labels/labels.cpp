@@ -21,7 +21,7 @@ template <typename... Parts>
   throw InputError(message.str());
 }
 
-/// For some z >= 0.
+/// Whether it is negative for some z >= 0.
 bool is_negative(const Tolerance& e) {
   return e.a < 0.0 || e.c < 0.0 || (e.b < 0.0 && e.b * e.b > 4.0 * e.a * e.c);
 }
@@ -56,7 +56,7 @@ LabelRule LabelRule::for_sensor(std::string_view name) {
     rule.fringe_reach = sensor.fringe_reach;
     return rule;
   }
-  fail("sensor '", name, "': realsense_d4xx, zed, tof, structured_light or none is wanted");
+  fail("sensor '", name, "': expected realsense_d4xx, zed, tof, structured_light or none");
 }
 
 void LabelRule::check() const {
@@ -77,25 +77,23 @@ void LabelRule::check() const {
 }
 
 struct Classifier::State {
-  State(int width, int height, const LabelRule& label_rule, const std::string& isa_name)
+  State(int width, int height, const LabelRule& label_rule, std::int64_t target)
       : rule(label_rule),
-        isa(isa_name == "scalar" ? isa_name : simd_target_name(simd_target(isa_name))),
-        kernels(isa_name == "scalar" ? labelling::scalar_kernels()
-                                     : labelling::simd_kernels(simd_target(isa_name))),
+        isa(simd_target_name(target)),
+        label(labelling::label_kernel(target)),
+        label_fringe(labelling::fringe_kernel(target)),
         work(width, height, labelling::Rule(rule)),
         fringe(width, height, rule.fringe_reach),
-        label_fringe(labelling::fringe_kernel(simd_target(isa_name == "scalar" ? "" : isa_name))),
         everything(width, height) {
     everything.mark(0, 0, width - 1, height - 1);
-    if (isa == "scalar") work.marks = Image<std::uint8_t>(width, height);
   }
 
   LabelRule rule;
   std::string isa;
-  labelling::Kernels kernels;
+  labelling::LabelKernel label;
+  labelling::LabelFringe label_fringe;
   labelling::Work work;
   labelling::Fringe fringe;
-  labelling::LabelFringe label_fringe;
   TileMask everything;
 };
 
@@ -103,7 +101,7 @@ Classifier::Classifier(int width, int height, const LabelRule& rule, const std::
   rule.check();
   if (width < 1 || height < 1 || width > Intrinsics::max_size || height > Intrinsics::max_size)
     fail("image size ", width, " x ", height, ": must be 1 to ", Intrinsics::max_size, " pixels");
-  state_ = std::make_unique<State>(width, height, rule, isa);
+  state_ = std::make_unique<State>(width, height, rule, simd_target(isa));
 }
 
 Classifier::~Classifier() = default;
@@ -121,13 +119,10 @@ LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const Dept
   assert(touched.width == work.width && touched.height == work.height);
   assert(touched.tile_width % 32 == 0);
   work.begin(touched);
+  assert(std::visit([&](const auto& d) { return d.width == work.width && d.height == work.height; },
+                    measured));
   LabelView view;
-  view.pixels = std::visit(
-      [&](const auto& depth) {
-        assert(depth.width == work.width && depth.height == work.height);
-        return state_->kernels.label(work, virtual_depth.depth, depth);
-      },
-      measured);
+  view.pixels = state_->label(work, virtual_depth.depth, measured);
   view.pixels[static_cast<std::size_t>(Label::fringe)] =
       state_->label_fringe(state_->fringe, work, measured);
   std::size_t labelled = 0;

@@ -15,66 +15,64 @@
 
 namespace penumbra {
 
-/// What the comparison of measured and virtual depth says of a pixel.
+/// The result of comparing the measured with the virtual depth of a pixel.
 enum class Label : std::uint8_t {
   clear = 0,     ///< no robot on this ray
-  front = 1,     ///< something real stands before the robot
-  occluded = 2,  ///< the sensor sees the robot: what was wanted there is hidden
+  front = 1,     ///< something real is in front of the robot
+  occluded = 2,  ///< the sensor sees the robot, which hides what is behind it
   unknown = 3,   ///< robot on the ray, no measurement; never counted as visible
-  beyond = 4,    ///< the sensor sees past the model: model too large or out of place there
-  fringe = 5,    ///< no robot on this ray, but the sensor carried the robot's depth here: the depth
-                 ///< is not to be trusted, and nothing is hidden
+  beyond = 4,    ///< the sensor sees past the model, which is too large or out of place there
+  fringe = 5,    ///< no robot on this ray, but the sensor reports the robot's depth: the depth is
+                 ///< invalid, and nothing is hidden
 };
 inline constexpr std::size_t label_count = 6;
 
-/// Whether what the sensor measured at a pixel of this label is real and no robot.
+/// Whether the measurement at a pixel of this label is real and not of the robot.
 [[nodiscard]] constexpr bool is_trusted(Label label) {
   return label == Label::clear || label == Label::front;
 }
 
-/// e(z) = a + b z + c z^2, metres: how far a measured depth may lie before the model and still be
-/// the robot.
+/// e(z) = a + b z + c z^2, metres: how far in front of the model a measurement may be and still be
+/// of the robot.
 struct Tolerance {
   double a = 0.015;  ///< metres
   double b = 0.0;    ///< metres per metre
-  double c = 0.006;  ///< metres per square metre: stereo noise grows so
+  double c = 0.006;  ///< metres per square metre, as stereo noise grows
 
   [[nodiscard]] double at(double z) const { return a + (b + c * z) * z; }
 };
 
-/// The rule of labelling. docs/tuning.md says how the defaults were measured and
-/// how to choose others.
+/// The rule of labelling. docs/tuning.md describes how the defaults were measured and how to choose
+/// others.
 ///
-/// With d the measured and dV the virtual depth of a pixel of the robot, computed in float32:
-/// unknown where d is no measurement, beyond where d > dV + k e(dV), front where d < dV - e(dV),
-/// else occluded. Then the clean-up: a front pixel stays front only if it is confirmed, else it
-/// becomes occluded.
+/// With d the measured and dV the virtual depth of a pixel of the robot, in float32: unknown if d
+/// is no measurement, beyond if d > dV + k e(dV), front if d < dV - e(dV), else occluded. The
+/// clean-up, an opening by reconstruction, then turns isolated front pixels into occluded ones.
 ///
-/// The sensor sees the robot's edges blurred and, by calibration, out of place. So a pixel of the
-/// image, on the robot or beside it, counts as certain only if its d < n - e(n), with n the nearest
-/// virtual depth anywhere within edge_margin pixels (in steps of cell pixels: n is the least dV of
-/// the cells of the pixel grid that lie at most ceil(edge_margin / cell) cells from the pixel's, so
-/// that up to cell - 1 pixels more are looked at; where no robot is near, no pixel is certain). A
-/// pixel without measurement counts as certain between two certain ones: at most front_min_width
-/// pixels away from it, left and right in its row, or above and below in its column. The seeds are
-/// the front pixels, certain themselves, that lie in a square of front_min_width pixels inside the
-/// image all of whose pixels count as certain. Confirmed are the seeds and the front pixels at most
-/// edge_margin / 2 pixels from one in both u and v.
+/// The sensor sees the robot's edges blurred and, due to calibration, out of place. A pixel of the
+/// image, on the robot or not, is foreground if d < n - e(n), where n is the nearest virtual depth
+/// within edge_margin pixels. (n is the least dV of the cells, of `cell` pixels squared, at most
+/// ceil(edge_margin / cell) cells from the pixel's. Without a robot near, no pixel is foreground.)
+/// A pixel without measurement is foreground too if it lies between two foreground pixels, at most
+/// front_min_width pixels away, in its row or in its column. Seeds are the front pixels that are
+/// measured foreground and lie in a square of front_min_width pixels inside the image that is all
+/// foreground. Seeds, and front pixels at most edge_margin / 2 pixels from a seed in both u and v,
+/// stay front.
 ///
-/// So an object that reaches past the robot's silhouette is not worn away at it, a hole in an
-/// object does not break it up, and a seam along an edge of the robot is no object.
+/// So an object keeps its full width at the robot's silhouette, holes do not split it, and a seam
+/// along an edge of the robot is no object.
 ///
-/// Fringe: real sensors carry the robot's depth past its outline. Stereo matching fattens it, gaps
+/// Fringe: real sensors report the robot's depth past its outline. Stereo matching fattens it, gaps
 /// between links are filled, and mixed pixels lie between the robot's depth and the background's.
-/// A flood over blocks of 2 x 2 pixels finds such pixels. A block's depth is the nearest of its
-/// occluded pixels, if it has any, else the nearest of its clear, measured ones. The flood starts
-/// from the blocks with occluded pixels and goes on, breadth first, from block p to a neighbour q
-/// (of four) without occluded pixels if
+/// A flood fill over blocks of 2 x 2 pixels finds such pixels. A block's depth is the nearest of
+/// its occluded pixels or, without any, of its clear, measured ones. The flood starts from the
+/// blocks with occluded pixels and continues, breadth first, from block p to one of the four
+/// neighbours q without occluded pixels if
 ///   |d(q) - d(p)| <= fringe_step e(d(s)), |d(q) - d(s)| <= fringe_drift e(d(s))
-/// and q lies within fringe_reach of s, where s is the block that the flood reached p from. The
-/// clear pixels of the blocks that it starts from and reaches become fringe where they differ from
-/// their block's depth by at most 2 fringe_step e(d(s)). A real object at the robot's own depth
-/// that touches its outline is fringe up to fringe_reach; no rule on one image can tell.
+/// and q lies within fringe_reach of s, the block that the flood reached p from. The clear pixels
+/// of all these blocks become fringe if they differ from their block's depth by at most 2
+/// fringe_step e(d(s)). A real object at the robot's depth that touches its outline is fringe up to
+/// fringe_reach; one image cannot tell them apart.
 struct LabelRule {
   static constexpr int cell = 4;                ///< pixels
   static constexpr int max_width = 63;          ///< pixels, of front_min_width
@@ -86,23 +84,23 @@ struct LabelRule {
   Tolerance tolerance;
   double beyond_factor = 2.0;  ///< k: beyond is past dV + k e(dV)
   int front_min_width = 7;     ///< pixels; 0: no clean-up
-  int edge_margin = 8;         ///< pixels by which an edge of the robot may look out of place;
-                               ///< 0: front pixels are certain, those beside the robot are not
-  int fringe_reach = 40;       ///< pixels past the outline that the sensor carries depth; 0: no
-                               ///< fringe
-  bool fold_beyond = false;    ///< call beyond occluded
+  int edge_margin = 8;         ///< pixels by which an edge of the robot may be out of place;
+                               ///< 0: the foreground are the front pixels
+  int fringe_reach = 40;       ///< largest width of the fringe, pixels; 0: no fringe
+  bool fold_beyond = false;    ///< label beyond as occluded
   DepthRange range;            ///< measured depths outside of it are no measurements
 
-  /// The paper as written: 0.01 m everywhere, no clean-up, no fringe, beyond folded; no
-  /// measurement stays unknown.
+  /// Returns the paper's rule: 0.01 m everywhere, no clean-up, no fringe, beyond folded. Pixels
+  /// without measurement stay unknown.
   [[nodiscard]] static LabelRule paper();
 
-  /// The rule of a kind of sensor. realsense_d4xx (the default) is measured, the others are
-  /// guesses to start `penumbra tune` from; none: no fringe. Throws InputError for another name.
+  /// Returns the rule of a sensor: realsense_d4xx (the default, measured), zed, tof,
+  /// structured_light (starting points for `penumbra tune`) or none (no fringe). Throws InputError
+  /// for another name.
   [[nodiscard]] static LabelRule for_sensor(std::string_view name);
 
-  /// Throws InputError, with the values it got: a tolerance that is not finite or negative
-  /// at some depth, factor < 1, width, margin or reach out of bounds, near >= far.
+  /// Throws InputError, with the values, for a tolerance that is not finite or negative at some
+  /// depth, a factor below 1, a width, margin or reach out of bounds, and near >= far.
   void check() const;
 };
 
@@ -112,19 +110,18 @@ struct LabelView {
   const TileMask* touched = nullptr;              ///< outside of these tiles every label is clear
 };
 
-/// Labels depth images of one size. Holds its buffers; allocates nothing per image.
+/// Labels depth images of one size. Allocates nothing per image.
 class Classifier {
  public:
-  /// `isa` as in RendererOptions; "scalar" takes the plain twin, whose labels are the same. Throws
-  /// InputError for a rule that fails its check, a size outside 1..Intrinsics::max_size or an isa
-  /// that is not there.
+  /// `isa` as in RendererOptions. Throws InputError for a rule that fails its check, a size outside
+  /// 1..Intrinsics::max_size or an unknown isa.
   Classifier(int width, int height, const LabelRule& rule, const std::string& isa = {});
   ~Classifier();
   Classifier(Classifier&&) noexcept;
   Classifier& operator=(Classifier&&) noexcept;
 
-  /// Labels every pixel. Both images must have the classifier's size; where the virtual depth has
-  /// no tile mask, all of it is looked at. The view is valid until the next call.
+  /// Labels every pixel. Both images must have the classifier's size. Without a tile mask, the
+  /// whole virtual depth is read. The view is valid until the next call.
   [[nodiscard]] LabelView classify(const VirtualDepthView& virtual_depth,
                                    const DepthView& measured);
 

@@ -21,21 +21,21 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::labelling {
 namespace HWY_NAMESPACE {
 
-/// For each pixel of a vector: all bits where the answer is yes, else none.
-struct Answers {
+/// Masks of a vector of pixels: all bits or none.
+struct Masks {
   VI robot, measured, front, beyond;
 };
 
-HWY_INLINE Answers compare(const Criteria& rule, VF z, VF d) {
-  const auto answer = [](hn::Mask<F> mask)
-                          HWY_ATTR { return hn::BitCast(I(), hn::VecFromMask(F(), mask)); };
+HWY_INLINE Masks compare(const Criteria& rule, VF z, VF d) {
+  const auto mask_of = [](hn::Mask<F> mask)
+                           HWY_ATTR { return hn::BitCast(I(), hn::VecFromMask(F(), mask)); };
   const VF e = rule.tolerance(z);
-  return {answer(hn::Gt(z, hn::Zero(F()))), hn::VecFromMask(I(), rule.measured(d)),
-          answer(hn::Lt(d, hn::Sub(z, e))),
-          answer(hn::Gt(d, hn::Add(z, hn::Mul(rule.beyond_factor, e))))};
+  return {mask_of(hn::Gt(z, hn::Zero(F()))), hn::VecFromMask(I(), rule.measured(d)),
+          mask_of(hn::Lt(d, hn::Sub(z, e))),
+          mask_of(hn::Gt(d, hn::Add(z, hn::Mul(rule.beyond_factor, e))))};
 }
 
-/// The answers for a chunk's four vectors as bytes, the vectors interleaved.
+/// Returns the masks of a chunk's four vectors as bytes, with the vectors interleaved.
 HWY_INLINE VB interleave(VI p0, VI p1, VI p2, VI p3) {
   const S words;
   const auto even = hn::OddEven(hn::BitCast(words, p2), hn::BitCast(words, p0));
@@ -43,7 +43,7 @@ HWY_INLINE VB interleave(VI p0, VI p1, VI p2, VI p3) {
   return hn::OddEven(hn::BitCast(B(), odd), hn::BitCast(B(), even));
 }
 
-/// From four vectors interleaved to the order of pixels.
+/// Sorts four interleaved vectors into the order of pixels.
 HWY_INLINE VB in_order(VB bytes) {
   HWY_ALIGN static constexpr std::int8_t in_block[16] = {0, 4, 8,  12, 1, 5, 9,  13,
                                                          2, 6, 10, 14, 3, 7, 11, 15};
@@ -57,7 +57,7 @@ HWY_INLINE VB in_order(VB bytes) {
   return bytes;
 }
 
-/// Sums of bytes that are 0 or -1, taken as they come.
+/// Counts bytes that are -1, not 0.
 class ByteCounts {
  public:
   static constexpr int most = 255;  ///< additions between two calls of settle()
@@ -90,7 +90,7 @@ class ByteCounts {
   VB robot_, unknown_, front_, beyond_;
 };
 
-/// Labels a chunk. Returns where it is front: bytes of 0 or -1, the vectors interleaved.
+/// Labels a chunk. Returns the mask of front pixels as bytes, with the vectors interleaved.
 template <typename T>
 HWY_INLINE VB label_chunk(const Criteria& rule, const float* HWY_RESTRICT virtual_depth,
                           const T* HWY_RESTRICT measured, std::uint8_t* HWY_RESTRICT labels,
@@ -98,7 +98,7 @@ HWY_INLINE VB label_chunk(const Criteria& rule, const float* HWY_RESTRICT virtua
   const auto at = [&](int i) HWY_ATTR {
     return compare(rule, hn::LoadU(F(), virtual_depth + i), load_metres(measured + i));
   };
-  const Answers p0 = at(0), p1 = at(lanes), p2 = at(2 * lanes), p3 = at(3 * lanes);
+  const Masks p0 = at(0), p1 = at(lanes), p2 = at(2 * lanes), p3 = at(3 * lanes);
   const VB robot = interleave(p0.robot, p1.robot, p2.robot, p3.robot);
   const VB seen = interleave(p0.measured, p1.measured, p2.measured, p3.measured);
   const VB unknown = hn::AndNot(seen, robot);
@@ -117,7 +117,7 @@ HWY_INLINE VB label_chunk(const Criteria& rule, const float* HWY_RESTRICT virtua
   return front;
 }
 
-/// A chunk that the image cuts off after `count` pixels.
+/// Labels a chunk of which `count` pixels are in the image.
 template <typename T>
 HWY_NOINLINE VB label_cut_chunk(const Criteria& rule, int count, const float* virtual_depth,
                                 const T* measured, std::uint8_t* labels, ByteCounts& counts) {
@@ -131,9 +131,9 @@ HWY_NOINLINE VB label_cut_chunk(const Criteria& rule, int count, const float* vi
   return front;
 }
 
-/// Keeps the front pixels of the chunk that begins at (u, v), of which there are some.
+/// Stores the front pixels of the chunk that begins at (u, v).
 HWY_INLINE void keep_front(Work& work, int u, int v, VB front) {
-  std::array<std::uint8_t, 8> bits;  // of which Highway may write all
+  std::array<std::uint8_t, 8> bits;  // Highway may write all of them
   hn::StoreMaskBits(B(), hn::MaskFromVec(in_order(front)), bits.data());
   std::memcpy(reinterpret_cast<std::uint8_t*>(work.front.row(v)) + u / 8, bits.data(), chunk / 8);
   work.front_tiles.rows[static_cast<std::size_t>(v / TileMask::tile_height)] |=
@@ -154,7 +154,7 @@ void label_tiles(Work& work, ImageView<const float> virtual_depth, ImageView<con
       const T* const next = measured.row(std::min(v + TileMask::tile_height, measured.height - 1));
       std::uint8_t* const out = labels.row(v);
       for (int u = u0; u < u1; u += chunk) {
-        hwy::Prefetch(next + u);  // spans are short: the processor does not foresee the next one
+        hwy::Prefetch(next + u);  // the hardware does not predict short spans
         const VB front = u + chunk <= u1
                              ? label_chunk(rule, z + u, d + u, out + u, block)
                              : label_cut_chunk(rule, u1 - u, z + u, d + u, out + u, block);

@@ -135,7 +135,7 @@ TEST_P(Fringe, ReachesTheImagesBorder) {
   EXPECT_EQ(view.labels(200, image_height - 1), static_cast<std::uint8_t>(Label::fringe));
 }
 
-INSTANTIATE_TEST_SUITE_P(, Fringe, testing::ValuesIn(test::every_isa()),
+INSTANTIATE_TEST_SUITE_P(, Fringe, testing::ValuesIn(simd_target_names()),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

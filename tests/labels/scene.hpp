@@ -15,13 +15,6 @@
 
 namespace penumbra::test {
 
-/// Every isa name the classifier takes.
-inline std::vector<std::string> every_isa() {
-  std::vector<std::string> names = simd_target_names();
-  names.emplace_back("scalar");
-  return names;
-}
-
 /// A virtual and a measured depth image of one size, with the tiles of the former.
 struct Scene {
   Scene(int width, int height)

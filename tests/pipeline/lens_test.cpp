@@ -206,7 +206,6 @@ TEST(Lens, RectifiedLabelsAreThoseOfTheWholeRectifiedDepthImage) {
   Pipeline pipeline(slab_robot(), camera, config);
   const Intrinsics& k = pipeline.intrinsics();
   const auto to_raw = pipeline.rectification()->pinhole_to_raw();
-  Classifier classifier(k.width(), k.height(), config.rule, "scalar");
   Image<float> rectified(k.width(), k.height());
   std::size_t front = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -220,6 +219,7 @@ TEST(Lens, RectifiedLabelsAreThoseOfTheWholeRectifiedDepthImage) {
     const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
     remap(pipeline.rectification()->pinhole_to_raw(), depth.view(), 0.0F, rectified.view());
     const ImageView<const float> whole = std::as_const(rectified).view();
+    Classifier classifier(k.width(), k.height(), config.rule);
     const LabelView expected = classifier.classify(report.virtual_depth, whole);
     front += report.pixels.front;
     auto labels = pixels_of(expected.labels);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled per SIMD target: which pixels are certain. Asked only near front pixels.
-#if defined(PENUMBRA_CERTAIN_PIXELS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef PENUMBRA_CERTAIN_PIXELS_INL
-#undef PENUMBRA_CERTAIN_PIXELS_INL
+// Compiled per SIMD target: the foreground near front pixels.
+#if defined(PENUMBRA_FOREGROUND_PIXELS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef PENUMBRA_FOREGROUND_PIXELS_INL
+#undef PENUMBRA_FOREGROUND_PIXELS_INL
 #else
-#define PENUMBRA_CERTAIN_PIXELS_INL
+#define PENUMBRA_FOREGROUND_PIXELS_INL
 #endif
 
 #include <algorithm>
@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::labelling {
 namespace HWY_NAMESPACE {
 
-/// The nearest virtual depth in each column of a block, infinite where there is no robot: one whole
-/// tile's width of them at least.
+/// Finds the nearest virtual depth in each column of a block, infinite without robot; at least one
+/// whole tile's width.
 HWY_INLINE void nearest_of_columns(ImageView<const float> block, float* nearest) {
   const VF far = hn::Set(F(), std::numeric_limits<float>::infinity());
   int u = 0;
@@ -49,7 +49,7 @@ inline void fill_cells(Work& work, const TileMask& tiles, ImageView<const float>
       nearest_of_columns(block, columns);
       float* const cells = work.cells.row(v / LabelRule::cell) + u0 / LabelRule::cell;
       static_assert(LabelRule::cell == 4);
-      for (int i = 0; i < block.width; i += chunk) {  // no cell of the next tile is written to
+      for (int i = 0; i < block.width; i += chunk) {  // writes no cell of the next tile
         VF p, q, r, s;
         hn::LoadInterleaved4(F(), columns + i, p, q, r, s);
         hn::StoreU(hn::Min(hn::Min(p, q), hn::Min(r, s)), F(), cells + i / 4);
@@ -58,8 +58,8 @@ inline void fill_cells(Work& work, const TileMask& tiles, ImageView<const float>
   });
 }
 
-/// For the pixels [u0, u1) of a row of cells: work.limits[u] = n - e(n), n the nearest virtual
-/// depth of the cells around; 0 where there is none.
+/// Sets, for the pixels [u0, u1) of a row of cells, work.limits[u] = n - e(n), n the nearest
+/// virtual depth of the cells around; 0 without robot.
 inline void fill_limits(Work& work, const Criteria& rule, int cell_row, int u0, int u1) {
   const int reach = work.rule.cells;
   const int first = u0 / LabelRule::cell;
@@ -84,44 +84,45 @@ inline void fill_limits(Work& work, const Criteria& rule, int cell_row, int u0, 
 }
 
 /// One bit per pixel.
-struct CertainBits {
-  std::uint32_t certain = 0, unmeasured = 0;
+struct ForegroundBits {
+  std::uint32_t foreground = 0, unmeasured = 0;
 };
 
-constexpr int bits_width = 32;  // pixels of CertainBits; a tile is whole ones
+constexpr int bits_width = 32;  // pixels of ForegroundBits; divides a tile
 
 template <typename T>
-HWY_INLINE CertainBits certain_bits(const Criteria& rule, const T* measured, const float* limits) {
+HWY_INLINE ForegroundBits foreground_bits(const Criteria& rule, const T* measured,
+                                          const float* limits) {
   const auto bits_of = [](hn::Mask<F> mask) HWY_ATTR {
-    std::uint8_t bytes[8];  // of which Highway may write all
+    std::uint8_t bytes[8];  // Highway may write all of them
     hn::StoreMaskBits(F(), mask, bytes);
     return static_cast<std::uint32_t>(bytes[0]);
   };
-  CertainBits bits;
+  ForegroundBits bits;
 #pragma GCC unroll 4
   for (int i = 0; i < bits_width; i += lanes) {
     const VF d = load_metres(measured + i);
     const auto seen = hn::RebindMask(F(), rule.measured(d));
-    bits.certain |= bits_of(hn::And(seen, hn::Lt(d, hn::LoadU(F(), limits + i)))) << i;
+    bits.foreground |= bits_of(hn::And(seen, hn::Lt(d, hn::LoadU(F(), limits + i)))) << i;
     bits.unmeasured |= bits_of(hn::Not(seen)) << i;
   }
   return bits;
 }
 
-/// Fills the bit rows `certain` and `unmeasured` of some tiles and adds to certain_tiles.
+/// Fills the bit rows `foreground` and `unmeasured` of some tiles and adds to foreground_tiles.
 template <typename T>
-void find_certain(Work& work, const TileMask& tiles, ImageView<const float> virtual_depth,
-                  ImageView<const T> measured) {
+void find_foreground(Work& work, const TileMask& tiles, ImageView<const float> virtual_depth,
+                     ImageView<const T> measured) {
   const bool has_margin = work.rule.cells > 0;
   if (has_margin) fill_cells(work, work.mark_cells(tiles), virtual_depth);
   const Criteria rule(work.rule, range_of(work.rule, measured.data));
   const auto find = [&](const T* d, int u, int v) HWY_ATTR {
-    CertainBits bits = certain_bits(rule, d, work.limits.data() + u);
+    ForegroundBits bits = foreground_bits(rule, d, work.limits.data() + u);
     const std::uint32_t front = work.front.get(u, v);
-    if (!has_margin) bits.certain = front;
-    work.certain.put(u, v, bits.certain);
+    if (!has_margin) bits.foreground = front;
+    work.foreground.put(u, v, bits.foreground);
     work.unmeasured.put(u, v, bits.unmeasured);
-    if ((front & bits.certain) != 0) work.certain_tiles.mark(u, v, u, v);
+    if ((front & bits.foreground) != 0) work.foreground_tiles.mark(u, v, u, v);
   };
   tiles.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
     for (int v = v0; v < v1; ++v) {
@@ -135,7 +136,7 @@ void find_certain(Work& work, const TileMask& tiles, ImageView<const float> virt
         find(row + u, u, v);
       }
       if (u == u1) continue;
-      std::array<T, bits_width> cut{};  // no pixel beside the image is measured
+      std::array<T, bits_width> cut{};  // 0 outside of the image
       std::copy(row + u, row + u1, cut.begin());
       find(cut.data(), u, v);
     }
