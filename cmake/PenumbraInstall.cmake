@@ -12,7 +12,7 @@ install(TARGETS penumbra EXPORT PenumbraTargets
 set(public_headers
   base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp
   base/virtual_depth.hpp
-  mesh/mesh_file.hpp mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
+  mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
   time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp time/stamped_track.hpp
   time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp

@@ -10,7 +10,7 @@
 
 namespace penumbra {
 
-/// A row-major image that somebody else owns. Pixel (u, v): column u to the right, row v down.
+/// A view of a row-major image. Pixel (u, v) is in column u (to the right) and row v (down).
 template <typename T>
 struct ImageView {
   T* data = nullptr;
@@ -28,7 +28,7 @@ struct ImageView {
   }
 };
 
-/// An image that owns its pixels; rows lie without gaps.
+/// An image that owns its pixels, without gaps between rows.
 template <typename T>
 class Image {
  public:
@@ -58,14 +58,14 @@ class Image {
   std::vector<T> pixels_;
 };
 
-/// What a sensor writes, in millimetres, where its depth does not fit.
+/// The value in millimetres of a depth that does not fit.
 inline constexpr std::uint16_t saturated_depth = 0xFFFF;
 
 /// A sensor's depth image: millimetres as uint16 or metres as float32, z-depth along the optical
 /// axis. 0, NaN, inf, negative values and saturated_depth are "no measurement".
 using DepthView = std::variant<ImageView<const std::uint16_t>, ImageView<const float>>;
 
-/// A sensor's depth in metres; 0: no measurement.
+/// Returns a sensor's depth in metres; 0: no measurement.
 [[nodiscard]] inline float metres_of(std::uint16_t depth) {
   return depth == saturated_depth ? 0.0F : 0.001F * static_cast<float>(depth);
 }

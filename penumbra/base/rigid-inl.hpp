@@ -5,7 +5,8 @@
 
 namespace penumbra {
 
-/// Whether a transform is a finite rotation (to 1e-4, as for rotations in files) and translation.
+/// Whether a transform is finite and its linear part a rotation (to 1e-4, as for rotations in
+/// files).
 [[nodiscard]] inline bool is_rigid(const Eigen::Isometry3d& T) {
   constexpr double rotation_error = 1e-4;  // of any element of R^T R
   const Eigen::Matrix3d R = T.linear();

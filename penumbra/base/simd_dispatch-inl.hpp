@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For sources that are compiled per target: include it under HWY_ONCE, after hwy/highway.h.
+// For sources that are compiled per target: include under HWY_ONCE, after hwy/highway.h.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,8 @@
 
 namespace penumbra {
 
-/// Index of a target in the tables that HWY_EXPORT makes in this translation unit. Highway's own
-/// HWY_DYNAMIC_DISPATCH takes its index from one global choice; this one lets every instance have
-/// its own target.
+/// Returns the index of a target in the tables of HWY_EXPORT in this translation unit. Unlike
+/// HWY_DYNAMIC_DISPATCH, which uses one global target, every instance can have its own.
 [[nodiscard]] inline std::size_t simd_table_index(std::int64_t target) {
   hwy::ChosenTarget chosen;
   chosen.Update(target);
@@ -20,7 +19,7 @@ namespace penumbra {
 
 }  // namespace penumbra
 
-/// The function `name`, exported with HWY_EXPORT, as compiled for `target` (a bit of simd_target).
+/// The function `name`, exported with HWY_EXPORT, for `target` (a bit of simd_target).
 #if HWY_IDE || ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0)
 #define PENUMBRA_SIMD_FUNCTION(name, target) (static_cast<void>(target), &HWY_STATIC_DISPATCH(name))
 #else

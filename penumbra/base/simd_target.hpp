@@ -8,15 +8,15 @@
 
 namespace penumbra {
 
-/// Names of the SIMD targets that this build has and this machine runs, best first. The names are
-/// Highway's ("AVX3", "AVX2", "SSE4", ...).
+/// Returns Highway's names ("AVX3", "AVX2", "SSE4", ...) of the SIMD targets of this build that run
+/// on this machine, the best first.
 [[nodiscard]] std::vector<std::string> simd_target_names();
 
-/// Highway's bit of the named target; of the best one if the name is empty. Throws InputError, with
-/// the names that are there, for any other name.
+/// Returns Highway's bit of the named target, or of the best one if the name is empty. Throws
+/// InputError, with the available names, for any other name.
 [[nodiscard]] std::int64_t simd_target(std::string_view name);
 
-/// Highway's name of a target's bit.
+/// Returns Highway's name of a target's bit.
 [[nodiscard]] std::string simd_target_name(std::int64_t target);
 
 }  // namespace penumbra

@@ -11,28 +11,28 @@
 
 namespace penumbra {
 
-/// Nanoseconds between two stamps, whatever they are.
+/// Returns the nanoseconds between any two stamps.
 [[nodiscard]] inline std::uint64_t stamp_distance(std::int64_t a, std::int64_t b) {
   const auto x = static_cast<std::uint64_t>(std::max(a, b));
   return x - static_cast<std::uint64_t>(std::min(a, b));
 }
 
-/// Nanoseconds by which a stamp may lie before the newest one: messages overtake one another.
-/// Farther back its clock was set back, as by a bag that is played in a loop.
+/// Messages may arrive out of order by at most this many nanoseconds. A stamp further before the
+/// newest one means that the clock was set back, as in a bag that is played in a loop.
 inline constexpr std::int64_t least_clock_jump = 1'000'000'000;
 
 [[nodiscard]] inline bool is_clock_jump(std::int64_t stamp, std::int64_t newest) {
   return stamp < newest && stamp_distance(stamp, newest) > std::uint64_t{least_clock_jump};
 }
 
-/// Where a stamp lies between two others, 0 to 1.
+/// Returns the position of a stamp between two others, 0 to 1.
 [[nodiscard]] inline double stamp_share(std::int64_t before, std::int64_t stamp,
                                         std::int64_t after) {
   return static_cast<double>(stamp_distance(before, stamp)) /
          static_cast<double>(stamp_distance(before, after));
 }
 
-/// The stamp `by` nanoseconds later, or the last or first there is.
+/// Returns the stamp `by` nanoseconds later, saturated.
 [[nodiscard]] inline std::int64_t stamp_after(std::int64_t stamp, std::int64_t by) {
   using Limits = std::numeric_limits<std::int64_t>;
   if (by > 0 && stamp > Limits::max() - by) return Limits::max();
@@ -40,8 +40,8 @@ inline constexpr std::int64_t least_clock_jump = 1'000'000'000;
   return stamp + by;
 }
 
-/// A user's time span in nanoseconds. Throws InputError, which calls it `name`, unless it is a
-/// number from `least` to 1e9 seconds.
+/// Converts a user's time span, called `name` in messages, to nanoseconds. Throws InputError unless
+/// it is from `least` to 1e9 seconds.
 [[nodiscard]] inline std::int64_t span_nanoseconds(double seconds, const std::string& name,
                                                    double least = 0.0) {
   constexpr double longest = 1e9;  // seconds; far below the range of nanoseconds

@@ -7,15 +7,15 @@
 
 namespace penumbra {
 
-/// Which tiles of an image hold anything, so that later stages cost by touched pixels and not by
-/// image size. Bit i of rows[j] stands for the tile whose first pixel is (i * tile_width,
-/// j * tile_height); the last tile of a row or column may reach past the image.
+/// The tiles of an image that are not empty, so that the cost of later stages depends on touched
+/// pixels and not on the image's size. Bit i of rows[j] is the tile with the first pixel
+/// (i * tile_width, j * tile_height); the last tile of a row or column may extend past the image.
 struct TileMask {
   static constexpr int tile_height = 8;
 
   int width = 0;        ///< of the image, pixels
   int height = 0;       ///< of the image, pixels
-  int tile_width = 32;  ///< pixels; a power of two, large enough that 64 tiles span the image
+  int tile_width = 32;  ///< pixels; a power of two so that at most 64 tiles span the image
   std::vector<std::uint64_t> rows;
 
   TileMask() = default;
@@ -24,7 +24,7 @@ struct TileMask {
     rows.assign(static_cast<std::size_t>((image_height + tile_height - 1) / tile_height), 0);
   }
 
-  /// Marks every tile that holds a pixel of [u0, u1] x [v0, v1], bounds inside the image.
+  /// Marks every tile with a pixel of [u0, u1] x [v0, v1], bounds inside the image.
   void mark(int u0, int v0, int u1, int v1) {
     const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tile_width);
     const std::uint64_t bits = upto & (~std::uint64_t{0} << (u0 / tile_width));
@@ -32,8 +32,8 @@ struct TileMask {
       rows[static_cast<std::size_t>(j)] |= bits;
   }
 
-  /// Calls f(u0, u1, v0, v1) for every run of neighbouring marked tiles of a tile row: the pixels
-  /// u0 <= u < u1, v0 <= v < v1, cut to the image.
+  /// Calls f(u0, u1, v0, v1) for every run of marked tiles in a tile row: the pixels u0 <= u < u1,
+  /// v0 <= v < v1, cut to the image.
   template <typename F>
   void for_each_span(F&& f) const {
     for (std::size_t j = 0; j < rows.size(); ++j) {

@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-/// A virtual depth image: what the camera would measure if only the robot were there.
+/// A virtual depth image: what the camera would measure if there were only the robot.
 struct VirtualDepthView {
   ImageView<const float> depth;          ///< metres along the optical axis; 0: no robot on the ray
   ImageView<const std::uint16_t> links;  ///< link index + 1 of the nearest surface; 0: none

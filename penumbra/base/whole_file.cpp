@@ -24,9 +24,8 @@ std::string read_whole_file(const std::filesystem::path& file, std::uint64_t mos
   const std::uint64_t size = std::filesystem::file_size(file, error);
   if (error) refuse(file, "cannot be read: " + error.message());
   if (size > most_bytes)
-    refuse(file, "has " + std::to_string(size) + " bytes, more than the " +
-                     std::to_string(most_bytes) +
-                     " that such a file may have; check that it is the right file");
+    refuse(file, "has " + std::to_string(size) + " bytes, the limit is " +
+                     std::to_string(most_bytes) + "; check that it is the right file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse(file, "cannot be read: " + std::generic_category().message(errno));
   std::string bytes(size, '\0');

@@ -31,12 +31,12 @@ using mesh_formats::FormatError;
 
 constexpr float farthest_vertex = 1e6F;  // see load_mesh
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  if (!ending.empty()) ending.erase(0, 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return ending;
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return extension;
 }
 
 void check_is_mesh(const std::string& bytes) {
@@ -45,18 +45,18 @@ void check_is_mesh(const std::string& bytes) {
     throw FormatError("it is a Git LFS pointer, not the mesh; run 'git lfs pull' in its folder");
 }
 
-TriangleMesh read(const std::filesystem::path& file, std::string& oddity) {
-  const std::string ending = lower_ending(file);
+TriangleMesh read(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
   const std::string bytes = read_whole_file(file, FileLimit::data);
   check_is_mesh(bytes);
-  if (ending == "stl") return mesh_formats::read_stl(bytes);
-  if (ending == "dae") return mesh_formats::read_collada(bytes);
-  if (ending == "obj") return mesh_formats::read_obj(bytes, oddity);
-  if (ending == "ply") return mesh_formats::read_ply(bytes);
-  if (ending == "gltf" || ending == "glb")
-    return mesh_formats::read_gltf(file, bytes, ending == "glb");
-  throw FormatError("'" + ending +
-                    "' is no known mesh format; known: stl, dae, obj, ply, gltf, glb");
+  if (extension == "stl") return mesh_formats::read_stl(bytes);
+  if (extension == "dae") return mesh_formats::read_collada(bytes);
+  if (extension == "obj") return mesh_formats::read_obj(bytes);
+  if (extension == "ply") return mesh_formats::read_ply(bytes);
+  if (extension == "gltf" || extension == "glb")
+    return mesh_formats::read_gltf(file, bytes, extension == "glb");
+  throw FormatError("'" + extension +
+                    "' is no known mesh format; use stl, dae, obj, ply, gltf or glb");
 }
 
 void check_vertices(const TriangleMesh& mesh) {
@@ -75,23 +75,14 @@ void check_vertices(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file) {
-  std::vector<std::string> notes;
-  return load_mesh(file, notes);
-}
-
-TriangleMesh load_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {
   try {
-    std::string oddity;
-    const TriangleMesh read_mesh = read(file, oddity);
+    const TriangleMesh read_mesh = read(file);
     if (read_mesh.triangles.empty())
-      throw FormatError("it holds no triangles; export the mesh's surface");
+      throw FormatError("it contains no triangles; export the mesh's surface");
     check_vertices(read_mesh);
     TriangleMesh mesh = weld(read_mesh);
     if (mesh.triangles.empty())
       throw FormatError("all of its triangles have zero area; check the file's unit and precision");
-    if (!oddity.empty())
-      notes.push_back("mesh " + file.string() + ": " + oddity +
-                      ": if it looks incomplete it is truncated; export or copy it again");
     return mesh;
   } catch (const FormatError& error) {
     throw InputError("mesh " + file.string() + ": " + error.what());

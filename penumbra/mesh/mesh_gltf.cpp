@@ -17,7 +17,7 @@
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_formats-inl.hpp>
 
-static_assert(std::endian::native == std::endian::little, "glTF is read as it lies");
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
 namespace penumbra::mesh_formats {
 namespace {
@@ -49,9 +49,9 @@ std::uint64_t size_in(const Json& object, const char* name, std::uint64_t otherw
   return value.get<std::uint64_t>();
 }
 
-/// Returns whether an extension says how a surface looks, not where it is. Other extensions that a
-/// file requires (compressed vertices, instances, levels of detail) change what is to be drawn.
-bool is_about_looks(const std::string& extension) {
+/// Whether an extension changes only the appearance of surfaces. Other extensions that a file
+/// requires (compressed vertices, instances, levels of detail) change their geometry.
+bool is_appearance(const std::string& extension) {
   constexpr std::array<std::string_view, 9> prefixes = {
       "KHR_materials_", "KHR_texture_", "KHR_lights_",   "KHR_xmp",         "KHR_techniques_webgl",
       "EXT_texture_",   "EXT_lights_",  "MSFT_texture_", "ADOBE_materials_"};
@@ -83,7 +83,7 @@ std::string from_base64(std::string_view text) {
   return bytes;
 }
 
-/// The parts of a file. A .gltf file has no binary part.
+/// The parts of a file; a .gltf file has no binary part.
 struct Parts {
   std::string_view json;
   std::string_view binary;
@@ -96,7 +96,7 @@ Parts parts_of_glb(std::string_view bytes) {
     damaged("GLB: it does not begin with 'glTF'");
   if (word_at(4) != 2)
     throw FormatError("GLB: version " + std::to_string(word_at(4)) +
-                      "; version 2 can be read: export it as glTF 2.0");
+                      " is not supported; export it as glTF 2.0");
   if (word_at(8) != bytes.size())
     damaged("GLB: its header promises " + std::to_string(word_at(8)) + " bytes, it has " +
             std::to_string(bytes.size()));
@@ -126,16 +126,16 @@ class GltfReader {
   TriangleMesh read() {
     if (root_.contains("extensionsRequired"))
       for (const Json& name : root_.at("extensionsRequired"))
-        if (!is_about_looks(name.get<std::string>()))
+        if (!is_appearance(name.get<std::string>()))
           throw FormatError("glTF: it requires the extension " +
                             name.get<std::string>().substr(0, 60) +
-                            ", which is not read; export it without");
+                            ", which is not supported; export it without");
     struct Visit {
       std::size_t node;
       Eigen::Affine3d T_file_parent;
     };
     std::vector<Visit> todo;
-    std::set<std::size_t> reached;  // nodes must be trees
+    std::set<std::size_t> reached;  // nodes form trees
     const auto add = [&](const Json& nodes, const Eigen::Affine3d& T_file_parent) {
       for (const Json& node : nodes) {
         todo.push_back({index_in(node), T_file_parent});
@@ -191,7 +191,7 @@ class GltfReader {
   }
 
   static Eigen::Quaterniond rotation_of(const Json& node) {
-    constexpr double most_off = 1e-4;  // of a rotation, as of all that are read (docs/method.md)
+    constexpr double most_off = 1e-4;  // as for all rotations in files (docs/method.md)
     const auto n = numbers_in(node, "rotation", 4);
     const Eigen::Quaterniond rotation(n[3], n[0], n[1], n[2]);
     if (!(std::abs(rotation.norm() - 1.0) <= most_off))
@@ -217,17 +217,16 @@ class GltfReader {
     return pose;
   }
 
-  /// Adds the mesh of a node. What bends or repeats it is refused.
+  /// Adds the mesh of a node. Refuses skins, morphs and instances.
   void show(const Json& node, const Eigen::Affine3d& T_file_node) {
     constexpr const char* instancing = "EXT_mesh_gpu_instancing";
     const Json& mesh = root_.at("meshes").at(index_in(node.at("mesh")));
     if (node.contains("skin") || is_morphed(node) || is_morphed(mesh))
       throw FormatError(
-          "glTF: a mesh is bent by a skin or by morph weights; export it as it stands, without "
-          "them");
+          "glTF: a mesh has a skin or morph weights, which are not supported; export it without");
     if (node.contains("extensions") && node.at("extensions").contains(instancing))
       throw FormatError(std::string("glTF: a node repeats its mesh by ") + instancing +
-                        ", which is not read; export every copy as a node of its own");
+                        ", which is not supported; export every copy as a node of its own");
     for (const Json& primitive : mesh.at("primitives"))
       append_placed(triangles_of(primitive), T_file_node, mesh_);
   }
@@ -242,7 +241,8 @@ class GltfReader {
 
   [[nodiscard]] Elements elements_of(const Json& accessor, std::size_t element_size) const {
     if (accessor.contains("sparse"))
-      throw FormatError("glTF: it has a sparse accessor, which is not read; export it without");
+      throw FormatError(
+          "glTF: it has a sparse accessor, which is not supported; export it without");
     const Json& view = root_.at("bufferViews").at(index_in(accessor.at("bufferView")));
     const std::size_t buffer = index_in(view.at("buffer"));
     const std::uint64_t stride = size_in(view, "byteStride", element_size);
@@ -263,8 +263,8 @@ class GltfReader {
     constexpr int float32 = 5126;
     if (accessor.at("type") != "VEC3" || accessor.at("componentType") != float32)
       throw FormatError(
-          "glTF: positions are not \"VEC3\" of component type 5126 (float), which alone can be "
-          "read; export it without quantisation");
+          "glTF: positions must be \"VEC3\" of component type 5126 (float); export it without "
+          "quantisation");
     const Elements elements = elements_of(accessor, sizeof(Eigen::Vector3f));
     std::vector<Eigen::Vector3f> positions(elements.count);
     for (std::size_t i = 0; i < elements.count; ++i)
@@ -300,9 +300,7 @@ class GltfReader {
     if (primitive.contains("indices"))
       corners = indices_of(accessors.at(index_in(primitive.at("indices"))));
     for (const std::uint32_t corner : corners)
-      if (corner >= mesh.vertices.size())
-        damaged("glTF: a face names vertex " + std::to_string(corner) + " of " +
-                std::to_string(mesh.vertices.size()));
+      static_cast<void>(vertex_index(corner, mesh.vertices.size(), "glTF"));
     if (mode == 4 && corners.size() % 3 != 0)
       damaged("glTF: " + std::to_string(corners.size()) + " corners do not make whole triangles");
     const std::size_t step = mode == 4 ? 3 : 1;

@@ -6,20 +6,18 @@
 #include <vector>
 
 #include <penumbra/mesh/mesh_formats-inl.hpp>
-#include <penumbra/mesh/mesh_polygon-inl.hpp>
-#include <penumbra/mesh/mesh_text-inl.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {
 
-/// The next word of a line; empty before a comment too.
+/// Returns the next word of a line; empty at its end and before a comment.
 std::string_view take_item(std::string_view& line) {
   const std::string_view word = take_word(line);
   return word.starts_with('#') ? std::string_view() : word;
 }
 
-/// Reads vertices, faces, lines and points. A face may stand before its vertices, so faces become
-/// triangles at the end.
+/// Reads vertices, faces, lines and points. A face may come before its vertices, so the triangles
+/// are made at the end.
 class ObjReader {
  public:
   void read_line(std::string_view line) {
@@ -30,23 +28,19 @@ class ObjReader {
     if (keyword == "l" || keyword == "p") corners(line);
   }
 
-  /// Throws where what the file names is not there; notes what it holds and does not name.
-  TriangleMesh finish(bool has_end, std::string& oddity) {
+  /// `has_end`: the last line is complete.
+  TriangleMesh finish(bool has_end) {
+    const std::size_t count = mesh_.vertices.size();
     if (highest_ > vertex_count())
       damaged("OBJ, line " + std::to_string(highest_line_) + ": a corner names vertex " +
-              std::to_string(highest_) + " of " + std::to_string(vertex_count()));
-    std::vector<bool> used(mesh_.vertices.size());
+              std::to_string(highest_) + " of " + std::to_string(count));
+    std::vector<bool> used(count);
     for (const std::uint32_t corner : corners_) used[corner] = true;
     const auto unused = std::count(used.begin(), used.end(), false);
-    if (unused > 0)
-      oddity = std::to_string(unused) + " of its " + std::to_string(vertex_count()) +
-               " vertices are part of no face";
-    // Either alone is what sound files of careless exporters show, so that a file cut behind a line
-    // passes with a note; a cut inside a line nearly always shows both.
+    // Either alone occurs in complete files.
     if (!has_end && unused > 0)
-      throw FormatError("OBJ: " + oddity +
-                        " and the last line has no end; it is truncated: export or copy it again");
-    if (!has_end) oddity = "its last line has no end";
+      damaged("OBJ: the last line has no end and " + std::to_string(unused) + " of " +
+              std::to_string(count) + " vertices are part of no face");
     for (const Face& face : faces_)
       append_polygon(std::span(corners_).subspan(face.first, face.size), mesh_);
     return std::move(mesh_);
@@ -64,7 +58,7 @@ class ObjReader {
     double last = 0.0;
     for (std::string_view word = take_item(line); !word.empty(); word = take_item(line), ++more)
       last = number(word, "a colour's number");
-    // A weight of curves in the format's own words, a divisor to some readers.
+    // The format calls it the weight of a curve; some readers divide by it.
     if (more == 1 && last != 1.0)
       throw FormatError("OBJ, line " + std::to_string(line_) +
                         ": a vertex has a fourth coordinate, which is not 1; export it with three");
@@ -98,10 +92,8 @@ class ObjReader {
   }
 
   [[noreturn]] void fail(std::string_view word, const char* wanted) const {
-    const std::string found =
-        word.empty() ? "the line ends" : "'" + std::string(word.substr(0, 40)) + "' stands";
-    damaged("OBJ, line " + std::to_string(line_) + ": " + found + " where " + wanted +
-            " should stand");
+    damaged("OBJ, line " + std::to_string(line_) + ": " + in_quotes(word) + " instead of " +
+            wanted);
   }
 
   struct Face {
@@ -110,28 +102,27 @@ class ObjReader {
   };
 
   std::int64_t line_ = 0;
-  std::int64_t highest_ = 0;  // of the corners' numbers, which begin with 1
+  std::int64_t highest_ = 0;  // vertex number of a corner, counted from 1
   std::int64_t highest_line_ = 0;
   std::vector<std::uint32_t> corners_;  // of faces, lines and points
   std::vector<Face> faces_;
   TriangleMesh mesh_;
 };
 
-/// Calls f(line) for every line; one that ends with a backslash goes on in the next.
+/// Calls f(line) for every line; a backslash at the end of a line continues it.
 template <typename F>
 void for_each_line(std::string_view bytes, F&& f) {
   std::string joined;
   while (!bytes.empty()) {
-    const std::string_view line = take_line(bytes);
-    if (joined.empty() && !line.ends_with('\\')) {
+    std::string_view line = take_line(bytes);
+    const bool continues = line.ends_with('\\') && !bytes.empty();
+    if (joined.empty() && !continues) {
       f(line);
       continue;
     }
-    joined += line;
-    if (joined.ends_with('\\') && !bytes.empty()) {
-      joined.back() = ' ';
-      continue;
-    }
+    if (continues) line.remove_suffix(1);
+    joined.append(line).append(" ");
+    if (continues) continue;
     f(std::string_view(joined));
     joined.clear();
   }
@@ -139,10 +130,10 @@ void for_each_line(std::string_view bytes, F&& f) {
 
 }  // namespace
 
-TriangleMesh read_obj(std::string_view bytes, std::string& oddity) {
+TriangleMesh read_obj(std::string_view bytes) {
   ObjReader reader;
   for_each_line(bytes, [&](std::string_view line) { reader.read_line(line); });
-  return reader.finish(bytes.ends_with('\n') || bytes.ends_with('\r'), oddity);
+  return reader.finish(bytes.ends_with('\n') || bytes.ends_with('\r'));
 }
 
 }  // namespace penumbra::mesh_formats

@@ -4,18 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <sstream>
 #include <type_traits>
 #include <vector>
 
 #include <penumbra/mesh/mesh_formats-inl.hpp>
-#include <penumbra/mesh/mesh_polygon-inl.hpp>
-#include <penumbra/mesh/mesh_text-inl.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {
 
-/// A type of numbers; a double holds each of their values.
+/// A type of numbers, each of which fits a double.
 struct Type {
   std::size_t size;
   bool is_real;
@@ -38,7 +35,7 @@ Type find_type(std::string_view name) {
   if (name == "uint" || name == "uint32") return type_of<std::uint32_t>;
   if (name == "float" || name == "float32") return type_of<float>;
   if (name == "double" || name == "float64") return type_of<double>;
-  damaged("PLY: unknown type '" + std::string(name.substr(0, 40)) + "'");
+  damaged("PLY: unknown type " + in_quotes(name));
 }
 
 struct Property {
@@ -71,11 +68,11 @@ Property parse_property(std::string_view line) {
   property.type = find_type(type);
   property.name = take_word(line);
   if (property.name.empty() || !take_word(line).empty())
-    damaged("PLY: a property line is not of a type and a name");
+    damaged("PLY: a property line is not a type and a name");
   property.has_corners =
       property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
   if (property.count_type.is_real || (property.has_corners && property.type.is_real))
-    damaged("PLY: counts or indices of '" + property.name.substr(0, 40) + "' are no integers");
+    damaged("PLY: counts or indices of " + in_quotes(property.name) + " are no integers");
   return property;
 }
 
@@ -83,7 +80,7 @@ Element parse_element(std::string_view line) {
   Element element;
   element.name = take_word(line);
   const auto count = parse_number<std::uint64_t>(take_word(line));
-  if (!count) damaged("PLY: element '" + element.name.substr(0, 40) + "' has no count");
+  if (!count) damaged("PLY: element " + in_quotes(element.name) + " has no count");
   element.count = *count;
   return element;
 }
@@ -111,25 +108,25 @@ std::size_t find_coordinate(const Element& vertex, const std::string& name) {
     if (vertex.properties[i].name == name && !vertex.properties[i].is_list) found.push_back(i);
   if (found.size() != 1)
     throw FormatError("PLY: its vertices have " + std::to_string(found.size()) + " properties '" +
-                      name + "'; x, y and z are wanted, once each: export it again");
+                      name + "'; export it with one x, one y and one z");
   return found.front();
 }
 
-/// Reads the body's elements, one after the other, text or binary.
+/// Reads the elements of the body in order, text or binary.
 class PlyReader {
  public:
   PlyReader(std::string_view body, const std::string& format)
       : rest_(body), text_(format == "ascii"), swap_(format == "binary_big_endian") {
     if (!text_ && !swap_ && format != "binary_little_endian")
-      damaged("PLY: unknown format '" + format.substr(0, 40) + "'");
+      damaged("PLY: unknown format " + in_quotes(format));
   }
 
   void read(const Element& element) {
-    const std::string name = "PLY: element '" + element.name.substr(0, 40) + "'";
+    const std::string name = "PLY: element " + in_quotes(element.name);
     if (element.properties.empty() && element.count > 0) damaged(name + " has no properties");
     for (const Property& property : element.properties)
       if (property.has_corners && element.name != "face")
-        throw FormatError(name + " has a surface that is not read; export the mesh as triangles");
+        throw FormatError(name + " has a surface that is not supported; export triangles");
     if (element.name == "vertex")
       read_vertices(element);
     else
@@ -137,10 +134,10 @@ class PlyReader {
   }
 
   TriangleMesh finish() {
-    // A last line without its end may lack digits: nothing else would show it.
+    // A last line without an end may lack digits.
     if (text_ && rest_.empty()) damaged("PLY: the last line has no end");
     if (text_ ? !take_word(rest_).empty() : !rest_.empty())
-      damaged("PLY: data follow behind those that the header counts");
+      damaged("PLY: it has more data than its header counts");
     return std::move(mesh_);
   }
 
@@ -170,37 +167,27 @@ class PlyReader {
     corners_.clear();
     for (double i = 0.0; i < count; ++i) {
       const double value = number(property.type);
-      if (property.has_corners) corners_.push_back(vertex(value));
+      if (property.has_corners)
+        corners_.push_back(vertex_index(value, mesh_.vertices.size(), "PLY"));
     }
     append_polygon(corners_, mesh_);
     return count;
   }
 
-  [[nodiscard]] std::uint32_t vertex(double index) const {
-    const std::size_t count = mesh_.vertices.size();
-    if (index >= 0.0 && index < static_cast<double>(count) && index == std::trunc(index))
-      return static_cast<std::uint32_t>(index);
-    std::ostringstream message;
-    message << "PLY: a face names vertex " << index << " of " << count;
-    damaged(message.str());
-  }
-
   double number(const Type& type) {
     const std::string_view word = text_ ? take_word(rest_) : rest_.substr(0, type.size);
     if (text_ ? word.empty() : word.size() < type.size)
-      damaged("PLY: the data end before the counts of the header are reached");
-    if (text_) return written_number(word);
+      damaged("PLY: it has less data than its header counts");
+    if (text_) {
+      const auto value = parse_number<double>(word);
+      if (!value) damaged("PLY: " + in_quotes(word) + " is no number");
+      return *value;
+    }
     rest_.remove_prefix(type.size);
     std::array<char, 8> raw{};
     std::copy(word.begin(), word.end(), raw.begin());
     if (swap_) std::reverse(raw.data(), raw.data() + type.size);
     return type.read(raw.data());
-  }
-
-  static double written_number(std::string_view word) {
-    const auto value = parse_number<double>(word);
-    if (!value) damaged("PLY: '" + std::string(word.substr(0, 40)) + "' is no number");
-    return *value;
   }
 
   std::string_view rest_;

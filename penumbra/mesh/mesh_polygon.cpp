@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ear clipping: G. H. Meisters, Polygons have ears, 1975. A corner that no other one reaches into
-// is cut off until a triangle is left; cost grows with the square of the corners.
+// Ear clipping (G. H. Meisters 1975, "Polygons have ears"): cuts off a corner whose triangle
+// contains no other corner until one triangle is left. The cost grows with the square of the
+// corners.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -8,14 +9,11 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/mesh/mesh_formats-inl.hpp>
-#include <penumbra/mesh/mesh_polygon-inl.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {
 
 constexpr std::size_t most_corners = 4000;
-constexpr double overlap_of_rounding = 1e-5;  // of the square of a polygon's length
-constexpr double most_fold = 10.0;            // surface for each area that is seen from its front
 
 struct Corner {
   std::uint32_t vertex;
@@ -35,12 +33,9 @@ class Polygon {
       return mesh.vertices[corners[i % corners.size()]].cast<double>().eval();
     };
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // Newell's
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size(); ++i)
       normal += (at(i) - at(0)).cross(at(i + 1) - at(0));
-      squared_length_ = std::max(squared_length_, (at(i) - at(0)).squaredNorm());
-    }
-    front_ = normal.norm();
-    // The axis that it faces most is left out: the others keep their coordinates without rounding.
+    // Project along the main axis of the normal: the other coordinates keep all digits.
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
     const Eigen::Index u = (axis + (normal[axis] < 0.0 ? 2 : 1)) % 3;
@@ -56,12 +51,6 @@ class Polygon {
       ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(at));
     }
     emit(1, mesh);
-  }
-
-  /// Whether the triangles that were cut cover places twice.
-  [[nodiscard]] bool crosses_itself() const {
-    const double rounding = overlap_of_rounding * squared_length_;
-    return overlap_ > rounding || surface_ > most_fold * front_ + rounding;
   }
 
  private:
@@ -85,7 +74,8 @@ class Polygon {
     return true;
   }
 
-  /// The next ear from a corner on; the corner that turns most where rounding leaves none.
+  /// Returns the next ear from a corner on, or the corner that turns most if there is no ear, as in
+  /// a polygon that crosses itself.
   [[nodiscard]] std::size_t find_ear(std::size_t first) const {
     std::size_t best = 0;
     for (std::size_t n = 0; n < ring_.size(); ++n) {
@@ -98,19 +88,9 @@ class Polygon {
 
   void emit(std::size_t i, TriangleMesh& mesh) {
     mesh.triangles.push_back({before(i).vertex, corner(i).vertex, corner(i + 1).vertex});
-    // What a triangle cut off at no ear covers too much, others wound the wrong way make up for.
-    overlap_ += std::max(0.0, -turn(i));
-    const auto& [a, b, c] = mesh.triangles.back();
-    const Eigen::Vector3d p = mesh.vertices[a].cast<double>();
-    surface_ +=
-        (mesh.vertices[b].cast<double>() - p).cross(mesh.vertices[c].cast<double>() - p).norm();
   }
 
   std::vector<Corner> ring_;
-  double squared_length_ = 0.0;
-  double front_ = 0.0;  // areas, doubled
-  double surface_ = 0.0;
-  double overlap_ = 0.0;
 };
 
 }  // namespace
@@ -124,11 +104,7 @@ void append_polygon(std::span<const std::uint32_t> corners, TriangleMesh& mesh) 
   if (corners.size() > most_corners)
     throw FormatError("a polygon has " + std::to_string(corners.size()) + " corners, more than " +
                       std::to_string(most_corners) + "; export the mesh as triangles");
-  Polygon polygon(corners, mesh);
-  polygon.cut(mesh);
-  // Sculpted meshes have folded quads: either diagonal covers at least what the quad does.
-  if (corners.size() > 4 && polygon.crosses_itself())
-    throw FormatError("a polygon crosses itself; export the mesh as triangles");
+  Polygon(corners, mesh).cut(mesh);
 }
 
 }  // namespace penumbra::mesh_formats

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include <penumbra/mesh/mesh_formats-inl.hpp>
-#include <penumbra/mesh/mesh_text-inl.hpp>
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 
@@ -22,11 +21,6 @@ std::uint32_t count_in_header(std::string_view bytes) {
 
 std::uint64_t binary_size(std::uint64_t facets) { return header_size + facet_size * facets; }
 
-void add_triangle(TriangleMesh& mesh) {
-  const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.triangles.push_back({last - 3, last - 2, last - 1});
-}
-
 TriangleMesh read_binary(std::string_view bytes) {
   const std::uint32_t count = count_in_header(bytes);
   TriangleMesh mesh;
@@ -40,16 +34,13 @@ TriangleMesh read_binary(std::string_view bytes) {
   return mesh;
 }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same_word(std::string_view word, std::string_view lower_case) {
-  if (word.size() != lower_case.size()) return false;
-  for (std::size_t i = 0; i < word.size(); ++i)
-    if (lower(word[i]) != lower_case[i]) return false;
-  return true;
+bool is_keyword(std::string_view word, std::string_view lower_case) {
+  return std::equal(
+      word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+      [](char c, char lower) { return (c >= 'A' && c <= 'Z' ? c + 32 : c) == lower; });
 }
 
-/// Words of an ASCII STL, with the line for messages.
+/// The words of an ASCII STL, with the line for messages.
 class Words {
  public:
   explicit Words(std::string_view text) : rest_(text) {}
@@ -65,7 +56,7 @@ class Words {
   void expect(std::string_view keyword) { expect(keyword, next()); }
 
   void expect(std::string_view keyword, std::string_view word) const {
-    if (!same_word(word, keyword)) fail(word, std::string(keyword));
+    if (!is_keyword(word, keyword)) fail(word, std::string(keyword));
   }
 
   float number() {
@@ -77,13 +68,9 @@ class Words {
 
   void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
 
-  [[noreturn]] void fail(std::string_view word, const std::string& wanted) const {
-    const std::string where = "ASCII STL, line " + std::to_string(line_) + ": ";
-    if (word.empty())
-      throw FormatError(where + "the file ends where '" + wanted +
-                        "' should stand: it is truncated; export or copy it again");
-    throw FormatError(where + "'" + std::string(word.substr(0, 40)) + "' stands where " + wanted +
-                      " should; export the file again");
+  [[noreturn]] void fail(std::string_view word, const std::string& expected) const {
+    damaged("ASCII STL, line " + std::to_string(line_) + ": " +
+            (word.empty() ? "the file ends" : in_quotes(word)) + " instead of " + expected);
   }
 
  private:
@@ -91,7 +78,7 @@ class Words {
   std::ptrdiff_t line_ = 1;
 };
 
-/// After "facet": its normal is not used, often wrong and sometimes NaN.
+/// Reads what follows "facet". Ignores the normal, which is often wrong and sometimes NaN.
 void read_facet(Words& words, TriangleMesh& mesh) {
   words.expect("normal");
   for (int i = 0; i < 3; ++i)
@@ -107,7 +94,8 @@ void read_facet(Words& words, TriangleMesh& mesh) {
   }
   words.expect("endloop");
   words.expect("endfacet");
-  add_triangle(mesh);
+  const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.triangles.push_back({last - 3, last - 2, last - 1});
 }
 
 TriangleMesh read_ascii(std::string_view text) {
@@ -117,7 +105,7 @@ TriangleMesh read_ascii(std::string_view text) {
   while (!word.empty()) {  // some exporters write several solids
     words.expect("solid", word);
     words.skip_line();
-    for (word = words.next(); same_word(word, "facet"); word = words.next())
+    for (word = words.next(); is_keyword(word, "facet"); word = words.next())
       read_facet(words, mesh);
     words.expect("endsolid", word);
     words.skip_line();
@@ -126,24 +114,9 @@ TriangleMesh read_ascii(std::string_view text) {
   return mesh;
 }
 
-/// The size is the only check that binary STL has: bytes behind the last facet may be a line that
-/// an exporter appended, or facets that a damaged count leaves out; nothing in them tells which.
-[[noreturn]] void refuse_size(std::string_view bytes) {
-  const std::uint64_t promised = binary_size(count_in_header(bytes));
-  const bool more = bytes.size() > promised;
-  const std::uint64_t difference = more ? bytes.size() - promised : promised - bytes.size();
-  throw FormatError(
-      "binary STL: its header promises " + std::to_string(count_in_header(bytes)) +
-      " triangles, which are " + std::to_string(promised) + " bytes, but the file " +
-      (more ? "has " + std::to_string(difference) +
-                  " bytes too many; if they are no triangles cut them off, else export it again"
-            : "lacks " + std::to_string(difference) +
-                  " of them: it is truncated or damaged; export or copy it again"));
-}
-
 bool looks_like_ascii(std::string_view bytes) {
   Words words(bytes);
-  if (!same_word(words.next(), "solid")) return false;
+  if (!is_keyword(words.next(), "solid")) return false;
   return bytes.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
@@ -154,11 +127,12 @@ TriangleMesh read_stl(std::string_view bytes) {
   // The size decides: binary files whose header begins with "solid" exist.
   if (has_header && bytes.size() == binary_size(count_in_header(bytes))) return read_binary(bytes);
   if (looks_like_ascii(bytes)) return read_ascii(bytes);
-  if (!has_header)
-    throw FormatError("STL of " + std::to_string(bytes.size()) +
-                      " bytes: a binary one has at least 84, an ASCII one begins with 'solid'; "
-                      "it is truncated; export or copy it again");
-  refuse_size(bytes);
+  if (!has_header) damaged("STL of less than 84 bytes that does not begin with 'solid'");
+  // More bytes may be triangles that a damaged count leaves out.
+  const std::uint32_t count = count_in_header(bytes);
+  damaged("binary STL: its header promises " + std::to_string(count) + " triangles, which are " +
+          std::to_string(binary_size(count)) + " bytes, but the file has " +
+          std::to_string(bytes.size()) + " bytes");
 }
 
 }  // namespace penumbra::mesh_formats

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A patch with holes shows few backs: let caps inside the balls around its holes close it. The
-// winding number of the capped patch changes by one where a ray passes the patch, from before a
-// front face to behind it. It is 0 outside. If it is not negative before any front face, a ray from
-// outside that met no ball meets a front face first. As long as the patch does not cross itself,
-// that number is the same all along a part of it that no ball touches, so one point of each part is
-// enough. Some more points are tried because patches do cross themselves. Triangles that touch a
-// ball are not tested: a renderer that skips backs must draw both sides of them.
+// A patch with small holes still hides its back sides. Caps inside balls around its holes close it.
+// Along a ray, the winding number of the capped patch changes by one at each crossing, and it is 0
+// outside. If it is not negative in front of any front face, a ray from outside that passed no ball
+// meets a front face first. The winding number is constant along a part of the patch that no ball
+// touches, unless the patch crosses itself, so one point of each part is tested, and a few more.
+// Triangles that touch a ball are not tested: a renderer must draw both of their sides.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +22,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A patch beyond these limits counts as open: drawing both of its sides costs less than testing it.
+// A patch beyond these limits counts as open: drawing both of its sides is cheaper than the test.
 constexpr std::size_t most_rim_edges = 256;
 constexpr std::size_t most_holes = 8;
 constexpr double most_radii = 0.125;           // of the patch's size
@@ -67,7 +66,7 @@ Ball ball_around(const TriangleMesh& mesh, const std::vector<RimEdge>& rim) {
       radius = std::max(radius, (mesh.vertices[v].cast<double>() - box.center()).norm());
     }
   }
-  constexpr double spare = 1.01;  // for the roundings of those who use it
+  constexpr double spare = 1.01;  // for rounding
   return {box.center(), radius * spare};
 }
 
@@ -150,10 +149,10 @@ std::vector<Sample> spread_over(const TriangleMesh& mesh,
 }
 
 /// Returns where the patch's front faces at a sample, from the winding number of the capped patch
-/// before and behind it.
+/// in front of and behind it.
 Facing facing_at(const Sample& sample, const TriangleMesh& mesh, const SurfacePatch& patch,
                  const Caps& caps) {
-  double angle = 0.0;  // 4 pi for each time, half way between before and behind
+  double angle = 0.0;  // 4 pi times the mean of the winding numbers before and behind
   for (const std::uint32_t i : patch.triangles) {
     if (i != sample.triangle) angle += solid_angle(corners_of(mesh, i), sample.point);
   }
@@ -178,7 +177,7 @@ Facing facing_of(const std::vector<Sample>& samples, const TriangleMesh& mesh,
 }
 
 /// Returns points of the part of a patch that no ball touches: the middle of the largest triangle
-/// of each connected part, and some more.
+/// of each connected part, and some spread over all of it.
 std::vector<Sample> choose_samples(const TriangleMesh& mesh, const SurfacePatch& patch,
                                    const std::vector<bool>& touching, DisjointSets& parts) {
   std::vector<std::uint32_t> apart;

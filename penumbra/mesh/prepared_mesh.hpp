@@ -18,7 +18,7 @@ struct Ball {
 };
 
 /// Triangles of a mesh that are connected by regular edges. Exactly two triangles share a regular
-/// edge and run along it in opposite directions, so a patch has two distinct sides.
+/// edge, in opposite directions, so a patch has two distinct sides.
 struct SurfacePatch {
   std::vector<std::uint32_t> triangles;  ///< indices into TriangleMesh::triangles, rising
   Eigen::AlignedBox3d bounds;            ///< metres
@@ -31,18 +31,17 @@ enum class Facing { unknown, outwards, inwards };
 /// The outer side of a surface patch.
 struct PatchOrientation {
   /// Known if the patch bounds a body except for small holes. A ray from outside then meets the
-  /// outer side of the patch first, unless it passed through the ball of a hole before or meets a
-  /// triangle that touches such a ball. (This is tested at points of the patch, at least four. A
-  /// patch that crosses itself may pass if it shows its back on less than some hundredth of it.)
+  /// outer side of the patch first, unless it passed through the ball of a hole or meets a triangle
+  /// that touches such a ball. (Tested at four or more points of the patch. A patch that crosses
+  /// itself may pass if it shows its back on less than about a hundredth of its area.)
   Facing facing = Facing::unknown;
 
-  /// Balls around the holes; empty if the patch is closed or `facing` is unknown. The radii of the
-  /// holes add up to an eighth of the patch's size at most.
+  /// Balls around the holes; empty if the patch is closed or `facing` is unknown. The sum of their
+  /// radii is at most an eighth of the patch's size.
   std::vector<Ball> holes;
 };
 
-/// A mesh that is ready for every renderer and check, and shared by them. Its vertices and
-/// triangles are welded. Immutable.
+/// A mesh that is ready for every renderer and check. Its vertices are welded. Immutable.
 class PreparedMesh : public TriangleMesh {
  public:
   /// Indices must be in range and coordinates finite.
@@ -52,8 +51,8 @@ class PreparedMesh : public TriangleMesh {
   Eigen::AlignedBox3d bounds;         ///< metres; empty if there are no triangles
   bool watertight = false;            ///< there are triangles, and every patch is closed
 
-  /// Returns the orientation of every patch. The first call finds them for all copies of the mesh,
-  /// which may take a second for large meshes.
+  /// Returns the orientation of every patch. The first call computes them for all copies of the
+  /// mesh, which may take a second for large meshes.
   [[nodiscard]] const std::vector<PatchOrientation>& orientations() const;
 
  private:

@@ -10,31 +10,26 @@ namespace penumbra {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double largest_sphere = 100.0;      // metres, 6 million triangles
-constexpr double largest_cylinder = 10000.0;  // metres, 33 thousand segments
+// Metres; more triangles than these would need too much memory.
+constexpr double largest_size = 1e6;
+constexpr double largest_sphere = 100.0;      // 6 million triangles
+constexpr double largest_cylinder = 10000.0;  // 33 thousand segments
 
-void check_positive(const char* what, double value) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw InputError(std::string(what) + " is " + std::to_string(value) +
-                   "; it must be finite and positive (metres)");
+void check_size(const char* what, double size, double largest = largest_size) {
+  if (size > 0.0 && size <= largest) return;
+  throw InputError(std::string(what) + " is " + std::to_string(size) +
+                   "; expected metres above 0 and at most " + std::to_string(largest));
 }
 
-void check_radius(const char* what, double radius, double largest) {
-  check_positive(what, radius);
-  if (radius > largest)
-    throw InputError(std::string(what) + " is " + std::to_string(radius) + "; at most " +
-                     std::to_string(largest) + " m can be drawn exactly");
-}
-
-/// A round primitive's faces, midway between inscribed and circumscribed.
+/// The polygon of a round primitive, midway between inscribed and circumscribed.
 struct Rounding {
   std::uint32_t segments;  // around the axis, a multiple of 4
   double radius;           // of the corners
 };
 
-/// `power` 1: a cylinder, whose faces lie cos(pi/n) of the corners' radius from the axis. 2: a
-/// sphere of equal steps in longitude and latitude, whose largest face, at the equator, lies
-/// cos(pi/n)^2 of it from the centre. Midway, R - r = r - c R = error gives c and R.
+/// With corners at radius R, the faces of a cylinder (`power` 1) are c R = cos(pi/n) R from the
+/// axis. For a sphere of equal steps in longitude and latitude (`power` 2), the largest face, at
+/// the equator, is c R = cos(pi/n)^2 R from the centre. R - r = r - c R = error gives c and R.
 Rounding round(double radius, int power) {
   const double c = (radius - primitive_error) / (radius + primitive_error);
   std::uint32_t segments = 8;
@@ -105,9 +100,9 @@ TriangleMesh round_body(double radius, double length) {
 }  // namespace
 
 TriangleMesh make_box(const Eigen::Vector3d& size) {
-  check_positive("a box's size in x", size.x());
-  check_positive("a box's size in y", size.y());
-  check_positive("a box's size in z", size.z());
+  check_size("a box's size in x", size.x());
+  check_size("a box's size in y", size.y());
+  check_size("a box's size in z", size.z());
   TriangleMesh box;
   for (int i = 0; i < 8; ++i)
     box.vertices.push_back(vertex(size.x() * ((i & 1) - 0.5), size.y() * ((i >> 1 & 1) - 0.5),
@@ -118,8 +113,8 @@ TriangleMesh make_box(const Eigen::Vector3d& size) {
 }
 
 TriangleMesh make_cylinder(double radius, double length) {
-  check_radius("a cylinder's radius", radius, largest_cylinder);
-  check_positive("a cylinder's length", length);
+  check_size("a cylinder's radius", radius, largest_cylinder);
+  check_size("a cylinder's length", length);
   const Rounding rounding = round(radius, 1);
   Lathe lathe(rounding.segments);
   lathe.start(-length / 2.0);
@@ -129,13 +124,13 @@ TriangleMesh make_cylinder(double radius, double length) {
 }
 
 TriangleMesh make_sphere(double radius) {
-  check_radius("a sphere's radius", radius, largest_sphere);
+  check_size("a sphere's radius", radius, largest_sphere);
   return round_body(radius, 0.0);
 }
 
 TriangleMesh make_capsule(double radius, double length) {
-  check_radius("a capsule's radius", radius, largest_sphere);
-  if (length != 0.0) check_positive("a capsule's length", length);
+  check_size("a capsule's radius", radius, largest_sphere);
+  if (length != 0.0) check_size("a capsule's length", length);
   return round_body(radius, length);
 }
 

@@ -7,14 +7,14 @@
 
 namespace penumbra {
 
-/// How far the faces of a round primitive may lie from its true surface, metres: corners this much
-/// outside, the middles of faces this much inside. A silhouette errs by no more.
+/// The largest distance between the faces of a round primitive and its exact surface, metres: its
+/// corners are this far outside, the middles of its faces this far inside.
 inline constexpr double primitive_error = 9e-5;
 
-/// Primitives, centred, axis z, metres; closed and wound outwards. Sizes must be finite and
-/// positive (a capsule's length, that of its cylindrical part, may be 0). Throws InputError for
-/// others, and for a radius so large (spheres and capsules 100 m, cylinders 10 km) that
-/// primitive_error would take millions of triangles.
+/// Closed primitives around the origin, with axis z and triangles wound outwards, metres. Throws
+/// InputError unless sizes are positive (a capsule's length, that of its cylindrical part, may be
+/// 0) and at most 100 m for the radius of spheres and capsules, 10 km for that of cylinders and
+/// 1000 km otherwise.
 [[nodiscard]] TriangleMesh make_box(const Eigen::Vector3d& size);
 [[nodiscard]] TriangleMesh make_cylinder(double radius, double length);
 [[nodiscard]] TriangleMesh make_sphere(double radius);

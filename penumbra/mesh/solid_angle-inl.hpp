@@ -8,9 +8,9 @@
 
 namespace penumbra {
 
-/// Solid angle of a triangle seen from `eye`, steradians; positive where `eye` sees its back, so
-/// that a closed surface wound outwards is seen under 4 pi from inside (van Oosterom and Strackee
-/// 1983, "The solid angle of a plane triangle").
+/// Returns the solid angle of a triangle seen from `eye`, steradians; positive if `eye` sees its
+/// back, so that a closed surface with outward triangles gives 4 pi from inside (van Oosterom and
+/// Strackee 1983, "The solid angle of a plane triangle").
 inline double solid_angle(const std::array<Eigen::Vector3d, 3>& corners,
                           const Eigen::Vector3d& eye) {
   const Eigen::Vector3d a = corners[0] - eye;

@@ -16,6 +16,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
+#include <penumbra/mesh/mesh_formats-inl.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
 #include <penumbra/mesh/surface_patches-inl.hpp>
 #include <penumbra/mesh/weld.hpp>
@@ -34,7 +35,7 @@ constexpr double simplification = 3e-4;  // metres
 
 struct Nearest {
   double distance;
-  double angle;  // of the face around its point that is nearest, up to the factor of all edges
+  double angle;  // of the face at its nearest point: pi within the face and along an edge
 };
 
 /// A triangle, prepared for distances.
@@ -92,8 +93,8 @@ struct Grid {
   double level;  // distance of the surface to find, metres
 };
 
-/// Finds the surface at a distance from faces by marching tetrahedra, visiting only cells near it.
-/// Distances are negative behind the faces of a solid; other faces have two outer sides.
+/// Finds the surface at a distance from faces with marching tetrahedra on an octree. Distances are
+/// negative behind the faces of a solid; other faces have two outer sides.
 class LevelSurface {
  public:
   LevelSurface(const std::vector<Face>& faces, bool solid, const Grid& grid)
@@ -122,7 +123,7 @@ class LevelSurface {
 
   static Vector3i octant(int k) { return {k & 1, k >> 1 & 1, k >> 2 & 1}; }
 
-  /// Visits a block of size^3 cells. `near` has all faces that are nearest to any point of it.
+  /// Visits a block of size^3 cells. `near` contains the faces nearest to any point of it.
   void visit(const Vector3i& corner, int size, const Faces& near) {
     const Vector3d middle = point_at(corner) + Vector3d::Constant(0.5 * size * grid_.cell);
     const double radius = 0.5 * std::sqrt(3.0) * size * grid_.cell;
@@ -156,7 +157,7 @@ class LevelSurface {
       if (node.value < 0.0) ++inside;
     }
     if (inside == 0 || inside == nodes.size()) return;
-    // Six tetrahedra around a diagonal (Kuhn); neighbouring cells cut their common side alike.
+    // Six tetrahedra around a diagonal (Kuhn): neighbouring cells split their common side equally.
     std::array<std::size_t, 3> axes{1, 2, 4};
     do {
       add_tetrahedron({nodes[0], nodes[axes[0]], nodes[axes[0] + axes[1]], nodes[7]});
@@ -174,7 +175,7 @@ class LevelSurface {
         const double share = from.value / (from.value - to.value);
         polygon.push_back(from.point + share * (to.point - from.point));
       }
-      std::reverse(outside.begin(), outside.end());  // keeps the order around a quadrangle
+      std::reverse(outside.begin(), outside.end());  // the order around a quadrangle
     }
     add_polygon(polygon, outside[0].point - inside[0].point);
   }
@@ -194,15 +195,15 @@ class LevelSurface {
     const Vector3d point = point_at(node);
     if (is_new) {
       const double value = signed_distance(point, near) - grid_.level;
-      const double least = 1e-3 * grid_.cell;  // so that no two vertices of the surface meet
+      const double least = 1e-3 * grid_.cell;  // keeps the vertices of the surface apart
       at->second = std::copysign(std::max(std::abs(value), least), value);
     }
     return {point, at->second};
   }
 
-  /// Returns the distance. Its sign is that of the nearest faces' heights; at a common edge or
-  /// corner each counts by its angle (Baerentzen and Aanaes 2005, "Signed distance computation
-  /// using the angle weighted pseudonormal").
+  /// Returns the distance, signed by the heights over the nearest faces, weighted at a common edge
+  /// or corner by their angles (Baerentzen and Aanaes 2005, "Signed distance computation using the
+  /// angle weighted pseudonormal").
   [[nodiscard]] double signed_distance(const Vector3d& p, const Faces& near) const {
     constexpr double same = 1e-9;  // metres
     double least = infinite;
@@ -236,11 +237,11 @@ Grid grid_for(double margin, const Eigen::AlignedBox3d& bounds) {
   const double least = std::sqrt(area / most_cells);
   if (least > std::max(margin / 2.0, margin < 0.0 ? finest_cell : coarsest_cell))
     refuse(margin, "is too fine for a mesh of " + detail::printed(size.maxCoeff()) +
-                       " m; take 0, split the mesh or use boxes and cylinders");
+                       " m; use 0, split the mesh or use boxes and cylinders");
   const double cell = std::max(least, std::clamp(margin / 2.0, finest_cell, coarsest_cell));
   double level = margin;
   if (margin > 0.0) {
-    // Chords cut rounded edges: go out by their sagitta. Wires and corners must hold nodes.
+    // Add the sagitta of chords at rounded edges, and keep nodes inside wires and corners.
     const double sagitta = std::min(3.0 * cell * cell / (8.0 * margin), cell / 4.0);
     level = std::max(margin + sagitta, 0.75 * cell);
   }
@@ -263,12 +264,12 @@ TriangleMesh simplified(TriangleMesh mesh) {
 TriangleMesh offset_patch(const PreparedMesh& mesh, std::size_t number, double margin) {
   const SurfacePatch& patch = mesh.patches[number];
   const auto& [facing, holes] = mesh.orientations()[number];
-  // The margin closes holes that are smaller.
+  // The margin closes smaller holes.
   const bool solid = facing != Facing::unknown &&
                      std::all_of(holes.begin(), holes.end(),
                                  [&](const Ball& hole) { return hole.radius < std::abs(margin); });
   if (margin < 0.0 && !solid)
-    refuse(margin, "needs a closed mesh, and this one is open; take 0 or a positive margin");
+    refuse(margin, "needs a closed mesh, and this one is open; use 0 or a positive margin");
   std::vector<Face> faces;
   for (const std::uint32_t i : patch.triangles) {
     std::array<Vector3d, 3> corners = corners_of(mesh, i);
@@ -289,13 +290,8 @@ PreparedMesh offset_surface(const PreparedMesh& mesh, double margin) {
     throw InputError("a margin is " + std::to_string(margin) + "; it must be finite (metres)");
   if (margin == 0.0) return mesh;
   TriangleMesh result;
-  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    const TriangleMesh part = offset_patch(mesh, i, margin);
-    const auto first = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.insert(result.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const auto& [a, b, c] : part.triangles)
-      result.triangles.push_back({first + a, first + b, first + c});
-  }
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i)
+    mesh_formats::append_placed(offset_patch(mesh, i, margin), Eigen::Affine3d::Identity(), result);
   return PreparedMesh(result);
 }
 

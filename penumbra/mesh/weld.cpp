@@ -25,8 +25,8 @@ bool has_area(const std::vector<Eigen::Vector3f>& vertices, const Triangle& t) {
   return !ab.cross(ac).isZero(0.0);
 }
 
-/// Removes triangles of zero area so that no piece opens: the neighbour across a sliver's longest
-/// edge is split where the sliver's third corner lies on that edge.
+/// Removes triangles of zero area (slivers) and closes the gap: splits the neighbour across a
+/// sliver's longest edge at the sliver's third corner, which lies on that edge.
 class SliverRemover {
  public:
   explicit SliverRemover(TriangleMesh& mesh) : mesh_(mesh) {}
@@ -56,7 +56,7 @@ class SliverRemover {
     return !slivers_.empty();
   }
 
-  /// Edges between corners of slivers; `nothing` where several triangles run one.
+  /// Finds the triangle of each edge between corners of slivers; `nothing` if there are several.
   void index_edges() {
     std::vector<bool> is_corner(mesh_.vertices.size(), false);
     for (const std::uint32_t i : slivers_)
@@ -73,7 +73,7 @@ class SliverRemover {
     }
   }
 
-  /// The sliver turned so that its longest edge comes first.
+  /// Rotates a sliver so that its longest edge comes first.
   [[nodiscard]] Triangle longest_first(Triangle t) const {
     const auto length = [this](std::uint32_t a, std::uint32_t b) {
       return (mesh_.vertices[a] - mesh_.vertices[b]).cast<double>().squaredNorm();
@@ -88,12 +88,12 @@ class SliverRemover {
     const auto [p, q, r] = longest_first(mesh_.triangles[i]);
     const auto found = triangle_of_.find(key(q, p));
     mesh_.triangles[i] = dead;
-    if (found == triangle_of_.end() || found->second == nothing) return;  // it closed nothing
+    if (found == triangle_of_.end() || found->second == nothing) return;  // it has no neighbour
     const std::uint32_t neighbour = found->second;
     const Triangle across = mesh_.triangles[neighbour];
     const std::size_t k =
         static_cast<std::size_t>(std::find(across.begin(), across.end(), q) - across.begin());
-    if (k == 3 || across[(k + 1) % 3] != p) return;  // it was split itself, in this pass
+    if (k == 3 || across[(k + 1) % 3] != p) return;  // this pass has already split it
     const std::uint32_t d = across[(k + 2) % 3];
     mesh_.triangles[neighbour] = dead;
     if (d == r) return;  // two slivers back to back

@@ -3,44 +3,39 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace penumbra::detail {
 
 /// Finds the files that a URDF names: package://NAME/..., model://NAME/..., file://..., and paths
 /// relative to the URDF's folder.
+///
+/// A package that was not given is searched in AMENT_PREFIX_PATH, ROS_PACKAGE_PATH and Gazebo's
+/// model paths, then next to the URDF and next to each folder above it.
 class FileLocator {
  public:
   FileLocator(std::filesystem::path folder, std::map<std::string, std::filesystem::path> packages)
-      : folder_(std::move(folder)), given_(std::move(packages)) {}
+      : folder_(std::move(folder)), packages_(std::move(packages)) {}
 
-  /// The file's path, which exists. Throws InputError that names the URI, where it was looked for
-  /// and what would help.
+  /// Returns the file's path, which exists. Throws InputError that names the URI, the places that
+  /// were searched and a remedy.
   [[nodiscard]] std::filesystem::path locate(const std::string& uri);
 
-  /// One line for each package that was found without being given.
+  /// One line for each package that was found by a search.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  struct Candidate {
-    std::filesystem::path folder;
-    std::string how;
-  };
-
-  std::filesystem::path locate_in_package(const std::string& uri, std::string_view rest,
-                                          bool is_model);
-  std::filesystem::path package_folder(const std::string& name, const std::filesystem::path& file,
-                                       bool is_model);
-  std::optional<Candidate> search(const std::string& name, const std::filesystem::path& file,
-                                  bool is_model);
+  std::filesystem::path locate_in_package(const std::string& uri, std::string_view rest);
+  const std::filesystem::path& package_folder(const std::string& name,
+                                              const std::filesystem::path& file);
+  std::pair<std::filesystem::path, std::string> search(const std::string& name,
+                                                       const std::filesystem::path& file) const;
 
   std::filesystem::path folder_;
-  std::map<std::string, std::filesystem::path> given_;
-  std::map<std::string, std::filesystem::path> found_;
-  std::optional<std::map<std::string, std::filesystem::path>> ros_packages_;  // crawled once
+  std::map<std::string, std::filesystem::path> packages_;  // given or found
   std::vector<std::string> notes_;
 };
 

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
+#include <penumbra/base/xml_document-inl.hpp>
 #include <penumbra/robot/file_locator-inl.hpp>
-#include <penumbra/robot/package_search-inl.hpp>
 
 namespace penumbra::detail {
 namespace {
@@ -18,16 +20,21 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// %20 and the like, as URIs may have them.
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+/// Replaces %20 and the like, as URIs may have them.
 std::string decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned value = 0;
     const char* digits = text.data() + i + 1;
-    const bool escape = text[i] == '%' && i + 2 < text.size() &&
-                        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
-    out += escape && value != 0 ? static_cast<char>(value) : text[i];
-    if (escape && value != 0) i += 2;
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    out += is_escape && value != 0 ? static_cast<char>(value) : text[i];
+    if (is_escape && value != 0) i += 2;
   }
   return out;
 }
@@ -37,50 +44,73 @@ fs::path existing(const fs::path& folder, std::string_view rest) {
   return is_file(as_written) ? as_written : folder / decoded(rest);
 }
 
-struct Uri {
-  std::string scheme;  // lower case; empty for a plain path
-  std::string_view rest;
-};
-
-Uri split(std::string_view uri) {
-  const std::size_t end = uri.find("://");
-  if (end == std::string_view::npos) return {"", uri};
-  std::string scheme(uri.substr(0, end));
-  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return {std::move(scheme), uri.substr(end + 3)};
+/// Returns the folders in an environment variable, which are separated by ':'.
+std::vector<fs::path> folders_in(const char* variable) {
+  std::vector<fs::path> folders;
+  const char* value = std::getenv(variable);
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) folders.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return folders;
 }
 
-std::optional<fs::path> first_with(const char* variable, const std::string& below) {
+/// Whether the folder's package.xml has that name.
+bool is_package(const fs::path& folder, const std::string& name) {
+  const fs::path file = folder / "package.xml";
+  if (!is_file(file)) return false;
+  try {
+    const std::string text = read_whole_file(file, FileLimit::text);
+    for (const XmlElement& child : read_xml(text, file.string()).children)
+      if (child.name == "name") return child.text == name;
+  } catch (const InputError&) {  // another package's broken file
+  }
+  return false;
+}
+
+/// Returns the folders that may be package `name`, the nearest first: NAME in the URDF's folder and
+/// in each folder above it, and those folders themselves if they are called NAME or have its
+/// package.xml.
+std::vector<fs::path> folders_near(const fs::path& start, const std::string& name) {
+  std::vector<fs::path> folders;
   std::error_code error;
-  for (const fs::path& prefix : folders_in(variable))
-    if (fs::is_directory(prefix / below, error)) return prefix / below;
-  return std::nullopt;
+  const fs::path absolute = fs::weakly_canonical(start.empty() ? fs::path(".") : start, error);
+  for (fs::path at = error ? start : absolute; !at.empty(); at = at.parent_path()) {
+    if (at.filename() == name || is_package(at, name)) folders.push_back(at);
+    if (is_folder(at / name)) folders.push_back(at / name);
+    if (at == at.parent_path()) break;
+  }
+  return folders;
 }
 
 }  // namespace
 
 fs::path FileLocator::locate(const std::string& uri) {
-  const auto [scheme, rest] = split(uri);
-  if (scheme == "package") return locate_in_package(uri, rest, false);
-  if (scheme == "model") return locate_in_package(uri, rest, true);
+  const std::size_t end = uri.find("://");
+  std::string scheme = uri.substr(0, end == std::string::npos ? 0 : end);
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string_view rest = uri;
+  if (end != std::string::npos) rest.remove_prefix(end + 3);
+  if (scheme == "package" || scheme == "model") return locate_in_package(uri, rest);
   if (!scheme.empty() && scheme != "file")
     throw InputError(in_quotes(uri) + ": " + scheme +
                      ":// cannot be read; expected package://, model://, file:// or a path");
-  const bool has_host = scheme == "file" && rest.starts_with("localhost/");
-  fs::path file = existing(folder_, has_host ? rest.substr(9) : rest);
+  if (scheme == "file" && rest.starts_with("localhost/")) rest.remove_prefix(9);
+  fs::path file = existing(folder_, rest);
   if (!is_file(file)) throw InputError("no file at " + file.string());
   return file;
 }
 
-fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view rest,
-                                        bool is_model) {
+fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view rest) {
   const std::size_t slash = rest.find('/');
   if (slash == 0 || slash == std::string_view::npos || slash + 1 == rest.size())
     throw InputError(in_quotes(uri) + " is not of the form package://NAME/path/in/package");
   const std::string name(rest.substr(0, slash));
   const std::string_view inside = rest.substr(slash + 1);
-  const fs::path folder = package_folder(name, inside, is_model);
+  const fs::path folder = package_folder(name, inside);
   fs::path file = existing(folder, inside);
   if (!is_file(file))
     throw InputError("no file at " + file.string() + " (package " + in_quotes(name) + " is " +
@@ -88,40 +118,34 @@ fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view
   return file;
 }
 
-fs::path FileLocator::package_folder(const std::string& name, const fs::path& file, bool is_model) {
-  if (const auto at = given_.find(name); at != given_.end()) {
-    std::error_code error;
-    if (fs::is_directory(at->second, error)) return at->second;
-    throw InputError("package " + in_quotes(name) + " was given as " + at->second.string() +
+const fs::path& FileLocator::package_folder(const std::string& name, const fs::path& file) {
+  if (const auto known = packages_.find(name); known != packages_.end()) {
+    if (is_folder(known->second)) return known->second;
+    throw InputError("package " + in_quotes(name) + " was given as " + known->second.string() +
                      ", which is no folder");
   }
-  if (const auto at = found_.find(name); at != found_.end()) return at->second;
-
-  const auto taken = search(name, file, is_model);
-  if (!taken)
+  const auto [folder, how] = search(name, file);
+  if (folder.empty())
     throw InputError("package " + in_quotes(name) + " was not found by AMENT_PREFIX_PATH, by " +
-                     "ROS_PACKAGE_PATH, or beside or above the URDF with " + file.string() +
+                     "ROS_PACKAGE_PATH, or next to or above the URDF with " + file.string() +
                      " in it; give its folder: --package " + name + "=DIR");
-  notes_.push_back("package " + name + ": taken from " + taken->folder.string() + " (" +
-                   taken->how + ")");
-  return found_[name] = taken->folder;
+  notes_.push_back("package " + name + ": taken from " + folder.string() + " (" + how + ")");
+  return packages_[name] = folder;
 }
 
-std::optional<FileLocator::Candidate> FileLocator::search(const std::string& name,
-                                                          const fs::path& file, bool is_model) {
-  if (is_model)
-    for (const char* v : {"GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"})
-      if (const auto folder = first_with(v, name))
-        return Candidate{*folder, std::string("by ") + v};
-  if (const auto folder = first_with("AMENT_PREFIX_PATH", "share/" + name))
-    return Candidate{*folder, "by AMENT_PREFIX_PATH"};
-  if (!ros_packages_) ros_packages_ = crawl_ros_packages();
-  if (const auto at = ros_packages_->find(name); at != ros_packages_->end())
-    return Candidate{at->second, "by ROS_PACKAGE_PATH"};
+std::pair<fs::path, std::string> FileLocator::search(const std::string& name,
+                                                     const fs::path& file) const {
+  const std::pair<const char*, std::string> variables[] = {{"AMENT_PREFIX_PATH", "share/" + name},
+                                                           {"ROS_PACKAGE_PATH", name},
+                                                           {"GAZEBO_MODEL_PATH", name},
+                                                           {"GZ_SIM_RESOURCE_PATH", name},
+                                                           {"IGN_GAZEBO_RESOURCE_PATH", name}};
+  for (const auto& [variable, below] : variables)
+    for (const fs::path& prefix : folders_in(variable))
+      if (is_folder(prefix / below)) return {prefix / below, std::string("by ") + variable};
   for (const fs::path& near : folders_near(folder_, name))
-    if (is_file(existing(near, file.string())))
-      return Candidate{near, "found beside or above the URDF"};
-  return std::nullopt;
+    if (is_file(existing(near, file.string()))) return {near, "found next to or above the URDF"};
+  return {};
 }
 
 }  // namespace penumbra::detail

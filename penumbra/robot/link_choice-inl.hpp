@@ -9,25 +9,24 @@
 
 namespace penumbra::detail {
 
-/// What the options make of a link.
+/// How the options apply to a link.
 struct LinkChoice {
   bool draw = false;
   Geometry geometry = Geometry::collision;
   double margin = 0.0;
-  bool lacks_geometry = false;  ///< not drawn: it has geometry, but none of the kind `geometry`
-  std::string reason;           ///< why it is not drawn, or what was chosen
+  bool lacks_geometry = false;  ///< not drawn: it has only the other kind of geometry
+  std::string reason;           ///< why it is not drawn, or which geometry was chosen
 };
 
-/// One choice for each of Urdf::links. Throws InputError for a pattern that matches no link, for
-/// two patterns that say different things of one link (a plain name goes before patterns), for a
-/// margin that is no sensible number, and, unless missing meshes are allowed, for links that have
-/// geometry, but none of the chosen kind: what stands behind them would look visible.
+/// Returns one choice for each of Urdf::links. Throws InputError for a pattern that matches no
+/// link, for two patterns with different values for one link (a plain name overrides patterns), for
+/// a margin beyond 1 m, and, unless missing meshes are allowed, for links that have only the other
+/// kind of geometry: what is behind them would look visible.
 [[nodiscard]] std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& options);
 
-/// Which links lack the chosen geometry but have the other, and the ways out, a line for each kind.
-[[nodiscard]] std::vector<std::string> lacking_notes(const Urdf& urdf,
-                                                     const std::vector<LinkChoice>& choices);
-
-[[nodiscard]] std::string to_string(Geometry geometry);
+/// Lists the links that have only the other kind of geometry, and the remedies: one line for each
+/// kind.
+[[nodiscard]] std::vector<std::string> missing_geometry_notes(
+    const Urdf& urdf, const std::vector<LinkChoice>& choices);
 
 }  // namespace penumbra::detail

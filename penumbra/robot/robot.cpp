@@ -1,24 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <map>
+#include <stdexcept>
 #include <utility>
 
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/robot/robot_model-inl.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
 
 namespace penumbra {
 namespace {
 
 namespace fs = std::filesystem;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
-std::optional<std::size_t> find(const std::map<std::string, std::size_t, std::less<>>& index,
-                                std::string_view name) {
+using Index = std::map<std::string, std::size_t, std::less<>>;
+
+std::optional<std::size_t> find(const Index& index, std::string_view name) {
   const auto at = index.find(name);
   return at == index.end() ? std::nullopt : std::optional(at->second);
 }
 
+Isometry3d pose_of(const Matrix3d& rotation, const Vector3d& translation) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.linear() = rotation;
+  pose.translation() = translation;
+  return pose;
+}
+
+/// Returns T_joint_child at the positions.
+Isometry3d motion(const Joint& joint, std::span<const double> positions) {
+  if (joint.type == JointType::fixed) return Isometry3d::Identity();
+  const double* const value = &positions[*joint.variable];
+  if (joint.type == JointType::planar) {
+    const Matrix3d plane = plane_axes(joint.axis);
+    return pose_of(Eigen::AngleAxisd(value[2], joint.axis).toRotationMatrix(),
+                   plane.col(0) * value[0] + plane.col(1) * value[1]);
+  }
+  if (joint.type == JointType::floating) {
+    const Eigen::Vector4d xyzw(value[3], value[4], value[5], value[6]);
+    return pose_of(Eigen::Quaterniond(xyzw.stableNormalized()).toRotationMatrix(),
+                   {value[0], value[1], value[2]});
+  }
+  const double position = joint.multiplier * *value + joint.offset;
+  if (joint.type == JointType::prismatic)
+    return pose_of(Matrix3d::Identity(), joint.axis * position);
+  return pose_of(Eigen::AngleAxisd(position, joint.axis).toRotationMatrix(), Vector3d::Zero());
+}
+
+void check_positions(const Robot& robot, std::span<const double> positions, std::size_t poses) {
+  constexpr double largest_position = 1e9;  // keeps every pose finite
+  constexpr double shortest_quaternion = 1e-6;
+  if (positions.size() != robot.variables().size() || poses != robot.links().size())
+    throw std::invalid_argument(
+        "forward_kinematics: one position per variable and one pose per link");
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (!(std::abs(positions[i]) <= largest_position))
+      throw std::invalid_argument("forward_kinematics: position of " + robot.variables()[i] +
+                                  " is not within +-1e9");
+  for (const Joint& joint : robot.joints()) {
+    if (joint.type != JointType::floating) continue;
+    const double* q = &positions[*joint.variable + 3];
+    if (!(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) >= shortest_quaternion))
+      throw std::invalid_argument("forward_kinematics: quaternion of " + joint.name + " is zero");
+  }
+}
+
 }  // namespace
+
+struct Robot::Model {
+  std::string name;
+  std::vector<std::string> links;
+  std::vector<Joint> joints;
+  std::vector<std::string> variables;
+  Index link_index;
+  Index variable_index;
+  std::vector<std::vector<PreparedMesh>> meshes;  // of each link
+  std::vector<LinkReport> report;                 // of each link
+  std::vector<std::string> notes;
+};
 
 std::string_view to_string(JointType type) {
   switch (type) {
@@ -38,13 +102,27 @@ std::string_view to_string(JointType type) {
   return "floating";
 }
 
+Matrix3d plane_axes(const Vector3d& normal) {
+  // Duff et al. 2017, "Building an orthonormal basis, revisited", JCGT 6(1): precise for any
+  // normal.
+  const double sign = normal.z() >= 0.0 ? 1.0 : -1.0;
+  const double f = -1.0 / (sign + normal.z());
+  const double x = normal.x();
+  const double y = normal.y();
+  Matrix3d axes;
+  axes.col(0) << 1.0 + sign * x * x * f, sign * x * y * f, -sign * x;
+  axes.col(1) << x * y * f, sign + y * y * f, -y;
+  axes.col(2) = normal;
+  return axes;
+}
+
 std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
                                                       const fs::path& folder,
                                                       const RobotOptions& options) {
   const detail::Urdf urdf = detail::read_urdf(xml, file);
   detail::RobotTree tree = detail::build_tree(urdf);
   const auto choices = detail::choose_links(urdf, options);
-  detail::GeometryLoader loader(urdf, folder, options);
+  detail::GeometryLoader loader(folder, options);
 
   auto model = std::make_unique<Model>();
   model->name = urdf.name;
@@ -59,10 +137,9 @@ std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, cons
   }
   for (std::size_t i = 0; i < model->variables.size(); ++i)
     model->variable_index.emplace(model->variables[i], i);
-  model->notes = urdf.warnings;
-  for (std::string& note : loader.notes()) model->notes.push_back(std::move(note));
-  for (std::string& note : detail::lacking_notes(urdf, choices))
-    model->notes.push_back(std::move(note));
+  for (const auto& notes :
+       {urdf.warnings, loader.notes(), detail::missing_geometry_notes(urdf, choices)})
+    model->notes.insert(model->notes.end(), notes.begin(), notes.end());
   return model;
 }
 
@@ -76,11 +153,6 @@ Robot Robot::parse(std::string_view xml, const fs::path& folder, const RobotOpti
 }
 
 Robot::Robot(std::unique_ptr<const Model> model) : model_(std::move(model)) {}
-Robot::Robot(const Robot&) = default;
-Robot::Robot(Robot&&) noexcept = default;
-Robot& Robot::operator=(const Robot&) = default;
-Robot& Robot::operator=(Robot&&) noexcept = default;
-Robot::~Robot() = default;
 
 const std::string& Robot::name() const { return model_->name; }
 std::span<const std::string> Robot::links() const { return model_->links; }
@@ -103,6 +175,15 @@ std::vector<double> Robot::rest_positions() const {
   for (const Joint& joint : joints())
     if (joint.type == JointType::floating) positions[*joint.variable + 6] = 1.0;
   return positions;
+}
+
+void Robot::forward_kinematics(std::span<const double> positions,
+                               std::span<Isometry3d> T_root_link) const {
+  check_positions(*this, positions, T_root_link.size());
+  T_root_link[0].setIdentity();
+  for (const Joint& joint : joints())
+    T_root_link[joint.child] =
+        T_root_link[joint.parent] * (joint.origin * motion(joint, positions));
 }
 
 }  // namespace penumbra

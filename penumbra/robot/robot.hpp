@@ -19,40 +19,40 @@ namespace penumbra {
 
 enum class Geometry { collision, visual };
 
-/// What a link carries that the URDF lacks: a tool, a cable, a cover.
+/// A part of a link that the URDF lacks: a tool, a cable, a cover.
 struct ExtraMesh {
-  std::string link;            ///< its name; no pattern
+  std::string link;            ///< a name, not a pattern
   std::filesystem::path mesh;  ///< in the link's frame, metres
 };
 
-/// What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]); where
-/// several say different things of a link, a plain name goes before patterns, and two patterns are
-/// an error, as is a pattern that matches no link.
+/// Which geometry of a URDF is drawn, and where its files are. Link patterns are globs (*, ?,
+/// [a-z]). A plain name overrides patterns. Two patterns with different values for a link are an
+/// error, and so is a pattern that matches no link.
 struct RobotOptions {
   std::map<std::string, std::filesystem::path> packages = {};  ///< package://NAME -> folder
   Geometry geometry = Geometry::collision;
-  std::map<std::string, Geometry> geometry_of_links = {};  ///< pattern -> in place of `geometry`
-  bool geometry_fallback = false;  ///< take the other geometry for a link that lacks the chosen one
+  std::map<std::string, Geometry> geometry_of_links = {};  ///< pattern -> overrides `geometry`
+  bool geometry_fallback = false;  ///< use the other geometry for links that lack the chosen one
   std::vector<std::string> ignore_links = {};  ///< patterns of links that are not drawn
   std::vector<std::string> only_links = {};    ///< if not empty: patterns of the links drawn
   std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
-  std::vector<ExtraMesh> extra = {};  ///< drawn with their links, whatever else is drawn of them
+  std::vector<ExtraMesh> extra = {};           ///< drawn even if their links are not
 
-  /// Go on without meshes that cannot be read and without links that have only the other geometry:
-  /// their links are missing, in the report and in every frame.
+  /// Continue without meshes that cannot be read and links that have only the other geometry: these
+  /// links are missing, in the report and in every frame.
   bool allow_missing_meshes = false;
 };
 
-/// What became of a link's geometry.
+/// How a link's geometry was loaded.
 struct LinkReport {
   std::string link;
   bool drawn = false;
-  bool missing = false;  ///< it has geometry that should be drawn and is not (allow_missing_meshes)
-  std::string fault;     ///< of a mesh that could not be read: file, line and reason; else empty
-  std::string reason;    ///< why it is not drawn, or what was chosen; one line
+  bool missing = false;  ///< some of its geometry could not be drawn (allow_missing_meshes)
+  std::string fault;     ///< file, line and reason of a mesh that could not be read; else empty
+  std::string reason;    ///< why it is not drawn, or which geometry was chosen; one line
   std::vector<std::string> sources;  ///< each element's file or primitive
   std::size_t triangles = 0;
-  bool watertight = false;     ///< every mesh of the link is, before margins
+  bool watertight = false;     ///< whether every mesh of the link is, before margins
   double margin = 0.0;         ///< metres
   Eigen::AlignedBox3d bounds;  ///< in the link's frame, metres; empty if not drawn
   double load_ms = 0.0;
@@ -60,10 +60,10 @@ struct LinkReport {
 
 enum class JointType { revolute, continuous, prismatic, fixed, planar, floating };
 
-/// The type's name in a URDF.
+/// Returns the type's name in a URDF.
 [[nodiscard]] std::string_view to_string(JointType type);
 
-/// A joint of the tree. Its frame is the child link's frame at position 0.
+/// A joint. Its frame is the child link's frame at position 0.
 struct Joint {
   std::string name;
   JointType type = JointType::fixed;
@@ -74,43 +74,36 @@ struct Joint {
   std::optional<double> lower, upper;  ///< limits of revolute and prismatic joints, rad or m
   std::optional<double> velocity;      ///< limit, rad/s or m/s, above 0
 
-  /// First of this joint's values in the position vector; not set for a fixed joint. A mimicking
-  /// joint's value is multiplier * positions[variable] + offset, chains folded.
+  /// Index of the joint's first value in the position vector; not set for a fixed joint. A
+  /// mimicking joint's value is multiplier * positions[variable] + offset, with chains resolved.
   std::optional<std::size_t> variable;
   double multiplier = 1.0;
   double offset = 0.0;
   bool mimics = false;
 };
 
-/// The axes of a planar joint, in the joint's frame: x and y in the columns 0 and 1, which span the
-/// plane, and the unit normal. They are the frame's own x, y and z turned by the smallest rotation
-/// that takes z to the normal; where the normal's z is negative, by half a turn about x and then by
-/// the smallest rotation that takes -z to the normal.
+/// Returns the axes of a planar joint, in the joint's frame: x, y and the unit normal of the plane.
+/// They are the frame's axes rotated by the smallest rotation from z to the normal. If the normal's
+/// z is negative: by half a turn about x and then by the smallest rotation from -z to the normal.
 [[nodiscard]] Eigen::Matrix3d plane_axes(const Eigen::Vector3d& normal);
 
-/// A URDF's links, joints and geometry, ready to be posed. Immutable, and shared by its
-/// copies, which are cheap and may be used by several threads.
+/// A URDF's links, joints and geometry. Immutable: copies are cheap, share their data and may be
+/// used by several threads.
 class Robot {
  public:
-  /// Reads a URDF and its meshes. Throws InputError naming file, line and element for anything that
-  /// is neither understood nor known to be irrelevant, for a mesh that cannot be read, and for
-  /// links that have geometry, but none of the chosen kind.
+  /// Reads a URDF and its meshes. Throws InputError that names file, line and element for a URDF
+  /// that cannot be drawn correctly, for a mesh that cannot be read, and for links that have only
+  /// the other kind of geometry.
   [[nodiscard]] static Robot load(const std::filesystem::path& urdf,
                                   const RobotOptions& options = {});
 
-  /// The same from text; relative mesh paths start at `folder`.
+  /// Reads a URDF from text. Relative mesh paths start at `folder`.
   [[nodiscard]] static Robot parse(std::string_view xml, const std::filesystem::path& folder,
                                    const RobotOptions& options = {});
 
-  Robot(const Robot&);
-  Robot(Robot&&) noexcept;
-  Robot& operator=(const Robot&);
-  Robot& operator=(Robot&&) noexcept;
-  ~Robot();
-
   [[nodiscard]] const std::string& name() const;
 
-  /// Link names in an order in which parents stand before children; index 0 is the root.
+  /// Link names, parents before children; index 0 is the root.
   [[nodiscard]] std::span<const std::string> links() const;
   [[nodiscard]] std::optional<std::size_t> find_link(std::string_view name) const;
 
@@ -122,24 +115,23 @@ class Robot {
   [[nodiscard]] std::span<const std::string> variables() const;
   [[nodiscard]] std::optional<std::size_t> find_variable(std::string_view name) const;
 
-  /// Positions of every variable at rest: 0, and the unit quaternion.
+  /// Returns the rest positions of all variables: 0, and the identity quaternion.
   [[nodiscard]] std::vector<double> rest_positions() const;
 
-  /// Triangles of link i in its own frame, margins included; empty if it is not drawn.
+  /// The meshes of a link in its frame, margins included; empty if it is not drawn.
   [[nodiscard]] std::span<const PreparedMesh> meshes(std::size_t link) const;
 
   [[nodiscard]] std::span<const LinkReport> report() const;
 
-  /// What a user should know though nothing is wrong, a line each: where a package was found that
-  /// was not given ("package NAME: taken from ..."), what is odd about mesh files, which links are
-  /// so small that their unit is in doubt, and, where missing meshes are allowed, which have
-  /// geometry, but none of the chosen kind, and so are missing.
+  /// Remarks, one line each: unknown content of the URDF, where a package was found that was not
+  /// given ("package NAME: taken from ..."), links so small that their unit may be wrong and, if
+  /// missing meshes are allowed, links that have only the other kind of geometry.
   [[nodiscard]] std::span<const std::string> notes() const;
 
-  /// Poses T_root_link of every link. `positions` in the order of variables(), rad and m, within
-  /// +-1e9; T_root_link one per link. Planar joints move by x and y in their plane (plane_axes) and
-  /// turn by yaw about its normal. Quaternions are normalised. Allocates nothing. Throws
-  /// std::invalid_argument for anything else, so that no pose is ever made up.
+  /// Computes the pose T_root_link of every link. `positions` are in the order of variables(), rad
+  /// and m, within +-1e9. Planar joints move by x and y in their plane (plane_axes) and turn by yaw
+  /// about its normal. Quaternions are normalised. Allocates nothing. Throws std::invalid_argument
+  /// for wrong sizes and invalid positions.
   void forward_kinematics(std::span<const double> positions,
                           std::span<Eigen::Isometry3d> T_root_link) const;
 

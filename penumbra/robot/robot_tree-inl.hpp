@@ -10,7 +10,7 @@
 
 namespace penumbra::detail {
 
-/// The links of a URDF as one tree, in the order that Robot promises.
+/// The links of a URDF as one tree, in the order that Robot documents.
 struct RobotTree {
   std::vector<std::size_t> links;  ///< index into Urdf::links of each link; the root first
   std::vector<Joint> joints;       ///< joints[i].child == i + 1
@@ -18,14 +18,7 @@ struct RobotTree {
 };
 
 /// Throws InputError unless the links form one tree, names are unique and every mimicking joint
-/// follows, perhaps over others, a joint that moves by itself.
+/// follows, directly or through others, a joint with a value of its own.
 [[nodiscard]] RobotTree build_tree(const Urdf& urdf);
-
-/// Gives every joint its variable: one of its own, or that of the joint it mimics. `source[i]` is
-/// the URDF's joint that became joints[i].
-void assign_variables(const Urdf& urdf, const std::vector<std::size_t>& source, RobotTree& tree);
-
-[[noreturn]] void fail_at(const Urdf& urdf, const UrdfJoint& joint, const std::string& what);
-[[noreturn]] void fail_at(const Urdf& urdf, const UrdfLink& link, const std::string& what);
 
 }  // namespace penumbra::detail

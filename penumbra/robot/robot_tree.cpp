@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
@@ -12,14 +16,18 @@ namespace {
 
 using Index = std::unordered_map<std::string_view, std::size_t>;
 
+/// Fails at a link or joint.
+template <typename Element>
+[[noreturn]] void fail(const Element& element, const std::string& what) {
+  throw InputError(element.place + ": " + what);
+}
+
 template <typename Named>
-Index index_names(const Urdf& urdf, const std::vector<Named>& list) {
+Index index_names(const std::vector<Named>& list) {
   Index index;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto [at, added] = index.emplace(list[i].name, i);
-    if (!added)
-      fail_at(urdf, list[i],
-              "the name is taken already, on line " + std::to_string(list[at->second].line));
+    const auto [at, is_new] = index.emplace(list[i].name, i);
+    if (!is_new) fail(list[i], "this name is already used at " + list[at->second].place);
   }
   return index;
 }
@@ -32,27 +40,27 @@ struct Edges {
   std::vector<std::size_t> child;                // link of each joint
 };
 
-std::size_t find_end(const Urdf& urdf, const Index& links, const UrdfJoint& joint,
-                     const std::string& end, const std::string& name) {
+std::size_t find_end(const Index& links, const UrdfJoint& joint, const std::string& end,
+                     const std::string& name) {
   const auto at = links.find(name);
   if (at == links.end())
-    fail_at(urdf, joint, "its " + end + " link " + in_quotes(name) + " is not in the file");
+    fail(joint, "its " + end + " link " + in_quotes(name) + " is not in the file");
   return at->second;
 }
 
-Edges connect(const Urdf& urdf, const Index& links) {
+Edges connect(const Urdf& urdf) {
+  const Index links = index_names(urdf.links);
   Edges edges;
   edges.into.resize(urdf.links.size());
   edges.out.resize(urdf.links.size());
   for (std::size_t j = 0; j < urdf.joints.size(); ++j) {
     const UrdfJoint& joint = urdf.joints[j];
-    edges.parent.push_back(find_end(urdf, links, joint, "parent", joint.parent));
-    edges.child.push_back(find_end(urdf, links, joint, "child", joint.child));
+    edges.parent.push_back(find_end(links, joint, "parent", joint.parent));
+    edges.child.push_back(find_end(links, joint, "child", joint.child));
     auto& into = edges.into[edges.child[j]];
     if (into)
-      fail_at(urdf, joint,
-              "its child link " + in_quotes(joint.child) + " has a parent already, by joint " +
-                  in_quotes(urdf.joints[*into].name) + "; a link has one parent");
+      fail(joint, "its child link " + in_quotes(joint.child) + " is already the child of joint " +
+                      in_quotes(urdf.joints[*into].name) + "; a link has one parent");
     into = j;
     edges.out[edges.parent[j]].push_back(j);
   }
@@ -64,21 +72,21 @@ std::size_t find_root(const Urdf& urdf, const Edges& edges) {
   for (std::size_t i = 0; i < urdf.links.size(); ++i) {
     if (edges.into[i]) continue;
     if (root)
-      fail_at(urdf, urdf.links[i],
-              "is a second root beside link " + in_quotes(urdf.links[*root].name) +
-                  "; every link but one needs a joint to a parent");
+      fail(urdf.links[i], "is a second root besides link " + in_quotes(urdf.links[*root].name) +
+                              "; every link but one needs a joint to a parent");
     root = i;
   }
-  if (!root) fail_at(urdf, urdf.links.front(), "the joints form a cycle: every link has a parent");
+  if (!root) fail(urdf.links.front(), "the joints form a cycle: every link has a parent");
   return *root;
 }
 
-// Links in depth-first order with the joint that leads to each (none to the root).
+/// A link and the joint that leads to it; the root has none.
 struct Visit {
   std::size_t link;
   std::optional<std::size_t> joint;
 };
 
+/// Returns all links in depth-first order.
 std::vector<Visit> walk(const Urdf& urdf, const Edges& edges) {
   std::vector<Visit> order;
   std::vector<bool> seen(urdf.links.size(), false);
@@ -91,55 +99,103 @@ std::vector<Visit> walk(const Urdf& urdf, const Edges& edges) {
     const auto& out = edges.out[visit.link];
     for (auto j = out.rbegin(); j != out.rend(); ++j) open.push_back({edges.child[*j], *j});
   }
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (!seen[i])
-      fail_at(urdf, urdf.links[i], "hangs on a cycle of joints and not on the robot's root link");
+  const auto lost = std::find(seen.begin(), seen.end(), false);
+  if (lost != seen.end())
+    fail(urdf.links[static_cast<std::size_t>(lost - seen.begin())],
+         "is part of a cycle of joints that is not connected to the root link");
   return order;
 }
 
-Joint make_joint(const UrdfJoint& from, std::size_t parent, std::size_t child) {
-  Joint joint;
-  joint.name = from.name;
-  joint.type = from.type;
-  joint.parent = parent;
-  joint.child = child;
-  joint.origin = from.origin;
-  joint.axis = from.axis;
-  joint.velocity = from.velocity;
-  joint.lower = from.lower;
-  joint.upper = from.upper;
-  return joint;
+/// Returns what follows the joint's name in the names of its variables.
+std::span<const std::string_view> variable_endings(JointType type) {
+  static constexpr std::string_view single[] = {""};
+  static constexpr std::string_view planar[] = {"/x", "/y", "/yaw"};
+  static constexpr std::string_view floating[] = {"/x", "/y", "/z", "/qx", "/qy", "/qz", "/qw"};
+  if (type == JointType::fixed) return {};
+  if (type == JointType::planar) return planar;
+  if (type == JointType::floating) return floating;
+  return single;
+}
+
+/// Gives a variable to every joint that moves and mimics no other.
+void add_variables(const Urdf& urdf, const std::vector<std::size_t>& source, RobotTree& tree) {
+  for (std::size_t i = 0; i < tree.joints.size(); ++i) {
+    Joint& joint = tree.joints[i];
+    const UrdfJoint& from = urdf.joints[source[i]];
+    const auto endings = variable_endings(joint.type);
+    joint.mimics = from.mimic.has_value() && !endings.empty();  // a fixed joint never moves
+    if (joint.mimics && endings.size() != 1)
+      fail(from, "mimics another joint, but has more than one value itself");
+    if (joint.mimics || endings.empty()) continue;
+    joint.variable = tree.variables.size();
+    for (const std::string_view ending : endings)
+      tree.variables.push_back(joint.name + std::string(ending));
+  }
+  std::unordered_set<std::string_view> seen;
+  for (const std::string& name : tree.variables)
+    if (!seen.insert(name).second)
+      throw InputError(urdf.file + ": two joints have a position named " + in_quotes(name) +
+                       "; rename one of them");
+}
+
+/// Gives every mimicking joint the variable at the end of its chain of joints. `source[i]` is the
+/// URDF's joint that became joints[i].
+void resolve_mimics(const Urdf& urdf, const std::vector<std::size_t>& source,
+                    std::vector<Joint>& joints) {
+  constexpr int longest_chain = 1000;
+  Index index;
+  for (std::size_t i = 0; i < joints.size(); ++i) index.emplace(joints[i].name, i);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (!joints[i].mimics) continue;
+    const UrdfJoint& start = urdf.joints[source[i]];
+    double multiplier = 1.0;
+    double offset = 0.0;
+    std::size_t at = i;
+    for (int steps = 0; joints[at].mimics && !joints[at].variable; ++steps) {
+      if (steps > longest_chain) fail(start, "mimics in a cycle");
+      const UrdfMimic& mimic = *urdf.joints[source[at]].mimic;
+      const auto target = index.find(mimic.joint);
+      if (target == index.end())
+        fail(start, "mimics " + in_quotes(mimic.joint) + ", which is not in the file");
+      offset += multiplier * mimic.offset;
+      multiplier *= mimic.multiplier;
+      at = target->second;
+    }
+    const Joint& target = joints[at];
+    if (variable_endings(target.type).size() != 1)
+      fail(start, "mimics " + in_quotes(target.name) +
+                      ", which has no single value; expected a revolute, continuous or prismatic "
+                      "joint");
+    joints[i].variable = target.variable;
+    joints[i].offset = offset + multiplier * target.offset;
+    joints[i].multiplier = multiplier * target.multiplier;
+    if (!(std::max(std::abs(joints[i].multiplier), std::abs(joints[i].offset)) <= largest_mimic))
+      fail(start, "its chain of mimics multiplies or offsets by more than 1e9");
+  }
 }
 
 }  // namespace
 
 RobotTree build_tree(const Urdf& urdf) {
   if (urdf.links.empty()) throw InputError(urdf.file + ": the robot has no links");
-  const Edges edges = connect(urdf, index_names(urdf, urdf.links));
-  index_names(urdf, urdf.joints);
+  const Edges edges = connect(urdf);
+  index_names(urdf.joints);
   RobotTree tree;
-  std::vector<std::size_t> source;
+  std::vector<std::size_t> source;  // of each joint
   std::vector<std::size_t> place(urdf.links.size());
-  for (const auto& [link, joint] : walk(urdf, edges)) {
+  for (const auto& [link, from] : walk(urdf, edges)) {
     place[link] = tree.links.size();
     tree.links.push_back(link);
-    if (!joint) continue;
-    tree.joints.push_back(
-        make_joint(urdf.joints[*joint], place[edges.parent[*joint]], place[link]));
-    source.push_back(*joint);
+    if (!from) continue;
+    Joint& joint = tree.joints.emplace_back(urdf.joints[*from].joint);
+    joint.name = urdf.joints[*from].name;
+    joint.parent = place[edges.parent[*from]];
+    joint.child = place[link];
+    source.push_back(*from);
   }
-  assign_variables(urdf, source, tree);
+  add_variables(urdf, source, tree);
+  resolve_mimics(urdf, source, tree.joints);
   return tree;
-}
-
-void fail_at(const Urdf& urdf, const UrdfJoint& joint, const std::string& what) {
-  throw InputError(urdf.file + ":" + std::to_string(joint.line) + ": joint " +
-                   in_quotes(joint.name) + ": " + what);
-}
-
-void fail_at(const Urdf& urdf, const UrdfLink& link, const std::string& what) {
-  throw InputError(urdf.file + ":" + std::to_string(link.line) + ": link " + in_quotes(link.name) +
-                   ": " + what);
 }
 
 }  // namespace penumbra::detail

@@ -13,8 +13,8 @@
 
 namespace penumbra::detail {
 
-// What a URDF file says, element by element, checked one by one but not yet against each other.
-// Lengths in metres, angles in radians; `line` is where the element starts.
+// The elements of a URDF file. Each is valid by itself; build_tree() checks that they fit together.
+// Lengths in metres, angles in radians. `place` names file, line and element, for messages.
 
 struct UrdfBox {
   Eigen::Vector3d size;
@@ -26,7 +26,7 @@ struct UrdfSphere {
   double radius;
 };
 struct UrdfCapsule {
-  double radius, length;  // of the cylindrical part
+  double radius, length;  // length of the cylindrical part
 };
 struct UrdfMesh {
   std::string filename;  // a path or URI as written
@@ -35,15 +35,15 @@ struct UrdfMesh {
 
 /// A visual or collision element.
 struct UrdfElement {
-  int line = 0;
+  std::string place;                                         // that of its link
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // T_link_shape
   std::variant<UrdfBox, UrdfCylinder, UrdfSphere, UrdfCapsule, UrdfMesh> shape;
-  std::string fault;  // why it cannot be drawn, with its place in the file; empty: it can
+  std::string fault;  // why it cannot be drawn, with its place; empty if it can
 };
 
 struct UrdfLink {
   std::string name;
-  int line = 0;
+  std::string place;
   std::vector<UrdfElement> visuals, collisions;
 
   [[nodiscard]] const std::vector<UrdfElement>& elements(Geometry g) const {
@@ -51,8 +51,8 @@ struct UrdfLink {
   }
 };
 
-/// A multiplier or an offset beyond it was written in another unit.
-inline constexpr double kLargestMimic = 1e9;
+/// Larger multipliers and offsets are an error of the unit.
+inline constexpr double largest_mimic = 1e9;
 
 struct UrdfMimic {
   std::string joint;
@@ -62,13 +62,9 @@ struct UrdfMimic {
 
 struct UrdfJoint {
   std::string name;
-  int line = 0;
-  JointType type = JointType::fixed;
+  std::string place;
+  Joint joint;  // links and variables are not set yet
   std::string parent, child;
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
-  std::optional<double> velocity;
-  std::optional<double> lower, upper;
   std::optional<UrdfMimic> mimic;
 };
 
@@ -77,11 +73,11 @@ struct Urdf {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  std::vector<std::string> warnings;  // lines
+  std::vector<std::string> warnings;  // one line each
 };
 
 /// Reads the text of a URDF. Throws InputError that names file, line and element; faults of visual
-/// and collision elements are kept for those who draw them.
+/// and collision elements are stored in the element instead.
 [[nodiscard]] Urdf read_urdf(std::string_view xml, const std::string& file);
 
 }  // namespace penumbra::detail

@@ -9,24 +9,34 @@
 namespace penumbra::detail {
 namespace {
 
-bool contains(std::span<const std::string_view> list, std::string_view name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+std::vector<std::string_view> words(std::string_view list) {
+  std::vector<std::string_view> all;
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    all.push_back(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return all;
 }
 
-// "drake:acceleration", "xmlns:xacro"; and the default namespace itself.
+bool contains(std::string_view list, std::string_view name) {
+  const auto all = words(list);
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+// "drake:acceleration", "xmlns:xacro" and the default namespace.
 bool is_extension(std::string_view name) {
   return name.find(':') != std::string_view::npos || name == "xmlns";
 }
 
-// "u:origin", where "origin" is read; "xmlns:origin" only declares a prefix.
-bool is_disguised(std::span<const std::string_view> read, std::string_view name) {
+// "u:origin" where "origin" is read; "xmlns:origin" only declares a prefix.
+bool is_prefixed(std::string_view read, std::string_view name) {
   const std::size_t colon = name.find(':');
   return colon != std::string_view::npos && !name.starts_with("xmlns:") &&
          contains(read, name.substr(colon + 1));
 }
 
-/// How many letters must be changed, added, left out or swapped with the next to make one name of
-/// the other (optimal string alignment); upper and lower case are the same.
+/// Returns the optimal string alignment distance between names, without regard to case.
 std::size_t distance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) ==
@@ -47,11 +57,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-/// The name that was probably meant; nothing if none is near.
-std::optional<std::string_view> meant(std::span<const std::string_view> read,
-                                      std::string_view name) {
+/// Returns the known name that is close to this one, if there is one.
+std::optional<std::string_view> similar_name(std::string_view read, std::string_view name) {
   constexpr std::size_t letters_per_mistake = 4;
-  for (const std::string_view known : read) {
+  for (const std::string_view known : words(read)) {
     const std::size_t mistakes = std::max<std::size_t>(known.size() / letters_per_mistake, 1);
     if (name.size() <= known.size() + mistakes && distance(name, known) <= mistakes) return known;
   }
@@ -62,7 +71,7 @@ bool is_macro_text(std::string_view text) {
   return text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos;
 }
 
-constexpr const char* kExpandXacro =
+constexpr const char* expand_xacro =
     "this is a xacro file, not a URDF; expand it first: xacro FILE.urdf.xacro > FILE.urdf";
 
 }  // namespace
@@ -70,28 +79,28 @@ constexpr const char* kExpandXacro =
 void UrdfNode::expect(const ElementRule& rule) const {
   for (const auto& [key, value] : xml_->attributes) {
     if (key.starts_with("xacro:") || is_macro_text(value))
-      fail("attribute " + key + "=" + in_quotes(value) + ": " + kExpandXacro);
+      fail("attribute " + key + "=" + in_quotes(value) + ": " + expand_xacro);
     check_name("attribute " + in_quotes(key), key, rule.attributes, rule.ignored_attributes);
   }
   for (const XmlElement& c : xml_->children) {
     const UrdfNode child(c, *file_, where_);
-    if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + kExpandXacro);
+    if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + expand_xacro);
     child.check_name("element " + in_quotes(c.name), c.name, rule.children, rule.ignored_children);
   }
-  if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + kExpandXacro);
+  if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + expand_xacro);
   if (!xml_->text.empty())
-    file_->warnings.try_emplace("text", place() + "text " + in_quotes(xml_->text) + " is ignored");
+    file_->warnings.try_emplace("text",
+                                place() + ": text " + in_quotes(xml_->text) + " is ignored");
 }
 
-void UrdfNode::check_name(const std::string& what, std::string_view name,
-                          std::span<const std::string_view> read,
-                          std::span<const std::string_view> ignored) const {
-  if (is_disguised(read, name))
+void UrdfNode::check_name(const std::string& what, std::string_view name, std::string_view read,
+                          std::string_view ignored) const {
+  if (is_prefixed(read, name))
     fail(what + " has a prefix and would be ignored; write it without the prefix, or remove it");
   if (is_extension(name) || contains(read, name) || contains(ignored, name)) return;
-  if (const auto known = meant(read, name))
+  if (const auto known = similar_name(read, name))
     fail("unknown " + what + "; is " + in_quotes(std::string(*known)) + " meant?");
-  file_->warnings.try_emplace(what, place() + "unknown " + what + " is ignored");
+  file_->warnings.try_emplace(what, place() + ": unknown " + what + " is ignored");
 }
 
 std::vector<UrdfNode> UrdfNode::children() const {
@@ -124,12 +133,12 @@ const std::string& UrdfNode::text(std::string_view key) const {
   return *value;
 }
 
-const std::string& UrdfNode::identifier(std::string_view key) const {
-  const std::string& value = text(key);
-  if (holds_control(value))
-    fail(std::string(key) + "=" + in_quotes(value) +
-         " holds control characters; a name of visible characters is expected");
-  return value;
+const std::string& UrdfNode::identifier() const {
+  const std::string& name = text("name");
+  if (std::any_of(name.begin(), name.end(),
+                  [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }))
+    fail("name=" + in_quotes(name) + " contains control characters; remove them");
+  return name;
 }
 
 double UrdfNode::number(std::string_view key) const {
@@ -165,10 +174,10 @@ void UrdfNode::numbers(std::string_view key, std::span<double> out) const {
 }
 
 std::string UrdfNode::place() const {
-  return file_->name + ":" + std::to_string(line()) + ": " +
-         (where_.empty() ? xml_->name : where_) + ": ";
+  return file_->name + ":" + std::to_string(xml_->line) + ": " +
+         (where_.empty() ? xml_->name : where_);
 }
 
-void UrdfNode::fail(const std::string& what) const { throw InputError(place() + what); }
+void UrdfNode::fail(const std::string& what) const { throw InputError(place() + ": " + what); }
 
 }  // namespace penumbra::detail

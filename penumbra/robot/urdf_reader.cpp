@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,66 +10,18 @@
 namespace penumbra::detail {
 namespace {
 
-using Names = std::string_view[];
-
-// The elements and attributes that are read, and those known to change nothing that is drawn:
-// dynamics, colours, controllers, simulators. http://wiki.ros.org/urdf/XML
-constexpr Names kName = {"name"};
-constexpr Names kRobotAttributes = {"name", "version"};
-constexpr Names kRobotChildren = {"link", "joint"};
-constexpr Names kRobotIgnored = {"material",     "transmission", "gazebo",
-                                 "ros2_control", "sensor",       "mujoco"};
-constexpr Names kLinkChildren = {"visual", "collision"};
-constexpr Names kLinkIgnoredAttributes = {"type", "concave"};
-constexpr Names kLinkIgnored = {"inertial", "contact", "sensor",
-                                "gazebo",   "verbose", "self_collision_checking"};
-constexpr Names kElementIgnoredAttributes = {"name", "group", "concave"};
-constexpr Names kElementChildren = {"origin", "geometry"};
-constexpr Names kElementIgnored = {"material", "texture", "verbose", "contact_coefficients"};
-constexpr Names kShapes = {"box", "cylinder", "sphere", "capsule", "mesh"};
-constexpr Names kOriginAttributes = {"xyz", "rpy", "quat_xyzw"};
-constexpr Names kBoxAttributes = {"size"};
-constexpr Names kRoundAttributes = {"radius", "length"};
-constexpr Names kSphereAttributes = {"radius"};
-constexpr Names kMeshAttributes = {"filename", "scale"};
-constexpr Names kJointAttributes = {"name", "type"};
-constexpr Names kJointChildren = {"parent", "child", "origin", "axis", "limit", "mimic"};
-constexpr Names kJointIgnored = {"dynamics", "safety_controller", "calibration",
-                                 "gazebo",   "joint_properties",  "verbose"};
-constexpr Names kLinkReference = {"link"};
-constexpr Names kAxisAttributes = {"xyz"};
-constexpr Names kLimitAttributes = {"lower", "upper", "velocity"};
-constexpr Names kLimitIgnored = {"effort", "acceleration", "deceleration", "jerk"};
-constexpr Names kMimicAttributes = {"joint", "multiplier", "offset"};
-
-constexpr ElementRule kRobotRule{kRobotAttributes, {}, kRobotChildren, kRobotIgnored};
-constexpr ElementRule kLinkRule{kName, kLinkIgnoredAttributes, kLinkChildren, kLinkIgnored};
-constexpr ElementRule kElementRule{
-    {}, kElementIgnoredAttributes, kElementChildren, kElementIgnored};
-constexpr ElementRule kGeometryRule{{}, kName, kShapes, {}};
-constexpr ElementRule kJointRule{kJointAttributes, {}, kJointChildren, kJointIgnored};
-constexpr ElementRule kLimitRule{kLimitAttributes, kLimitIgnored, {}, {}};
-
-// Nothing on a robot is larger or farther; what is was written in another unit. The radius also
-// bounds the triangles of a sphere.
-constexpr double kLargestSize = 1000.0;
-constexpr double kLargestRadius = 50.0;
-constexpr double kFarthestOrigin = 1e6;
-constexpr double kShortestAxis = 1e-9;
-constexpr double kUnitQuaternion = 1e-3;
-
-constexpr JointType kJointTypes[] = {JointType::revolute,  JointType::continuous,
-                                     JointType::prismatic, JointType::fixed,
-                                     JointType::planar,    JointType::floating};
-
-ElementRule leaf(std::span<const std::string_view> attributes) { return {attributes, {}, {}, {}}; }
+// Larger values were written in another unit. The radius also bounds the triangles of a sphere.
+constexpr double largest_size = 1000.0;  // metres
+constexpr double largest_radius = 50.0;  // metres
+constexpr double farthest_origin = 1e6;  // metres
 
 Eigen::Quaterniond read_rotation(const UrdfNode& node) {
   if (node.has("quat_xyzw")) {
     if (node.has("rpy")) node.fail("has both rpy and quat_xyzw; one is expected");
     Eigen::Vector4d xyzw;
     node.numbers("quat_xyzw", {xyzw.data(), 4});
-    if (std::abs(xyzw.norm() - 1.0) > kUnitQuaternion)
+    constexpr double rounding = 1e-3;
+    if (std::abs(xyzw.norm() - 1.0) > rounding)
       node.fail("quat_xyzw=" + in_quotes(node.text("quat_xyzw")) + " is not of length 1");
     return Eigen::Quaterniond(xyzw.normalized());
   }
@@ -84,9 +35,9 @@ Eigen::Isometry3d read_origin(const UrdfNode& parent) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const auto node = parent.child("origin");
   if (!node) return pose;
-  node->expect(leaf(kOriginAttributes));
+  node->expect({"xyz rpy quat_xyzw"});
   const Eigen::Vector3d xyz = node->has("xyz") ? node->vector("xyz") : Eigen::Vector3d::Zero();
-  if (xyz.cwiseAbs().maxCoeff() > kFarthestOrigin)
+  if (xyz.cwiseAbs().maxCoeff() > farthest_origin)
     node->fail("xyz=" + in_quotes(node->text("xyz")) + " lies beyond 1e6 m; metres are expected");
   pose.linear() = read_rotation(*node).toRotationMatrix();
   pose.translation() = xyz;
@@ -94,16 +45,16 @@ Eigen::Isometry3d read_origin(const UrdfNode& parent) {
 }
 
 UrdfBox read_box(const UrdfNode& node) {
-  node.expect(leaf(kBoxAttributes));
+  node.expect({"size"});
   const Eigen::Vector3d size = node.vector("size");
-  if (size.minCoeff() <= 0.0 || size.maxCoeff() > kLargestSize)
+  if (size.minCoeff() <= 0.0 || size.maxCoeff() > largest_size)
     node.fail("size=" + in_quotes(node.text("size")) + " must be above 0 and at most " +
-              printed(kLargestSize) + " m in every direction");
+              printed(largest_size) + " m in every direction");
   return {size};
 }
 
 UrdfMesh read_mesh(const UrdfNode& node) {
-  node.expect(leaf(kMeshAttributes));
+  node.expect({"filename scale"});
   UrdfMesh mesh{node.text("filename")};
   if (node.has("scale")) mesh.scale = node.vector("scale");
   if ((mesh.scale.array() == 0.0).any())
@@ -114,34 +65,35 @@ UrdfMesh read_mesh(const UrdfNode& node) {
 // A cylinder or capsule: its length is that of the cylindrical part.
 template <typename Shape>
 Shape read_round(const UrdfNode& node) {
-  node.expect(leaf(kRoundAttributes));
-  return {node.positive("radius", kLargestRadius), node.positive("length", kLargestSize)};
+  node.expect({"radius length"});
+  return {node.positive("radius", largest_radius), node.positive("length", largest_size)};
 }
 
 void read_shape(const UrdfNode& geometry, UrdfElement& element) {
-  geometry.expect(kGeometryRule);
+  geometry.expect({"", "name", "box cylinder sphere capsule mesh"});
   std::optional<UrdfNode> shape;
-  for (const std::string_view kind : kShapes) {
+  for (const char* kind : {"box", "cylinder", "sphere", "capsule", "mesh"}) {
     const auto node = geometry.child(kind);
     if (node && shape) node->fail("a second shape; one element for each shape is expected");
     if (node) shape = node;
   }
-  if (!shape) geometry.fail("holds no shape; expected box, cylinder, sphere, capsule or mesh");
+  if (!shape) geometry.fail("contains no shape; expected box, cylinder, sphere, capsule or mesh");
   if (shape->name() == "box") element.shape = read_box(*shape);
   if (shape->name() == "cylinder") element.shape = read_round<UrdfCylinder>(*shape);
   if (shape->name() == "capsule") element.shape = read_round<UrdfCapsule>(*shape);
   if (shape->name() == "mesh") element.shape = read_mesh(*shape);
   if (shape->name() == "sphere") {
-    shape->expect(leaf(kSphereAttributes));
-    element.shape = UrdfSphere{shape->positive("radius", kLargestRadius)};
+    shape->expect({"radius"});
+    element.shape = UrdfSphere{shape->positive("radius", largest_radius)};
   }
 }
 
-UrdfElement read_element(const UrdfNode& node) {
+UrdfElement read_element(const UrdfNode& node, const std::string& place) {
   UrdfElement element;
-  element.line = node.line();
+  element.place = place;
   try {
-    node.expect(kElementRule);
+    node.expect({"", "name group concave", "origin geometry",
+                 "material texture verbose contact_coefficients"});
     element.origin = read_origin(node);
     read_shape(node.required_child("geometry"), element);
   } catch (const InputError& error) {
@@ -151,20 +103,22 @@ UrdfElement read_element(const UrdfNode& node) {
 }
 
 UrdfLink read_link(const UrdfNode& unnamed) {
-  const std::string& name = unnamed.identifier("name");
+  const std::string& name = unnamed.identifier();
   const UrdfNode node = unnamed.named("link " + in_quotes(name));
-  node.expect(kLinkRule);
-  UrdfLink link{name, node.line(), {}, {}};
+  node.expect({"name", "type concave", "visual collision",
+               "inertial contact sensor gazebo verbose self_collision_checking"});
+  UrdfLink link{name, node.place(), {}, {}};
   for (const UrdfNode& child : node.children()) {
-    if (child.name() == "visual") link.visuals.push_back(read_element(child));
-    if (child.name() == "collision") link.collisions.push_back(read_element(child));
+    if (child.name() == "visual") link.visuals.push_back(read_element(child, link.place));
+    if (child.name() == "collision") link.collisions.push_back(read_element(child, link.place));
   }
   return link;
 }
 
 JointType read_type(const UrdfNode& node) {
   const std::string& type = node.text("type");
-  for (const JointType known : kJointTypes)
+  for (const JointType known : {JointType::revolute, JointType::continuous, JointType::prismatic,
+                                JointType::fixed, JointType::planar, JointType::floating})
     if (to_string(known) == type) return known;
   node.fail("unknown type " + in_quotes(type) +
             "; expected revolute, continuous, prismatic, fixed, planar or floating");
@@ -172,32 +126,33 @@ JointType read_type(const UrdfNode& node) {
 
 std::string read_reference(const UrdfNode& joint, std::string_view key) {
   const UrdfNode node = joint.required_child(key);
-  node.expect(leaf(kLinkReference));
+  node.expect({"link"});
   return node.text("link");
 }
 
 Eigen::Vector3d read_axis(const UrdfNode& joint, JointType type) {
   const auto node = joint.child("axis");
   if (!node) {
-    // The URDF default would be x, most readers of planar joints take z.
+    // URDF's default is x, but most readers use z for planar joints.
     if (type == JointType::planar)
       joint.fail("a planar joint needs its plane's normal: <axis xyz=\"0 0 1\"/> for x and y");
     return Eigen::Vector3d::UnitX();
   }
-  node->expect(leaf(kAxisAttributes));
+  node->expect({"xyz"});
   const Eigen::Vector3d axis = node->vector("xyz");
-  // Exporters write a zero axis for joints that have none.
+  // Exporters write a zero axis for joints without one.
   if (type == JointType::fixed || type == JointType::floating) return Eigen::Vector3d::UnitX();
   const double length = axis.stableNorm();
-  if (length < kShortestAxis)
+  constexpr double shortest_axis = 1e-9;
+  if (length < shortest_axis)
     node->fail("xyz=" + in_quotes(node->text("xyz")) + " has no direction; for instance \"0 0 1\"");
   return (axis / length).normalized();
 }
 
-void read_limits(const UrdfNode& joint, UrdfJoint& out) {
+void read_limits(const UrdfNode& joint, Joint& out) {
   const auto node = joint.child("limit");
   if (!node) return;
-  node->expect(kLimitRule);
+  node->expect({"lower upper velocity", "effort acceleration deceleration jerk"});
   const double lower = node->number_or("lower", 0.0);
   const double upper = node->number_or("upper", 0.0);
   const double velocity = node->number_or("velocity", 0.0);
@@ -211,33 +166,32 @@ void read_limits(const UrdfNode& joint, UrdfJoint& out) {
 std::optional<UrdfMimic> read_mimic(const UrdfNode& joint) {
   const auto node = joint.child("mimic");
   if (!node) return std::nullopt;
-  node->expect(leaf(kMimicAttributes));
+  node->expect({"joint multiplier offset"});
   const UrdfMimic mimic{node->text("joint"), node->number_or("multiplier", 1.0),
                         node->number_or("offset", 0.0)};
-  if (std::abs(mimic.multiplier) > kLargestMimic || std::abs(mimic.offset) > kLargestMimic)
+  if (std::abs(mimic.multiplier) > largest_mimic || std::abs(mimic.offset) > largest_mimic)
     node->fail("multiplier and offset must lie within +-1e9");
   return mimic;
 }
 
 UrdfJoint read_joint(const UrdfNode& unnamed) {
-  const std::string& name = unnamed.identifier("name");
+  const std::string& name = unnamed.identifier();
   const UrdfNode node = unnamed.named("joint " + in_quotes(name));
-  node.expect(kJointRule);
-  UrdfJoint joint;
-  joint.name = name;
-  joint.line = node.line();
-  joint.type = read_type(node);
+  node.expect({"name type", "", "parent child origin axis limit mimic",
+               "dynamics safety_controller calibration gazebo joint_properties verbose"});
+  UrdfJoint joint{name, node.place(), {}, {}, {}, {}};
+  joint.joint.type = read_type(node);
   joint.parent = read_reference(node, "parent");
   joint.child = read_reference(node, "child");
-  joint.origin = read_origin(node);
-  joint.axis = read_axis(node, joint.type);
-  read_limits(node, joint);
+  joint.joint.origin = read_origin(node);
+  joint.joint.axis = read_axis(node, joint.joint.type);
+  read_limits(node, joint.joint);
   joint.mimic = read_mimic(node);
   return joint;
 }
 
-// Elements that are ignored are searched too: a file that holds a macro anywhere is not expanded.
-// An xmlns:xacro alone is no sign of one: expanded files often keep it.
+// Also searches ignored elements: a file with a macro anywhere is not expanded. Expanded files
+// often keep xmlns:xacro.
 void refuse_xacro(const XmlElement& xml, UrdfFile& file) {
   if (xml.name.starts_with("xacro:"))
     UrdfNode(xml, file, "")
@@ -250,16 +204,16 @@ void refuse_xacro(const XmlElement& xml, UrdfFile& file) {
 
 Urdf read_urdf(std::string_view xml, const std::string& file) {
   const XmlElement root = read_xml(xml, file);
-  require_utf8(root, file);
   UrdfFile source{file, {}};
   const UrdfNode node(root, source, "");
   if (root.name != "robot")
     node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>");
   refuse_xacro(root, source);
-  node.expect(kRobotRule);
+  node.expect({"name version", "", "link joint",
+               "material transmission gazebo ros2_control sensor mujoco"});
   if (node.has("version") && !node.text("version").starts_with("1"))
     node.fail("version=" + in_quotes(node.text("version")) + " is unknown; expected 1.0");
-  Urdf urdf{file, node.identifier("name"), {}, {}, {}};
+  Urdf urdf{file, node.identifier(), {}, {}, {}};
   for (const UrdfNode& child : node.children()) {
     if (child.name() == "link") urdf.links.push_back(read_link(child));
     if (child.name() == "joint") urdf.joints.push_back(read_joint(child));

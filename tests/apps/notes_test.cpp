@@ -71,7 +71,7 @@ TEST_F(NotesTest, LinksThatAreTiny) {
             "<link name=\"speck\"><collision><geometry><mesh filename=\"board.stl\" scale=\"0.001 "
             "0.001 0.001\"/></geometry></collision></link><joint name=\"hold\" "
             "type=\"fixed\"><parent link=\"board\"/><child link=\"speck\"/></joint></robot>");
-  const std::string words = "link 'speck': its geometry is only 0.4 mm large; is the unit right?";
+  const std::string words = "link 'speck': its geometry is only 0.4 mm large; check the unit";
   expect_note_of_run(words);
   expect_note_of_render({}, words);
   EXPECT_NE(inspect().out.find("note: " + words), std::string::npos);

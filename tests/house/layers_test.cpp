@@ -65,6 +65,7 @@ const std::vector<Library>& libraries() {
                                         {"hwy/", "penumbra/render", 2},
                                         {"epoxy/egl.h", "penumbra/render/gl", 1},
                                         {"dlfcn.h", "penumbra/render/gl", 1},
+                                        {"fnmatch.h", "penumbra/robot", 1},
                                         {"epoxy/gl.h", "penumbra/render/gl", 7},
                                         {"yaml-cpp/", "io/files", 2},
                                         {"png.h", "io/files", 1},

@@ -26,10 +26,6 @@ class Packages : public ::testing::Test {
     folder_.write(file, tetrahedron_stl(size));
   }
 
-  void add_manifest(const std::string& folder, const std::string& name) {
-    folder_.write(folder + "/package.xml", "<package><name> " + name + " </name></package>");
-  }
-
   void set(const char* variable, const std::string& value) { ::setenv(variable, value.c_str(), 1); }
 
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -77,40 +73,27 @@ TEST_F(Packages, AmentPrefixesInTheirOrder) {
 
 TEST_F(Packages, AreFoundByNameManifestOrPlace) {
   struct Case {
-    std::string mesh, manifest, manifest_text, variable, folder, uri, urdf, note;
+    std::string mesh, manifest, variable, folder, uri, urdf, note;
   };
-  const std::string p = "<package><name> p </name></package>", beside = "work/robots/r.urdf";
-  const std::string ros = "ROS_PACKAGE_PATH", gazebo = "GAZEBO_MODEL_PATH",
-                    uri = "package://p/t.stl";
+  const std::string urdf = "work/robots/r.urdf", ros = "ROS_PACKAGE_PATH",
+                    gazebo = "GAZEBO_MODEL_PATH", uri = "package://p/t.stl";
   double size = 0;  // of each mesh
   for (const Case& each : std::initializer_list<Case>{
-           {"a/src/stack/folder/t.stl", "a/src/stack/folder", p, ros, "a/src", uri, beside, ros},
-           {"b/src/stack/p/t.stl", "b/src/stack/p", "<package><name>", ros, "b/src", uri, beside,
-            ros},
-           {"c/models/p/t.stl", "", "", gazebo, "c/models", "model://p/t.stl", beside, gazebo},
-           {"d/p/t.stl", "", "", "", "", uri, "d/work/r.urdf", "beside or above"},
-           {"e/p/t.stl", "", "", "", "", uri, "e/p/urdf/r.urdf", ""},
-           {"f/p-main/t.stl", "f/p-main", p, "", "", uri, "f/p-main/urdf/r.urdf", ""}}) {
+           {"a/share/p/t.stl", "", ros, "a/share", uri, urdf, ros},
+           {"c/models/p/t.stl", "", gazebo, "c/models", "model://p/t.stl", urdf, gazebo},
+           {"d/p/t.stl", "", "", "", uri, "d/work/r.urdf", "above the URDF"},
+           {"e/p/t.stl", "", "", "", uri, "e/p/urdf/r.urdf", ""},
+           {"f/p-main/t.stl", "f/p-main", "", "", uri, "f/p-main/urdf/r.urdf", ""}}) {
     SCOPED_TRACE(each.mesh);
     clear();
     add_mesh(each.mesh, ++size);
-    if (!each.manifest.empty()) folder_.write(each.manifest + "/package.xml", each.manifest_text);
+    if (!each.manifest.empty())
+      folder_.write(each.manifest + "/package.xml", "<package><name> p </name></package>");
     if (!each.variable.empty()) set(each.variable.c_str(), in(each.folder));
     const Robot robot = load(each.uri, {}, each.urdf);
     EXPECT_EQ(size_of(robot), size);
     EXPECT_TRUE(holds(robot.notes()[0], each.note));
   }
-}
-
-TEST_F(Packages, RosPackagePathSkipsIgnoredFoldersAndSurvivesLinksInACircle) {
-  add_mesh("src/old/p/t.stl", 5);
-  add_manifest("src/old/p", "p");
-  folder_.write("src/old/CATKIN_IGNORE", "");
-  add_mesh("src/z/p/t.stl", 6);
-  add_manifest("src/z/p", "p");
-  std::filesystem::create_directory_symlink(in("src"), in("src/circle"));
-  set("ROS_PACKAGE_PATH", in("src"));
-  EXPECT_EQ(size_of(load("package://p/t.stl")), 6.0);
 }
 
 TEST_F(Packages, FoundBesideAUrdfOfTheWorkingFolder) {
