@@ -96,7 +96,7 @@ Header take_header(std::string_view& rest) {
     if (keyword == "format") header.format = take_word(line);
     if (keyword == "element") header.elements.push_back(parse_element(line));
     if (keyword != "property") continue;
-    if (header.elements.empty()) damaged("PLY: a property stands before any element");
+    if (header.elements.empty()) damaged("PLY: a property comes before any element");
     header.elements.back().properties.push_back(parse_property(line));
   }
 }

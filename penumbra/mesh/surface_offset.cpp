@@ -60,11 +60,12 @@ class Face {
       const Vector3d to_p = p - corners_[k];
       if (outward_[k].dot(to_p) <= 0.0) continue;
       const Vector3d edge = corners_[(k + 1) % 3] - corners_[k];
-      const double share = std::clamp(to_p.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-      const double distance = (to_p - share * edge).norm();
+      const double fraction = std::clamp(to_p.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+      const double distance = (to_p - fraction * edge).norm();
       if (distance >= best.distance) continue;
-      const bool at_corner = share == 0.0 || share == 1.0;
-      best = {distance, at_corner ? angles_[(k + (share == 1.0 ? 1 : 0)) % 3] : std::numbers::pi};
+      const bool at_corner = fraction == 0.0 || fraction == 1.0;
+      best = {distance,
+              at_corner ? angles_[(k + (fraction == 1.0 ? 1 : 0)) % 3] : std::numbers::pi};
     }
     return best.distance == infinite ? Nearest{std::abs(height(p)), std::numbers::pi} : best;
   }
@@ -172,8 +173,8 @@ class LevelSurface {
     std::vector<Vector3d> polygon;
     for (const Node& from : inside) {
       for (const Node& to : outside) {
-        const double share = from.value / (from.value - to.value);
-        polygon.push_back(from.point + share * (to.point - from.point));
+        const double fraction = from.value / (from.value - to.value);
+        polygon.push_back(from.point + fraction * (to.point - from.point));
       }
       std::reverse(outside.begin(), outside.end());  // the order around a quadrangle
     }

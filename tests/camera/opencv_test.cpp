@@ -41,7 +41,7 @@ void compare(const test::Lens& sample, std::mt19937_64& random) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector2d pixel = opencv_focal * lens.distort(rays[i]);
     const double scale =
-        std::max(1.0, pixel.norm() / opencv_focal);  // beside a pole pixels are far away
+        std::max(1.0, pixel.norm() / opencv_focal);  // near a pole, pixels are far apart
     EXPECT_LT((pixel - Eigen::Vector2d(expected[i].x, expected[i].y)).norm(), same_px * scale)
         << sample.name << ' ' << sample.model << ' ' << rays[i].transpose();
   }

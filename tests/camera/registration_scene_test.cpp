@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth images of closed-form scenes, brought from one camera to another, against the same scene
-// cast from the other.
+// Depth images of closed-form scenes, transformed to another camera, against ray casts from there.
 #include "../support/run_length.hpp"
 #include "closed_form_scene.hpp"
 #include "lens_samples.hpp"
@@ -74,7 +73,7 @@ Scene wall_and_solids() {
   return scene;
 }
 
-/// What rays half a pixel apart meet, out to a margin around the image.
+/// Hits of rays half a pixel apart, with a margin around the image.
 class CastImage {
  public:
   CastImage(const Scene& scene, const Camera& camera)
@@ -85,7 +84,7 @@ class CastImage {
         hits_(i, j) = scene.hit(camera, 0.5 * i - margin, 0.5 * j - margin);
   }
 
-  /// Depths of the one surface that all rays within `reach` pixels meet; nothing if it is not one.
+  /// Returns the range of depths if all rays within `reach` pixels hit the surface `index`.
   [[nodiscard]] std::optional<std::pair<double, double>> surface(const Eigen::Vector2d& pixel,
                                                                  double reach,
                                                                  std::size_t index) const {
@@ -114,7 +113,7 @@ struct Pair {
   Eigen::Isometry3d T_to_from;
 };
 
-/// The pixel where a camera sees a point of its frame; nothing where the lens does not reach.
+/// Returns the pixel of a point in the camera's frame; nothing if the lens does not reach it.
 std::optional<Eigen::Vector2d> pixel_of(const Camera& camera, const Eigen::Vector3d& point) {
   if (point.z() <= 0.05) return std::nullopt;
   const Eigen::Vector2d ray = point.head<2>() / point.z();
@@ -125,10 +124,10 @@ std::optional<Eigen::Vector2d> pixel_of(const Camera& camera, const Eigen::Vecto
 
 struct Score {
   std::size_t measured = 0;
-  std::size_t made_up = 0;  ///< of those: no depth that the source has near where it would see it
+  std::size_t made_up = 0;  ///< of `measured`: without such a depth nearby in the source
   std::size_t checked = 0;  ///< pixels that must be measured
-  std::size_t holes = 0;    ///< of those
-  std::size_t off = 0;      ///< of those: not a depth of the surface near that pixel
+  std::size_t holes = 0;    ///< of `checked`: not measured
+  std::size_t off = 0;      ///< of `checked`: not a depth of the surface near that pixel
 };
 
 class Judge {
@@ -186,7 +185,7 @@ class Judge {
       ++score.off;
   }
 
-  /// Whether a source pixel has this very depth, near where the first camera would see the point.
+  /// Whether a source pixel near the point's image has this depth.
   [[nodiscard]] bool source_has(const Eigen::Vector2d& pixel, double depth) const {
     constexpr int reach = 4;  // a steep surface moves by some pixels between two of its pixels
     const auto point = point_of(pair_.to, pixel, depth);
@@ -200,7 +199,7 @@ class Judge {
     return false;
   }
 
-  /// Whether the first camera sees the very point that the second one does, amid its surface.
+  /// Whether the first camera sees the same point as the second one, inside its surface.
   [[nodiscard]] bool source_sees(const Eigen::Vector2d& pixel, const Hit& hit) const {
     const Eigen::Vector3d point = pair_.T_to_from.inverse() * *point_of(pair_.to, pixel, hit.depth);
     const auto seen = pixel_of(pair_.from, point);

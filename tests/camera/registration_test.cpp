@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a registered depth image holds where nothing is measured, at its edges, and of what is none.
+// Registered depth images of pixels without measurement, at edges, and of invalid images.
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
 #include "posed_cameras.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fringe leaves of the robot on the real recording, and what it takes of objects pasted
-// beside it. docs/cloud.md has the full study.
+// How much of the robot the fringe misses in the real recording, and how much it removes of objects
+// pasted next to it. docs/cloud.md has the full study.
 #include "../support/cloud_measure.hpp"
 #include "../support/data.hpp"
 

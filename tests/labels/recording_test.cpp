@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default rule on the real recording, in which nothing stands before the robot, and on objects
+// The default rule on the real recording, without anything in front of the robot, and on objects
 // pasted into it. docs/tuning.md has the full study.
 #include "../support/data.hpp"
 #include "../support/pasted_object.hpp"

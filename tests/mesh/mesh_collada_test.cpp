@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of Collada: what it refuses, and Assimp's reading of sound files beside its own.
+// The Collada reader: files that it refuses, and a comparison with Assimp on valid files.
 #include <array>
 
 #include <Eigen/Geometry>

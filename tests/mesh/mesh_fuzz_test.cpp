@@ -28,7 +28,7 @@ bool is_word(char c) {
          std::string_view("_.-+#").find(c) != std::string_view::npos;
 }
 
-/// Words and what stands between them, in turns.
+/// Returns words and the text between them, alternately.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> tokens;
   for (std::size_t i = 0; i < text.size();) {
@@ -83,7 +83,7 @@ void mutate(std::vector<std::string>& tokens, Random& random) {
   }
 }
 
-/// Takes out, doubles or moves what stands between two marks, brackets or tags mostly whole.
+/// Removes, doubles or moves the text between two marks, mostly whole brackets or tags.
 std::string shuffled(std::string text, Random& random) {
   const std::string_view open = text.starts_with('<') ? "<" : "{[,";
   const auto mark = [&] {

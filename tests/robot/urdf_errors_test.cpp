@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A URDF that cannot be drawn as it is meant is refused in one line with the place.
+// A URDF that cannot be drawn correctly is refused in one line with file, line and element.
 #include "urdf_text.hpp"
 
 #include <string>
