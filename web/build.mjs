@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node build.mjs [FOLDER]: makes the bundle, by default in dist/.
+// node build.mjs [FOLDER]: builds the pages, by default in dist/.
 import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { build } from 'vite';
@@ -9,7 +9,7 @@ const outDir = path.resolve(process.argv[2] ?? 'dist');
 for (const mode of ['production', 'report'])
   await build({ mode, logLevel: 'warn', build: { outDir } });
 
-// What of others is in the bundle.
+// The licences of bundled libraries.
 const { dependencies } = JSON.parse(await readFile('package.json', 'utf8'));
 const notices = await Promise.all(
   Object.entries(dependencies).map(async ([name, version]) => {

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds the page from its sources, with the pinned tools, and says whether web/dist is what comes
-# out. Types, format and unit tests are looked at first.
+# Checks types, format and unit tests, builds the page with the pinned tools, and compares it with
+# web/dist.
 set -euo pipefail
 cd "$(dirname "$0")"
 
-made=$(mktemp -d)
-trap 'rm -rf "$made"' EXIT
+built=$(mktemp -d)
+trap 'rm -rf "$built"' EXIT
 
 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error >&2
 npm run --silent check
 npm test --silent
-node build.mjs "$made"
-if ! diff -r "$made" dist; then
-  echo "web/dist is not what its sources give: npm run build in web/, and commit web/dist" >&2
+node build.mjs "$built"
+if ! diff -r "$built" dist; then
+  echo "web/dist differs from its sources: run npm run build in web/ and commit web/dist" >&2
   exit 1
 fi

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two pages: the viewer, whose files carry a hash of what is in them, and with `--mode report` the
-// report, one file that holds all it needs.
+// Builds the viewer, whose file names have hashes of their contents; with `--mode report` the report,
+// one file without references.
 import { defineConfig, type Plugin } from 'vite';
 
-/** Puts script and styles into the page itself. */
+/** Inlines script and styles into the page. */
 function inline(): Plugin {
   return {
     name: 'inline',
@@ -18,7 +18,7 @@ function inline(): Plugin {
         delete bundle[name];
       }
       const page = bundle['report.html'];
-      if (page?.type !== 'asset') throw new Error('the report has no page');
+      if (page?.type !== 'asset') throw new Error('report.html is missing');
       page.source = String(page.source)
         .replace(/<script type="module"[^>]*src=[^>]*><\/script>\s*/, '')
         .replace(/<link rel="stylesheet"[^>]*>\s*/, '')

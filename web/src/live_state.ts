@@ -1,57 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says whether what the live page shows is of now. While no frames come, asks the server why.
+// Shows whether the live page is up to date. While no frames come, asks the server for the reason.
 import { fetchSession } from './api/client';
-import type { Diagnostic, LiveState as LiveNumbers, Session } from './api/types';
-import { showMode, showNotes } from './view/page';
+import type { Diagnostic, LiveStatus, Session } from './api/types';
+import { showNotes, showState, type State } from './view/page';
 
-const lookMilliseconds = 250;
+const checkMilliseconds = 250;
 const pollMilliseconds = 1000;
 const answerMilliseconds = 3000;
 
-const shortestQuiet = 1000; // milliseconds
-const longestQuiet = 30_000; // after a pause the last interval says little of the next one
-const periods = 2.5; // of a camera that is slow by itself
-const longestDrawing = 5000; // milliseconds: a large robot takes that long to be drawn first
-const longestAge = 7 * 86_400_000; // milliseconds: older stamps are of another clock, or of a bag
-
-/**
- * Milliseconds without a frame after which that is told.
- * @param rate frames in a second, as the server told it last; 0: not known
- * @param drawing a frame has come and is being drawn
- */
-export function mostQuiet(rate: number, drawing: boolean): number {
-  const slow = rate > 0 ? Math.min((1000 * periods) / rate, longestQuiet) : shortestQuiet;
-  const limit = Math.max(shortestQuiet, slow);
-  return drawing ? Math.max(limit, longestDrawing) : limit;
-}
-
-/**
- * Milliseconds since a frame that may have waited at the server: the first one of a connection, or
- * after a pause. 0 where its stamp cannot be of this clock.
- * @param age from its stamp until it was sent
- * @param drawing from its arrival until it was on the screen; long where the page was not looked at
- */
-export function waited(age: number, drawing: number): number {
-  const all = age + (drawing > longestDrawing ? drawing : 0);
-  return all > 0 && all < longestAge ? all : 0;
-}
-
-const hertz = (rate: number): string => rate.toFixed(rate < 1 ? 1 : 0);
-
-interface Words {
-  readonly text: string;
-  /** The same without numbers that change with every frame. */
-  readonly said?: string;
-  readonly isFault?: boolean;
-  /** What is shown is not of now; without it faults are. */
-  readonly isStale?: boolean;
-}
+const minSilence = 1000; // milliseconds without a frame, before the page says so
+const maxSilence = 30_000; // after a pause, the rate of frames is too low
+const silencePeriods = 2.5; // of a slow camera
+const drawingMilliseconds = 5000; // the first drawing of a large robot
+const maxAge = 7 * 86_400_000; // milliseconds; older stamps are of another clock
 
 export interface LiveHandlers {
-  /** What the server says while no frame comes; the fault of the last one, where it cannot be drawn. */
-  told(session: Session, fault: string | null): void;
-  /** It answers again, after it did not. */
-  back(): void;
+  /** The server's session while no frame comes; `fault` of a frame that cannot be displayed. */
+  session(session: Session, fault: string | null): void;
+  /** The server responds again. */
+  returned(): void;
 }
 
 export class LiveState {
@@ -60,24 +27,24 @@ export class LiveState {
   private isPaused = false;
   private retry: number | null = null; // seconds until the next attempt to connect
   private fault: string | null = null; // of the last frame
-  private live: { readonly numbers: LiveNumbers; readonly lag: number } | null = null; // since begin()
-  private rate = 0;
+  private lag: number | null = null; // milliseconds, of the last frame since restart()
   private dropped = 0;
-  private since = performance.now(); // the last frame
+  private rate = 0; // Hz; 0: not known
+  private frameTime = performance.now(); // of the last frame
   private isPolling = false;
   private polledAt = -Infinity;
-  private isSilent = false; // the server did not answer the last question
+  private isUnreachable = false;
 
   constructor(private readonly handlers: LiveHandlers) {
     this.show();
-    window.setInterval(() => this.look(), lookMilliseconds);
-    // A page that is not seen draws nothing and wants no frames.
-    document.addEventListener('visibilitychange', () => this.begin());
+    window.setInterval(() => this.check(), checkMilliseconds);
+    // A hidden page requests no frames.
+    document.addEventListener('visibilitychange', () => this.restart());
   }
 
   connected(): void {
     this.retry = null;
-    this.begin();
+    this.restart();
   }
 
   disconnected(seconds: number): void {
@@ -85,91 +52,95 @@ export class LiveState {
     this.show();
   }
 
-  setPaused(paused: boolean): void {
-    this.isPaused = paused;
-    this.begin();
+  setPaused(isPaused: boolean): void {
+    this.isPaused = isPaused;
+    this.restart();
   }
 
+  /** A frame arrived; drawn() or failed() follows, then finished(). */
   arrived(): void {
     this.isDrawing = true;
   }
 
-  /** @param milliseconds from the frame's arrival until it was on the screen */
-  drawn(numbers: LiveNumbers, milliseconds: number): void {
-    const mayBeOld = this.live === null; // the server keeps the newest for whoever asks for it
-    this.since = performance.now() - (mayBeOld ? waited(numbers.age_ms, milliseconds) : 0);
-    this.live = { numbers, lag: numbers.age_ms + milliseconds };
+  /** @param milliseconds from the frame's arrival until it was displayed */
+  drawn(status: LiveStatus, milliseconds: number): void {
+    const lag = status.age_ms + milliseconds;
+    // The first frame after a pause can be old: the server keeps the newest one.
+    const isOld = this.lag === null && lag > 0 && lag < maxAge;
+    this.frameTime = performance.now() - (isOld ? lag : 0);
+    this.lag = lag;
     this.hasFrames = true;
     this.fault = null;
-    this.rate = numbers.rate_hz;
-    this.dropped += numbers.dropped;
-    showTold(numbers.missing, numbers.diagnostics);
+    this.rate = status.rate_hz;
+    this.dropped += status.dropped;
+    showDiagnostics(status.missing, status.diagnostics);
     this.show();
   }
 
-  /** A frame came that cannot be drawn. */
+  /** A frame cannot be displayed. */
   failed(fault: string): void {
     this.fault = fault;
-    showTold([], [{ level: 'error', message: fault }], true);
-    this.look();
+    showDiagnostics([], [{ level: 'error', message: fault }], true);
+    this.check();
   }
 
-  /** Of arrived(), whether the frame could be drawn or not. */
-  ended(): void {
+  finished(): void {
     this.isDrawing = false;
   }
 
-  /** Anew: from now on frames are waited for. */
-  private begin(): void {
-    this.since = performance.now();
-    this.live = null;
+  private restart(): void {
+    this.frameTime = performance.now();
+    this.lag = null;
     this.show();
   }
 
-  private get isQuiet(): boolean {
-    const quiet = performance.now() - this.since;
-    return !this.hasFrames || quiet > mostQuiet(this.rate, this.isDrawing);
+  private get isSilent(): boolean {
+    const periods = this.rate > 0 ? (1000 * silencePeriods) / this.rate : 0;
+    const least = this.isDrawing ? drawingMilliseconds : minSilence;
+    const limit = Math.max(least, Math.min(periods, maxSilence));
+    return !this.hasFrames || performance.now() - this.frameTime > limit;
   }
 
-  private look(): void {
-    if (document.hidden || this.isPaused || !this.isQuiet) return;
+  private check(): void {
+    if (document.hidden || this.isPaused || !this.isSilent) return;
     this.show();
     if (!this.isPolling && performance.now() - this.polledAt > pollMilliseconds) void this.poll();
   }
 
   private show(): void {
-    const { text, said, isFault, isStale } = this.words();
-    document.documentElement.classList.toggle('stale', isStale ?? isFault ?? false);
-    showMode(text, said ?? text, isFault);
+    const state = this.state();
+    const isWaiting = this.hasFrames && !this.isPaused && this.lag === null;
+    document.documentElement.classList.toggle('stale', isWaiting || !!state.isFault);
+    showState(state);
   }
 
-  private words(): Words {
+  private state(): State {
     if (this.retry !== null) {
-      const said = 'no connection: trying again';
-      return { text: `${said} in ${this.retry.toFixed(0) || 1} s`, said, isFault: true };
+      const numbers = ` in ${this.retry.toFixed(0) || 1} s`;
+      return { name: 'no connection: trying again', numbers, isFault: true };
     }
-    if (this.isPaused) return { text: 'paused: this is not live' };
-    if (this.fault) return { text: 'frames come that cannot be drawn', isFault: true };
-    if (this.hasFrames && this.isQuiet) {
-      const seconds = Math.floor((performance.now() - this.since) / 1000);
-      return { text: `no new frame for ${seconds} s`, said: 'no new frame', isFault: true };
+    if (this.isPaused) return { name: 'paused: not live' };
+    if (this.fault) return { name: 'received frames cannot be displayed', isFault: true };
+    if (this.hasFrames && this.isSilent) {
+      const seconds = Math.floor((performance.now() - this.frameTime) / 1000);
+      return { name: 'no new frame', numbers: ` for ${seconds} s`, isFault: true };
     }
-    if (!this.live) return { text: 'waiting for a frame', isStale: this.hasFrames };
-    const { numbers, lag } = this.live;
-    const rate = `${hertz(numbers.rate_hz)} Hz · lag ${lag.toFixed(0)} ms`;
-    return { text: `live · ${rate} · ${this.dropped} dropped`, said: 'live' };
+    if (this.lag === null) return { name: 'waiting for a frame' };
+    const rate = this.rate.toFixed(this.rate < 1 ? 1 : 0);
+    const lag = this.lag.toFixed(0);
+    return { name: 'live', numbers: ` · ${rate} Hz · lag ${lag} ms · ${this.dropped} dropped` };
   }
 
   private async poll(): Promise<void> {
     this.isPolling = true;
     try {
       const session = await fetchSession(AbortSignal.timeout(answerMilliseconds));
-      if (this.isSilent) this.handlers.back();
-      this.isSilent = false;
-      this.handlers.told(session, this.fault);
+      if (this.isUnreachable) this.handlers.returned();
+      this.isUnreachable = false;
+      this.handlers.session(session, this.fault);
     } catch (error) {
-      this.isSilent = true;
-      showTold([error instanceof Error ? error.message : String(error)], [], true);
+      this.isUnreachable = true;
+      showDiagnostics([error instanceof Error ? error.message : String(error)], [], true);
     }
     this.polledAt = performance.now();
     this.isPolling = false;
@@ -177,18 +148,22 @@ export class LiveState {
 }
 
 /**
- * What is not there and what penumbra live says of itself, behind one button.
- * @param isFault no frames come: that is why
+ * Lists missing data and the diagnostics of penumbra live.
+ * @param isFault no frames can be displayed, for these reasons
  */
-export function showTold(
+export function showDiagnostics(
   missing: readonly string[],
   diagnostics: readonly Diagnostic[],
   isFault = false,
 ): void {
-  const lines = [...missing, ...diagnostics.map(({ level, message }) => `${level}: ${message}`)];
-  const wrong = diagnostics.filter(({ level }) => level !== 'ok');
-  const amiss = missing.length + wrong.length;
-  const title = missing.length ? 'Not there' : amiss || isFault ? 'Diagnostics' : 'All well';
-  const isError = isFault || wrong.some(({ level }) => level === 'error');
-  showNotes(lines, title, isError ? 'fault' : amiss ? 'warn' : 'ok', amiss || lines.length);
+  const problems = diagnostics.filter(({ level }) => level !== 'ok');
+  const textOf = ({ level, message }: Diagnostic): string => `${level}: ${message}`;
+  if (missing.length + problems.length === 0 && !isFault)
+    return showNotes({ title: 'OK', level: 'ok', lines: diagnostics.map(textOf) });
+  const isError = isFault || problems.some(({ level }) => level === 'error');
+  showNotes({
+    title: missing.length ? 'Missing data' : 'Diagnostics',
+    level: isError ? 'fault' : 'warn',
+    lines: [...missing, ...problems.map(textOf)],
+  });
 }

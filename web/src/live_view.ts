@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest frame of penumbra live, as often as it can be drawn; a minute's reports for the timeline.
+// Shows the newest frame of penumbra live; the timeline shows the last frames.
 import { fetchSession } from './api/client';
 import { LiveConnection } from './api/live';
 import type { Packet } from './api/packet';
-import type { FrameReport, Session } from './api/types';
-import { LiveState, showTold } from './live_state';
+import type { FrameReport, PartName, Session } from './api/types';
+import { LiveState, showDiagnostics } from './live_state';
 import { Throttle } from './model/throttle';
 import { bindCommands } from './view/commands';
 import { coverReplaced, showInput, showPlaying, uncover } from './view/page';
-import { Viewer, showSceneNote } from './viewer';
+import { showSceneNote, Viewer, type FrameSource } from './viewer';
 
 const keptFrames = 900;
-const timelineMilliseconds = 500; // the timeline is drawn again no oftener than this
+const timelineMilliseconds = 500; // interval of updates
 
-export class LiveView {
+export class LiveView implements FrameSource {
   private readonly frames: FrameReport[] = [];
   private readonly viewer: Viewer;
   private readonly state: LiveState;
@@ -21,84 +21,88 @@ export class LiveView {
   private readonly timeline = new Throttle(timelineMilliseconds, () =>
     this.viewer.timeline.setFrames(this.frames.slice()),
   );
-  private paused = false;
+  private isPaused = false;
   private sceneVersion: number;
 
   constructor(session: Session) {
     this.sceneVersion = session.scene_version;
-    this.viewer = new Viewer(session, {
-      seek: () => undefined, // frames that are gone cannot be shown again
-      wantsChanged: () => this.connection?.want(this.wanted(), this.viewer.step),
-      chosen: () => undefined,
-    });
-    bindCommands(this.viewer, {
-      toggle: () => this.toggle(),
-      seek: () => undefined,
-      current: () => this.frames.length - 1,
-      speed: () => undefined,
-    });
+    this.viewer = new Viewer(session, this);
+    bindCommands(this.viewer, this);
     document.documentElement.classList.add('live');
     showPlaying(true);
     this.state = new LiveState({
-      told: (told, fault) => this.told(told, fault),
-      back: () => this.connection.renew(),
+      session: (answer, fault) => this.showSession(answer, fault),
+      returned: () => this.connection.renew(),
     });
     this.connection = new LiveConnection(
       {
-        packet: (packet) => this.take(packet).finally(() => this.state.ended()),
+        packet: (packet) => this.receive(packet).finally(() => this.state.finished()),
         connected: () => this.state.connected(),
         disconnected: (seconds) => this.state.disconnected(seconds),
         fault: (message) => this.state.failed(message),
       },
-      this.wanted(),
+      this.requestedParts(),
       this.viewer.step,
     );
     uncover();
   }
 
-  private wanted(): ReturnType<Viewer['wanted']> {
-    return this.viewer.wanted(this.viewer.inspecting);
+  get current(): number {
+    return this.frames.length - 1;
   }
 
-  private toggle(): void {
-    this.paused = !this.paused;
-    this.connection.setPaused(this.paused);
-    this.state.setPaused(this.paused);
-    showPlaying(!this.paused);
-    this.timeline.flush(); // all that is shown is of one frame
-    this.viewer.flush();
+  togglePlaying(): void {
+    this.isPaused = !this.isPaused;
+    this.connection.setPaused(this.isPaused);
+    this.state.setPaused(this.isPaused);
+    showPlaying(!this.isPaused);
   }
 
-  /** What the server says while no frame comes, or while none can be drawn. */
-  private told(session: Session, fault: string | null): void {
+  partsChanged(): void {
+    this.connection?.setParts(this.requestedParts(), this.viewer.step);
+  }
+
+  // Live frames are not stored: only the newest one can be shown.
+  seek(): void {}
+  setSpeed(): void {}
+  targetChanged(): void {}
+
+  private requestedParts(): PartName[] {
+    return this.viewer.requestedParts(this.viewer.inspecting);
+  }
+
+  /** Shows the server's messages while no frame comes, or while none can be displayed. */
+  private showSession(session: Session, fault: string | null): void {
     if (session.mode !== 'live') return coverReplaced();
-    const ours = fault ? [{ level: 'error', message: fault }] : [];
-    showTold(session.missing, [...ours, ...(session.diagnostics ?? [])], true);
+    const faults = fault ? [{ level: 'error', message: fault }] : [];
+    showDiagnostics(session.missing, [...faults, ...(session.diagnostics ?? [])], true);
     if (this.frames.length > 0) return;
-    const what = fault
-      ? `Frames come that cannot be drawn: ${fault}`
+    const first = fault
+      ? `Received frames cannot be displayed: ${fault}`
       : 'Waiting for the first frame.';
-    showSceneNote([what, ...session.missing].join('\n'));
+    showSceneNote([first, ...session.missing].join('\n'));
   }
 
-  private async take(packet: Packet): Promise<void> {
+  private async receive(packet: Packet): Promise<void> {
     const arrived = performance.now();
     this.state.arrived();
     const { server, camera } = this.viewer.session;
     const isOther = packet.server !== server;
-    if (isOther || packet.sceneVersion !== this.sceneVersion || !camera)
-      await this.refresh(packet.sceneVersion, isOther);
-    this.keep(packet);
+    if (isOther || packet.scene_version !== this.sceneVersion || !camera)
+      await this.refresh(packet.scene_version, isOther);
+    this.frames.push(packet.frame);
+    if (this.frames.length > keptFrames) this.frames.shift();
+    this.timeline.request();
     const first = packet.frame.targets[0];
-    if (!this.viewer.chosen && first) this.viewer.choose(first.name);
-    await this.viewer.show(packet, this.frames.length - 1);
+    if (!this.viewer.selected && first) this.viewer.select(first.name);
+    await this.viewer.show(packet, this.current);
     await new Promise((resolve) => requestAnimationFrame(resolve));
     if (packet.live) this.state.drawn(packet.live, performance.now() - arrived);
   }
 
   /**
-   * Camera, links and parts became known, or changed.
-   * @param isOther by another program on the same port, whose frames have other numbers
+   * Updates camera, links and parts.
+   * @param isOther another program uses the port: forgets the frames of the earlier one
    */
   private async refresh(version: number, isOther: boolean): Promise<void> {
     const session = await fetchSession();
@@ -106,15 +110,9 @@ export class LiveView {
     this.viewer.setSession(session);
     showInput(session);
     if (isOther) {
-      this.viewer.choose(null);
+      this.viewer.select(null);
       this.frames.length = 0;
     }
-    this.connection.want(this.wanted(), this.viewer.step);
-  }
-
-  private keep(packet: Packet): void {
-    this.frames.push(packet.frame);
-    if (this.frames.length > keptFrames) this.frames.shift();
-    this.timeline.request();
+    this.partsChanged();
   }
 }

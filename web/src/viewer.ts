@@ -1,67 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows one frame everywhere: scene, image, numbers, timeline. Knows nothing of where frames come from.
+// Shows one frame in all panes: scene, image, numbers, timeline.
 import { ApiError, fetchScene } from './api/client';
 import type { Packet } from './api/packet';
-import type { FrameReport, PartName, Session } from './api/types';
+import type { FrameReport, Layer, PartName, Session } from './api/types';
 import { seconds } from './model/format';
 import { Throttle } from './model/throttle';
-import { SceneView, type ScenePart } from './scene/scene_view';
-import { isSoftwareGl } from './scene/software_gl';
+import { isSoftwareGl, SceneView, type ScenePart } from './scene/scene_view';
 import { TimelineView } from './timeline/timeline_view';
 import { byId, setText } from './view/dom';
 import { frameDetails } from './view/frame_panel';
-import { ImageView, type Layer } from './view/image_view';
+import { ImageView } from './view/image_view';
 import { targetDetails, targetList } from './view/target_panel';
-import { styleValue } from './view/theme';
 
 const valueParts: readonly PartName[] = ['color', 'overlay', 'labels', 'links', 'vdi', 'depth'];
 
-const liveNumbersMilliseconds = 200; // nobody reads thirty tables a second
-const conflict = 409; // the status of a scene that another has replaced
+const liveNumbersMilliseconds = 200; // interval of updates
+const conflict = 409; // the requested scene was replaced
 
-export interface ViewerHandlers {
+/** The source of frames: a stored run, or live cameras. */
+export interface FrameSource {
+  /** Index of the displayed frame. */
+  readonly current: number;
   seek(frame: number): void;
-  /** Other parts are wanted than before. */
-  wantsChanged(): void;
-  /** Another target is looked at. */
-  chosen(): void;
+  togglePlaying(): void;
+  setSpeed(factor: number): void;
+  /** The result of Viewer.requestedParts() changed. */
+  partsChanged(): void;
+  /** Another target is selected. */
+  targetChanged(): void;
 }
 
 export class Viewer {
   readonly scene: SceneView | null;
-  readonly image: ImageView;
   readonly timeline: TimelineView;
-  chosen: string | null = null;
-  /** Values under the pointer are wanted too. */
+  selected: string | null = null; // the target
+  /** The pointer is over the image. */
   inspecting = false;
-  packet: Packet | null = null;
-  private readonly hidden = new Set<ScenePart>();
-  private readonly isSlow: boolean;
+  packet: Packet | null = null; // of the displayed frame
+  position = 0; // of the displayed frame in the timeline
+  private readonly image: ImageView;
+  private readonly isLive: boolean;
+  private readonly isSlow = isSoftwareGl();
   private readonly numbers: Throttle;
-  private sceneShown = ''; // server and version
-  private origin = 0n; // nanoseconds: the stamp that live time counts from
-  private order = 0;
-  private position = 0;
+  private displayedScene = ''; // server and version
+  private firstStamp: bigint | null = null; // nanoseconds: start of live time
+  private newest = 0; // number of the newest call of show()
   private drawing: Promise<void> = Promise.resolve();
 
   constructor(
     public session: Session,
-    readonly handlers: ViewerHandlers,
+    private readonly source: FrameSource,
   ) {
-    this.isSlow = isSoftwareGl();
-    const rest = session.mode === 'live' ? liveNumbersMilliseconds : 0;
-    this.numbers = new Throttle(rest, () => this.showNumbers());
-    this.scene = makeScene(this.isSlow && session.mode === 'live');
+    this.isLive = session.mode === 'live';
+    this.numbers = new Throttle(this.isLive ? liveNumbersMilliseconds : 0, () =>
+      this.showNumbers(),
+    );
+    this.scene = makeScene(this.isSlow && this.isLive);
     this.image = new ImageView((inside) => {
       this.inspecting = inside;
-      handlers.wantsChanged();
+      source.partsChanged();
     });
     this.timeline = new TimelineView(byId('timeline'), {
-      seek: (frame) => handlers.seek(frame),
-      choose: (name) => this.choose(name),
+      seek: (frame) => source.seek(frame),
+      select: (target) => this.select(target),
     });
-    this.applyTheme();
-    document.addEventListener('theme', () => this.applyTheme());
+    this.scene?.updateTheme();
+    document.addEventListener('theme', () => this.scene?.updateTheme());
     this.setSession(session);
   }
 
@@ -70,139 +74,124 @@ export class Viewer {
     this.scene?.setCamera(session.camera);
   }
 
-  /** Every step-th pixel of each row and column becomes a point. */
+  /** The cloud has every step-th pixel of each row and column. */
   get step(): number {
-    if (this.session.mode === 'live') return this.isSlow ? 6 : 4;
+    if (this.isLive) return this.isSlow ? 6 : 4;
     return (this.session.camera?.width ?? 0) > 800 ? 3 : 2;
   }
 
-  wanted(withValues: boolean): PartName[] {
-    // Live the overlay is drawn here: labels are smaller than a picture, and made in no time.
-    const isLive = this.session.mode === 'live';
-    const parts = this.session.parts.filter((part) => !isLive || part !== 'overlay');
-    const cloud: PartName[] = this.scene && !this.hidden.has('cloud') ? ['cloud'] : [];
-    const layers = withValues ? valueParts : this.image.wanted(parts);
-    const all = new Set([...layers, ...cloud]);
-    return [...all].filter((part) => parts.includes(part)).sort();
+  /** Returns the parts that the panes need; withValues: also those for values under the pointer. */
+  requestedParts(withValues: boolean): PartName[] {
+    // Live, the page draws the overlay: labels are smaller than an image.
+    const available = this.session.parts.filter((part) => !this.isLive || part !== 'overlay');
+    const layers = withValues ? valueParts : this.image.requestedParts(available);
+    const hasCloud = this.scene && !this.scene.hidden.has('cloud');
+    const parts = new Set<PartName>(hasCloud ? [...layers, 'cloud'] : layers);
+    return available.filter((part) => parts.has(part)).sort();
   }
 
-  /** One after the other, the newest alone: no late picture may cover a newer one. */
+  /** Draws one frame at a time; drops all waiting ones but the newest. */
   async show(packet: Packet, position: number): Promise<void> {
-    const order = ++this.order;
+    const number = ++this.newest;
     await this.drawing;
-    if (order !== this.order) return;
+    if (number !== this.newest) return;
     const drawing = this.draw(packet, position);
-    this.drawing = drawing.catch(() => undefined); // the caller hears of it
+    this.drawing = drawing.catch(() => undefined); // the caller handles the error
     await drawing;
   }
 
-  /** The same frame, after another choice of what to see. */
-  redraw(): void {
+  private redraw(): void {
     if (this.packet) void this.show(this.packet, this.position);
   }
 
   private async draw(packet: Packet, position: number): Promise<void> {
-    // What cannot be decoded is shown nowhere.
+    // No pane shows the frame if an image cannot be decoded.
     await Promise.all([
-      this.image.show(packet, this.session.links, this.chosen),
+      this.image.show(packet, this.session.links, this.selected),
       this.fetchRobot(packet),
     ]);
     this.packet = packet;
     this.position = position;
-    this.showScene(packet);
+    this.scene?.show(packet, this.step, this.selected);
+    if (this.scene)
+      showSceneNote(sceneNoteOf(packet, packet.live?.missing ?? this.session.missing));
     this.timeline.setCurrent(position, packet.frame);
     for (const id of ['timeline-legend', 'occlusions'])
       byId(id).hidden = this.timeline.tracks.length === 0;
     this.numbers.request();
     byId('main').dataset['layer'] = this.image.layer;
-    byId('main').dataset['shown'] = [packet.frame.index, ...packet.has].join(' ');
+    const parts = packet.parts.map(({ name }) => name);
+    byId('main').dataset['shown'] = [packet.frame.index, ...parts].join(' ');
   }
 
-  choose(name: string | null): void {
-    this.chosen = name;
-    this.timeline.setChosen(name);
-    this.handlers.chosen();
+  select(target: string | null): void {
+    this.selected = target;
+    this.timeline.select(target);
+    this.source.targetChanged();
     const { packet } = this;
     if (!packet) return;
-    this.scene?.show(packet, this.step, name);
-    this.image.showChosen(name);
+    this.scene?.show(packet, this.step, target);
+    this.image.select(target);
     this.showTarget(packet);
   }
 
   setLayer(layer: Layer): void {
     this.image.layer = layer;
-    this.handlers.wantsChanged();
+    this.source.partsChanged();
     this.redraw();
   }
 
   setCloudByLabel(byLabel: boolean): void {
-    this.scene?.cloud.setColors(byLabel ? 'label' : 'color');
-    this.scene?.invalidate();
+    if (!this.scene) return;
+    this.scene.cloud.uniforms.byLabel.value = byLabel;
+    this.scene.invalidate();
   }
 
   setShown(part: ScenePart, shown: boolean): void {
-    if (shown) this.hidden.delete(part);
-    else this.hidden.add(part);
-    this.scene?.setShown(part, shown);
-    if (part === 'cloud') this.handlers.wantsChanged();
-    if (this.packet) this.scene?.show(this.packet, this.step, this.chosen);
+    if (shown) this.scene?.hidden.delete(part);
+    else this.scene?.hidden.add(part);
+    if (part === 'cloud') this.source.partsChanged();
+    if (this.packet) this.scene?.show(this.packet, this.step, this.selected);
   }
 
-  /** Leaves the robot and its fringe out of points and images, or shows them. */
+  /** Removes the robot and its fringe from points and images. */
   setWithoutRobot(on: boolean): void {
     this.image.withoutRobot = on;
     if (this.scene) this.scene.cloud.withoutRobot = on;
-    this.handlers.wantsChanged();
+    this.source.partsChanged();
     this.redraw();
   }
 
-  /** Numbers that wait for their time, at once. */
-  flush(): void {
-    this.numbers.flush();
-  }
-
-  applyTheme(): void {
-    this.scene?.setTheme(styleValue('--scene'), styleValue('--scene-line'), styleValue('--ink'));
-  }
-
-  private showScene(packet: Packet): void {
-    if (!this.scene) return;
-    this.scene.show(packet, this.step, this.chosen);
-    showSceneNote(reasonOfNoRobot(packet, packet.live?.missing ?? this.session.missing));
-  }
-
-  /** The packet's robot, where another one is shown. */
+  /** Fetches the packet's robot if it is not the displayed one. */
   private async fetchRobot(packet: Packet): Promise<void> {
-    const { scene } = this;
-    const wanted = `${packet.server} ${packet.sceneVersion}`;
-    if (!scene || wanted === this.sceneShown) return;
-    scene.setRobot(null);
-    this.sceneShown = '';
+    const key = `${packet.server} ${packet.scene_version}`;
+    if (!this.scene || key === this.displayedScene) return;
+    this.scene.setRobot(null);
+    this.displayedScene = '';
     try {
-      const { index, data } = await fetchScene(packet.server, packet.sceneVersion);
-      scene.setRobot({ index, data });
-      this.sceneShown = wanted;
+      this.scene.setRobot(await fetchScene(packet.server, packet.scene_version));
+      this.displayedScene = key;
     } catch (error) {
-      // Live a newer frame, of the new robot, is on its way: this one is shown without.
+      // Live, a frame of the new robot follows: this one is shown without a robot.
       const isReplaced = error instanceof ApiError && error.status === conflict;
-      if (!isReplaced || this.session.mode !== 'live') throw error;
+      if (!isReplaced || !this.isLive) throw error;
     }
   }
 
-  /** The frame's number in the report, and the last one's; live the time since the page was opened. */
-  private showPosition(frame: FrameReport): void {
-    const { times, lastIndex } = this.timeline;
-    const isLive = this.session.mode === 'live';
-    const time = isLive ? this.liveTime(frame.stamp_ns) : (times[this.position] ?? null);
-    setText(byId('position-frame'), `frame ${frame.index}${isLive ? '' : ` / ${lastIndex}`}`);
+  /** Shows the frame's number and time; live the time since the page was opened. */
+  private showPosition({ index, stamp_ns }: FrameReport): void {
+    const { times, frames } = this.timeline;
+    const time = this.isLive ? this.liveTime(stamp_ns) : (times[this.position] ?? null);
+    const last = this.isLive ? '' : ` / ${frames.at(-1)?.index ?? 0}`;
+    setText(byId('position-frame'), `frame ${index}${last}`);
     setText(byId('position-time'), time === null ? '' : seconds(time, 3));
   }
 
   private liveTime(stamp: string | null): number | null {
     if (stamp === null) return null;
     const now = BigInt(stamp);
-    if (this.origin === 0n || now < this.origin) this.origin = now; // or the clock was set back
-    return Number(now - this.origin) / 1e9;
+    if (this.firstStamp === null || now < this.firstStamp) this.firstStamp = now;
+    return Number(now - this.firstStamp) / 1e9;
   }
 
   private showNumbers(): void {
@@ -212,23 +201,24 @@ export class Viewer {
     this.showPosition(frame);
     setText(byId('frame-number'), String(frame.index));
     byId('frame-details').replaceChildren(frameDetails(frame));
-    const status = byId('frame-status');
-    status.hidden = frame.status === 'ok';
-    status.classList.add('fault');
-    setText(status, frame.status);
+    byId('frame-status').hidden = frame.status === 'ok';
+    setText(byId('frame-status'), frame.status);
     this.showTarget(packet);
   }
 
   private showTarget({ frame }: Packet): void {
     const list = byId('target-list');
-    const focused = list.contains(document.activeElement);
-    if (frame.targets.length === 0)
-      list.textContent = this.timeline.tracks.length
-        ? 'None in this frame.'
-        : 'None were judged: targets.yaml or --target-topic names them.';
-    else list.replaceChildren(targetList(frame, this.chosen, (name) => this.choose(name)));
-    if (focused) list.querySelector<HTMLElement>('[aria-pressed=true]')?.focus();
-    const target = frame.targets.find((one) => one.name === this.chosen);
+    const isFocused = list.contains(document.activeElement);
+    const noTargets = this.timeline.tracks.length
+      ? 'No targets in this frame.'
+      : 'No targets: define them in targets.yaml or with --target-topic.';
+    list.replaceChildren(
+      frame.targets.length > 0
+        ? targetList(frame, this.selected, (target) => this.select(target))
+        : noTargets,
+    );
+    if (isFocused) list.querySelector<HTMLElement>('[aria-pressed=true]')?.focus();
+    const target = frame.targets.find(({ name }) => name === this.selected);
     byId('target-details').replaceChildren(target ? targetDetails(target) : '');
   }
 }
@@ -237,30 +227,29 @@ function makeScene(isSlow: boolean): SceneView | null {
   try {
     return new SceneView(byId<HTMLCanvasElement>('scene-canvas'), byId('scene-names'), isSlow);
   } catch {
-    showSceneNote('This browser has no WebGL: the 3-D scene is not drawn. All else works.');
+    showSceneNote('This browser has no WebGL: the 3-D scene is not available.');
     return null;
   }
 }
 
-/** @param text null: there is nothing to say */
-export function showSceneNote(text: string | null): void {
-  byId('scene-note').hidden = text === null;
-  setText(byId('scene-note'), text ?? '');
+/** @param text empty: hides the note */
+export function showSceneNote(text: string): void {
+  setText(byId('scene-note'), text);
 }
 
 /**
- * Why robot or camera are not where they should be in the scene; null: they are.
- * @param missing what is not there in any frame, in the server's words
+ * Returns why robot or camera are missing in the scene, or an empty text.
+ * @param missing the server's messages about missing data
  */
-function reasonOfNoRobot(packet: Packet, missing: readonly string[]): string | null {
-  const { frame, linkPoses, cameraPose } = packet;
-  const noPose = linkPoses.length > 0 && linkPoses.every((pose) => pose === null);
-  if (frame.status === 'ok' && missing.length > 0 && (noPose || cameraPose === null))
-    return missing.join('; ');
-  const because = frame.status === 'ok' ? '' : `: ${frame.message ?? frame.status}`;
-  if (noPose) return `No robot in this frame, as its pose is not known${because}`;
+function sceneNoteOf(packet: Packet, missing: readonly string[]): string {
+  const { frame, link_poses: linkPoses, camera_pose: cameraPose } = packet;
+  const isOk = frame.status === 'ok';
+  const reason = isOk ? '' : `: ${frame.message ?? frame.status}`;
   const without = linkPoses.filter((pose) => pose === null).length;
-  if (without > 0) return `${without} of ${linkPoses.length} links have no pose${because}`;
-  if (cameraPose === null) return `The camera's pose is not known: no points${because}`;
-  return frame.status === 'ok' ? null : `${frame.status}${because}`;
+  const noPose = linkPoses.length > 0 && without === linkPoses.length;
+  if (isOk && missing.length > 0 && (noPose || cameraPose === null)) return missing.join('; ');
+  if (noPose) return `No robot in this frame: its pose is not known${reason}`;
+  if (without > 0) return `${without} of ${linkPoses.length} links have no pose${reason}`;
+  if (cameraPose === null) return `No points: the camera's pose is not known${reason}`;
+  return isOk ? '' : `${frame.status}${reason}`;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the unit tests, which are TypeScript, and runs them in Node's own test runner.
+// Bundles the TypeScript unit tests and runs them in Node's test runner.
 import { spawnSync } from 'node:child_process';
 import { mkdtemp, readdir, rm } from 'node:fs/promises';
 import path from 'node:path';

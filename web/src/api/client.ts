@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import { parseJson } from './json';
-import { parsePacket, type Packet } from './packet';
+import { parseJson, parsePacket, type Packet } from './packet';
 import type { PartName, Report, SceneIndex, Session } from './types';
 
-/** What the server answered instead of what was asked for, in its own words. */
+/** An error answer of the server; status 0: no answer. */
 export class ApiError extends Error {
   override name = 'ApiError';
   constructor(
@@ -14,7 +13,7 @@ export class ApiError extends Error {
   }
 }
 
-/** @param read takes the whole answer: a server may go away in the midst of it */
+/** @param read reads the body; the connection may break meanwhile */
 async function get<T>(
   path: string,
   read: (response: Response) => Promise<T>,
@@ -22,23 +21,19 @@ async function get<T>(
 ): Promise<T> {
   try {
     const response = await fetch(path, signal ? { signal } : {});
-    if (!response.ok) throw new ApiError(await reasonOf(response), response.status);
+    if (!response.ok) throw new ApiError(await errorOf(response), response.status);
     return await read(response);
   } catch (error) {
-    const isLate = error instanceof DOMException && error.name === 'TimeoutError';
-    if (!isLate && !(error instanceof TypeError)) throw error; // fetch's own way to say it failed
-    throw new ApiError('the server does not answer: is penumbra view still running?', 0);
+    const isTimeout = error instanceof DOMException && error.name === 'TimeoutError';
+    if (!isTimeout && !(error instanceof TypeError)) throw error; // TypeError: network failure
+    throw new ApiError('The server does not respond: is penumbra view still running?', 0);
   }
 }
 
-async function reasonOf(response: Response): Promise<string> {
-  try {
-    const body = parseJson<{ error?: unknown }>(await response.text());
-    if (typeof body.error === 'string') return body.error;
-  } catch {
-    // no JSON: the status says what there is to say
-  }
-  return `the server answered ${response.status} ${response.statusText}`;
+async function errorOf(response: Response): Promise<string> {
+  const body = (await response.json().catch(() => null)) as { error?: unknown } | null;
+  if (typeof body?.error === 'string') return body.error;
+  return `HTTP status ${response.status} ${response.statusText}`;
 }
 
 const bytes = (response: Response): Promise<ArrayBuffer> => response.arrayBuffer();
@@ -47,11 +42,12 @@ const json = async <T>(path: string, signal?: AbortSignal): Promise<T> =>
 
 export const fetchSession = (signal?: AbortSignal): Promise<Session> =>
   json<Session>('/api/session', signal);
-/** @param from frames of it to leave out, which are known */
+
+/** @param from first frame of the answer */
 export const fetchReport = (from = 0, signal?: AbortSignal): Promise<Report> =>
   json<Report>(`/api/report?from=${from}`, signal);
 
-/** @throws ApiError of status 409 where that server has another scene by now, or is another */
+/** @throws ApiError of status 409 if the server or its scene changed */
 export async function fetchScene(
   server: string,
   version: number,
@@ -64,13 +60,13 @@ export async function fetchScene(
   return { index, data };
 }
 
-/** @param step every step-th pixel in both directions becomes a point of the cloud */
+/** @param step the cloud has every step-th pixel of each row and column */
 export async function fetchPacket(
   index: number,
-  wanted: readonly PartName[],
+  parts: readonly PartName[],
   step: number,
   signal?: AbortSignal,
 ): Promise<Packet> {
-  const query = `with=${wanted.join(',')}&step=${step}`;
+  const query = `with=${parts.join(',')}&step=${step}`;
   return parsePacket(await get(`/api/frames/${index}/packet?${query}`, bytes, signal));
 }

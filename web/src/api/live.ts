@@ -3,46 +3,46 @@ import { parsePacket, type Packet } from './packet';
 import type { PartName } from './types';
 
 export interface LiveHandlers {
-  /** Draws; the server sends the next packet once the promise is done. */
+  /** Displays a packet; the next one is requested when the promise is fulfilled. */
   packet(packet: Packet): Promise<void>;
   connected(): void;
-  /** @param seconds until the next attempt */
+  /** @param seconds until the next attempt to connect */
   disconnected(seconds: number): void;
+  /** A packet could not be displayed. */
   fault(message: string): void;
 }
 
-const firstDelay = 0.5;
-const longestDelay = 8;
+const minDelay = 0.5; // seconds
+const maxDelay = 8;
 
-/** The newest frame, one at a time: what comes while the page draws is dropped by the server. */
+/** Receives the newest frame, one at a time; the server drops frames that come meanwhile. */
 export class LiveConnection {
   private socket: WebSocket | null = null;
-  private delay = firstDelay;
+  private delay = minDelay;
   private timer = 0;
   private paused = false;
-  private owing = false; // a packet is drawn that "ready" was not said for
+  private isIdle = false; // no packet is requested
 
   constructor(
     private readonly handlers: LiveHandlers,
-    private wanted: readonly PartName[],
+    private parts: readonly PartName[],
     private step: number,
   ) {
     this.open();
   }
 
-  want(wanted: readonly PartName[], step: number): void {
-    this.wanted = wanted;
+  setParts(parts: readonly PartName[], step: number): void {
+    this.parts = parts;
     this.step = step;
-    this.send({ type: 'want', with: wanted, step });
+    this.send({ type: 'want', with: parts, step });
   }
 
-  /** Holds the picture; the server goes on and counts what is dropped. */
   setPaused(paused: boolean): void {
     this.paused = paused;
-    if (!paused && this.owing) this.ready();
+    if (this.isIdle) this.requestPacket();
   }
 
-  /** A new connection: over the old one, whose other end may be gone, nothing may come any more. */
+  /** Opens a new connection, because the old one may be half open. */
   renew(): void {
     window.clearTimeout(this.timer);
     const old = this.socket;
@@ -58,37 +58,35 @@ export class LiveConnection {
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
-      this.delay = firstDelay;
+      this.delay = minDelay;
       this.handlers.connected();
-      this.want(this.wanted, this.step);
-      this.owing = true;
-      if (!this.paused) this.ready();
+      this.setParts(this.parts, this.step);
+      this.requestPacket();
     };
-    socket.onmessage = (event: MessageEvent<unknown>) => void this.take(event.data);
+    socket.onmessage = (event: MessageEvent<unknown>) => void this.receive(event.data);
     socket.onclose = () => this.reconnect(socket);
   }
 
   private reconnect(socket: WebSocket): void {
-    if (this.socket !== socket) return; // closed by us
+    if (this.socket !== socket) return; // closed by renew()
     this.handlers.disconnected(this.delay);
     this.timer = window.setTimeout(() => this.open(), this.delay * 1000);
-    this.delay = Math.min(2 * this.delay, longestDelay);
+    this.delay = Math.min(2 * this.delay, maxDelay);
   }
 
-  private async take(data: unknown): Promise<void> {
+  private async receive(data: unknown): Promise<void> {
     if (!(data instanceof ArrayBuffer)) return;
     try {
       await this.handlers.packet(parsePacket(data));
     } catch (error) {
       this.handlers.fault(error instanceof Error ? error.message : String(error));
     }
-    this.owing = true;
-    if (!this.paused) this.ready();
+    this.requestPacket();
   }
 
-  private ready(): void {
-    this.owing = false;
-    this.send({ type: 'ready' });
+  private requestPacket(): void {
+    this.isIdle = this.paused;
+    if (!this.paused) this.send({ type: 'ready' });
   }
 
   private send(message: object): void {

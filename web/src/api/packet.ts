@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame packet: uint32 little-endian length of the JSON, the JSON, the parts' bytes in its order.
-import { parseJson } from './json';
-import type { FrameReport, LiveState, PartName, Pose } from './types';
+import type { FrameReport, LiveStatus, PartName, Pose } from './types';
 
 interface PartHeader {
   readonly name: string;
@@ -11,23 +10,25 @@ interface PartHeader {
   readonly height?: number;
 }
 
-/** What is drawn of a target in the image, in pixels. */
+/** A target in the image, pixels. */
 export interface Mark {
   /** Lines: u, v, u, v... */
   readonly outline: readonly (readonly number[])[];
-  /** Where a handled target is. */
+  /** Position of a handled target. */
   readonly place: readonly [number, number] | null;
 }
 
 interface PacketHeader {
   readonly frame: FrameReport;
+  /** Random number of the server process. */
   readonly server: string;
   readonly scene_version: number;
   readonly link_poses: readonly (Pose | null)[];
   readonly camera_pose: Pose | null;
+  /** One per target of the frame; absent if the server has no outlines. */
   readonly marks?: readonly Mark[];
   readonly parts: readonly PartHeader[];
-  readonly live?: LiveState;
+  readonly live?: LiveStatus;
 }
 
 export interface EncodedImage {
@@ -41,95 +42,82 @@ export interface Grid<T> {
   readonly values: T;
 }
 
-/** 16 bytes a point: float32 x y z in the optical frame, uint8 label, r, g, b. */
-export interface Cloud {
-  readonly count: number;
-  readonly bytes: Uint8Array<ArrayBuffer>;
+/** The parts that were requested and that the frame has. */
+interface Parts {
+  color?: EncodedImage;
+  overlay?: EncodedImage;
+  labels?: Grid<Uint8Array>;
+  links?: Grid<Uint16Array>;
+  vdi?: Grid<Float32Array>;
+  depth?: Grid<Float32Array>;
+  /** Per point float32 x y z in the optical frame, uint8 label, r, g, b. */
+  cloud?: Uint8Array<ArrayBuffer>;
 }
 
-export interface Packet {
-  readonly frame: FrameReport;
-  /** Which process sent it. */
-  readonly server: string;
-  readonly sceneVersion: number;
-  readonly linkPoses: readonly (Pose | null)[];
-  readonly cameraPose: Pose | null;
-  /** One for each target of the frame; empty where the server has no outlines. */
-  readonly marks: readonly Mark[];
-  readonly live: LiveState | null;
+export interface Packet extends PacketHeader, Readonly<Parts> {
   readonly byteLength: number;
-  /** What came: a part that is not here was not asked for, or cannot be had of this frame. */
-  readonly has: ReadonlySet<string>;
-  readonly color?: EncodedImage;
-  readonly overlay?: EncodedImage;
-  readonly labels?: Grid<Uint8Array>;
-  readonly links?: Grid<Uint16Array>;
-  readonly vdi?: Grid<Float32Array>;
-  readonly depth?: Grid<Float32Array>;
-  readonly cloud?: Cloud;
 }
 
 export const pointBytes = 16;
 
-/** What is wrong with a packet, in one line. */
 export class PacketError extends Error {
   override name = 'PacketError';
 }
 
-type Parts = { -readonly [K in PartName]?: Packet[K] };
+/** Characters that change the direction of text: a name with one would reorder the text around it. */
+const directionMarks = /[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
 
-/** @throws PacketError where a length, a size or the JSON is wrong: no part of it is used then. */
+/**
+ * Parses JSON. `stamp_ns` becomes text, because a double does not hold its digits. (In strings quotes
+ * are escaped, so the pattern matches keys only.) Replaces direction marks.
+ * @throws SyntaxError
+ */
+export function parseJson<T>(text: string): T {
+  return JSON.parse(
+    text.replace(directionMarks, '\ufffd').replace(/("stamp_ns"\s*:\s*)(-?\d+)/g, '$1"$2"'),
+  ) as T;
+}
+
+/** @throws PacketError for a wrong length, size or JSON */
 export function parsePacket(buffer: ArrayBuffer): Packet {
   const { header, offset } = readHeader(buffer);
   const parts: Parts = {};
   let at = offset;
   for (const part of header.parts) {
     if (!Number.isInteger(part.size) || part.size < 0 || at + part.size > buffer.byteLength)
-      throw new PacketError(`packet: part ${part.name} reaches beyond its end`);
-    // A copy begins at offset 0, as arrays of floats must at a multiple of 4.
+      throw new PacketError(`packet: part ${part.name} exceeds the packet`);
+    // slice() copies, so that float arrays are aligned.
     readPart(parts, part, buffer.slice(at, at + part.size));
     at += part.size;
   }
   if (at !== buffer.byteLength)
-    throw new PacketError(`packet: ${buffer.byteLength - at} bytes too many`);
-  return {
-    frame: header.frame,
-    server: header.server,
-    sceneVersion: header.scene_version,
-    linkPoses: header.link_poses,
-    cameraPose: header.camera_pose,
-    marks: header.marks ?? [],
-    live: header.live ?? null,
-    byteLength: buffer.byteLength,
-    has: new Set(header.parts.map((part) => part.name)),
-    ...(parts as Pick<Packet, PartName>),
-  };
+    throw new PacketError(`packet: ${buffer.byteLength - at} extra bytes`);
+  return { ...header, ...parts, byteLength: buffer.byteLength };
 }
 
 function readHeader(buffer: ArrayBuffer): { header: PacketHeader; offset: number } {
-  if (buffer.byteLength < 4) throw new PacketError('packet: shorter than its length field');
+  if (buffer.byteLength < 4) throw new PacketError('packet: no length field');
   const length = new DataView(buffer).getUint32(0, true);
   const offset = 4 + length;
-  if (offset > buffer.byteLength) throw new PacketError('packet: shorter than its JSON');
+  if (offset > buffer.byteLength) throw new PacketError('packet: truncated JSON');
+  let header: PacketHeader;
   try {
-    const text = new TextDecoder('utf-8', { fatal: true }).decode(
-      new Uint8Array(buffer, 4, length),
-    );
-    const header = parseJson<PacketHeader>(text);
-    if (!header.frame || !Array.isArray(header.parts) || !Array.isArray(header.link_poses))
-      throw new PacketError('packet: frame, parts or link_poses are not there');
-    return { header, offset };
+    const json = new Uint8Array(buffer, 4, length);
+    header = parseJson(new TextDecoder('utf-8', { fatal: true }).decode(json));
   } catch (error) {
-    if (error instanceof PacketError) throw error;
-    throw new PacketError(`packet: its JSON cannot be read: ${String(error)}`);
+    throw new PacketError(`packet: invalid JSON: ${String(error)}`);
   }
+  if (!header.frame || !Array.isArray(header.parts) || !Array.isArray(header.link_poses))
+    throw new PacketError('packet: frame, parts or link_poses is missing');
+  return { header, offset };
 }
 
 function readPart(parts: Parts, part: PartHeader, bytes: ArrayBuffer): void {
-  switch (part.name) {
+  const name = part.name as PartName; // another name: a part that this page does not use
+  switch (name) {
     case 'color':
     case 'overlay':
-      parts[part.name] = { type: part.type, bytes: new Uint8Array(bytes) };
+      parts[name] = { type: part.type, bytes: new Uint8Array(bytes) };
       break;
     case 'labels':
       parts.labels = { ...sizeOf(part, 1), values: new Uint8Array(bytes) };
@@ -139,19 +127,17 @@ function readPart(parts: Parts, part: PartHeader, bytes: ArrayBuffer): void {
       break;
     case 'vdi':
     case 'depth':
-      parts[part.name] = { ...sizeOf(part, 4), values: new Float32Array(bytes) };
+      parts[name] = { ...sizeOf(part, 4), values: new Float32Array(bytes) };
       break;
     case 'cloud':
-      if (part.size % pointBytes !== 0) throw new PacketError('packet: cloud of half a point');
-      parts.cloud = { count: part.size / pointBytes, bytes: new Uint8Array(bytes) };
-      break;
-    default: // a later server's: not for this page
+      if (part.size % pointBytes !== 0) throw new PacketError('packet: truncated cloud');
+      parts.cloud = new Uint8Array(bytes);
   }
 }
 
-function sizeOf(part: PartHeader, bytesOfPixel: number): { width: number; height: number } {
+function sizeOf(part: PartHeader, pixelBytes: number): { width: number; height: number } {
   const { width = 0, height = 0 } = part;
-  if (width * height * bytesOfPixel !== part.size || width <= 0)
+  if (width * height * pixelBytes !== part.size || width <= 0)
     throw new PacketError(`packet: ${part.name} of ${width}x${height} has ${part.size} bytes`);
   return { width, height };
 }

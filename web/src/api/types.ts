@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the server and report.json say; DESIGN's schema, in its own names. Metres, seconds, radians.
+// Types of report.json and of the server's JSON. Metres, seconds, radians.
 
 export type Verdict = 'visible' | 'partial' | 'hidden' | 'unknown' | 'out_of_view';
 export type Source = 'measured' | 'predicted' | 'held' | 'lost';
 export type Vec3 = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number];
-/** x y z qx qy qz qw: maps from the named thing's frame to the root link's. */
+/** x y z qx qy qz qw of a frame in the root link's frame. */
 export type Pose = readonly [number, number, number, number, number, number, number];
 
 export interface Handled {
@@ -50,18 +50,10 @@ export interface FrameReport {
   readonly targets: readonly TargetReport[];
 }
 
-export interface StageTime {
-  readonly median: number;
-  readonly p99: number;
-  readonly max: number;
-}
-
+/** Entries of `timing_ms` and `pixels` are null if no frame has them. */
 export interface Summary {
-  readonly frames: number;
   readonly bad_frames: number;
-  /** null: the stage took place in no frame. */
-  readonly timing_ms: Readonly<Record<string, StageTime | null>>;
-  /** null: known of no frame. */
+  readonly timing_ms: Readonly<Record<string, { median: number; p99: number; max: number } | null>>;
   readonly pixels?: Readonly<Record<string, number | null>>;
   readonly missing_links?: readonly unknown[];
   readonly notes?: readonly string[];
@@ -74,17 +66,14 @@ export interface Report {
   readonly renderer?: {
     readonly backend: string;
     readonly isa?: string | null;
-    readonly threads?: number | null;
     readonly device?: string | null;
   };
-  readonly settings?: Readonly<Record<string, unknown>>;
-  readonly links: readonly string[];
   readonly frames: readonly FrameReport[];
   readonly summary: Summary | null;
 }
 
-export const parts = ['color', 'overlay', 'labels', 'links', 'vdi', 'depth', 'cloud'] as const;
-export type PartName = (typeof parts)[number];
+export type Layer = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth';
+export type PartName = Layer | 'color' | 'cloud';
 
 export interface CameraInfo {
   readonly width: number;
@@ -93,42 +82,34 @@ export interface CameraInfo {
   readonly fy: number;
   readonly cx: number;
   readonly cy: number;
-  readonly image: 'raw' | 'rectified';
 }
 
 export interface Session {
-  readonly penumbra: string;
-  /** Which process serves: another one on the same port has another. */
+  /** Random number of the server process. */
   readonly server: string;
   readonly mode: 'stored' | 'live';
   readonly input: string;
   readonly complete: boolean;
-  /** That are judged so far. */
-  readonly frames: number;
-  /** That there will be, where it is known. */
+  /** Number of frames after the run, if known. */
   readonly expected?: number | null;
   readonly scene_version: number;
   readonly links: readonly string[];
   readonly camera: CameraInfo | null;
-  readonly parts: readonly string[];
+  readonly parts: readonly PartName[];
   readonly missing: readonly string[];
-  /** Live alone. */
+  /** Only live. */
   readonly diagnostics?: readonly Diagnostic[];
 }
 
+export interface MeshIndex {
+  readonly vertices: number;
+  readonly triangles: number;
+  readonly position_offset: number;
+  readonly index_offset: number;
+}
+
 export interface SceneIndex {
-  readonly server: string;
-  readonly version: number;
-  readonly root: string;
-  readonly links: readonly {
-    readonly name: string;
-    readonly meshes: readonly {
-      readonly vertices: number;
-      readonly triangles: number;
-      readonly position_offset: number;
-      readonly index_offset: number;
-    }[];
-  }[];
+  readonly links: readonly { readonly name: string; readonly meshes: readonly MeshIndex[] }[];
 }
 
 export interface Diagnostic {
@@ -136,7 +117,8 @@ export interface Diagnostic {
   readonly message: string;
 }
 
-export interface LiveState {
+/** Statistics of the live stream, as of one frame. */
+export interface LiveStatus {
   readonly age_ms: number;
   readonly dropped: number;
   readonly rate_hz: number;

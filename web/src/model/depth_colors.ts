@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Rgb } from './labels';
 
-// Nine points of cividis (Nuñez, Anderton and Renslow 2018), which looks alike to all kinds of
-// colour vision and rises evenly in lightness; between them it is near enough to linear.
+// Nine points of cividis (Nuñez, Anderton and Renslow 2018): suits all kinds of colour vision, and its
+// lightness rises evenly.
 const cividis: readonly Rgb[] = [
   [0, 34, 78],
   [25, 57, 111],
@@ -26,13 +26,16 @@ export const depthColors: readonly Rgb[] = Array.from({ length: 256 }, (_, index
   ) as unknown as Rgb;
 });
 
-/** The percentiles of a frame's depths that are the ends of the scale. */
-export const depthPercentiles = [2, 98] as const;
-const mostSamples = 20_000;
+/** Nearest and farthest depth of the colour scale, metres. */
+export type DepthRange = readonly [number, number];
 
-/** Returns the depths at both percentiles, metres, or null if nothing is measured. */
-export function depthRange(depth: Float32Array): readonly [number, number] | null {
-  const step = Math.ceil(depth.length / mostSamples);
+/** The percentiles of a frame's depths at the ends of the colour scale. */
+export const depthPercentiles = [2, 98] as const;
+const maxSamples = 20_000;
+
+/** Returns the depths at both percentiles, or null if nothing is measured. */
+export function depthRange(depth: Float32Array): DepthRange | null {
+  const step = Math.ceil(depth.length / maxSamples);
   const known = depth.filter((z, at) => at % step === 0 && z > 0 && z < Infinity).sort();
   if (known.length === 0) return null;
   const at = (percentile: number): number =>

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as people read them; what is not known is a dash, never a zero.
+// Numbers with units. An unknown value is a dash, never a zero.
 
-export const nothing = '–';
+export const unknownText = '–';
 
 const known = (value: number | null | undefined): value is number =>
   value !== null && value !== undefined && Number.isFinite(value);
 
 export const percent = (fraction: number | null | undefined, digits = 1): string =>
-  known(fraction) ? `${(100 * fraction).toFixed(digits)} %` : nothing;
+  known(fraction) ? `${(100 * fraction).toFixed(digits)} %` : unknownText;
 
 export const metres = (value: number | null | undefined): string =>
-  known(value) ? `${value.toFixed(3)} m` : nothing;
+  known(value) ? `${value.toFixed(3)} m` : unknownText;
 
 export const count = (value: number | null | undefined): string =>
-  known(value) ? value.toLocaleString('en-US').replaceAll(',', '\u202f') : nothing;
+  known(value) ? value.toLocaleString('en-US').replaceAll(',', '\u202f') : unknownText;
 
 export function milliseconds(value: number | null | undefined): string {
-  if (!known(value)) return nothing;
+  if (!known(value)) return unknownText;
   if (Math.abs(value) < 1) return `${value.toFixed(3)} ms`;
   return `${value.toFixed(Math.abs(value) < 100 ? 1 : 0)} ms`;
 }
 
 export const seconds = (value: number | null | undefined, digits = 2): string =>
-  known(value) ? `${value.toFixed(digits)} s` : nothing;
+  known(value) ? `${value.toFixed(digits)} s` : unknownText;
 
 export const vector = (value: readonly number[] | null | undefined, digits = 3): string =>
-  value ? value.map((part) => part.toFixed(digits)).join('  ') : nothing;
+  value ? value.map((part) => part.toFixed(digits)).join('  ') : unknownText;
 
-/** Nanoseconds since 1970 as UTC; stamps of clocks that start at zero stay seconds. */
+/** Returns nanoseconds since 1970 as UTC; stamps of clocks that start at zero as seconds. */
 export function stamp(nanoseconds: string | null): string {
-  if (nanoseconds === null) return nothing;
+  if (nanoseconds === null) return unknownText;
   const value = BigInt(nanoseconds);
   const oneYear = 31_536_000_000_000_000n;
   if (value < oneYear) return `${(Number(value) / 1e9).toFixed(3)} s`;

@@ -2,67 +2,61 @@
 import type { Packet } from '../api/packet';
 import type { PartName } from '../api/types';
 
-export type Fetch = (
-  index: number,
-  wanted: readonly PartName[],
-  signal: AbortSignal,
-) => Promise<Packet>;
+type Fetch = (index: number, parts: readonly PartName[], signal: AbortSignal) => Promise<Packet>;
 
-/** Packets fetched before, up to a number of bytes; the longest unused goes first. */
+interface Entry {
+  readonly index: number;
+  readonly abort: AbortController;
+  readonly packet: Promise<Packet>;
+  bytes: number; // 0 while the packet is being fetched
+}
+
+/** Fetches packets and keeps up to a number of bytes; deletes the least recently used first. */
 export class FrameCache {
-  private readonly packets = new Map<string, Packet>();
-  private readonly pending = new Map<
-    string,
-    { promise: Promise<Packet>; abort: AbortController }
-  >();
-  private bytes = 0;
+  private readonly entries = new Map<string, Entry>(); // least recently used first
 
   constructor(
     private readonly fetch: Fetch,
-    private readonly mostBytes: number,
+    private readonly maxBytes: number,
   ) {}
 
-  get(index: number, wanted: readonly PartName[]): Promise<Packet> {
-    const key = `${index}:${wanted.join()}`;
-    const packet = this.packets.get(key);
-    if (packet) {
-      this.packets.delete(key); // to the end: most lately used
-      this.packets.set(key, packet);
-      return Promise.resolve(packet);
-    }
-    return this.pending.get(key)?.promise ?? this.start(key, index, wanted);
+  get(index: number, parts: readonly PartName[]): Promise<Packet> {
+    const key = `${index}:${parts.join()}`;
+    const entry = this.entries.get(key) ?? this.start(key, index, parts);
+    this.entries.delete(key);
+    this.entries.set(key, entry);
+    return entry.packet;
   }
 
-  /** Gives up what nobody waits for any more. */
-  abortAllBut(index: number): void {
-    for (const [key, request] of this.pending)
-      if (!key.startsWith(`${index}:`)) {
-        request.abort.abort();
-        this.pending.delete(key);
+  /** Aborts requests of other frames. */
+  abortExcept(index: number): void {
+    for (const [key, entry] of this.entries)
+      if (entry.bytes === 0 && entry.index !== index) {
+        this.entries.delete(key);
+        entry.abort.abort();
       }
   }
 
-  private start(key: string, index: number, wanted: readonly PartName[]): Promise<Packet> {
+  private start(key: string, index: number, parts: readonly PartName[]): Entry {
     const abort = new AbortController();
-    const promise = this.fetch(index, wanted, abort.signal)
-      .then((packet) => {
-        this.keep(key, packet);
-        return packet;
-      })
-      .finally(() => {
-        if (this.pending.get(key)?.abort === abort) this.pending.delete(key);
-      });
-    this.pending.set(key, { promise, abort });
-    return promise;
+    const packet = this.fetch(index, parts, abort.signal);
+    const entry: Entry = { index, abort, packet, bytes: 0 };
+    packet.then(
+      ({ byteLength }) => {
+        entry.bytes = byteLength;
+        this.shrink();
+      },
+      () => this.entries.get(key) === entry && this.entries.delete(key),
+    );
+    return entry;
   }
 
-  private keep(key: string, packet: Packet): void {
-    this.packets.set(key, packet);
-    this.bytes += packet.byteLength;
-    for (const [oldest, old] of this.packets) {
-      if (this.bytes <= this.mostBytes || oldest === key) break;
-      this.packets.delete(oldest);
-      this.bytes -= old.byteLength;
+  private shrink(): void {
+    let bytes = [...this.entries.values()].reduce((sum, entry) => sum + entry.bytes, 0);
+    for (const [key, entry] of this.entries) {
+      if (bytes <= this.maxBytes || this.entries.size === 1) break;
+      this.entries.delete(key);
+      bytes -= entry.bytes;
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours: Okabe and Ito's palette, told apart with the common forms of colour blindness, and the
-// same as in Penumbra's overlays. Nothing is told by colour alone: verdicts have a shape as well.
-import type { Verdict } from '../api/types';
+// Colours and names of labels and verdicts. The palette is Okabe and Ito's, as in Penumbra's overlays:
+// it suits the common colour vision deficiencies. Verdicts have shapes as well.
+import type { TargetReport, Verdict } from '../api/types';
 
 export const okabeIto = {
   orange: '#e69f00',
@@ -13,7 +13,7 @@ export const okabeIto = {
   purple: '#cc79a7',
 } as const;
 
-export interface LabelStyle {
+interface LabelStyle {
   readonly name: string;
   readonly color: string | null;
   readonly meaning: string;
@@ -21,22 +21,29 @@ export interface LabelStyle {
 
 /** By label value. */
 export const labelStyles: readonly LabelStyle[] = [
-  { name: 'clear', color: null, meaning: 'no robot on this ray' },
-  { name: 'front', color: okabeIto.blue, meaning: 'something real stands before the robot' },
-  { name: 'occluded', color: okabeIto.vermillion, meaning: 'the sensor sees the robot' },
-  { name: 'unknown', color: okabeIto.yellow, meaning: 'robot on the ray, no measurement' },
-  { name: 'beyond', color: okabeIto.purple, meaning: 'the sensor sees past the model' },
-  { name: 'fringe', color: okabeIto.green, meaning: 'beside the robot, depth not to be trusted' },
+  { name: 'clear', color: null, meaning: 'no robot at this pixel' },
+  { name: 'front', color: okabeIto.blue, meaning: 'an object in front of the robot' },
+  { name: 'occluded', color: okabeIto.vermillion, meaning: 'the sensor measures the robot' },
+  { name: 'unknown', color: okabeIto.yellow, meaning: 'robot, but no measurement' },
+  { name: 'beyond', color: okabeIto.purple, meaning: 'measured depth is behind the robot model' },
+  { name: 'fringe', color: okabeIto.green, meaning: 'next to the robot, depth is unreliable' },
 ];
 
-/** Of labels of a later Penumbra: like none of ours, and never like clear. */
-export const strangeLabelColor = '#ffffff';
+const invalidLabelColor = '#ffffff'; // differs from all labels, and from clear
 
-/** null: clear. */
-export const labelColor = (value: number): string | null =>
-  value < labelStyles.length ? (labelStyles[value]?.color ?? null) : strangeLabelColor;
+/** Returns the colour of a label value, or null for clear. */
+export const labelColor = (value: number): string | null => {
+  const style = labelStyles[value];
+  return style ? style.color : invalidLabelColor;
+};
 
 export const labelName = (value: number): string => labelStyles[value]?.name ?? `label ${value}?`;
+
+/** Returns whether a label is clear or front: the pixel does not show the robot. */
+export const isSurroundings = (label: number): boolean => label === 0 || label === 1;
+
+/** Returns whether the robot model is on the pixel's ray. */
+export const isRobot = (label: number): boolean => label !== 0 && label !== 5;
 
 export const verdictNames: Readonly<Record<Verdict, string>> = {
   visible: 'visible',
@@ -46,9 +53,11 @@ export const verdictNames: Readonly<Record<Verdict, string>> = {
   out_of_view: 'out of view',
 };
 
-/** A verdict of a later Penumbra is not taken for one of ours: it is unknown. */
-export const verdictOf = (verdict: string): Verdict =>
-  verdict in verdictNames ? (verdict as Verdict) : 'unknown';
+export const verdicts = Object.keys(verdictNames) as Verdict[];
+
+/** Returns the verdict; `unknown` for one that this page does not know. */
+export const verdictOf = ({ verdict }: TargetReport): Verdict =>
+  verdict in verdictNames ? verdict : 'unknown';
 
 export type Rgb = readonly [number, number, number];
 
@@ -67,11 +76,11 @@ const linkHues = [
   okabeIto.purple,
 ];
 
-/** Seven hues, then the same again lighter and darker: neighbours differ, names tell the rest. */
+/** Seven hues, then the same ones lighter and darker. */
 export function linkColor(index: number): Rgb {
   const base = rgbOf(linkHues[index % linkHues.length] ?? okabeIto.sky);
   const round = Math.floor(index / linkHues.length) % 3;
-  const towards = round === 1 ? 255 : 0;
-  const share = round === 0 ? 0 : 0.45;
-  return base.map((value) => Math.round(value + (towards - value) * share)) as unknown as Rgb;
+  const end = round === 1 ? 255 : 0;
+  const weight = round === 0 ? 0 : 0.45;
+  return base.map((value) => Math.round(value + (end - value) * weight)) as unknown as Rgb;
 }

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Draws at once, then no oftener than that: what is asked for in between, once its time has come. */
+/** Calls a function at once, then at most once per interval; the last request is never lost. */
 export class Throttle {
-  private drawnAt = -Infinity;
+  private calledAt = -Infinity;
   private timer: ReturnType<typeof setTimeout> | null = null;
 
   constructor(
     private readonly milliseconds: number,
-    private readonly draw: () => void,
+    private readonly call: () => void,
   ) {}
 
   request(): void {
-    const wait = this.drawnAt + this.milliseconds - performance.now();
-    if (wait <= 0) this.now();
-    else this.timer ??= setTimeout(() => this.now(), wait);
+    const wait = this.calledAt + this.milliseconds - performance.now();
+    if (wait <= 0) this.run();
+    else this.timer ??= setTimeout(() => this.run(), wait);
   }
 
-  /** What is pending, at once. */
-  flush(): void {
-    if (this.timer !== null) this.now();
-  }
-
-  private now(): void {
+  private run(): void {
     if (this.timer !== null) clearTimeout(this.timer);
     this.timer = null;
-    this.drawnAt = performance.now();
-    this.draw();
+    this.calledAt = performance.now();
+    this.call();
   }
 }

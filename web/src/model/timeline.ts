@@ -1,135 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the timeline shows of the frames: pure data, at most one column for each pixel.
-import type { FrameReport, Source, TargetReport, Verdict } from '../api/types';
-import { nothing, percent } from './format';
+// The data of the timeline, reduced to at most one column per pixel.
+import type { FrameReport, TargetReport } from '../api/types';
+import { percent, unknownText } from './format';
 import { verdictOf } from './labels';
-
-export interface Sample {
-  readonly verdict: Verdict;
-  /** Fractions of the target; null: not known. */
-  readonly occluded: number | null;
-  readonly other: number | null;
-  readonly unknown: number | null;
-  /** The link that hides most of it. */
-  readonly blame: string | null;
-  readonly source: Source | null;
-}
 
 export interface Track {
   readonly name: string;
-  /** One for each frame; null: the frame says nothing of this target. */
-  readonly samples: readonly (Sample | null)[];
+  /** One per frame; null: the frame does not report this target. */
+  readonly samples: readonly (TargetReport | null)[];
 }
 
+/** Equal neighbours: from <= index < to. */
 export interface Run<T> {
   readonly from: number;
-  /** One beyond the last. */
   readonly to: number;
   readonly value: T;
 }
 
-export function sampleOf(target: TargetReport): Sample {
-  const [blame] = [...(target.blame ?? [])].sort((a, b) => b.fraction - a.fraction);
-  return {
-    verdict: verdictOf(target.verdict),
-    occluded: target.occluded_fraction,
-    other: target.hidden_by_other_fraction,
-    unknown: target.unknown_fraction,
-    blame: blame?.link ?? null,
-    source: target.handled?.source ?? null,
-  };
-}
-
-/** Tracks in the order in which their targets first appear. */
+/** Returns one track per target, in the order in which the targets first appear. */
 export function tracksOf(frames: readonly FrameReport[]): Track[] {
-  const byName = new Map<string, (Sample | null)[]>();
+  const byName = new Map<string, (TargetReport | null)[]>();
   frames.forEach((frame, index) => {
     for (const target of frame.targets) {
       let samples = byName.get(target.name);
       if (!samples) {
-        samples = new Array<Sample | null>(frames.length).fill(null);
+        samples = new Array<TargetReport | null>(frames.length).fill(null);
         byName.set(target.name, samples);
       }
-      samples[index] = sampleOf(target);
+      samples[index] = target;
     }
   });
   return [...byName].map(([name, samples]) => ({ name, samples }));
 }
 
-/** By the robot and by others; null: not known. */
-export const hiddenShare = ({
-  occluded,
-  other,
-}: Pick<Sample, 'occluded' | 'other'>): number | null =>
-  occluded === null ? null : occluded + (other ?? 0);
+/** Returns the fraction that is hidden, by the robot or by other objects; null if not known. */
+export const hiddenFraction = (target: TargetReport): number | null =>
+  target.occluded_fraction === null
+    ? null
+    : target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
 
-/** Who hides most of it: a link, or others than the robot; empty: not known. */
-export const hiderOf = ({ occluded, other, blame }: Sample): string =>
-  (other ?? 0) > (occluded ?? 0) ? 'others' : (blame ?? '');
+const minFraction = 0.005; // smaller ones round to 0 %
 
-const leastShare = 0.005; // smaller ones round to 0 %
-
-/**
- * How much of a target is hidden, and behind what: "37 % behind wrist, others". Of an unknown target
- * it is what is known: "at least 57 % behind link2".
- */
-export function hiddenWords(target: TargetReport): string {
-  const { occluded_fraction: occluded, hidden_by_other_fraction: other } = target;
-  const share = (target.inside ?? 0) > 0 ? hiddenShare({ occluded, other }) : null;
-  const isUnknown = verdictOf(target.verdict) === 'unknown';
-  if (share === null || (isUnknown && share < leastShare)) return nothing;
-  const hiders = [...(target.blame ?? []), { link: 'others', fraction: other ?? 0 }]
-    .filter(({ fraction }) => fraction >= leastShare)
+/** Returns the links that hide a target, and "others" for other objects; the largest part first. */
+export const hidersOf = (target: TargetReport): string[] =>
+  [...(target.blame ?? []), { link: 'others', fraction: target.hidden_by_other_fraction ?? 0 }]
+    .filter(({ fraction }) => fraction >= minFraction)
     .sort((a, b) => b.fraction - a.fraction)
     .map(({ link }) => link);
-  const behind = hiders.length > 0 ? ` behind ${hiders.join(', ')}` : '';
-  return `${isUnknown ? 'at least ' : ''}${percent(share, 0)}${behind}`;
-}
-
-const gravity: Readonly<Record<Verdict | 'none', number>> = {
-  visible: 0,
-  out_of_view: 1,
-  none: 2, // the frame says nothing of it
-  partial: 3,
-  unknown: 4,
-  hidden: 5,
-};
-const gravityOf = (sample: Sample | null): number => gravity[sample?.verdict ?? 'none'];
 
 /**
- * The graver of two: where several frames share a pixel, none that is hidden gets lost, and the pixel
- * says visible only where all of them do.
+ * Returns how much of a target is hidden, and by what: "37 % behind wrist, others"; for an unknown
+ * target the known part: "at least 57 % behind link2".
  */
-export function graver(a: Sample | null, b: Sample | null): Sample | null {
-  const difference = gravityOf(b) - gravityOf(a);
-  if (difference !== 0) return difference > 0 ? b : a;
-  return b && (hiddenShare(b) ?? 0) > ((a && hiddenShare(a)) ?? 0) ? b : a;
+export function hiddenText(target: TargetReport): string {
+  const fraction = (target.inside ?? 0) > 0 ? hiddenFraction(target) : null;
+  const isUnknown = verdictOf(target) === 'unknown';
+  if (fraction === null || (isUnknown && fraction < minFraction)) return unknownText;
+  const hiders = hidersOf(target);
+  const behind = hiders.length > 0 ? ` behind ${hiders.join(', ')}` : '';
+  return `${isUnknown ? 'at least ' : ''}${percent(fraction, 0)}${behind}`;
 }
 
-/** Joins neighbours until at most `columns` are left. */
+const severities = ['visible', 'out_of_view', null, 'partial', 'unknown', 'hidden'];
+const severityOf = (target: TargetReport | null): number =>
+  severities.indexOf(target && verdictOf(target));
+
+/** Returns the worse of two samples: a pixel of several frames is visible only if all of them are. */
+export function worse(a: TargetReport | null, b: TargetReport | null): TargetReport | null {
+  const difference = severityOf(b) - severityOf(a);
+  if (difference !== 0) return difference > 0 ? b : a;
+  return b && (hiddenFraction(b) ?? 0) > ((a && hiddenFraction(a)) ?? 0) ? b : a;
+}
+
+/** Joins neighbours until at most `columns` values are left. */
 export function condense<T>(
   values: readonly T[],
   columns: number,
   join: (a: T, b: T) => T,
 ): readonly T[] {
   if (values.length <= columns || columns < 1) return values;
-  const result: T[] = [];
-  for (let column = 0; column < columns; ++column) {
-    const from = Math.floor((column * values.length) / columns);
-    const to = Math.floor(((column + 1) * values.length) / columns);
-    result.push(values.slice(from, to).reduce(join));
-  }
-  return result;
+  const start = (column: number): number => Math.floor((column * values.length) / columns);
+  return Array.from({ length: columns }, (_, column) =>
+    values.slice(start(column), start(column + 1)).reduce(join),
+  );
 }
 
-/** Of as many values as there may be; null: none is known. */
-export function largest(values: readonly (number | null)[]): number | null {
-  let most: number | null = null;
-  for (const value of values) if (value !== null && (most === null || value > most)) most = value;
-  return most;
-}
+/** Returns the larger one of two values; null is an unknown value. */
+export const larger = (a: number | null, b: number | null): number | null =>
+  a === null || (b !== null && b > a) ? b : a;
 
-/** Neighbours that are alike, as one run. */
 export function runsOf<T>(values: readonly T[]): Run<T>[] {
   const runs: Run<T>[] = [];
   values.forEach((value, index) => {
@@ -140,40 +99,43 @@ export function runsOf<T>(values: readonly T[]): Run<T>[] {
   return runs;
 }
 
-/** Seconds since the first frame that has a stamp; null: this one has none. */
+/** Returns the seconds since the first stamp, or null for a frame without a stamp. */
 export function secondsOf(frames: readonly FrameReport[]): (number | null)[] {
-  const first = frames.find((frame) => frame.stamp_ns !== null)?.stamp_ns;
-  if (first === undefined || first === null) return frames.map(() => null);
-  const start = BigInt(first);
-  return frames.map((frame) =>
-    frame.stamp_ns === null ? null : Number(BigInt(frame.stamp_ns) - start) / 1e9,
+  const start = BigInt(frames.find((frame) => frame.stamp_ns !== null)?.stamp_ns ?? 0);
+  return frames.map(({ stamp_ns }) =>
+    stamp_ns === null ? null : Number(BigInt(stamp_ns) - start) / 1e9,
   );
 }
 
-const isOccluded = (track: Track, frame: number): boolean => {
-  const verdict = track.samples[frame]?.verdict;
-  return verdict === 'partial' || verdict === 'hidden';
-};
+const isOccluded = (track: Track, frame: number): boolean =>
+  ['partial', 'hidden'].includes(track.samples[frame]?.verdict ?? '');
 
-/** Frames in which an occlusion begins: partial or hidden, and neither in the frame before. */
+/** Returns the frames where an occlusion starts: partial or hidden, after a frame that is neither. */
 export function onsets(tracks: readonly Track[]): number[] {
   const found = new Set<number>();
   for (const track of tracks)
     track.samples.forEach((_, frame) => {
-      if (isOccluded(track, frame) && (frame === 0 || !isOccluded(track, frame - 1)))
-        found.add(frame);
+      if (isOccluded(track, frame) && !isOccluded(track, frame - 1)) found.add(frame);
     });
   return [...found].sort((a, b) => a - b);
 }
 
-/** The nearest onset after (direction 1) or before (-1) a frame; undefined: there is none. */
-export function nextOnset(
+/** Returns the nearest onset after (direction 1) or before (-1) a frame, or undefined. */
+export const nextOnset = (
   tracks: readonly Track[],
   frame: number,
   direction: 1 | -1,
-): number | undefined {
-  const all = onsets(tracks);
-  return direction === 1
-    ? all.find((onset) => onset > frame)
-    : all.findLast((onset) => onset < frame);
+): number | undefined =>
+  direction === 1
+    ? onsets(tracks).find((onset) => onset > frame)
+    : onsets(tracks).findLast((onset) => onset < frame);
+
+const secondsWithoutStamps = 0.1;
+const maxWait = 1; // seconds: gaps of a recording are shortened
+
+/** Returns the seconds between a frame and the next one during playback. */
+export function waitOf(times: readonly (number | null)[], frame: number, speed: number): number {
+  const [now, next] = [times[frame] ?? null, times[frame + 1] ?? null];
+  const isKnown = now !== null && next !== null && next > now;
+  return Math.min((isKnown ? next - now : secondsWithoutStamps) / speed, maxWait);
 }

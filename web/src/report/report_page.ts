@@ -11,13 +11,13 @@ import { headOf, notesOf, tilesOf } from './summary';
 import { targetsTable } from './targets_table';
 
 export interface KeyFrame {
-  /** Of the report's frames, from 0. */
+  /** Index in the report's frames. */
   readonly index: number;
-  /** A data: address. */
+  /** A data: URL. */
   readonly image: string;
 }
 
-/** The whole page; a frame and a target are chosen in its timeline, tables and pictures. */
+/** The page; its timeline, tables and images select a frame and a target. */
 export class ReportPage {
   private frame = 0;
   private target: string | null;
@@ -27,7 +27,7 @@ export class ReportPage {
   constructor(
     host: HTMLElement,
     private readonly report: Report,
-    pictures: readonly KeyFrame[],
+    images: readonly KeyFrame[],
   ) {
     const chart = element('div');
     chart.id = 'timeline';
@@ -35,7 +35,7 @@ export class ReportPage {
     legend.id = 'timeline-legend';
     this.timeline = new TimelineView(chart, {
       seek: (frame) => this.seek(frame),
-      choose: (name) => this.choose(name),
+      select: (name) => this.select(name),
     });
     this.target = report.frames[0]?.targets[0]?.name ?? null;
     this.timeline.setFrames(report.frames);
@@ -49,10 +49,10 @@ export class ReportPage {
       ...notesOf(report),
       section('Timeline', element('div', 'panel', legend, chart), this.details),
       section('Targets', targetsTable(this.timeline.tracks, frames)),
-      ...(pictures.length ? [section('Key frames', this.gallery(pictures))] : []),
+      ...(images.length ? [section('Key frames', this.gallery(images))] : []),
       section('Stage times', stageTable(report)),
     );
-    this.choose(this.target);
+    this.select(this.target);
     document.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -60,19 +60,19 @@ export class ReportPage {
     return String(this.report.frames[frame]?.index ?? frame);
   }
 
-  /** The pictures; each opens its frame in the timeline. */
-  private gallery(pictures: readonly KeyFrame[]): HTMLElement {
-    const figures = pictures.flatMap(({ index, image }) => {
+  /** Returns the key frames; a click shows a frame in the timeline. */
+  private gallery(images: readonly KeyFrame[]): HTMLElement {
+    const figures = images.flatMap(({ index, image }) => {
       const frame = this.report.frames[index];
       if (!frame) return [];
-      const verdicts = frame.targets.map(({ name, verdict }) =>
-        element('span', 'legend-entry', verdictIcon(verdictOf(verdict)), name),
+      const verdicts = frame.targets.map((target) =>
+        element('span', 'legend-entry', verdictIcon(verdictOf(target)), target.name),
       );
       const title = `frame ${frame.index}`;
       const picture = element('img');
       picture.src = image;
       picture.alt = `overlay of ${title}`;
-      const open = element('button', 'picture', picture);
+      const open = element('button', 'image', picture);
       open.title = 'Show in the timeline';
       open.addEventListener('click', () => this.seek(index));
       const caption = element('figcaption', '', element('b', '', title), ...verdicts);
@@ -81,7 +81,7 @@ export class ReportPage {
     return element('div', 'gallery', ...figures);
   }
 
-  /** Arrow keys step; on the playhead Home and End go to the ends. Elsewhere these scroll. */
+  /** Arrow keys step. Home and End go to the ends if the playhead has the focus; else they scroll. */
   private key(event: KeyboardEvent): void {
     const { key, target } = event;
     if (key === 'ArrowRight' || key === 'ArrowLeft')
@@ -92,15 +92,15 @@ export class ReportPage {
     this.seek(key === 'Home' ? 0 : Infinity);
   }
 
-  /** @param frame any number: goes to the nearest frame */
+  /** @param frame any number: shows the nearest frame */
   private seek(frame: number): void {
     this.frame = Math.max(0, Math.min(frame, this.report.frames.length - 1));
     this.show();
   }
 
-  private choose(name: string | null): void {
+  private select(name: string | null): void {
     this.target = name;
-    this.timeline.setChosen(name);
+    this.timeline.select(name);
     this.show();
   }
 
@@ -109,7 +109,7 @@ export class ReportPage {
     this.timeline.setCurrent(this.frame);
     if (!frame) return;
     const target = frame.targets.find((one) => one.name === this.target);
-    const list = targetList(frame, this.target, (name) => this.choose(name));
+    const list = targetList(frame, this.target, (name) => this.select(name));
     this.details.replaceChildren(
       card(`Frame ${frame.index}`, frameDetails(frame)),
       card('Targets', list),

@@ -22,7 +22,7 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
   const duration = secondsOf(frames).findLast((time) => time !== null) ?? null;
   const pixels = summary?.pixels ?? {};
   const robot = pixels['robot'] ?? null;
-  const share = (name: string): string => {
+  const fractionOf = (name: string): string => {
     const part = pixels[name] ?? null;
     return percent(robot && part !== null ? part / robot : null);
   };
@@ -32,9 +32,9 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     'div',
     'tiles',
     tile('frames', count(frames.length), duration === null ? '' : seconds(duration)),
-    tile('bad frames', count(bad), bad ? statuses(frames) : 'all usable', bad > 0),
-    tile('robot pixels', count(robot), `unknown ${share('unknown')}`),
-    tile('seen in front', share('front'), `beyond ${share('beyond')}`),
+    tile('bad frames', count(bad), bad ? statuses(frames) : 'all ok', bad > 0),
+    tile('robot pixels', count(robot), `unknown ${fractionOf('unknown')}`),
+    tile('front', fractionOf('front'), `beyond ${fractionOf('beyond')}`),
     tile('median per frame', milliseconds(total), of),
   );
 }
@@ -49,11 +49,11 @@ function tile(name: string, value: string, more: string, fault = false): HTMLEle
   );
 }
 
-/** Stages that took place in no frame have no time: those that the sum is of are named then. */
+/** Sums the known stages, and names them if others have no time. */
 function medianOf(summary: Summary | null): { total: number | null; of: string } {
   const stages = Object.entries(summary?.timing_ms ?? {});
   const known = stages.flatMap(([name, time]) => (time ? [{ name, median: time.median }] : []));
-  if (known.length === 0) return { total: null, of: 'not told' };
+  if (known.length === 0) return { total: null, of: 'not measured' };
   const total = known.reduce((sum, { median }) => sum + median, 0);
   const names = known.map(({ name }) => name).join(', ');
   return { total, of: known.length === stages.length ? 'all stages' : names };
@@ -66,15 +66,15 @@ function statuses(frames: readonly FrameReport[]): string {
   return [...counts].map(([status, times]) => `${status} ${times}`).join(', ');
 }
 
-/** What the run said of itself: notes, faults, missing links. */
+/** Returns the run's notes, faults and missing links. */
 export function notesOf({ summary }: Report): HTMLElement[] {
-  const sentences = [
+  const lines = [
     ...(summary?.notes ?? []).map(textOf),
     ...(summary?.faults ?? []).map(textOf),
-    ...(summary?.missing_links ?? []).map((link) => `not drawn: ${textOf(link)}`),
+    ...(summary?.missing_links ?? []).map((link) => `not rendered: ${textOf(link)}`),
   ];
-  if (sentences.length === 0) return [];
-  const items = sentences.map((sentence) => element('li', '', sentence));
+  if (lines.length === 0) return [];
+  const items = lines.map((line) => element('li', '', line));
   return [element('section', 'notes', element('h2', '', 'Notes'), element('ul', '', ...items))];
 }
 

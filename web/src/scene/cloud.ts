@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The point cloud: one buffer on the GPU, grown seldom and written again for each frame.
+// The point cloud: one GPU buffer, which grows seldom and is overwritten by each frame.
 import {
   BufferGeometry,
   DynamicDrawUsage,
@@ -9,30 +9,26 @@ import {
   ShaderMaterial,
   Vector3,
 } from 'three';
-import { pointBytes, type Cloud } from '../api/packet';
+import { pointBytes } from '../api/packet';
 import type { Pose } from '../api/types';
-import { labelColor, labelStyles, rgbOf } from '../model/labels';
-import { copySurroundings, labelOffset } from '../model/surroundings';
-import { place } from './robot';
+import { isSurroundings, labelColor, labelStyles, rgbOf } from '../model/labels';
+import { applyPose } from './robot';
 
-export type CloudColors = 'label' | 'color';
-
-const floatsOfPoint = pointBytes / 4;
-
+const labelOffset = 12; // bytes
 const paletteSize = labelStyles.length + 1;
 
 const vertexShader = /* glsl */ `
   const float robotSkin = 0.03; // metres
   attribute vec4 style; // label, r, g, b
-  uniform vec3 palette[${paletteSize}]; // the last one's: labels that are not known
+  uniform vec3 palette[${paletteSize}]; // the last colour is for invalid labels
   uniform bool byLabel;
-  uniform float metresPerDepth; // a point's size at 1 m: the pixels that it stands for
+  uniform float metresPerDepth; // distance of neighbouring points at 1 m
   uniform float pixelsHigh;
   varying vec3 shade;
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     int label = int(style.x * 255.0 + 0.5);
-    // Noise would hide every other point on the robot inside of it: those are drawn first in depth.
+    // Because of noise half of the points on the robot are inside it: these are moved to the front.
     float nearer = label == 2 ? 1.0 - min(robotSkin / length(seen.xyz), 0.5) : 1.0;
     gl_Position = projectionMatrix * vec4(seen.xyz * nearer, 1.0);
     float size = position.z * metresPerDepth * projectionMatrix[1][1] * pixelsHigh * 0.5;
@@ -53,84 +49,68 @@ const fragmentShader = /* glsl */ `
 
 export class CloudModel {
   readonly points: Points<BufferGeometry, ShaderMaterial>;
-  /** Points of the robot and of its fringe are left out of what is shown next. */
+  readonly uniforms = {
+    palette: { value: palette() },
+    byLabel: { value: true },
+    metresPerDepth: { value: 0.005 },
+    pixelsHigh: { value: 1 },
+  };
+  /** The next update leaves out points of the robot and its fringe. */
   withoutRobot = false;
   private bytes = new Uint8Array(0);
-  private floats: InterleavedBuffer | null = null;
-  private styles: InterleavedBuffer | null = null;
+  private buffers: readonly InterleavedBuffer[] = [];
 
   constructor() {
-    const palette = Array.from({ length: paletteSize }, (_, value) => {
-      const [r, g, b] = rgbOf(labelColor(value) ?? '#808080');
-      return new Vector3(r / 255, g / 255, b / 255);
-    });
-    const material = new ShaderMaterial({
-      vertexShader,
-      fragmentShader,
-      uniforms: {
-        palette: { value: palette },
-        byLabel: { value: true },
-        metresPerDepth: { value: 0.005 },
-        pixelsHigh: { value: 1 },
-      },
-    });
+    const material = new ShaderMaterial({ vertexShader, fragmentShader, uniforms: this.uniforms });
     this.points = new Points(new BufferGeometry(), material);
     this.points.frustumCulled = false;
     this.points.visible = false;
   }
 
-  /**
-   * @param metresPerDepth pixels between points over the focal length
-   * @returns how many points are shown
-   */
-  update(cloud: Cloud | undefined, cameraPose: Pose | null, metresPerDepth: number): number {
-    place(this.points, cloud ? cameraPose : null);
+  /** @returns the number of points shown */
+  update(cloud: Uint8Array | undefined, cameraPose: Pose | null): number {
+    applyPose(this.points, cloud ? cameraPose : null);
     if (!cloud || !cameraPose) return 0;
-    if (cloud.bytes.length > this.bytes.length) this.grow(cloud.bytes.length);
+    if (cloud.length > this.bytes.length) this.grow(cloud.length);
     const count = this.copy(cloud);
-    for (const buffer of [this.floats, this.styles]) {
-      if (!buffer) continue;
+    for (const buffer of this.buffers) {
       buffer.clearUpdateRanges();
       buffer.addUpdateRange(0, count * buffer.stride);
       buffer.needsUpdate = true;
     }
     this.points.geometry.setDrawRange(0, count);
-    this.set('metresPerDepth', metresPerDepth);
     return count;
   }
 
-  setColors(colors: CloudColors): void {
-    this.set('byLabel', colors === 'label');
-  }
-
-  setPixelsHigh(pixels: number): void {
-    this.set('pixelsHigh', pixels);
-  }
-
-  private set(name: string, value: number | boolean): void {
-    const uniform = this.points.material.uniforms[name];
-    if (uniform) uniform.value = value;
-  }
-
-  private copy(cloud: Cloud): number {
-    if (this.withoutRobot) return copySurroundings(cloud, this.bytes);
-    this.bytes.set(cloud.bytes);
-    return cloud.count;
+  private copy(cloud: Uint8Array): number {
+    if (!this.withoutRobot) {
+      this.bytes.set(cloud);
+      return cloud.length / pointBytes;
+    }
+    let end = 0;
+    for (let at = 0; at < cloud.length; at += pointBytes) {
+      if (!isSurroundings(cloud[at + labelOffset] as number)) continue;
+      this.bytes.set(cloud.subarray(at, at + pointBytes), end);
+      end += pointBytes;
+    }
+    return end / pointBytes;
   }
 
   private grow(bytes: number): void {
-    const capacity = pointBytes * Math.ceil((1.25 * bytes) / pointBytes);
-    this.bytes = new Uint8Array(capacity);
+    this.bytes = new Uint8Array(pointBytes * Math.ceil((1.25 * bytes) / pointBytes));
     this.points.geometry.dispose();
+    const floats = new InterleavedBuffer(new Float32Array(this.bytes.buffer), pointBytes / 4);
+    const styles = new InterleavedBuffer(this.bytes, pointBytes);
+    this.buffers = [floats, styles];
+    for (const buffer of this.buffers) buffer.setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry();
-    this.floats = new InterleavedBuffer(new Float32Array(this.bytes.buffer), floatsOfPoint);
-    this.styles = new InterleavedBuffer(this.bytes, pointBytes);
-    for (const buffer of [this.floats, this.styles]) buffer.setUsage(DynamicDrawUsage);
-    geometry.setAttribute('position', new InterleavedBufferAttribute(this.floats, 3, 0));
-    geometry.setAttribute(
-      'style',
-      new InterleavedBufferAttribute(this.styles, 4, labelOffset, true),
-    );
+    geometry.setAttribute('position', new InterleavedBufferAttribute(floats, 3, 0));
+    geometry.setAttribute('style', new InterleavedBufferAttribute(styles, 4, labelOffset, true));
     this.points.geometry = geometry;
   }
 }
+
+const palette = (): Vector3[] =>
+  Array.from({ length: paletteSize }, (_, label) =>
+    new Vector3(...rgbOf(labelColor(label) ?? '#808080')).divideScalar(255),
+  );

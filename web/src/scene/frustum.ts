@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-import { BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments } from 'three';
+import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } from 'three';
 import type { CameraInfo } from '../api/types';
 
-/** The camera's field of view as lines, in its optical frame; the short bar tells which side is up. */
+/** The camera's field of view as lines, in its optical frame; the short bar marks the upper side. */
 export class Frustum {
   readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
   constructor() {
     this.lines.visible = false;
     this.lines.frustumCulled = false;
-  }
-
-  setColor(color: Color): void {
-    this.lines.material.color.copy(color);
   }
 
   /** @param length metres from the camera to the drawn image plane */
@@ -22,7 +18,7 @@ export class Frustum {
       ((v - camera.cy) / camera.fy) * length,
       length,
     ];
-    // The image reaches half a pixel beyond the centres of its outermost pixels.
+    // The image ends half a pixel outside the centres of its outermost pixels.
     const right = camera.width - 0.5;
     const bottom = camera.height - 0.5;
     const corners = [at(-0.5, -0.5), at(right, -0.5), at(right, bottom), at(-0.5, bottom)];

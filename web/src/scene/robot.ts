@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The robot as the renderer draws it: its own triangles, in each link's frame.
+// The robot's triangles, as the renderer uses them, in each link's frame.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -10,16 +10,16 @@ import {
   type Object3D,
 } from 'three';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
-import type { Pose, SceneIndex } from '../api/types';
+import type { MeshIndex, Pose, SceneIndex } from '../api/types';
 import { okabeIto } from '../model/labels';
 
-const crease = (35 * Math.PI) / 180; // edges sharper than this stay edges
-const mostCreasedTriangles = 400_000; // beyond it flat faces: the page has to load quickly
+const creaseAngle = (35 * Math.PI) / 180; // sharper edges are not smoothed
+const maxSmoothTriangles = 400_000; // larger robots have flat faces, so that they load quickly
 const plain = new Color('#b9c2cc');
 const blamed = new Color(okabeIto.vermillion);
 
-/** Places an object; without a pose it is not shown: nothing stands where nothing is known. */
-export function place(object: Object3D, pose: Pose | null | undefined): void {
+/** Moves an object to its pose; hides it if the pose is not known. */
+export function applyPose(object: Object3D, pose: Pose | null | undefined): void {
   object.visible = !!pose;
   if (!pose) return;
   object.position.set(pose[0], pose[1], pose[2]);
@@ -36,63 +36,46 @@ export class RobotModel {
   readonly root = new Group();
   private readonly links: Link[];
 
-  /** @throws RangeError where the scene's offsets do not fit its bytes */
+  /** @throws RangeError if an offset of the scene exceeds its data */
   constructor(scene: SceneIndex, data: ArrayBuffer) {
-    const triangles = scene.links.reduce(
-      (sum, link) => sum + link.meshes.reduce((part, mesh) => part + mesh.triangles, 0),
-      0,
-    );
-    this.links = scene.links.map((link) => {
-      const material = new MeshStandardMaterial({
-        color: plain,
-        roughness: 0.62,
-        metalness: 0.12,
-        flatShading: triangles > mostCreasedTriangles,
-      });
+    const meshes = scene.links.flatMap((link) => link.meshes);
+    const triangles = meshes.reduce((sum, mesh) => sum + mesh.triangles, 0);
+    const flatShading = triangles > maxSmoothTriangles;
+    this.links = scene.links.map(({ name, meshes: ofLink }) => {
+      const material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0.12, flatShading });
       const group = new Group();
-      group.name = link.name;
-      for (const mesh of link.meshes)
-        group.add(new Mesh(geometryOf(mesh, data, !material.flatShading), material));
-      group.visible = false;
+      for (const mesh of ofLink)
+        group.add(new Mesh(geometryOf(mesh, data, !flatShading), material));
       this.root.add(group);
-      return { name: link.name, group, material };
+      return { name, group, material };
     });
   }
 
-  /** @returns how many links have a pose */
-  setPoses(poses: readonly (Pose | null)[]): number {
-    let known = 0;
-    this.links.forEach((link, index) => {
-      place(link.group, poses[index]);
-      if (poses[index]) ++known;
-    });
-    return known;
+  setPoses(poses: readonly (Pose | null)[]): void {
+    this.links.forEach(({ group }, index) => applyPose(group, poses[index]));
   }
 
-  /** Tints links by what they hide of the chosen target. */
+  /** Tints each link by the fraction of the selected target that it hides. */
   setBlame(fractions: ReadonlyMap<string, number>): void {
-    for (const link of this.links) {
-      const fraction = fractions.get(link.name) ?? 0;
-      link.material.color.lerpColors(plain, blamed, fraction > 0 ? 0.4 + 0.6 * fraction : 0);
+    for (const { name, material } of this.links) {
+      const fraction = fractions.get(name) ?? 0;
+      material.color.lerpColors(plain, blamed, fraction > 0 ? 0.4 + 0.6 * fraction : 0);
     }
   }
 
   dispose(): void {
-    for (const link of this.links) {
-      link.material.dispose();
-      for (const mesh of link.group.children) (mesh as Mesh).geometry.dispose();
+    for (const { group, material } of this.links) {
+      material.dispose();
+      for (const mesh of group.children) (mesh as Mesh).geometry.dispose();
     }
   }
 }
 
-type MeshIndex = SceneIndex['links'][number]['meshes'][number];
-
-function geometryOf(mesh: MeshIndex, data: ArrayBuffer, creased: boolean): BufferGeometry {
+function geometryOf(mesh: MeshIndex, data: ArrayBuffer, isSmooth: boolean): BufferGeometry {
   const geometry = new BufferGeometry();
   const positions = new Float32Array(data, mesh.position_offset, 3 * mesh.vertices);
+  const indices = new Uint32Array(data, mesh.index_offset, 3 * mesh.triangles);
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
-  geometry.setIndex(
-    new BufferAttribute(new Uint32Array(data, mesh.index_offset, 3 * mesh.triangles), 1),
-  );
-  return creased ? toCreasedNormals(geometry, crease) : geometry;
+  geometry.setIndex(new BufferAttribute(indices, 1));
+  return isSmooth ? toCreasedNormals(geometry, creaseAngle) : geometry;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 3-D scene in the root link's frame: robot, camera, cloud, targets. Drawn when something
-// changed, never in between.
+// The 3-D scene in the root link's frame: robot, camera, cloud, targets. It is drawn only after a
+// change.
 import {
   AmbientLight,
   Box3,
@@ -12,40 +12,51 @@ import {
   Scene,
   Vector3,
   WebGLRenderer,
-  type LineBasicMaterial,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Packet } from '../api/packet';
 import type { CameraInfo, Pose, SceneIndex } from '../api/types';
 import { CloudModel } from './cloud';
 import { Frustum } from './frustum';
-import { place, RobotModel } from './robot';
+import { applyPose, RobotModel } from './robot';
 import { TargetLayer } from './targets';
 
 export type ScenePart = 'robot' | 'cloud' | 'camera' | 'targets';
 
 const up = new Vector3(0, 0, 1);
-const overviewFov = 42; // degrees of the height
+const overviewFov = 42; // degrees, vertical
+const frustumLength = 0.35; // metres
+const softwareNames = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+/** Returns whether the CPU renders WebGL: scenes then have fewer samples and points. */
+export function isSoftwareGl(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const renderer: unknown = names ? gl?.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return softwareNames.test(String(renderer));
+}
 
 export class SceneView {
   readonly cloud = new CloudModel();
-  readonly targets: TargetLayer;
+  /** Parts that the user hides; the caller shows the frame again after a change. */
+  readonly hidden = new Set<ScenePart>();
+  private readonly targets: TargetLayer;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly eye = new PerspectiveCamera(overviewFov, 1, 0.02, 60);
   private readonly controls: OrbitControls;
   private readonly frustum = new Frustum();
-  private readonly hidden = new Set<ScenePart>();
-  private grid = new GridHelper(4, 20);
+  private readonly grid = new GridHelper(4, 20, '#fff', '#fff');
   private robot: RobotModel | null = null;
   private camera: CameraInfo | null = null;
   private cameraPose: Pose | null = null;
-  private framed = false;
+  private hasOverview = false;
   private pending = 0;
 
   /**
-   * @param isSlow the CPU draws: without smooth edges then
-   * @throws Error where the browser has no WebGL
+   * @param isSlow disables antialiasing and high pixel densities
+   * @throws Error if the browser has no WebGL
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -60,30 +71,35 @@ export class SceneView {
     this.controls = new OrbitControls(this.eye, canvas);
     this.controls.target.set(0, 0, 0.4);
     this.controls.addEventListener('change', () => this.invalidate());
+    this.targets = new TargetLayer(names);
+    this.grid.rotation.x = Math.PI / 2;
+    this.grid.material.transparent = true;
+    this.grid.material.opacity = 0.1;
     const sun = new DirectionalLight(0xffffff, 1.8);
     sun.position.set(2, -3, 5);
-    this.scene.add(new AmbientLight(0xffffff, 0.5), new HemisphereLight(0xffffff, 0x8a8f98, 1.2));
-    this.scene.add(sun, this.cloud.points, this.frustum.lines);
-    this.targets = new TargetLayer(names);
-    this.scene.add(this.targets.root);
+    this.scene.add(
+      new AmbientLight(0xffffff, 0.5),
+      new HemisphereLight(0xffffff, 0x8a8f98, 1.2),
+      sun,
+      this.grid,
+      this.cloud.points,
+      this.frustum.lines,
+      this.targets.root,
+    );
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
   }
 
-  setTheme(background: string, line: string, ink: string): void {
-    this.scene.background = new Color(background);
-    this.scene.remove(this.grid);
-    this.grid.dispose();
-    this.grid = new GridHelper(4, 20, line, line);
-    this.grid.rotation.x = Math.PI / 2;
-    (this.grid.material as LineBasicMaterial).transparent = true;
-    (this.grid.material as LineBasicMaterial).opacity = 0.55;
-    this.scene.add(this.grid);
-    this.frustum.setColor(new Color(ink));
-    this.targets.setInk(new Color(ink));
+  /** Takes the colours of the background and of lines from the canvas's style. */
+  updateTheme(): void {
+    const { backgroundColor, color } = getComputedStyle(this.canvas);
+    this.scene.background = new Color(backgroundColor);
+    for (const material of [this.grid.material, this.frustum.lines.material])
+      material.color.set(color);
+    this.targets.setLineColor(new Color(color));
     this.invalidate();
   }
 
-  /** @param robot null: none, until the next one is there */
+  /** @param robot null: removes the robot */
   setRobot(robot: { readonly index: SceneIndex; readonly data: ArrayBuffer } | null): void {
     if (this.robot) {
       this.scene.remove(this.robot.root);
@@ -96,35 +112,32 @@ export class SceneView {
 
   setCamera(camera: CameraInfo | null): void {
     this.camera = camera;
-    if (camera) this.frustum.setCamera(camera, 0.35);
+    if (camera) this.frustum.setCamera(camera, frustumLength);
   }
 
-  show(packet: Packet, step: number, chosen: string | null): void {
-    this.cameraPose = packet.cameraPose;
-    this.robot?.setPoses(packet.linkPoses);
-    if (this.robot) this.robot.root.visible = !this.hidden.has('robot');
-    place(this.frustum.lines, this.hidden.has('camera') || !this.camera ? null : packet.cameraPose);
-    const cloud = this.hidden.has('cloud') ? undefined : packet.cloud;
-    const metresPerDepth = this.camera ? step / this.camera.fx : 0.005;
-    const points = this.cloud.update(cloud, packet.cameraPose, metresPerDepth);
+  /** @param step the cloud has every step-th pixel */
+  show(packet: Packet, step: number, selected: string | null): void {
+    const { camera_pose: cameraPose, link_poses: linkPoses, frame } = packet;
+    const isShown = (part: ScenePart): boolean => !this.hidden.has(part);
+    this.cameraPose = cameraPose;
+    applyPose(this.frustum.lines, isShown('camera') && this.camera ? cameraPose : null);
+    if (this.camera) this.cloud.uniforms.metresPerDepth.value = step / this.camera.fx;
+    const points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
     this.canvas.dataset['points'] = String(points);
-    this.targets.show(this.hidden.has('targets') ? [] : packet.frame.targets, chosen);
-    const target = packet.frame.targets.find((one) => one.name === chosen);
-    const blame = (target?.blame ?? []).map((one) => [one.link, one.fraction] as const);
-    this.robot?.setBlame(new Map(blame));
-    const isPosed = packet.linkPoses.some((pose) => pose !== null);
-    if (!this.framed && isPosed) this.framed = this.frameAll();
+    this.targets.show(isShown('targets') ? frame.targets : [], selected);
+    if (this.robot) {
+      const target = frame.targets.find(({ name }) => name === selected);
+      this.robot.root.visible = isShown('robot');
+      this.robot.setPoses(linkPoses);
+      this.robot.setBlame(new Map(target?.blame?.map(({ link, fraction }) => [link, fraction])));
+    }
+    if (!this.hasOverview && linkPoses.some((pose) => pose !== null))
+      this.hasOverview = this.showOverview();
     this.invalidate();
   }
 
-  /** The caller shows the frame again. */
-  setShown(part: ScenePart, shown: boolean): void {
-    if (shown) this.hidden.delete(part);
-    else this.hidden.add(part);
-  }
-
-  /** A view beside the camera's, of robot and camera; false: there is nothing to look at yet. */
-  frameAll(): boolean {
+  /** Looks at the whole robot from next to the camera; returns false without a robot. */
+  showOverview(): boolean {
     const box = new Box3();
     if (this.robot) box.expandByObject(this.robot.root);
     if (box.isEmpty()) return false;
@@ -141,11 +154,10 @@ export class SceneView {
     return true;
   }
 
-  /** The camera's own view, as nearly as an upright view can be. */
-  frameCamera(): void {
+  /** Looks from the camera; the view stays upright if the camera is not. */
+  showCameraView(): void {
     if (!this.cameraPose || !this.camera) return;
-    const lines = this.frustum.lines;
-    const forward = new Vector3(0, 0, 1).applyQuaternion(lines.quaternion);
+    const forward = new Vector3(0, 0, 1).applyQuaternion(this.frustum.lines.quaternion);
     const at = new Vector3(...this.cameraPose.slice(0, 3));
     const { width, height, fx, fy } = this.camera;
     const half = Math.max(height / fy, width / fx / this.eye.aspect) / 2;
@@ -153,7 +165,6 @@ export class SceneView {
     this.lookAt(at.clone().addScaledVector(forward, 1.5), at);
   }
 
-  /** @param degrees of the height */
   private setFov(degrees: number): void {
     this.eye.fov = degrees;
     this.eye.updateProjectionMatrix();
@@ -166,6 +177,7 @@ export class SceneView {
     this.invalidate();
   }
 
+  /** Draws the scene in the browser's next frame. */
   invalidate(): void {
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => {
@@ -181,7 +193,7 @@ export class SceneView {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.eye.aspect = clientWidth / clientHeight;
     this.eye.updateProjectionMatrix();
-    this.cloud.setPixelsHigh(clientHeight * this.renderer.getPixelRatio());
+    this.cloud.uniforms.pixelsHigh.value = clientHeight * this.renderer.getPixelRatio();
     this.invalidate();
   }
 }

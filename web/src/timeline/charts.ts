@@ -1,61 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timeline's rows as SVG: as wide as the screen's pixels, whatever the number of frames.
-import type { FrameReport, Verdict } from '../api/types';
-import {
-  condense,
-  graver,
-  hiderOf,
-  runsOf,
-  type Run,
-  type Sample,
-  type Track,
-} from '../model/timeline';
+// The timeline's rows as SVG, with at most one column per pixel.
+import type { FrameReport, TargetReport, Verdict } from '../api/types';
+import { verdictOf } from '../model/labels';
+import { condense, hidersOf, larger, runsOf, worse, type Run, type Track } from '../model/timeline';
 import { svg } from '../view/dom';
 
 const fractionHeight = 26;
 const stripHeight = 14;
 const sourceHeight = 6;
 const axisHeight = 16;
-const pixelsBetweenTicks = 90;
-const characterWidth = 6.2; // of the blame's text, pixels
+const tickDistance = 90; // pixels
+const characterWidth = 6.2; // pixels, of a link's name
 
 function rowSvg(width: number, height: number, label: string): SVGSVGElement {
   const size = { width, height, viewBox: `0 0 ${width} ${height}` };
   return svg('svg', { ...size, role: 'img', 'aria-label': label, class: 'row-chart' });
 }
 
-/** Occluded, hidden by others and unknown, one upon the other; below the verdict, then the source. */
+/** Draws the hidden fractions as stacked areas; below them the verdict, then the source. */
 export function targetChart(track: Track, width: number, label: string): SVGSVGElement {
-  const samples = condense<Sample | null>(track.samples, Math.floor(width), graver);
+  const samples = condense<TargetReport | null>(track.samples, Math.floor(width), worse);
   const chart = rowSvg(width, fractionHeight + stripHeight + sourceHeight, label);
-  chart.append(...stack(samples, width), ...verdictStrip(samples, width));
-  chart.append(...sources(samples, width));
+  chart.append(...fractionAreas(samples, width), ...verdictStrip(samples, width));
+  chart.append(...sourceLines(samples, width));
   return chart;
 }
 
-const partFills = [
-  ['occluded', 'var(--l-occluded)'],
-  ['other', 'var(--l-other)'],
-  ['unknown', 'url(#p-unknown)'],
+const fractionFills = [
+  ['occluded_fraction', 'var(--l-occluded)'],
+  ['hidden_by_other_fraction', 'var(--l-other)'],
+  ['unknown_fraction', 'url(#p-unknown)'],
 ] as const;
 
-function stack(samples: readonly (Sample | null)[], width: number): SVGElement[] {
-  const base = samples.map(() => 0);
-  const layers = partFills.map(([part, fill]) => {
-    const below = base.slice();
-    samples.forEach((sample, i) => (base[i] = Math.min(1, (base[i] ?? 0) + (sample?.[part] ?? 0))));
-    return areaPath(below, base.slice(), width, fractionHeight, fill);
-  });
-  const isUnknown = samples.map((sample) => sample?.occluded == null);
+function fractionAreas(samples: readonly (TargetReport | null)[], width: number): SVGElement[] {
+  const isUnknown = samples.map((sample) => sample?.occluded_fraction == null);
+  const layers = fractionFills.map(([key]) => samples.map((sample) => sample?.[key] ?? 0));
+  const fills = fractionFills.map(([, fill]) => fill);
   const line = svg('path', { d: `M0 ${fractionHeight - 0.5}H${width}`, class: 'base-line' });
-  return [...gaps(isUnknown, width, fractionHeight), ...layers, line];
+  return [
+    ...gaps(isUnknown, width, fractionHeight),
+    ...stackedAreas(layers, fills, width, fractionHeight),
+    line,
+  ];
 }
 
-/** Where nothing is known. */
+/** Marks columns without values. */
 function gaps(isUnknown: readonly boolean[], width: number, height: number): SVGElement[] {
   const runs = runsOf(isUnknown).filter((run) => run.value);
   const boxes = runs.map((run) => ({ ...span(run, isUnknown.length, width), y: 1 }));
   return boxes.map((box) => svg('rect', { ...box, height: height - 1, fill: 'url(#p-none)' }));
+}
+
+/** Draws layers of values from 0 to 1 on top of each other. */
+function stackedAreas(
+  layers: readonly (readonly number[])[],
+  fills: readonly string[],
+  width: number,
+  height: number,
+): SVGElement[] {
+  let below = (layers[0] ?? []).map(() => 0);
+  return layers.map((values, index) => {
+    const above = below.map((low, i) => Math.min(1, low + (values[i] ?? 0)));
+    const d = areaPath(below, above, width, height);
+    below = above;
+    return svg('path', { d, fill: fills[index] ?? '', class: 'area' });
+  });
 }
 
 function areaPath(
@@ -63,14 +72,12 @@ function areaPath(
   high: readonly number[],
   width: number,
   height: number,
-  fill: string,
-): SVGPathElement {
+): string {
   const x = (i: number): string => ((i * width) / high.length).toFixed(1);
   const y = (value: number): string => (height - value * (height - 1)).toFixed(1);
-  let path = '';
-  high.forEach((value, i) => (path += `${i ? 'L' : 'M'}${x(i)} ${y(value)}H${x(i + 1)}`));
-  for (let i = low.length - 1; i >= 0; --i) path += `L${x(i + 1)} ${y(low[i] as number)}H${x(i)}`;
-  return svg('path', { d: `${path}Z`, fill, class: 'area' });
+  const upper = high.map((value, i) => `${i ? 'L' : 'M'}${x(i)} ${y(value)}H${x(i + 1)}`);
+  const lower = low.map((value, i) => `L${x(i + 1)} ${y(value)}H${x(i)}`).reverse();
+  return `${upper.join('')}${lower.join('')}Z`;
 }
 
 const span = (run: Run<unknown>, count: number, width: number): { x: number; width: number } => ({
@@ -78,100 +85,87 @@ const span = (run: Run<unknown>, count: number, width: number): { x: number; wid
   width: ((run.to - run.from) * width) / count,
 });
 
-function verdictStrip(samples: readonly (Sample | null)[], width: number): SVGElement[] {
-  const keys = samples.map((sample) => (sample ? `${sample.verdict}\n${blameOf(sample)}` : ''));
+function verdictStrip(samples: readonly (TargetReport | null)[], width: number): SVGElement[] {
+  const keys = samples.map((sample) => sample && `${verdictOf(sample)}\n${hiderOf(sample)}`);
   return runsOf(keys).flatMap((run) => {
     const sample = samples[run.from];
     const at = span(run, samples.length, width);
     const box = { ...at, y: fractionHeight + 1, height: stripHeight - 2 };
     if (!sample) return [svg('rect', { ...box, fill: 'url(#p-none)' })];
-    const fill = verdictFill[sample.verdict];
-    const shape = svg('rect', { ...box, fill, class: `strip ${sample.verdict}` });
-    const text = blameOf(sample);
-    if (text.length * characterWidth + 8 > at.width || !text) return [shape];
+    const verdict = verdictOf(sample);
+    const fill = verdictFills[verdict];
+    const shape = svg('rect', { ...box, fill, class: `strip ${verdict}` });
+    const text = hiderOf(sample);
+    if (!text || text.length * characterWidth + 8 > at.width) return [shape];
     const middle = { x: at.x + at.width / 2, y: fractionHeight + stripHeight - 4 };
     return [shape, svg('text', { ...middle, 'text-anchor': 'middle', class: 'blame' }, text)];
   });
 }
 
-/** Who hides most of it, of targets that are partial or hidden. */
-function blameOf(sample: Sample): string {
-  if (sample.verdict !== 'partial' && sample.verdict !== 'hidden') return '';
-  return hiderOf(sample);
-}
+/** Returns what hides most of a partial or hidden target. */
+const hiderOf = (target: TargetReport): string =>
+  ['partial', 'hidden'].includes(target.verdict) ? (hidersOf(target)[0] ?? '') : '';
 
-function sources(samples: readonly (Sample | null)[], width: number): SVGElement[] {
+function sourceLines(samples: readonly (TargetReport | null)[], width: number): SVGElement[] {
   const y = fractionHeight + stripHeight + sourceHeight / 2;
-  return runsOf(samples.map((sample) => sample?.source ?? null)).flatMap((run) => {
-    if (!run.value || run.value === 'lost') return [];
+  return runsOf(samples.map((sample) => sample?.handled?.source ?? 'lost')).flatMap((run) => {
+    if (run.value === 'lost') return [];
     const at = span(run, samples.length, width);
     const d = `M${at.x + 0.5} ${y}H${at.x + at.width - 0.5}`;
     return [svg('path', { d, class: `source ${run.value}` })];
   });
 }
 
-/** Frames that are not `ok` stand out; the others are a calm line. */
 export function statusChart(frames: readonly FrameReport[], width: number): SVGSVGElement {
-  const worst = (a: string, b: string): string => (a === 'ok' ? b : a);
-  const statuses = condense(
-    frames.map((frame) => frame.status),
-    Math.floor(width),
-    worst,
-  );
-  const bad = frames.filter((frame) => frame.status !== 'ok').length;
+  const all = frames.map((frame) => frame.status);
+  const bad = all.filter((status) => status !== 'ok').length;
+  const statuses = condense(all, Math.floor(width), (a, b) => (a === 'ok' ? b : a));
   const chart = rowSvg(width, stripHeight, `${bad} of ${frames.length} frames are not ok`);
   for (const run of runsOf(statuses)) {
     const at = span(run, statuses.length, width);
-    const fault = run.value !== 'ok';
-    const fill = fault ? 'url(#p-fault)' : 'var(--line)';
+    const isBad = run.value !== 'ok';
+    const fill = isBad ? 'url(#p-fault)' : 'var(--line)';
     chart.append(svg('rect', { ...at, y: 2, height: 10, fill }));
-    if (fault && run.value.length * characterWidth + 8 < at.width)
+    if (isBad && run.value.length * characterWidth + 8 < at.width)
       chart.append(svg('text', { x: at.x + 4, y: 10.5, class: 'blame' }, run.value));
   }
   return chart;
 }
 
-/** Stacked series of a unit from zero to the largest sum; null: nothing known. */
+/** Draws stacked series, from zero to the largest sum. */
 export function seriesChart(
   series: readonly (readonly (number | null)[])[],
   width: number,
   height: number,
   label: string,
 ): SVGSVGElement {
-  const columns = Math.floor(width);
-  const larger = (a: number | null, b: number | null): number | null =>
-    a === null ? b : b === null ? a : Math.max(a, b);
-  const known = series.map((values) => condense(values, columns, larger));
-  const layers = known.map((values) => values.map((value) => value ?? 0));
-  const sums = (layers[0] ?? []).map((_, i) => layers.reduce((sum, one) => sum + (one[i] ?? 0), 0));
-  const top = Math.max(...sums, Number.EPSILON);
+  const known = series.map((values) => condense(values, Math.floor(width), larger));
+  const columns = known[0] ?? [];
+  const sums = columns.map((_, i) => known.reduce((sum, values) => sum + (values[i] ?? 0), 0));
+  const top = sums.reduce((a, b) => Math.max(a, b), Number.EPSILON);
+  const isUnknown = columns.map((_, i) => known.every((values) => values[i] == null));
+  const layers = known.map((values) => values.map((value) => (value ?? 0) / top));
+  const fills = known.map((_, index) => `var(--series-${index})`);
   const chart = rowSvg(width, height, label);
-  const isUnknown = sums.map((_, i) => known.every((values) => (values[i] ?? null) === null));
-  chart.append(...gaps(isUnknown, width, height));
-  let below = sums.map(() => 0);
-  layers.forEach((values, index) => {
-    const above = below.map((low, i) => low + (values[i] ?? 0) / top);
-    chart.append(areaPath(below, above, width, height, `var(--series-${index})`));
-    below = above;
-  });
+  chart.append(...gaps(isUnknown, width, height), ...stackedAreas(layers, fills, width, height));
   return chart;
 }
 
-/** Steps of 1, 2 or 5 times a power of ten. */
+/** Returns the next larger step of 1, 2 or 5 times a power of ten. */
 export function niceStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least));
   const found = [1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-9)) ?? 10;
   return found * power;
 }
 
-/** Times where the frames have stamps, else their numbers. */
+/** Draws times; the numbers of frames without stamps. */
 export function axisChart(
   frames: readonly FrameReport[],
   times: readonly (number | null)[],
   width: number,
 ): SVGSVGElement {
-  const chart = rowSvg(width, axisHeight, 'axis of time');
-  const every = Math.max(1, niceStep((times.length * pixelsBetweenTicks) / Math.max(width, 1)));
+  const chart = rowSvg(width, axisHeight, 'time axis');
+  const every = Math.max(1, niceStep((times.length * tickDistance) / Math.max(width, 1)));
   const digits = (times.at(-1) ?? 0) > 20 ? 1 : 2;
   for (let frame = 0; frame < times.length; frame += every) {
     const x = ((frame + 0.5) * width) / times.length;
@@ -186,7 +180,7 @@ export function axisChart(
   return chart;
 }
 
-const verdictFill: Readonly<Record<Verdict, string>> = {
+const verdictFills: Readonly<Record<Verdict, string>> = {
   visible: 'var(--v-visible)',
   partial: 'url(#p-partial)',
   hidden: 'url(#p-hidden)',
@@ -194,22 +188,18 @@ const verdictFill: Readonly<Record<Verdict, string>> = {
   out_of_view: 'none',
 };
 
-/** Fills that differ without colour too: plain, stripes, grid, dots, nothing. */
+/** Adds fills that differ in pattern, too: stripes, grid, dots. */
 export function addPatterns(): void {
   const lines = (d: string, stroke: string, opacity: number): SVGElement =>
     svg('path', { d, stroke, 'stroke-opacity': opacity });
+  const partial = lines('M-1 7 7-1M2 10 10 2M-4 4 4-4', '#000', 0.45);
   const defs = svg(
     'defs',
     {},
-    pattern(
-      'p-partial',
-      6,
-      'var(--v-partial)',
-      lines('M-1 7 7-1M2 10 10 2M-4 4 4-4', '#000', 0.45),
-    ),
+    pattern('p-partial', 6, 'var(--v-partial)', partial),
     pattern('p-hidden', 5, 'var(--v-hidden)', lines('M0 0 5 5M5 0 0 5', '#000', 0.38)),
     pattern('p-unknown', 5, 'var(--v-unknown)', svg('circle', { cx: 2.5, cy: 2.5, r: 1.15 })),
-    pattern('p-none', 6, 'none', lines('M-1 1 1-1M0 6 6 0M5 7 7 5', 'var(--soft)', 0.28)),
+    pattern('p-none', 6, 'none', lines('M-1 1 1-1M0 6 6 0M5 7 7 5', 'var(--muted)', 0.28)),
     pattern('p-fault', 6, '#b42318', lines('M0 0 6 6M6 0 0 6', '#fff', 0.4)),
   );
   document.body.append(svg('svg', { width: 0, height: 0, 'aria-hidden': 'true' }, defs));

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of all targets, the frames' status, stage times and joint ages over one axis of frames, with
-// a playhead and a tip under the pointer.
-import type { FrameReport, Verdict } from '../api/types';
-import { milliseconds, seconds } from '../model/format';
-import { verdictNames, verdictOf } from '../model/labels';
-import { hiddenWords, largest, secondsOf, tracksOf, type Track } from '../model/timeline';
+// Rows of targets, frame status, stage times and joint ages over one axis of frames, with a playhead
+// and a tooltip at the pointer.
+import type { FrameReport } from '../api/types';
+import { milliseconds, seconds, unknownText } from '../model/format';
+import { verdictNames, verdictOf, verdicts } from '../model/labels';
+import { hiddenText, larger, secondsOf, tracksOf, type Track } from '../model/timeline';
 import { element, setText, swatch } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 import { addPatterns, axisChart, seriesChart, statusChart, targetChart } from './charts';
 
 export interface TimelineHandlers {
   seek(frame: number): void;
-  choose(target: string): void;
+  select(target: string): void;
 }
 
 interface Row {
   readonly head: HTMLElement;
   readonly chart: HTMLElement;
   draw(width: number): SVGSVGElement;
-  /** What is said of a frame under the pointer; each line begins with a line break. */
-  tip(frame: number): string;
-  /** What stands beside the name, as the largest value. */
+  /** Returns the tooltip's lines for a frame; each starts with a line break. */
+  tooltip(frame: number): string;
+  /** Returns the text of the head's last element, for example the largest value. */
   scale(): string;
 }
 
@@ -31,37 +31,34 @@ const ageHeight = 18;
 export class TimelineView {
   tracks: readonly Track[] = [];
   times: readonly (number | null)[] = [];
-  private frames: readonly FrameReport[] = [];
+  frames: readonly FrameReport[] = [];
   private rows: readonly Row[] = [];
   private heads: ReadonlyMap<string, HTMLButtonElement> | null = null; // of targets, by name
   private current = 0;
   private report: FrameReport | undefined;
-  private chosen: string | null = null;
+  private selected: string | null = null;
   private width = 0;
   private readonly grid = element('div', 'timeline-grid');
   private readonly playhead = element('div', 'playhead');
-  private readonly tip = element('div', 'tip');
+  private readonly tooltip = element('div', 'tooltip');
 
   constructor(
     private readonly host: HTMLElement,
     private readonly handlers: TimelineHandlers,
   ) {
     addPatterns();
-    this.playhead.setAttribute('role', 'slider');
-    this.playhead.setAttribute('aria-label', 'Frame');
-    this.playhead.setAttribute('aria-valuemin', '0');
-    this.playhead.tabIndex = 0;
-    this.tip.hidden = true;
-    host.replaceChildren(this.grid, this.playhead, this.tip);
+    Object.assign(this.playhead, {
+      role: 'slider',
+      ariaLabel: 'Frame',
+      ariaValueMin: '0',
+      tabIndex: 0,
+    });
+    this.tooltip.hidden = true;
+    host.replaceChildren(this.grid, this.playhead, this.tooltip);
     host.addEventListener('pointerdown', (event) => this.press(event));
     host.addEventListener('pointermove', (event) => this.move(event));
-    host.addEventListener('pointerleave', () => (this.tip.hidden = true));
+    host.addEventListener('pointerleave', () => (this.tooltip.hidden = true));
     new ResizeObserver(() => this.redraw(false)).observe(host);
-  }
-
-  /** The number of the newest frame. */
-  get lastIndex(): number {
-    return this.frames.at(-1)?.index ?? 0;
   }
 
   setFrames(frames: readonly FrameReport[]): void {
@@ -74,67 +71,67 @@ export class TimelineView {
     this.setCurrent(this.current, this.report);
   }
 
-  /** @param report the frame's own, where it is newer than those of the timeline */
+  /** @param report the frame's report, if it is newer than the timeline's frames */
   setCurrent(frame: number, report = this.frames[frame]): void {
     this.current = frame;
     this.report = report;
     const count = Math.max(this.frames.length, 1);
     this.host.style.setProperty('--at', String((Math.min(frame, count - 1) + 0.5) / count));
-    this.playhead.setAttribute('aria-valuemax', String(count - 1));
-    this.playhead.setAttribute('aria-valuenow', String(frame));
-    this.playhead.setAttribute('aria-valuetext', this.titleOf(frame));
+    this.playhead.ariaValueMax = String(count - 1);
+    this.playhead.ariaValueNow = String(frame);
+    this.playhead.ariaValueText = this.titleOf(frame);
     for (const [name, head] of this.heads ?? []) {
       const target = report?.targets.find((one) => one.name === name);
-      const verdict = verdictOf(target?.verdict ?? 'unknown'); // not told of: not known
+      const verdict = target ? verdictOf(target) : 'unknown';
       const icon = head.querySelector('svg');
       if (!icon?.classList.contains(verdict)) icon?.replaceWith(verdictIcon(verdict));
     }
   }
 
-  setChosen(target: string | null): void {
-    this.chosen = target;
-    for (const [name, head] of this.heads ?? [])
-      head.setAttribute('aria-pressed', String(name === target));
+  select(target: string | null): void {
+    this.selected = target;
+    for (const [name, head] of this.heads ?? []) head.ariaPressed = String(name === target);
   }
 
   private build(): void {
     this.heads = new Map(this.tracks.map(({ name }) => [name, this.targetHead(name)]));
-    const statusTip = (frame: number): string => this.statusTip(frame);
+    const statusLine = (frame: number): string => this.statusLine(frame);
     this.rows = [
       ...[...this.heads].map(([name, head]) => this.targetRow(name, head)),
       plainRow('frames', 'Frames', {
         draw: (width) => statusChart(this.frames, width),
-        tip: statusTip,
+        tooltip: statusLine,
         scale: () => `${this.frames.filter((frame) => frame.status !== 'ok').length} bad`,
       }),
       plainRow('stages', 'Stages', {
         draw: (width) => seriesChart(this.stageTimes(), width, stageHeight, 'time of each stage'),
-        tip: (frame) => {
+        tooltip: (frame) => {
           const times = this.frames[frame]?.timing_ms;
           return stages.map((stage) => `\n${stage} ${milliseconds(times?.[stage])}`).join('');
         },
-        scale: () => this.stagesScale(),
+        scale: () => maxOf(this.stageSums()),
       }),
       plainRow('ages', 'Joint age', {
         draw: (width) => seriesChart([this.ages()], width, ageHeight, 'age of the joint positions'),
-        tip: (frame) => `\njoint age ${milliseconds(this.frames[frame]?.joint_age_ms)}`,
-        scale: () => atMost(largest(this.ages())),
+        tooltip: (frame) => `\njoint age ${milliseconds(this.frames[frame]?.joint_age_ms)}`,
+        scale: () => maxOf(this.ages()),
       }),
       plainRow('axis', '', {
         draw: (width) => axisChart(this.frames, this.times, width),
-        tip: statusTip,
+        tooltip: statusLine,
         scale: () => '',
       }),
     ];
     this.grid.replaceChildren(...this.rows.flatMap(({ head, chart }) => [head, chart]));
-    this.setChosen(this.chosen);
+    this.select(this.selected);
   }
 
   private targetHead(name: string): HTMLButtonElement {
-    const head = element('button', 'row-head', verdictIcon('unknown'), element('span', '', name));
+    const text = element('span', '', name);
+    const head = element('button', 'row-head', verdictIcon('unknown'), text);
     head.type = 'button';
     head.title = name;
-    head.addEventListener('click', () => this.handlers.choose(name));
+    head.addEventListener('click', () => this.handlers.select(name));
     return head;
   }
 
@@ -145,7 +142,7 @@ export class TimelineView {
       head,
       chart: element('div', 'row-body target-row'),
       draw: (width) => targetChart(track(), width, `${name}: occluded fraction and verdict`),
-      tip: (frame) => this.targetTip(frame, name),
+      tooltip: (frame) => this.targetLine(frame, name),
       scale: () => name,
     };
   }
@@ -154,12 +151,11 @@ export class TimelineView {
     return stages.map((stage) => this.frames.map((frame) => frame.timing_ms?.[stage] ?? null));
   }
 
-  private stagesScale(): string {
-    const times = this.stageTimes();
-    const sums = this.frames.map((_, frame) =>
-      times.reduce((sum, stage) => sum + (stage[frame] ?? 0), 0),
-    );
-    return atMost(largest(sums) || null);
+  private stageSums(): (number | null)[] {
+    return this.frames.map(({ timing_ms }) => {
+      const times = stages.flatMap((stage) => timing_ms?.[stage] ?? []);
+      return times.length > 0 ? times.reduce((a, b) => a + b) : null;
+    });
   }
 
   private ages(): (number | null)[] {
@@ -172,19 +168,19 @@ export class TimelineView {
     return `frame ${number}${time === null ? '' : ` · ${seconds(time, 3)}`}`;
   }
 
-  private statusTip(frame: number): string {
+  private statusLine(frame: number): string {
     const report = this.frames[frame];
     return !report || report.status === 'ok' ? '' : `\n${report.status}: ${report.message ?? ''}`;
   }
 
-  private targetTip(frame: number, name: string): string {
+  private targetLine(frame: number, name: string): string {
     const target = this.frames[frame]?.targets.find((one) => one.name === name);
-    if (!target) return this.statusTip(frame);
-    const words = [verdictNames[verdictOf(target.verdict)], hiddenWords(target), target.reason];
-    return `\n${name}: ${words.filter(Boolean).join(' · ')}`;
+    if (!target) return this.statusLine(frame);
+    const parts = [verdictNames[verdictOf(target)], hiddenText(target), target.reason];
+    return `\n${name}: ${parts.filter(Boolean).join(' · ')}`;
   }
 
-  /** @param always also where the width is what it was */
+  /** @param always even if the width did not change */
   private redraw(always: boolean): void {
     const width = this.rows[0]?.chart.clientWidth ?? 0;
     if (width === 0 || (width === this.width && !always) || this.frames.length === 0) return;
@@ -213,56 +209,51 @@ export class TimelineView {
   private move(event: PointerEvent): void {
     const frame = this.frameAt(event.clientX);
     if (frame !== null && event.buttons === 1 && frame !== this.current) this.handlers.seek(frame);
-    this.tip.hidden = frame === null || event.pointerType === 'touch';
+    this.tooltip.hidden = frame === null || event.pointerType === 'touch';
     if (frame === null) return;
     const hovered = this.rows.find(({ chart }) => {
       const { top, bottom } = chart.getBoundingClientRect();
       return event.clientY >= top && event.clientY <= bottom;
     });
-    setText(this.tip, `${this.titleOf(frame)}${hovered?.tip(frame) ?? ''}`);
+    setText(this.tooltip, `${this.titleOf(frame)}${hovered?.tooltip(frame) ?? ''}`);
     const box = this.host.getBoundingClientRect();
-    this.tip.style.left = `${event.clientX - box.left}px`;
-    this.tip.style.top = `${event.clientY - box.top + this.host.scrollTop}px`;
-    this.tip.classList.toggle('left', event.clientX > box.left + 0.65 * box.width);
+    this.tooltip.style.left = `${event.clientX - box.left}px`;
+    this.tooltip.style.top = `${event.clientY - box.top + this.host.scrollTop}px`;
+    this.tooltip.classList.toggle('left', event.clientX > box.left + 0.65 * box.width);
   }
 }
 
-const atMost = (milliseconds_: number | null): string =>
-  milliseconds_ === null ? 'not known' : `≤ ${milliseconds(milliseconds_)}`;
+const maxOf = (values: readonly (number | null)[]): string => {
+  const max = values.reduce(larger, null);
+  return max === null ? unknownText : `≤ ${milliseconds(max)}`;
+};
 
-function plainRow(kind: string, title: string, rest: Pick<Row, 'draw' | 'tip' | 'scale'>): Row {
+function plainRow(kind: string, title: string, rest: Pick<Row, 'draw' | 'tooltip' | 'scale'>): Row {
   const names = [element('span', '', title), element('span', 'scale')];
   const head = element('div', `row-head plain ${kind}`, ...names);
   return { head, chart: element('div', `row-body ${kind}`), ...rest };
 }
 
-/** Verdicts by shape and colour, then what the areas and lines are. */
+/** Returns the legend of verdicts, areas and lines. */
 export function timelineLegend(): HTMLElement[] {
-  const group = (title: string, ...entries: HTMLElement[]): HTMLElement =>
-    element('div', 'legend-group', element('b', '', title), ...entries);
-  const entry = (box: Element, name: string): HTMLElement =>
-    element('span', 'legend-entry', box, name);
-  const line = (border: string): HTMLElement => {
-    const box = element('i', 'swatch line');
-    box.style.borderTop = border;
-    return box;
+  const group = (title: string, entries: readonly (readonly [Element, string])[]): HTMLElement => {
+    const spans = entries.map(([box, name]) => element('span', 'legend-entry', box, name));
+    return element('div', 'legend-group', element('b', '', title), ...spans);
   };
-  const verdicts = (Object.keys(verdictNames) as Verdict[]).map((verdict) =>
-    entry(verdictIcon(verdict), verdictNames[verdict]),
-  );
+  const line = (source: string): Element => element('i', `swatch line ${source}`);
   return [
-    group('Verdict', ...verdicts),
     group(
-      'Hidden',
-      entry(swatch('--l-occluded'), 'by robot'),
-      entry(swatch('--l-other'), 'by others'),
-      entry(swatch('--l-unknown'), 'unknown'),
+      'Verdict',
+      verdicts.map((verdict) => [verdictIcon(verdict), verdictNames[verdict]]),
     ),
+    group('Hidden', [
+      [swatch('--l-occluded'), 'by robot'],
+      [swatch('--l-other'), 'by others'],
+      [swatch('--l-unknown'), 'unknown'],
+    ]),
     group(
       'Handled',
-      entry(line('2px solid var(--v-visible)'), 'measured'),
-      entry(line('2px dashed var(--accent)'), 'predicted'),
-      entry(line('2px dotted var(--v-partial)'), 'held'),
+      ['measured', 'predicted', 'held'].map((source) => [line(source), source]),
     ),
   ];
 }

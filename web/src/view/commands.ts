@@ -1,126 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done with the page: by key, by button (data-key names the key), and as the help tells.
+// The page's commands, by key and by the elements whose data-key names the key.
+import type { Layer, PartName } from '../api/types';
 import { nextOnset } from '../model/timeline';
-import { speeds } from '../model/player';
 import type { ScenePart } from '../scene/scene_view';
-import type { Viewer } from '../viewer';
-import { byId, element, setText, svg } from './dom';
-import { layersOf, type Layer } from './image_view';
-import { fillDialog } from './page';
+import type { FrameSource, Viewer } from '../viewer';
+import { byId, setText, svg } from './dom';
 
-export interface Player {
-  toggle(): void;
-  seek(frame: number): void;
-  current(): number;
-  speed(factor: number): void;
-}
+/** The value is true with the shift key. */
+type Commands = Readonly<Record<string, (isShift: boolean) => void>>;
 
-interface Command {
-  /** As the help shows the keys. */
-  readonly shown: string;
-  readonly help: string;
-  readonly actions: Readonly<Record<string, (isFar: boolean) => void>>;
-}
+const layers: readonly Layer[] = ['overlay', 'labels', 'links', 'vdi', 'depth']; // keys 1 to 5
+const shiftStep = 10; // frames
+const speeds = [0.25, 0.5, 1, 2, 4];
 
-const layerNames: Readonly<Record<Layer, readonly [string, string]>> = {
-  overlay: ['Overlay', 'labels and targets over the colour image'],
-  labels: ['Labels', 'what stands before the robot, or is hidden by it'],
-  links: ['Links', 'which link is on the ray'],
-  vdi: ['Virtual', 'virtual depth: what the camera would measure of the robot alone'],
-  depth: ['Measured', 'measured depth'],
-};
-
-/** The same key means the same layer, whichever there are. */
-const layerOrder = Object.keys(layerNames) as Layer[];
-
-const farStep = 10; // frames
-
-export function bindCommands(viewer: Viewer, player: Player): void {
+export function bindCommands(viewer: Viewer, source: FrameSource): void {
   const isLive = viewer.session.mode === 'live';
-  const commands = [
-    ...(isLive ? liveCommands(player) : storedCommands(viewer, player)),
-    ...viewCommands(viewer, bindLayers(viewer)),
-  ];
-  const actions = Object.assign({}, ...commands.map((one) => one.actions)) as Command['actions'];
-  const help = fillHelp(commands);
-  const all: Command['actions'] = { ...actions, '?': () => help.showModal() };
-  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-key]')) {
-    const key = button.dataset['key'] ?? '';
-    button.addEventListener('click', () => all[key]?.(false));
-  }
+  const commands: Commands = {
+    ' ': () => source.togglePlaying(),
+    ...(isLive ? {} : storedCommands(viewer, source)),
+    ...layerCommands(viewer),
+    ArrowUp: () => selectNext(viewer, -1),
+    ArrowDown: () => selectNext(viewer, 1),
+    l: () => viewer.setCloudByLabel(togglePressed('l')),
+    w: () => toggleWithoutRobot(viewer),
+    v: () => viewer.scene?.showOverview(),
+    c: () => viewer.scene?.showCameraView(),
+    t: () => byId('theme').click(),
+    '?': () => byId<HTMLDialogElement>('help').showModal(),
+  };
+  for (const node of document.querySelectorAll<HTMLElement>('[data-key]'))
+    node.addEventListener('click', () => commands[node.dataset['key'] ?? '']?.(false));
   for (const [id, paths] of Object.entries(icons)) byId(id).append(iconOf(paths));
-  bindKeys(all);
+  bindKeys(commands);
   bindSceneParts(viewer);
 }
 
-const liveCommands = (player: Player): Command[] => [
-  { shown: 'space', help: 'hold the picture, or go on', actions: { ' ': () => player.toggle() } },
-];
-
-function storedCommands(viewer: Viewer, player: Player): Command[] {
-  const step = (by: number) => (isFar: boolean) =>
-    player.seek(player.current() + (isFar ? farStep * by : by));
-  const speed = bindSpeed(player);
-  return [
-    { shown: 'space', help: 'play or pause', actions: { ' ': () => player.toggle() } },
-    {
-      shown: '← →',
-      help: `one frame back or on; with shift ${farStep}`,
-      actions: { ArrowLeft: step(-1), ArrowRight: step(1) },
-    },
-    {
-      shown: 'Home End',
-      help: 'first or last frame',
-      actions: { Home: () => player.seek(0), End: () => player.seek(Infinity) },
-    },
-    {
-      shown: '[ ]',
-      help: 'previous or next occlusion',
-      actions: { '[': () => jump(viewer, player, -1), ']': () => jump(viewer, player, 1) },
-    },
-    {
-      shown: '− +',
-      help: 'slower or faster',
-      actions: { '-': () => speed(-1), '+': () => speed(1), '=': () => speed(1) },
-    },
-  ];
+function storedCommands(viewer: Viewer, source: FrameSource): Commands {
+  const step = (by: number) => (isShift: boolean) =>
+    source.seek(source.current + (isShift ? shiftStep * by : by));
+  const changeSpeed = bindSpeed(source);
+  return {
+    ArrowLeft: step(-1),
+    ArrowRight: step(1),
+    Home: () => source.seek(0),
+    End: () => source.seek(Infinity),
+    '[': () => jump(viewer, source, -1),
+    ']': () => jump(viewer, source, 1),
+    '-': () => changeSpeed(-1),
+    '+': () => changeSpeed(1),
+    '=': () => changeSpeed(1),
+  };
 }
 
-function viewCommands(viewer: Viewer, showLayer: (layer: Layer) => void): Command[] {
-  const layers = layersOf(viewer.session.parts);
-  const keyOf = (layer: Layer): string => String(layerOrder.indexOf(layer) + 1);
-  return [
-    {
-      shown: '↑ ↓',
-      help: 'previous or next target',
-      actions: { ArrowUp: () => chooseNext(viewer, -1), ArrowDown: () => chooseNext(viewer, 1) },
-    },
-    {
-      shown: layers.map(keyOf).join(' '),
-      help: layers.map((layer) => layerNames[layer][0].toLowerCase()).join(', '),
-      actions: Object.fromEntries(layers.map((layer) => [keyOf(layer), () => showLayer(layer)])),
-    },
-    {
-      shown: 'L',
-      help: 'points by label or by colour',
-      actions: { l: () => viewer.setCloudByLabel(togglePressed('l')) },
-    },
-    {
-      shown: 'W',
-      help: 'points and images with or without the robot',
-      actions: { w: () => toggleWithoutRobot(viewer) },
-    },
-    {
-      shown: 'V C',
-      help: 'overview, or the view from the camera',
-      actions: { v: () => viewer.scene?.frameAll(), c: () => viewer.scene?.frameCamera() },
-    },
-    { shown: 'T', help: 'light or dark', actions: { t: () => byId('theme').click() } },
-  ];
+/** Removes layers without data from the page, and shows the first one. */
+function layerCommands(viewer: Viewer): Commands {
+  const { parts } = viewer.session;
+  const isAvailable = (part: PartName): boolean =>
+    parts.includes(part) || (part === 'overlay' && parts.includes('labels'));
+  const commands: Record<string, () => void> = {};
+  layers.forEach((layer, index) => {
+    const key = String(index + 1);
+    const input = document.querySelector<HTMLInputElement>(`#layers [data-key="${key}"]`);
+    if (!isAvailable(layer)) return input?.closest('label')?.remove();
+    commands[key] = () => {
+      if (input) input.checked = true;
+      viewer.setLayer(layer);
+    };
+  });
+  Object.values(commands)[0]?.();
+  return commands;
 }
 
-function bindKeys(actions: Command['actions']): void {
-  // A button that was clicked would take the space key that plays; one reached by tab keeps it.
+function bindKeys(commands: Commands): void {
+  // After a click the space key plays; after a tab it presses the focused button.
   document.addEventListener('click', ({ target }) => {
     const pressed = target instanceof Element ? target.closest<HTMLElement>('button, input') : null;
     if (pressed && !pressed.matches(':focus-visible')) pressed.blur();
@@ -129,60 +81,44 @@ function bindKeys(actions: Command['actions']): void {
     const { key, target, shiftKey } = event;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]'))
       return;
-    const on = target instanceof Element ? target : document.body;
-    if (on.closest('select')) return;
-    if (on.closest('input') && key.startsWith('Arrow')) return; // goes to the next radio button
-    if (on.closest('button, input') && key === ' ') return; // presses it
-    const action = actions[key.length === 1 ? key.toLowerCase() : key];
-    if (!action) return;
+    const focused = target instanceof Element ? target : document.body;
+    if (focused.closest('select')) return;
+    if (focused.closest('input') && key.startsWith('Arrow')) return; // next radio button
+    if (focused.closest('button, input') && key === ' ') return; // presses it
+    const command = commands[key.length === 1 ? key.toLowerCase() : key];
+    if (!command) return;
     event.preventDefault();
-    action(shiftKey);
+    command(shiftKey);
   });
 }
 
-function fillHelp(commands: readonly Command[]): HTMLDialogElement {
-  const list = element('dl', 'keys');
-  for (const { shown, help } of [...commands, { shown: '?', help: 'this help' }]) {
-    const names = shown.split(' ').map((name) => element('kbd', '', name));
-    list.append(element('dt', '', ...names), element('dd', '', help));
-  }
-  const pointer =
-    'Scene: drag to turn, wheel or pinch to come nearer, right button or two fingers to move. ' +
-    'Timeline: click or drag. Panes: drag their borders; a double click resets one. Colours are ' +
-    'Okabe and Ito’s, told apart with all common forms of colour blindness; verdicts have shapes ' +
-    'and patterns as well.';
-  return fillDialog('help', 'Keys', list, element('p', 'hint', pointer));
-}
-
-function jump(viewer: Viewer, player: Player, direction: 1 | -1): void {
+function jump(viewer: Viewer, source: FrameSource, direction: 1 | -1): void {
   const { tracks } = viewer.timeline;
-  const frame = nextOnset(tracks, player.current(), direction);
-  if (frame === undefined) {
-    setText(byId('announce'), `no ${direction === 1 ? 'later' : 'earlier'} occlusion begins`);
-    return;
-  }
+  const frame = nextOnset(tracks, source.current, direction);
+  if (frame === undefined)
+    return setText(byId('announce'), `no ${direction === 1 ? 'later' : 'earlier'} occlusion`);
   const names = tracks
     .filter((track) => nextOnset([track], frame - 1, 1) === frame)
     .map((track) => track.name);
-  if (names[0] !== undefined && !names.includes(viewer.chosen ?? '')) viewer.choose(names[0]);
-  setText(byId('announce'), `${names.join(', ')}: occlusion begins`);
-  player.seek(frame);
+  if (names[0] !== undefined && !names.includes(viewer.selected ?? '')) viewer.select(names[0]);
+  setText(byId('announce'), `occlusion starts: ${names.join(', ')}`);
+  source.seek(frame);
 }
 
-function chooseNext(viewer: Viewer, by: number): void {
+function selectNext(viewer: Viewer, by: number): void {
   const names = viewer.timeline.tracks.map((track) => track.name);
-  const at = names.indexOf(viewer.chosen ?? '');
-  const name = names[Math.max(0, Math.min(names.length - 1, at + by))];
-  if (name !== undefined) viewer.choose(name);
+  const at = names.indexOf(viewer.selected ?? '') + by;
+  const name = names[Math.max(0, Math.min(names.length - 1, at))];
+  if (name !== undefined) viewer.select(name);
 }
 
-/** @returns makes it faster or slower by a step */
-function bindSpeed(player: Player): (by: number) => void {
+/** @returns a function that changes the speed by a number of steps */
+function bindSpeed(source: FrameSource): (by: number) => void {
   const select = byId<HTMLSelectElement>('speed');
   select.append(...speeds.map((speed) => new Option(`${speed}×`, String(speed))));
   const choose = (index: number): void => {
     select.selectedIndex = Math.max(0, Math.min(speeds.length - 1, index));
-    player.speed(Number(select.value));
+    source.setSpeed(Number(select.value));
   };
   choose(speeds.indexOf(1));
   select.addEventListener('change', () => {
@@ -192,36 +128,14 @@ function bindSpeed(player: Player): (by: number) => void {
   return (by) => choose(select.selectedIndex + by);
 }
 
-/** @returns shows a layer */
-function bindLayers(viewer: Viewer): (layer: Layer) => void {
-  const layers = layersOf(viewer.session.parts);
-  const inputs = layers.map((layer) => {
-    const [name, meaning] = layerNames[layer];
-    const input = element('input');
-    Object.assign(input, { type: 'radio', name: 'layer', value: layer });
-    const label = element('label', '', input, name);
-    label.title = `${meaning} (${layerOrder.indexOf(layer) + 1})`;
-    input.addEventListener('change', () => viewer.setLayer(layer));
-    byId('layers').append(label);
-    return input;
-  });
-  const show = (layer: Layer): void => {
-    const input = inputs[layers.indexOf(layer)];
-    if (input) input.checked = true;
-    viewer.setLayer(layer);
-  };
-  if (layers[0]) show(layers[0]);
-  return show;
-}
-
 function bindSceneParts(viewer: Viewer): void {
-  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-part]'))
+  for (const button of document.querySelectorAll<HTMLElement>('[data-part]'))
     button.addEventListener('click', () => {
       const shown = button.getAttribute('aria-pressed') !== 'true';
       button.setAttribute('aria-pressed', String(shown));
       viewer.setShown(button.dataset['part'] as ScenePart, shown);
     });
-  // On a phone one of scene and image is shown.
+  // A phone shows either scene or image.
   for (const tab of document.querySelectorAll<HTMLInputElement>('#view-tabs input'))
     tab.addEventListener('change', () => {
       byId('main').dataset['view'] = tab.value;
@@ -229,23 +143,23 @@ function bindSceneParts(viewer: Viewer): void {
     });
 }
 
-/** @returns whether the buttons of a key are pressed now */
+/** Toggles the buttons of a key; returns whether they are pressed now. */
 function togglePressed(key: string): boolean {
   const buttons = document.querySelectorAll(`[data-key=${key}]`);
-  const pressed = buttons[0]?.getAttribute('aria-pressed') !== 'true';
-  for (const button of buttons) button.setAttribute('aria-pressed', String(pressed));
-  return pressed;
+  const isPressed = buttons[0]?.getAttribute('aria-pressed') !== 'true';
+  for (const button of buttons) button.setAttribute('aria-pressed', String(isPressed));
+  return isPressed;
 }
 
-/** The model of the robot goes and comes, too; its own button shows it again. */
+/** Also hides or shows the robot model, whose button shows it again. */
 function toggleWithoutRobot(viewer: Viewer): void {
   const on = togglePressed('w');
-  const model = document.querySelector<HTMLButtonElement>('[data-part=robot]');
+  const model = document.querySelector<HTMLElement>('[data-part=robot]');
   if (model?.getAttribute('aria-pressed') === String(on)) model.click();
   viewer.setWithoutRobot(on);
 }
 
-/** Of the player's buttons. Play and pause are both there; the style sheet shows one. */
+/** Icons of the player's buttons: path and class. The style sheet shows either play or pause. */
 const icons: Readonly<Record<string, readonly (readonly [string, string])[]>> = {
   first: [['M5 5v14M19 5 9 12l10 7z', '']],
   'step-back': [['M15.5 6 8 12l7.5 6z', '']],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** @throws Error where the page has no such element: page and script do not belong together */
+/** @throws Error if the page has no such element */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   const found = document.getElementById(id);
   if (!found) throw new Error(`the page has no element #${id}`);
@@ -18,7 +18,7 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** @param color a custom property of the style sheet, or a colour */
+/** @param color a colour, or a custom property of the style sheet */
 export function swatch(color: string): HTMLElement {
   const box = element('i', 'swatch');
   box.style.background = color.startsWith('--') ? `var(${color})` : color;
@@ -38,7 +38,7 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return made;
 }
 
-/** Text that changes seldom: written only where it differs, so that nothing is laid out again. */
+/** Changes the text only if it differs, to avoid a new layout. */
 export function setText(node: HTMLElement, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }

@@ -2,18 +2,16 @@
 
 const keyStep = 5; // percent
 
-export interface Dragged {
+/** A handle that moves along one axis of a box; positions are percentages of the box. */
+export interface Handle {
   readonly axis: 'x' | 'y';
-  /** What the handle moves in. */
   box(): DOMRect;
-  /** Where the handle is, percent of the box. */
   at(): number;
-  /** @param percent 0 to 100 */
   move(percent: number): void;
 }
 
-/** Moves a handle by pointer, by arrow keys, and to its ends by Home and End. */
-export function bindDrag(handle: HTMLElement, { axis, box, at, move }: Dragged): void {
+/** Moves a handle by pointer, arrow keys, Home and End. */
+export function bindDrag(handle: HTMLElement, { axis, box, at, move }: Handle): void {
   const to = (percent: number): void => move(Math.min(100, Math.max(0, percent)));
   handle.addEventListener('pointerdown', (event) => {
     event.preventDefault();
@@ -30,16 +28,16 @@ export function bindDrag(handle: HTMLElement, { axis, box, at, move }: Dragged):
     );
   });
   handle.addEventListener('keydown', (event) => {
-    const places: Readonly<Record<string, number>> = {
+    const positions: Readonly<Record<string, number>> = {
       [axis === 'x' ? 'ArrowLeft' : 'ArrowUp']: at() - keyStep,
       [axis === 'x' ? 'ArrowRight' : 'ArrowDown']: at() + keyStep,
       Home: 0,
       End: 100,
     };
-    const percent = places[event.key];
+    const percent = positions[event.key];
     if (percent === undefined) return;
     event.preventDefault();
-    event.stopPropagation(); // elsewhere these keys step
+    event.stopPropagation(); // else these keys step frames
     to(percent);
   });
 }

@@ -1,47 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-import { depthPercentiles } from '../model/depth_colors';
+import type { Layer } from '../api/types';
+import { depthPercentiles, type DepthRange } from '../model/depth_colors';
 import { metres } from '../model/format';
 import { labelStyles, linkColor } from '../model/labels';
 import { byId, element, swatch } from './dom';
-import type { Layer } from './image_view';
 
 let shown = '';
 
-/** What the layer's colours mean; made again only when that changes. */
-export function layerLegend(
+/** Explains the colours of a layer; updates the page only after a change. */
+export function showLegend(
   layer: Layer,
   links: readonly string[],
-  range: readonly [number, number] | null,
+  range: DepthRange | null,
   withoutRobot: boolean,
 ): void {
   const key = [layer, withoutRobot, ...(range ?? []).map(metres), ...links].join('|');
   if (key === shown) return;
   shown = key;
-  const entries =
-    layer === 'vdi' || layer === 'depth'
-      ? depthEntries(layer, range)
-      : layer === 'links'
-        ? links.map((name, index) => entry(name, `rgb(${linkColor(index).join(' ')})`))
-        : labelStyles.flatMap(({ name, color, meaning }) =>
-            color ? [entry(name, color, meaning)] : [],
-          );
-  if (withoutRobot) entries.push(element('span', 'hint', 'chequered: left out'));
-  byId('picture-legend').replaceChildren(...entries);
+  const entries = entriesOf(layer, links, range);
+  if (withoutRobot) entries.push(element('span', 'hint', 'checkered: removed'));
+  byId('image-legend').replaceChildren(...entries);
 }
 
-/** Colours beyond the ends are those of the ends. */
-function depthEntries(layer: Layer, range: readonly [number, number] | null): HTMLElement[] {
+function entriesOf(layer: Layer, links: readonly string[], range: DepthRange | null): Node[] {
+  if (layer === 'vdi') return [...depthEntries(range), element('span', 'hint', 'clear: no robot')];
+  if (layer === 'depth')
+    return [...depthEntries(range), element('span', 'hint', 'striped: no measurement')];
+  if (layer === 'links')
+    return links.map((name, index) => entry(name, `rgb(${linkColor(index).join(' ')})`));
+  return labelStyles.flatMap(({ name, color, meaning }) =>
+    color ? [entry(name, color, meaning)] : [],
+  );
+}
+
+function depthEntries(range: DepthRange | null): HTMLElement[] {
   const [low, high] = depthPercentiles;
-  const ends = (range ?? [null, null]).map((end) => element('span', '', metres(end)));
-  const scale = element('span', 'legend-entry', ends[0] ?? '', element('i', 'depth-bar'));
-  scale.append(ends[1] ?? '');
-  scale.title = `the ${low}nd and ${high}th percentile of the depths of the frames that were shown`;
-  const nothing = layer === 'vdi' ? 'clear: no robot' : 'striped: no measurement';
-  return [
-    scale,
-    element('span', 'hint', `percentiles ${low}–${high}`),
-    element('span', 'hint', nothing),
-  ];
+  const [near, far] = (range ?? [null, null]).map(metres) as [string, string];
+  const scale = element('span', 'legend-entry', near, element('i', 'depth-bar'), far);
+  scale.title = `${low}nd and ${high}th percentile of depth over the frames shown so far`;
+  return [scale, element('span', 'hint', `percentiles ${low}–${high}`)];
 }
 
 function entry(name: string, color: string, meaning = ''): HTMLElement {

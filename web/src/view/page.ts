@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's bar, and what covers the page while there is nothing to see.
+// The bar at the top of the page, its dialog of notes, and the cover that replaces the page's content.
 import type { Session } from '../api/types';
 import { byId, element, setText } from './dom';
 
@@ -10,88 +10,69 @@ export function showInput({ input }: Session): void {
   byId('input-name').title = input;
 }
 
-/**
- * How many frames there are, or whether they are of now.
- * @param said the same without numbers that change with every frame: read aloud when it changes
- */
-export function showMode(text: string, said = text, isFault = false): void {
-  const mode = byId('mode');
-  mode.classList.toggle('fault', isFault);
-  setText(mode, text);
-  setText(byId('mode-said'), said);
+export interface State {
+  /** Screen readers read it when it changes. */
+  readonly name: string;
+  /** Follows the name; changes often. */
+  readonly numbers?: string;
+  readonly isFault?: boolean;
 }
 
-/** What the button does, which holds while it plays and plays while it holds. */
-export function showPlaying(playing: boolean): void {
-  document.documentElement.classList.toggle('playing', playing);
-  byId('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
+export function showState({ name, numbers = '', isFault = false }: State): void {
+  byId('state').classList.toggle('fault', isFault);
+  setText(byId('state-name'), name);
+  setText(byId('state-numbers'), numbers);
 }
 
-let toldNotes = '';
+export function showPlaying(isPlaying: boolean): void {
+  document.documentElement.classList.toggle('playing', isPlaying);
+  byId('play').setAttribute('aria-label', isPlaying ? 'Pause' : 'Play');
+}
 
-/**
- * Sentences behind one button: what is not there, and the command that gives it.
- * @param level how much it matters: ok, warn or fault
- * @param count of them, those that are amiss
- */
-export function showNotes(
-  sentences: readonly string[],
-  title: string,
-  level: 'ok' | 'warn' | 'fault' = 'warn',
-  count = sentences.length,
-): void {
-  const notes = [title, level, count, ...sentences].join('\n');
-  if (notes === toldNotes) return;
-  toldNotes = notes;
-  const button = byId<HTMLButtonElement>('missing-button');
-  button.hidden = sentences.length === 0;
+export interface Notes {
+  readonly title: string;
+  readonly level: 'ok' | 'warn' | 'fault';
+  /** Commands are between backticks. */
+  readonly lines: readonly string[];
+}
+
+let shownNotes = '';
+
+/** Shows a button that opens a list of notes. */
+export function showNotes(notes: Notes): void {
+  const { title, level, lines } = notes;
+  const json = JSON.stringify(notes);
+  if (json === shownNotes) return;
+  shownNotes = json;
+  const button = byId('notes-button');
+  button.hidden = lines.length === 0;
   button.className = `chip ${level}`;
-  setText(button, level === 'ok' ? title : `${title} (${count})`);
-  const items = sentences.map((sentence) => element('li', '', ...withCommands(sentence)));
-  const dialog = fillDialog('missing', title, element('ul', '', ...items));
-  button.onclick = () => dialog.showModal();
+  setText(button, level === 'ok' ? title : `${title} (${lines.length})`);
+  setText(byId('notes-title'), title);
+  byId('notes-list').replaceChildren(
+    ...lines.map((line) => element('li', '', ...withCommands(line))),
+  );
 }
 
-/** What stands between backticks is a command. */
-const withCommands = (sentence: string): (Node | string)[] =>
-  sentence.split('`').map((part, index) => (index % 2 ? element('code', '', part) : part));
+const withCommands = (line: string): (Node | string)[] =>
+  line.split('`').map((part, index) => (index % 2 ? element('code', '', part) : part));
 
-/** A dialog with a heading, and a button that closes it. */
-export function fillDialog(id: string, title: string, ...content: Node[]): HTMLDialogElement {
-  const dialog = byId<HTMLDialogElement>(id);
-  const heading = element('h2', '', title);
-  heading.id = `${id}-title`;
-  const close = element('button', 'primary', 'Close');
-  close.addEventListener('click', () => dialog.close());
-  dialog.replaceChildren(heading, ...content, close);
-  dialog.onclick = (event) => event.target === dialog && dialog.close();
-  return dialog;
-}
+export type Action = readonly [label: string, run: () => void];
 
-/**
- * Over the page: why there is nothing to see, and ways on.
- * @param ways what a button says, and what it does
- */
-export function cover(
-  reason: unknown,
-  ways: readonly (readonly [string, () => void])[],
-  isFault = true,
-): void {
+/** Covers the page with a message or error, and buttons. */
+export function cover(reason: unknown, actions: readonly Action[], isFault = true): void {
   const message = reason instanceof Error ? reason.message : String(reason);
-  const buttons = ways.map(([label, action], index) => {
+  const buttons = actions.map(([label, run], index) => {
     const button = element('button', index === 0 ? 'primary' : '', label);
-    button.addEventListener('click', action);
+    button.addEventListener('click', run);
     return button;
   });
-  const sheet = byId('cover');
-  sheet.replaceChildren(element('p', isFault ? 'fault' : '', message), ...buttons);
-  sheet.hidden = false;
-  sheet.classList.toggle('failed', ways.length > 0);
+  byId('cover').replaceChildren(element('p', isFault ? 'fault' : '', message), ...buttons);
+  byId('cover').hidden = false;
 }
 
-/** Over the page: what it shows is not what is served here any more. */
 export const coverReplaced = (): void =>
-  cover('Another input is served here now: reload the page.', [
+  cover('The server now shows another input. Reload the page.', [
     ['Reload', () => location.reload()],
   ]);
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The borders between the page's panes can be moved; where they are is kept in the browser.
+// The movable borders between the page's panes. The browser keeps their positions.
 import { bindDrag } from './drag';
 import { byId } from './dom';
 import { readStored, store } from './stored';
 
 const key = 'penumbra-panes';
-const least = 12; // percent of the page that a pane keeps
+const minSize = 12; // percent of the page
 
 interface Border {
-  /** The custom property of the style sheet that holds the size. */
+  /** The custom property of the style sheet for the size. */
   readonly name: string;
   readonly axis: 'x' | 'y';
-  /** The size is from the border to the end of the page, not from its start. */
+  /** The size is the distance to the end of the page, not to its start. */
   readonly fromEnd: boolean;
 }
 
@@ -26,34 +26,37 @@ export function bindPanes(): void {
   const sizes = readStored<Record<string, number>>(key) ?? {};
   for (const [id, { name, axis, fromEnd }] of Object.entries(borders)) {
     const handle = byId(id);
-    const place = (size: number): void => main.style.setProperty(name, `${size.toFixed(1)}%`);
-    const kept = sizes[name];
-    if (typeof kept === 'number') place(kept);
+    Object.assign(handle, {
+      className: 'border',
+      role: 'separator',
+      ariaOrientation: axis === 'x' ? 'vertical' : 'horizontal',
+      tabIndex: 0,
+    });
     const at = (): number => {
       const [outer, inner] = [main.getBoundingClientRect(), handle.getBoundingClientRect()];
       return axis === 'x'
         ? (100 * (inner.left + inner.width / 2 - outer.left)) / outer.width
         : (100 * (inner.top + inner.height / 2 - outer.top)) / outer.height;
     };
-    const tell = (): void => handle.setAttribute('aria-valuenow', at().toFixed(0));
-    bindDrag(handle, {
-      axis,
-      at,
-      box: () => main.getBoundingClientRect(),
-      move: (percent) => {
-        const inside = Math.min(100 - least, Math.max(least, percent));
-        sizes[name] = fromEnd ? 100 - inside : inside;
-        place(sizes[name]);
-        store(key, sizes);
-        tell();
-      },
-    });
+    const update = (): void => {
+      const size = sizes[name];
+      if (size === undefined) main.style.removeProperty(name);
+      else main.style.setProperty(name, `${size.toFixed(1)}%`);
+      handle.setAttribute('aria-valuenow', at().toFixed(0));
+    };
+    const box = (): DOMRect => main.getBoundingClientRect();
+    const move = (percent: number): void => {
+      const inside = Math.min(100 - minSize, Math.max(minSize, percent));
+      sizes[name] = fromEnd ? 100 - inside : inside;
+      store(key, sizes);
+      update();
+    };
+    bindDrag(handle, { axis, at, box, move });
     handle.addEventListener('dblclick', () => {
       delete sizes[name];
-      main.style.removeProperty(name);
       store(key, sizes);
-      tell();
+      update();
     });
-    tell();
+    update();
   }
 }

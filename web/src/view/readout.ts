@@ -1,58 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values under the pointer.
 import type { Packet } from '../api/packet';
-import { metres, nothing } from '../model/format';
+import { metres, unknownText } from '../model/format';
 import { labelName } from '../model/labels';
-import { byId, setText } from './dom';
+import { byId, element, setText } from './dom';
 
-export interface Readout {
-  readonly pixel: string;
-  readonly label: string;
-  readonly link: string;
-  readonly virtual: string;
-  readonly measured: string;
-  /** Measured less virtual. */
-  readonly difference: string;
+const names = ['px', 'label', 'link', 'virtual', 'measured', 'diff'] as const;
+type Values = Readonly<Record<(typeof names)[number], string>>;
+
+export interface Pixel {
+  readonly u: number;
+  readonly v: number;
+  /** Index in the image. */
+  readonly at: number;
 }
 
-const isDepth = (z: number | undefined): z is number => z !== undefined && z > 0 && z < Infinity;
-const depthText = (z: number | undefined): string =>
-  z === undefined ? nothing : isDepth(z) ? metres(z) : 'none';
+export class Readout {
+  private readonly swatch = element('i', 'swatch');
 
-/** Parts that did not come are dashes; a depth of nothing says so. */
-export function readoutAt(
-  packet: Packet,
-  links: readonly string[],
-  u: number,
-  v: number,
-  width: number,
-): Readout {
-  const at = v * width + u;
+  constructor() {
+    const fields = names.map((name) => {
+      const value = element('span');
+      value.id = `read-${name}`;
+      const mark = name === 'label' ? [this.swatch] : [];
+      return element('div', '', element('dt', '', name), element('dd', '', ...mark, value));
+    });
+    byId('readout').replaceChildren(...fields);
+  }
+
+  /** @param pixel null: the pointer is outside the image */
+  show(packet: Packet | null, links: readonly string[], pixel: Pixel | null): void {
+    const values = packet && pixel ? valuesOf(packet, links, pixel) : null;
+    for (const name of names) setText(byId(`read-${name}`), values?.[name] ?? unknownText);
+    this.swatch.style.background = `var(--l-${values?.label})`;
+    this.swatch.hidden = !values || ['clear', unknownText].includes(values.label);
+  }
+}
+
+/** Returns the values of a pixel; a dash for a part that the packet does not have. */
+function valuesOf(packet: Packet, links: readonly string[], { u, v, at }: Pixel): Values {
   const label = packet.labels?.values[at];
   const link = packet.links?.values[at];
   const virtual = packet.vdi?.values[at];
   const measured = packet.depth?.values[at];
-  const both = isDepth(virtual) && isDepth(measured);
-  const millimetres = both ? 1000 * (measured - virtual) : 0;
+  const difference = isDepth(virtual) && isDepth(measured) ? 1000 * (measured - virtual) : null;
   return {
-    pixel: `${u}, ${v}`,
-    label: label === undefined ? nothing : labelName(label),
-    link:
-      link === undefined ? nothing : link === 0 ? 'no link' : (links[link - 1] ?? `link ${link}?`),
+    px: `${u}, ${v}`,
+    label: label === undefined ? unknownText : labelName(label),
+    link: link === undefined ? unknownText : link ? (links[link - 1] ?? `link ${link}?`) : 'none',
     virtual: depthText(virtual),
     measured: depthText(measured),
-    difference: both
-      ? `${millimetres >= 0 ? '+' : '−'}${Math.abs(millimetres).toFixed(0)} mm`
-      : nothing,
+    diff: difference === null ? unknownText : signed(difference),
   };
 }
 
-const fields = ['pixel', 'label', 'link', 'virtual', 'measured', 'difference'] as const;
+const isDepth = (z: number | undefined): z is number => z !== undefined && z > 0 && z < Infinity;
 
-/** null: the pointer is not over the image. */
-export function showReadout(readout: Readout | null): void {
-  for (const field of fields) setText(byId(`read-${field}`), readout?.[field] ?? nothing);
-  const swatch = byId('read-swatch');
-  swatch.style.background = `var(--l-${readout?.label})`;
-  swatch.hidden = !readout || [nothing, 'clear'].includes(readout.label);
-}
+const depthText = (z: number | undefined): string =>
+  z === undefined ? unknownText : isDepth(z) ? metres(z) : 'none';
+
+const signed = (millimetres: number): string =>
+  `${millimetres < 0 ? '−' : '+'}${Math.abs(millimetres).toFixed(0)} mm`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the browser keeps for the user. Storage may be off: then choices hold until the page is left.
+// The user's choices in localStorage. Without storage, choices last until the page is closed.
 
 export function readStored<T>(key: string): T | null {
   try {
@@ -13,6 +13,6 @@ export function store(key: string, value: unknown): void {
   try {
     localStorage.setItem(key, JSON.stringify(value));
   } catch {
-    // storage is off
+    // no storage
   }
 }

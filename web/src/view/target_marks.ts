@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outlines and names of a frame's targets over the image, in their verdicts' colours.
+// Outlines and names of a frame's targets over the image, in the colours of their verdicts.
 import type { Mark, Packet } from '../api/packet';
 import { verdictOf } from '../model/labels';
-import { byId, element, svg } from './dom';
-import { placeNames, type Placed } from './names';
-import { verdictIcon } from './verdict_icon';
+import { byId, svg } from './dom';
+import { placeNames, targetName } from './names';
 
-const arm = 6; // of the cross where a handled target is, image pixels
+const arm = 6; // image pixels: of the cross at a handled target
 
 interface Shown {
   readonly target: string;
@@ -17,46 +16,52 @@ interface Shown {
 }
 
 export class TargetMarks {
-  private readonly lines = byId('picture-lines');
-  private readonly names = byId('picture-names');
+  private readonly lines = byId('image-lines');
+  private readonly names = byId('image-names');
   private shown: readonly Shown[] = [];
-  private size = { width: 1, height: 1 };
+  private width = 1; // of the image
 
   constructor() {
     new ResizeObserver(() => this.place()).observe(this.names);
   }
 
-  /** @param packet null: nothing is shown */
-  show(packet: Packet | null, chosen: string | null, size: TargetMarks['size']): void {
-    this.size = size;
-    this.lines.setAttribute('viewBox', `-0.5 -0.5 ${size.width} ${size.height}`);
-    const targets = packet?.frame.targets ?? [];
+  /** @param packet null: removes all marks */
+  show(packet: Packet | null, selected: string | null, width: number, height: number): void {
+    this.width = width;
+    this.lines.setAttribute('viewBox', `-0.5 -0.5 ${width} ${height}`);
     const lines: SVGElement[] = [];
-    this.shown = targets.flatMap(({ name, verdict }, index) => {
-      const mark = packet?.marks[index];
-      const corner = mark && cornerOf(mark);
-      if (!mark || !corner) return [];
-      const kind = verdictOf(verdict);
+    this.shown = (packet?.frame.targets ?? []).flatMap((target, index) => {
+      const mark = packet?.marks?.[index];
+      const points = mark?.outline.flat() ?? [];
+      if (!mark || points.length === 0) return [];
       const d = pathOf(mark);
-      lines.push(svg('path', { d, class: 'rim' }), svg('path', { d, class: `outline ${kind}` }));
-      const text = element('span', 'target-name', verdictIcon(kind), name);
-      return [{ target: name, name: text, u: corner[0], v: corner[1] }];
+      lines.push(
+        svg('path', { d, class: 'rim' }),
+        svg('path', { d, class: `outline ${verdictOf(target)}` }),
+      );
+      const least = (offset: number): number =>
+        points.reduce(
+          (min, value, at) => (at % 2 === offset ? Math.min(min, value) : min),
+          Infinity,
+        );
+      return [{ target: target.name, name: targetName(target), u: least(0), v: least(1) }];
     });
     this.lines.replaceChildren(...lines);
     this.names.replaceChildren(...this.shown.map(({ name }) => name));
-    this.setChosen(chosen);
+    this.setSelected(selected);
     this.place();
   }
 
-  setChosen(chosen: string | null): void {
-    for (const { target, name } of this.shown) name.classList.toggle('chosen', target === chosen);
+  setSelected(selected: string | null): void {
+    for (const { target, name } of this.shown)
+      name.classList.toggle('selected', target === selected);
   }
 
-  /** Above the outlines, inside the image. */
+  /** Moves the names above the outlines, inside the image. */
   private place(): void {
     const { clientWidth, clientHeight } = this.names;
-    const scale = clientWidth / this.size.width;
-    const placed: Placed[] = this.shown.map(({ name, u, v }) => ({
+    const scale = clientWidth / this.width;
+    const placed = this.shown.map(({ name, u, v }) => ({
       name,
       x: Math.max(0, Math.min(u * scale, clientWidth - name.offsetWidth)),
       y: Math.max(0, Math.min(v * scale, clientHeight) - name.offsetHeight - 2),
@@ -65,17 +70,7 @@ export class TargetMarks {
   }
 }
 
-function cornerOf({ outline }: Mark): readonly [number, number] | null {
-  let [u, v] = [Infinity, Infinity];
-  for (const line of outline)
-    line.forEach((value, index) => {
-      if (index % 2 === 0) u = Math.min(u, value);
-      else v = Math.min(v, value);
-    });
-  return u < Infinity ? [u, v] : null;
-}
-
-/** A line of one point is a dot. */
+/** Returns an SVG path; a line of one point is a dot. */
 function pathOf({ outline, place }: Mark): string {
   const lines = outline.map((line) => `M${line.join(' ')}${line.length === 2 ? 'h0' : ''}`);
   if (place) {

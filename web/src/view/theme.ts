@@ -2,29 +2,24 @@
 import { readStored, store } from './stored';
 
 const key = 'penumbra-theme';
-const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const systemDark = window.matchMedia('(prefers-color-scheme: dark)');
 
-/** Light or dark: as the system says, until the user chooses. */
-export function bindTheme(button: HTMLButtonElement, changed: () => void): void {
+/** Light or dark: the system's choice until the user makes one. */
+export function bindTheme(button: HTMLElement, changed: () => void): void {
   const stored = readStored<string>(key);
-  let chosen = stored === 'light' || stored === 'dark' ? stored : null;
-  const theme = (): string => chosen ?? (dark.matches ? 'dark' : 'light');
-  const other = (): string => (theme() === 'dark' ? 'light' : 'dark');
-  const apply = (): void => {
-    document.documentElement.dataset['theme'] = theme();
-    button.setAttribute('aria-label', `Switch to ${other()} colours`);
-    button.title = `Switch to ${other()} colours (T)`;
+  let isDark = stored === null ? null : stored === 'dark';
+  const update = (): void => {
+    const dark = isDark ?? systemDark.matches;
+    document.documentElement.dataset['theme'] = dark ? 'dark' : 'light';
+    button.setAttribute('aria-label', `Switch to ${dark ? 'light' : 'dark'} colours`);
+    button.title = `Switch to ${dark ? 'light' : 'dark'} colours (T)`;
     changed();
   };
   button.addEventListener('click', () => {
-    chosen = other();
-    store(key, chosen);
-    apply();
+    isDark = !(isDark ?? systemDark.matches);
+    store(key, isDark ? 'dark' : 'light');
+    update();
   });
-  dark.addEventListener('change', apply);
-  apply();
+  systemDark.addEventListener('change', update);
+  update();
 }
-
-/** A custom property of the style sheet. */
-export const styleValue = (name: string): string =>
-  getComputedStyle(document.documentElement).getPropertyValue(name).trim();

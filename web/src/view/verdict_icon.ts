@@ -4,7 +4,7 @@ import { svg } from './dom';
 
 const ring = { cx: 8, cy: 8, r: 5.5, class: 'ring' };
 
-/** A shape for each verdict: disc, half disc, cross, question mark, empty ring. */
+/** Returns a shape per verdict: disc, half disc, cross, question mark, dashed ring. */
 export function verdictIcon(verdict: Verdict): SVGSVGElement {
   const icon = svg('svg', {
     class: `verdict-icon ${verdict}`,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Debian's Chromium, drawing WebGL in software, and the program under test.
+// Starts Debian's Chromium with software WebGL, and the program under test.
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { existsSync } from 'node:fs';
@@ -17,13 +17,13 @@ const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 export function launch() {
   for (const file of [browserPath, program])
-    if (!existsSync(file)) throw new Error(`${file} is not there`);
+    if (!existsSync(file)) throw new Error(`${file} does not exist`);
   const args = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
   if (process.getuid?.() === 0) args.push('--no-sandbox'); // Chromium's sandbox refuses root
   return chromium.launch({ executablePath: browserPath, args });
 }
 
-/** `penumbra view`, once all frames are judged. */
+/** Starts `penumbra view` and waits until all frames are judged. */
 export async function serve(input, port = '0') {
   const child = spawn(program, ['view', input, '--port', port], {
     stdio: ['ignore', 'pipe', 'pipe'],
@@ -39,7 +39,7 @@ export async function serve(input, port = '0') {
   for (let tries = 0; ; ++tries) {
     const session = await (await fetch(new URL('/api/session', url))).json();
     if (session.complete) return { url, stop };
-    if (tries > 600) throw new Error('the frames are not judged after a minute');
+    if (tries > 600) throw new Error('not all frames are judged after one minute');
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 }
@@ -52,7 +52,7 @@ export const phone = {
   hasTouch: true,
 };
 
-/** A page that notes what must not happen: errors, and requests to others. */
+/** Opens a page; `faults` collects its errors, and requests to other hosts. */
 export async function open(browser, url, options = desktop) {
   const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
@@ -63,7 +63,7 @@ export async function open(browser, url, options = desktop) {
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('request', (request) => {
     if (!request.url().startsWith(new URL(url).origin) && !/^(blob|data):/.test(request.url()))
-      faults.push(`asks another host: ${request.url()}`);
+      faults.push(`request to another host: ${request.url()}`);
   });
   const start = performance.now();
   await page.goto(url);
@@ -77,7 +77,7 @@ export async function open(browser, url, options = desktop) {
   };
 }
 
-/** A page that is one file. It notes what must not happen: words on the console, any request. */
+/** Opens a file; `faults` collects its console messages and all requests. */
 export async function openFile(browser, file, options = desktop) {
   const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
@@ -87,42 +87,42 @@ export async function openFile(browser, file, options = desktop) {
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('request', (request) => {
     const url = request.url();
-    if (url !== address && !url.startsWith('data:')) faults.push(`asks for ${url}`);
+    if (url !== address && !url.startsWith('data:')) faults.push(`request of ${url}`);
   });
   await page.goto(address);
   await drawn(page);
   return { page, faults, close: () => context.close() };
 }
 
-/** Two frames on: what was asked for is on the screen. */
+/** Waits two frames, until changes are on the screen. */
 export const drawn = (page) =>
   page.evaluate(
     () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))),
   );
 
-/** Until the page shows a frame, by its number of the report, with all its values. */
+/** Waits until the page shows a frame (by its number in the report) with all its values. */
 export async function showsFrame(page, number) {
-  await page.waitForFunction((wanted) => {
+  await page.waitForFunction((expected) => {
     const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
-    return shown === String(wanted) && parts.includes('labels');
+    return shown === String(expected) && parts.includes('labels');
   }, number);
   await drawn(page);
 }
 
-/** Until a layer of the image is drawn. */
+/** Waits until the image shows a layer. */
 export async function showsLayer(page, layer) {
   await page.waitForFunction(
-    (wanted) => document.getElementById('main').dataset.layer === wanted,
+    (expected) => document.getElementById('main').dataset.layer === expected,
     layer,
   );
   await drawn(page);
 }
 
-/** Until the page shows a frame that was fetched without this part. */
+/** Waits until the page shows a frame that was fetched without a part. */
 export async function showsWithout(page, part) {
-  await page.waitForFunction((unwanted) => {
+  await page.waitForFunction((excluded) => {
     const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
-    return shown !== '' && !parts.includes(unwanted);
+    return shown !== '' && !parts.includes(excluded);
   }, part);
   await drawn(page);
 }

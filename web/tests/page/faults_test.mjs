@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is not known looks unknown, and what fails says why.
+// Unknown values look unknown, and failures give their reason.
 import assert from 'node:assert/strict';
 import { cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import os from 'node:os';
@@ -15,11 +15,11 @@ import {
   showsFrame,
   showsWithout,
 } from './browser.mjs';
-import { changedShare } from './pictures.mjs';
+import { changedFraction } from './pictures.mjs';
 
 let browser, server, folder;
 
-/** The example, without joint positions in frame 2, a depth image in 4 and a colour image in 5. */
+/** The example without joint positions in frame 2, depth in frame 4 and colour in frame 5. */
 before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-page-'));
   await cp(example, folder, { recursive: true });
@@ -52,13 +52,16 @@ test('a frame without a pose shows no robot, and says why', async () => {
   assert.match(await page.locator('#frame-details .fault').textContent(), /missing_joints/);
   await page.mouse.move(5, 5);
   const empty = await canvas.screenshot();
-  assert.ok((await changedShare(page, robot, empty)) > 0.01, 'the robot is gone');
+  assert.ok((await changedFraction(page, robot, empty)) > 0.01, 'the robot is gone');
   await page.click('[data-part=robot]');
   await drawn(page);
   await page.click('[data-part=robot]');
   await page.mouse.move(5, 5);
   await drawn(page);
-  assert.ok((await changedShare(page, empty, await canvas.screenshot())) < 0.002, 'and stays so');
+  assert.ok(
+    (await changedFraction(page, empty, await canvas.screenshot())) < 0.002,
+    'and stays hidden',
+  );
   assert.equal(await page.locator('.row-head.frames .scale').textContent(), '2 bad');
   assert.deepEqual(shown.faults, []);
   await shown.close();
@@ -78,9 +81,9 @@ test('targets of a bad frame are unknown, not visible', async () => {
 test('a frame without a colour image shows its depth in grey', async () => {
   const { page, close } = await open(browser, `${server.url}#frame=5`, desktop);
   await showsFrame(page, 5);
-  assert.match(await page.locator('#picture-note').textContent(), /no colour image.*depth in grey/);
+  assert.match(await page.locator('#image-note').textContent(), /no colour image.*depth/);
   const greys = await page.evaluate(() => {
-    const canvas = document.getElementById('picture-below');
+    const canvas = document.getElementById('image-below');
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     return [new Set(data.filter((_, i) => i % 4 === 0)).size, canvas.width];
   });
@@ -88,18 +91,18 @@ test('a frame without a colour image shows its depth in grey', async () => {
   await close();
 });
 
-test('a server that is gone is told, with a way on', async () => {
+test('an unreachable server is reported, with a button to try again', async () => {
   const own = await serve(example);
   const { page, close } = await open(browser, own.url, desktop);
   await own.stop();
   await page.keyboard.press('ArrowRight');
   await page.locator('#cover .fault').waitFor();
-  assert.match(await page.locator('#cover').textContent(), /does not answer/);
+  assert.match(await page.locator('#cover').textContent(), /does not respond/);
   assert.ok(await page.locator('#cover button').first().isVisible());
   await close();
 });
 
-test('a damaged packet is told, and nothing of it shown', async () => {
+test('a damaged packet is reported and not displayed', async () => {
   const { page, close } = await open(browser, server.url, desktop);
   await page.route('**/api/frames/1/packet*', async (route) => {
     const body = await (await route.fetch()).body();
@@ -107,9 +110,9 @@ test('a damaged packet is told, and nothing of it shown', async () => {
   });
   await page.keyboard.press('ArrowRight');
   await page.locator('#cover .fault').waitFor();
-  assert.match(await page.locator('#cover').textContent(), /packet: part .* beyond its end/);
+  assert.match(await page.locator('#cover').textContent(), /packet: part .* exceeds/);
   assert.equal(await page.locator('#frame-number').textContent(), '0');
-  await page.getByText('Back to the frame before').click();
+  await page.getByText('Back to the previous frame').click();
   await showsFrame(page, 0);
   await page.locator('#cover').waitFor({ state: 'hidden' });
   await page.keyboard.press('ArrowRight');
@@ -118,11 +121,11 @@ test('a damaged packet is told, and nothing of it shown', async () => {
   await close();
 });
 
-test('a picture that cannot be decoded is told, and leaves nothing of its frame', async () => {
+test('a frame whose image cannot be decoded is reported and not displayed', async () => {
   const { page, close } = await open(browser, server.url, desktop);
   await page.route('**/api/frames/1/packet*', async (route) => {
     const body = await (await route.fetch()).body();
-    const start = body.indexOf(Buffer.from([0xff, 0xd8, 0xff])); // of the JPEG
+    const start = body.indexOf(Buffer.from([0xff, 0xd8, 0xff])); // start of the JPEG
     assert.ok(start > 0);
     body.fill(0, start, start + 64);
     await route.fulfill({ body });
@@ -130,26 +133,26 @@ test('a picture that cannot be decoded is told, and leaves nothing of its frame'
   await page.keyboard.press('ArrowRight');
   await page.locator('#cover .fault').waitFor();
   const inked = await page.evaluate(() =>
-    ['picture-below', 'picture-above'].map((id) => {
+    ['image-below', 'image-above'].map((id) => {
       const canvas = document.getElementById(id);
       const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
       return data.some((value) => value > 0);
     }),
   );
-  assert.deepEqual(inked, [false, false], 'no labels over another frame’s picture');
-  await page.getByText('Back to the frame before').click();
+  assert.deepEqual(inked, [false, false], 'no labels over another frame’s image');
+  await page.getByText('Back to the previous frame').click();
   await page.locator('#cover').waitFor({ state: 'hidden' });
   await showsFrame(page, 0);
   await close();
 });
 
-test('another program on the same port is told, and nothing of it shown', async () => {
+test('another program on the same port is reported, and its frames are not displayed', async () => {
   const first = await serve(example);
   const { page, close } = await open(browser, first.url, desktop);
   await first.stop();
   const second = await serve(folder, new URL(first.url).port);
   await page.keyboard.press('End');
-  await page.getByText('Another input is served here now').waitFor();
+  await page.getByText('The server now shows another input').waitFor();
   await page.getByRole('button', { name: 'Reload' }).click();
   await page.locator('#cover').waitFor({ state: 'hidden' });
   assert.equal(await page.locator('#input-name').textContent(), path.basename(folder));
@@ -157,7 +160,7 @@ test('another program on the same port is told, and nothing of it shown', async 
   await second.stop();
 });
 
-test('a run that ended early says so, and why', async () => {
+test('an incomplete run is reported, with its note', async () => {
   const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   const note = 'frame 3 and later ones are not judged: the device failed';
@@ -168,9 +171,9 @@ test('a run that ended early says so, and why', async () => {
   });
   await page.goto(server.url);
   await showsFrame(page, 0);
-  assert.equal(await page.locator('#mode').textContent(), '3 of 12 frames');
-  await page.click('#missing-button');
-  assert.match(await page.locator('#missing').textContent(), new RegExp(note));
+  assert.equal(await page.locator('#state').textContent(), '3 of 12 frames');
+  await page.click('#notes-button');
+  assert.match(await page.locator('#notes').textContent(), new RegExp(note));
   await context.close();
 });
 
@@ -178,10 +181,10 @@ test('frames appear as they are judged', async () => {
   const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   let judged = 0;
-  const asked = [];
+  const requested = [];
   await page.route('**/api/report*', async (route) => {
     const from = Number(new URL(route.request().url()).searchParams.get('from'));
-    asked.push(from);
+    requested.push(from);
     const report = JSON.parse((await (await route.fetch()).body()).toString());
     const frames = report.frames.slice(0, Math.max(0, judged - from));
     await route.fulfill({
@@ -192,18 +195,18 @@ test('frames appear as they are judged', async () => {
   await page.getByText('Judging the first frame').waitFor();
   judged = 3;
   await showsFrame(page, 0);
-  assert.match(await page.locator('#mode').textContent(), /3 of 12 frames, judging/);
+  assert.match(await page.locator('#state').textContent(), /judging · 3 of 12 frames/);
   await page.keyboard.press('End');
   await page.waitForFunction(() => document.getElementById('frame-number').textContent === '2');
   judged = 12;
-  await page.locator('#mode').getByText('12 frames', { exact: true }).waitFor();
+  await page.locator('#state').getByText('12 frames', { exact: true }).waitFor();
   await page.keyboard.press('End');
   await showsFrame(page, 11);
-  assert.deepEqual([...new Set(asked)], [0, 3], 'what is known is not fetched again');
+  assert.deepEqual([...new Set(requested)], [0, 3], 'received frames are not fetched again');
   await context.close();
 });
 
-test('a server that dies while it judges is told, and so is its return', async () => {
+test('a server that stops and returns during a run is reported', async () => {
   const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   let judged = 0;
@@ -218,21 +221,21 @@ test('a server that dies while it judges is told, and so is its return', async (
   await page.goto(server.url);
   await page.getByText('Judging the first frame').waitFor();
   await dies();
-  await page.locator('#cover .fault', { hasText: 'does not answer' }).waitFor();
+  await page.locator('#cover .fault', { hasText: 'does not respond' }).waitFor();
   await returns();
   judged = 3;
   await showsFrame(page, 0);
-  assert.match(await page.locator('#mode').textContent(), /^3 of 12 frames, judging$/);
-  assert.equal(await page.locator('#mode-said').textContent(), 'judging');
+  assert.match(await page.locator('#state').textContent(), /^judging · 3 of 12 frames$/);
+  assert.equal(await page.locator('#state-name').textContent(), 'judging');
   await dies();
-  await page.locator('#mode.fault', { hasText: 'does not answer · 3 frames so far' }).waitFor();
-  assert.match(await page.locator('#mode-said').textContent(), /does not answer$/);
+  await page.locator('#state.fault', { hasText: 'does not respond · 3 frames so far' }).waitFor();
+  assert.match(await page.locator('#state-name').textContent(), /does not respond$/);
   await returns();
-  await page.locator('#mode:not(.fault)', { hasText: '3 of 12 frames, judging' }).waitFor();
+  await page.locator('#state:not(.fault)', { hasText: 'judging · 3 of 12 frames' }).waitFor();
   await context.close();
 });
 
-test('works where no inline style or script is let in, which is the server’s own policy', async () => {
+test('works with the server’s content security policy', async () => {
   const policy = (await fetch(server.url)).headers.get('content-security-policy');
   assert.match(policy, /default-src 'self'/);
   assert.doesNotMatch(policy, /unsafe/);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the live page says of frames that are old, late, damaged or do not come; frames are made up.
+// The live page with simulated frames: old, late, damaged, or none.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { desktop, drawn, phone } from './browser.mjs';
@@ -8,7 +8,7 @@ import { served } from './served.mjs';
 
 const shared = served();
 
-/** A live page, whose every state is noted: text and whether it is stale. */
+/** Opens a live page; `window.states` collects its states. */
 async function live(options, use) {
   const context = await shared.browser.newContext({ deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
@@ -18,11 +18,10 @@ async function live(options, use) {
   await page.addInitScript(() => {
     window.states = [];
     const note = () => {
-      const text = document.getElementById('mode')?.textContent;
+      const text = document.getElementById('state')?.textContent;
       if (text && text !== window.states.at(-1)?.text)
         window.states.push({
           text,
-          said: document.getElementById('mode-said').textContent,
           stale: document.documentElement.classList.contains('stale'),
         });
     };
@@ -37,21 +36,21 @@ async function live(options, use) {
   }
 }
 
-const slow = 0.3; // Hz: these frames are of now for 8 s, which a loaded machine may need to look
+const slow = 0.3; // Hz: these frames are up to date for 8 s, for slow test machines
 
 const says = (page, pattern) =>
   page.waitForFunction(
-    (source) => new RegExp(source).test(document.getElementById('mode').textContent),
+    (source) => new RegExp(source).test(document.getElementById('state').textContent),
     pattern.source,
   );
 const statesOf = (page) => page.evaluate(() => window.states);
 const showsNumber = (page, number) =>
   page.waitForFunction(
-    (wanted) => document.getElementById('main').dataset.shown?.split(' ')[0] === String(wanted),
+    (expected) => document.getElementById('main').dataset.shown?.split(' ')[0] === String(expected),
     number,
   );
 
-test('a frame that is old when the page is opened is never said to be live', () =>
+test('an old first frame is not live', () =>
   live(desktop, async (page, camera) => {
     await showsNumber(page, await camera.send({ age: 32_000 }));
     await says(page, /no new frame for 3[2-9] s/);
@@ -67,13 +66,13 @@ test('a frame that is old when the page is opened is never said to be live', () 
     assert.ok(!(await statesOf(page)).at(-1).stale);
   }));
 
-test('an old frame after a new connection is none of now either', () =>
+test('an old frame after a new connection is not live', () =>
   live(desktop, async (page, camera) => {
     await camera.send({ rate: slow });
     await says(page, /^live/);
     await camera.socket.close();
     await says(page, /^no connection/);
-    camera.asked = camera.sent;
+    camera.requested = camera.sent;
     await page.evaluate(() => (window.states = []));
     await says(page, /^waiting/);
     await camera.send({ age: 32_000 });
@@ -81,13 +80,13 @@ test('an old frame after a new connection is none of now either', () =>
     assert.ok(!(await statesOf(page)).some(({ text }) => text.startsWith('live')));
   }));
 
-test('a network that is back after a silence gets a new connection: the old one may be half open', () =>
+test('after a network failure the page opens a new connection, because the old one may be half open', () =>
   live(desktop, async (page, camera) => {
     await camera.send();
     await says(page, /^live/);
-    camera.answers = false; // no word on the old connection, either, which nobody closed
+    camera.answers = false; // the old connection is silent, but open
     await says(page, /^no new frame/);
-    await page.waitForFunction(() => document.getElementById('missing').textContent !== '');
+    await page.waitForFunction(() => document.getElementById('notes-list').textContent !== '');
     assert.equal(camera.connections, 1);
     const old = camera.socket;
     camera.answers = true;
@@ -99,28 +98,28 @@ test('a network that is back after a silence gets a new connection: the old one 
     assert.equal(camera.connections, 2);
   }));
 
-test('stamps of another clock are no reason to call frames old that keep coming', () =>
+test('regular frames with stamps of another clock are live', () =>
   live(desktop, async (page, camera) => {
     await camera.send({ age: 3_600_000 });
-    await says(page, /no new frame for 3600 s/); // of one frame alone nobody can tell
+    await says(page, /no new frame for 3600 s/); // unclear from one frame
     for (let i = 0; i < 5; ++i)
       await showsNumber(page, await camera.send({ age: 3_600_000, rate: slow }));
     await says(page, /^live/);
     assert.ok(!(await statesOf(page)).at(-1).stale);
   }));
 
-test('a slow camera is given the time that it takes', () =>
+test('frames of a slow camera stay live longer', () =>
   live(desktop, async (page, camera) => {
     await camera.send({ rate: 0.4 });
     await says(page, /^live · 0.4 Hz/);
     await page.waitForTimeout(2500);
-    assert.match(await page.locator('#mode').textContent(), /^live/);
+    assert.match(await page.locator('#state').textContent(), /^live/);
     await says(page, /^no new frame/);
   }));
 
-/** Pixels of a screenshot that have a colour. */
+/** Returns the number of coloured pixels of a screenshot. */
 async function colored(page, selector) {
-  const picture = (await page.locator(selector).screenshot()).toString('base64');
+  const screenshot = (await page.locator(selector).screenshot()).toString('base64');
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
@@ -133,15 +132,15 @@ async function colored(page, selector) {
       if (Math.max(...rgb) - Math.min(...rgb) > 60) ++count;
     }
     return count;
-  }, picture);
+  }, screenshot);
 }
 
-test('what is not of now has no colours: no verdict of before looks like one of now', () =>
+test('old frames are grey: no old verdict looks like a new one', () =>
   live(desktop, async (page, camera) => {
     for (let i = 0; i < 3; ++i)
       await showsNumber(page, await camera.send({ verdict: 'visible', rate: slow }));
     await page.waitForTimeout(700); // numbers and timeline follow
-    const panels = ['#target-list', '#target-details', '#timeline', '#picture-frame'];
+    const panels = ['#target-list', '#target-details', '#timeline', '#image-frame'];
     for (const panel of panels)
       assert.ok((await colored(page, panel)) > 30, `${panel} has colours`);
     await says(page, /^no new frame/);
@@ -149,7 +148,7 @@ test('what is not of now has no colours: no verdict of before looks like one of 
     for (const panel of panels) assert.equal(await colored(page, panel), 0, panel);
   }));
 
-test('a packet that cannot be drawn stays told', () =>
+test('damaged packets are reported until a good one comes', () =>
   live(desktop, async (page, camera) => {
     const sending = (async () => {
       for (let i = 0; i < 12; ++i) {
@@ -157,32 +156,31 @@ test('a packet that cannot be drawn stays told', () =>
         await new Promise((resolve) => setTimeout(resolve, 300));
       }
     })();
-    await says(page, /cannot be drawn/);
+    await says(page, /cannot be displayed/);
     const seen = new Set();
     for (let i = 0; i < 12; ++i) {
       await page.waitForTimeout(250);
-      seen.add(await page.locator('#missing').textContent());
-      assert.match(await page.locator('#mode').textContent(), /cannot be drawn/);
+      seen.add(await page.locator('#notes').textContent());
+      assert.match(await page.locator('#state').textContent(), /cannot be displayed/);
     }
-    for (const text of seen) assert.match(text, /packet: .*beyond its end/);
-    assert.match(await page.locator('#scene-note').textContent(), /cannot be drawn: packet/);
-    assert.ok(await page.locator('#missing-button.fault').isVisible());
+    for (const text of seen) assert.match(text, /packet: .*exceeds/);
+    assert.match(await page.locator('#scene-note').textContent(), /cannot be displayed: packet/);
+    assert.ok(await page.locator('#notes-button.fault').isVisible());
     await sending;
     await camera.send({ rate: slow });
     await says(page, /^live/);
     assert.ok(await page.locator('#scene-note').isHidden());
   }));
 
-test('states are read aloud, numbers are not', () =>
+test('screen readers read the state, not its numbers', () =>
   live(desktop, async (page, camera) => {
     await camera.send({ rate: slow });
     await says(page, /^live/);
-    const live_ = page.locator('#mode-said');
-    assert.equal(await live_.getAttribute('role'), 'status');
-    assert.equal(await page.locator('#mode').getAttribute('role'), null);
+    assert.equal(await page.locator('#state-name').getAttribute('role'), 'status');
+    assert.equal(await page.locator('#state').getAttribute('role'), null);
     await page.evaluate(() => {
       window.spoken = [];
-      const said = document.getElementById('mode-said');
+      const said = document.getElementById('state-name');
       new MutationObserver(() => window.spoken.push(said.textContent)).observe(said, {
         childList: true,
         characterData: true,
@@ -195,25 +193,25 @@ test('states are read aloud, numbers are not', () =>
     await page.click('#play');
     assert.deepEqual(await page.evaluate(() => window.spoken), [
       'no new frame',
-      'paused: this is not live',
+      'paused: not live',
     ]);
     assert.equal(await page.locator('#play').getAttribute('aria-label'), 'Play');
     await page.click('#play');
     assert.equal(await page.locator('#play').getAttribute('aria-label'), 'Pause');
   }));
 
-test('keys of what a live page does not have do nothing, and are not told', () =>
+test('keys of stored recordings do nothing live, and the help omits them', () =>
   live(desktop, async (page, camera) => {
     await showsNumber(page, await camera.send({ verdict: 'visible' }));
-    const chosen = () =>
+    const selected = () =>
       page.locator('#target-list [aria-pressed=true]').getAttribute('data-target');
     await page.keyboard.press('ArrowDown');
-    const before = await chosen();
-    await camera.send({ verdict: 'hidden' }); // an occlusion of all begins
+    const before = await selected();
+    await camera.send({ verdict: 'hidden' }); // starts an occlusion
     await page.waitForTimeout(700);
     for (const key of ['[', ']', 'Home', 'End', 'ArrowLeft', 'ArrowRight', '-', '+'])
       await page.keyboard.press(key);
-    assert.equal(await chosen(), before);
+    assert.equal(await selected(), before);
     assert.equal(await page.locator('#announce').textContent(), '');
     const layer = () => page.locator('#layers :checked').inputValue();
     for (const [key, name] of [
@@ -227,40 +225,40 @@ test('keys of what a live page does not have do nothing, and are not told', () =
       assert.equal(await layer(), name, key);
     }
     await page.keyboard.press('?');
-    const help = await page.locator('#help').textContent();
-    assert.match(help, /12345overlay, labels, links, virtual, measured/);
+    const help = await page.locator('#help').innerText();
+    assert.match(help, /overlay, labels, links/);
     assert.doesNotMatch(help, /occlusion|slower/);
   }));
 
-test('without the robot, live too', () =>
+test('live, the robot can be removed', () =>
   live(desktop, async (page, camera) => {
     const points = () => page.locator('#scene-canvas').getAttribute('data-points').then(Number);
     await showsNumber(page, await camera.send({ rate: slow }));
     const all = await points();
-    await page.keyboard.press('5'); // a layer that is drawn without labels
+    await page.keyboard.press('5'); // a layer that needs no labels
     await page.keyboard.press('w');
     await showsNumber(page, await camera.send({ rate: slow }));
     const left = await points();
     assert.ok(left > 0 && left < all, `${left} of ${all} points`);
-    assert.ok(camera.wanted.includes('labels'), `${camera.wanted}`);
-    assert.equal(await page.locator('#picture-note').textContent(), '');
+    assert.ok(camera.parts.includes('labels'), `${camera.parts}`);
+    assert.equal(await page.locator('#image-note').textContent(), '');
     await page.keyboard.press('w');
     await showsNumber(page, await camera.send({ rate: slow }));
     assert.equal(await points(), all);
-    assert.ok(!camera.wanted.includes('labels'), `${camera.wanted}`);
+    assert.ok(!camera.parts.includes('labels'), `${camera.parts}`);
   }));
 
-test('a phone shows the whole state', () =>
+test('a phone shows the state in full', () =>
   live({ ...phone, viewport: { width: 360, height: 780 } }, async (page, camera) => {
-    const mode = page.locator('#mode');
+    const state = page.locator('#state');
     const isWhole = async () => {
-      const [scroll, client, page_, width] = await mode.evaluate((node) => [
+      const [scroll, client, page_, width] = await state.evaluate((node) => [
         node.scrollWidth,
         node.clientWidth,
         document.documentElement.scrollWidth,
         document.documentElement.clientWidth,
       ]);
-      assert.ok(scroll <= client, `${await mode.textContent()}: ${scroll} > ${client}`);
+      assert.ok(scroll <= client, `${await state.textContent()}: ${scroll} > ${client}`);
       assert.equal(page_, width);
     };
     await showsNumber(page, await camera.send({ age: 12_345, rate: 29.97 }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live frames made up here, of a stored one: any age, rate, verdict or damage, without cameras.
+// Simulates live frames from a stored one, with any age, rate, verdict or damage.
 
-/** The JSON of a packet, and the bytes of its parts. */
+/** Returns the JSON of a packet, and the bytes of its parts. */
 function headOf(packet) {
   const length = packet.readUInt32LE(0);
   const head = JSON.parse(packet.subarray(4, 4 + length).toString());
@@ -16,8 +16,8 @@ function packetOf(head, parts) {
 }
 
 /**
- * Makes a page that is opened next a live one.
- * @param url of a server of a recording, whose robot and frame 3 are shown
+ * Makes a page live that is opened next.
+ * @param url server of a recording, whose robot and frame 3 are shown
  */
 export async function playLive(page, url) {
   const query = '/api/frames/3/packet?with=color,labels,links,cloud,vdi,depth&step=6';
@@ -26,12 +26,12 @@ export async function playLive(page, url) {
   const session = await (await fetch(new URL('/api/session', url))).json();
   const state = {
     sent: 0,
-    asked: 0,
+    requested: 0,
     connections: 0,
     socket: null,
     missing: [],
     answers: true,
-    wanted: [],
+    parts: [],
   };
   await page.route('**/api/session', (route) => {
     if (!state.answers) return route.abort('timedout');
@@ -51,15 +51,15 @@ export async function playLive(page, url) {
     ++state.connections;
     socket.onMessage((text) => {
       const message = JSON.parse(text);
-      if (message.type === 'want') state.wanted = message.with;
-      else if (message.type === 'ready') ++state.asked;
+      if (message.type === 'want') state.parts = message.with;
+      else if (message.type === 'ready') ++state.requested;
     });
   });
 
-  /** Sends a frame once the page has asked for one. */
+  /** Sends a frame after the page requested one. */
   state.send = async ({ age = 20, rate = 10, damage = false, verdict } = {}) => {
-    for (let tries = 0; state.asked <= state.sent; ++tries) {
-      if (tries > 500) throw new Error('the page asks for no frame');
+    for (let tries = 0; state.requested <= state.sent; ++tries) {
+      if (tries > 500) throw new Error('the page requests no frame');
       await new Promise((resolve) => setTimeout(resolve, 20));
     }
     const targets = head.frame.targets.map((target) => ({

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures compared in the browser itself, which can decode them.
+// Compares screenshots in the browser, which decodes them.
 import { existsSync } from 'node:fs';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -9,9 +9,9 @@ const folder = fileURLToPath(new URL('baselines', import.meta.url));
 const failed = fileURLToPath(new URL('failed', import.meta.url));
 
 /**
- * Runs in the page: of two PNGs, by how much the mean colour of each block of 8 x 8 pixels differs,
- * 0 to 255. A line or a word that moves by a pixel changes that little, one that is gone a lot.
- * @returns the differences within each of the boxes; null where the pictures' sizes differ
+ * Runs in the page: the difference of two PNGs' mean colours in each block of 8 x 8 pixels, 0 to 255.
+ * It is small if a text moves by one pixel, and large if it is missing.
+ * @returns the differences in each of the boxes, or null if the sizes differ
  */
 async function blockDifferences([one, other, boxes]) {
   const pixelsOf = async (base64) => {
@@ -48,7 +48,7 @@ async function blockDifferences([one, other, boxes]) {
   });
 }
 
-/** Runs in the page: half as large, as baselines are kept. */
+/** Runs in the page: halves the size of a screenshot; baselines have this size. */
 async function half(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
@@ -62,18 +62,18 @@ async function half(base64) {
 
 const base64 = (buffer) => Buffer.from(buffer).toString('base64');
 
-const changed = 6; // grey values: noise of drawing stays below
+const changed = 6; // grey values: larger than rendering noise
 
-const shareOf = (differences) =>
+const fractionOf = (differences) =>
   differences.filter((difference) => difference > changed).length / differences.length;
 
-/** Share of blocks that differ. */
-export async function changedShare(page, one, other) {
+/** Returns the fraction of blocks that differ. */
+export async function changedFraction(page, one, other) {
   const differences = await page.evaluate(blockDifferences, [base64(one), base64(other)]);
-  return differences ? shareOf(differences[0]) : 1;
+  return differences ? fractionOf(differences[0]) : 1;
 }
 
-/** Runs in the page: where its panels are in a picture of half the size; null: not in the picture. */
+/** Runs in the page: the boxes of its panels at half size, or null outside the screenshot. */
 function boxesOf(selectors) {
   const boxOf = (selector) => {
     const node = document.querySelector(selector);
@@ -85,9 +85,9 @@ function boxesOf(selectors) {
 }
 
 /**
- * The page against the picture that is kept; PENUMBRA_BASELINES=write keeps it anew.
- * @param panels by name where each is: a selector
- * @returns by panel the share of its blocks that changed; panels that cannot be seen are left out
+ * Compares the page with its baseline; PENUMBRA_BASELINES=write replaces the baseline.
+ * @param panels selector by name
+ * @returns by visible panel the fraction of its blocks that changed
  */
 export async function againstBaseline(page, name, panels) {
   const file = path.join(folder, `${name}.png`);
@@ -97,7 +97,7 @@ export async function againstBaseline(page, name, panels) {
     await mkdir(folder, { recursive: true });
     await writeFile(file, small);
   }
-  if (!existsSync(file)) throw new Error(`${file} is not there`);
+  if (!existsSync(file)) throw new Error(`${file} does not exist`);
   const boxes = await page.evaluate(boxesOf, Object.values(panels));
   const seen = Object.keys(panels).filter((_, index) => boxes[index]);
   const kept = base64(await readFile(file));
@@ -106,6 +106,6 @@ export async function againstBaseline(page, name, panels) {
   await mkdir(failed, { recursive: true });
   await writeFile(path.join(failed, `${name}.png`), small);
   return Object.fromEntries(
-    seen.map((panel, index) => [panel, differences ? shareOf(differences[index]) : 1]),
+    seen.map((panel, index) => [panel, differences ? fractionOf(differences[index]) : 1]),
   );
 }

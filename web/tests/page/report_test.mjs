@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports of runs, with targets and without.
+// Reports of runs with and without targets.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -13,8 +13,8 @@ let browser, folder;
 
 before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-report-'));
-  const words = ['run', example, '-o', folder, '--report', '--targets', 'none'];
-  execFileSync(program, words, { stdio: 'ignore' });
+  const options = ['run', example, '-o', folder, '--report', '--targets', 'none'];
+  execFileSync(program, options, { stdio: 'ignore' });
   browser = await launch();
 });
 after(async () => {
@@ -22,7 +22,7 @@ after(async () => {
   await rm(folder, { recursive: true });
 });
 
-/** The cells of the table of stages, by stage. */
+/** Returns the cells of the table of stages by stage, and the texts of the tiles. */
 async function stagesOf(file) {
   const page = await browser.newPage();
   const faults = [];
@@ -37,14 +37,14 @@ async function stagesOf(file) {
   return { rows: Object.fromEntries(rows.map(([name, ...cells]) => [name, cells])), tiles };
 }
 
-test('a run without targets has a report, with dashes for their time', async () => {
+test('without targets their time is a dash', async () => {
   const { rows, tiles } = await stagesOf(path.join(folder, 'report.html'));
   assert.deepEqual(rows.targets, ['–', '–', '–']);
   assert.match(rows.render[0], /^[\d.]+ ms$/);
   assert.match(tiles.at(-1), /[\d.]+ ms.*kinematics, render, classify$/);
 });
 
-test('the playhead of a report goes to its ends', async () => {
+test('keys move the playhead of a report', async () => {
   const { page, faults, close } = await openFile(browser, path.join(folder, 'report.html'));
   const playhead = page.locator('.playhead');
   await playhead.focus();
@@ -59,12 +59,12 @@ test('the playhead of a report goes to its ends', async () => {
   }
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.press('End');
-  assert.equal(await playhead.getAttribute('aria-valuenow'), '1', 'elsewhere the page scrolls');
+  assert.equal(await playhead.getAttribute('aria-valuenow'), '1', 'without focus the page scrolls');
   assert.deepEqual(faults, []);
   await close();
 });
 
-test('a picture opens its frame, and names are text', async () => {
+test('a key frame selects its frame, and names are text', async () => {
   const out = path.join(folder, 'judged');
   execFileSync(program, ['run', example, '-o', out, '--report'], { stdio: 'ignore' });
   const html = await readFile(path.join(out, 'report.html'), 'utf8');
@@ -78,8 +78,8 @@ test('a picture opens its frame, and names are text', async () => {
     const { page, faults, close } = await openFile(browser, file, options);
     assert.ok((await page.getByText(hostile).count()) > 1);
     assert.equal(await page.locator('img:not([src^="data:image/jpeg"])').count(), 0);
-    const pictures = page.locator('button.picture');
-    await pictures.last().click();
+    const images = page.locator('button.image');
+    await images.last().click();
     const at = await page.locator('.playhead').getAttribute('aria-valuenow');
     assert.equal(at, String(frames.length - 1));
     const [scroll, width] = await page.evaluate(() => {
@@ -92,7 +92,7 @@ test('a picture opens its frame, and names are text', async () => {
   }
 });
 
-test('pixels and times that no frame told are dashes, not zeros', async () => {
+test('unknown pixels and times are dashes', async () => {
   const page = await readFile(path.join(folder, 'report.html'), 'utf8');
   const [, start, json] = page.match(/^([^]*id="penumbra-report">)([^]*?)<\/script>/);
   const report = JSON.parse(json);
@@ -102,7 +102,7 @@ test('pixels and times that no frame told are dashes, not zeros', async () => {
   await writeFile(file, start + JSON.stringify(report) + page.slice(start.length + json.length));
   const { rows, tiles } = await stagesOf(file);
   assert.deepEqual(rows.kinematics, ['–', '–', '–']);
-  assert.match(tiles.at(-1), /–not told$/);
+  assert.match(tiles.at(-1), /–not measured$/);
   assert.match(
     tiles.find((tile) => tile.startsWith('robot pixels')),
     /^robot pixels–/,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A browser and a server of the shipped example for all tests of a file.
+// One browser and one server of the shipped example for all tests of a file.
 import assert from 'node:assert/strict';
 import { after, before } from 'node:test';
 import { example, launch, open, serve } from './browser.mjs';
 
-/** What is there once the tests run: `browser`, `server`, and `report` as the server tells it. */
+/** Returns an object that has `browser`, `server` and the server's `report` when the tests run. */
 export function served() {
   const shared = { browser: null, server: null, report: null };
   before(async () => {
@@ -16,7 +16,7 @@ export function served() {
     await shared.server?.stop();
   });
 
-  /** @param address what follows the host */
+  /** @param address path and hash */
   shared.withPage = async (address, options, use) => {
     const url = new URL(address, shared.server.url).href;
     const shown = await open(shared.browser, url, options);

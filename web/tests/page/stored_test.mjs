@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a stored recording as a user plays it: frames, timeline, targets’ numbers.
+// The page of a stored recording: frames, timeline, numbers.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { desktop, drawn, showsFrame } from './browser.mjs';
-import { changedShare } from './pictures.mjs';
+import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
-const step = process.env.PENUMBRA_FULL ? 1 : 4; // of the frames whose numbers are compared
-// Until the first frame is shown. Two are promised where nothing else runs; the short run shares two
-// cores with compilers.
-const mostSeconds = process.env.PENUMBRA_FULL ? 2 : 10;
+const step = process.env.PENUMBRA_FULL ? 1 : 4; // compares the numbers of every step-th frame
+// Until the first frame is shown; the short run shares two cores with other programs.
+const maxSeconds = process.env.PENUMBRA_FULL ? 2 : 10;
 
 const shared = served();
 const { withPage } = shared;
 
-test(`loads in less than ${mostSeconds} seconds`, async () => {
-  // The first is the browser's own start; of the others the best one, as other programs run, too.
+test(`loads in less than ${maxSeconds} seconds`, async () => {
+  // The first load includes the browser's start; of the others the best one counts.
   const loads = [];
   for (let i = 0; i < 4; ++i)
     await withPage('/', desktop, (_, { seconds }) => void loads.push(seconds));
   console.log(`first frame after ${loads.map((seconds) => seconds.toFixed(2)).join(', ')} s`);
-  assert.ok(Math.min(...loads.slice(1)) < mostSeconds, `${loads} s`);
+  assert.ok(Math.min(...loads.slice(1)) < maxSeconds, `${loads} s`);
 });
 
-test('every number of every target is report.json’s', () =>
+test('the numbers of all targets are those of report.json', () =>
   withPage('/', desktop, async (page) => {
     let compared = 0;
     for (const frame of shared.report.frames) {
@@ -37,14 +36,14 @@ test('every number of every target is report.json’s', () =>
             nodes.map((node) => [node.dataset.key, node.dataset.value, node.textContent]),
           );
         for (const [key, value, text] of shown) {
-          const told = key in target ? target[key] : (target.handled?.[key] ?? null);
-          assert.deepEqual(JSON.parse(value), told, `${frame.index} ${target.name} ${key}`);
-          if (key.endsWith('_fraction') && told !== null)
+          const expected = key in target ? target[key] : (target.handled?.[key] ?? null);
+          assert.deepEqual(JSON.parse(value), expected, `${frame.index} ${target.name} ${key}`);
+          if (key.endsWith('_fraction') && expected !== null)
             assert.ok(
-              Math.abs(Number.parseFloat(text) / 100 - told) <= 0.5001e-4,
+              Math.abs(Number.parseFloat(text) / 100 - expected) <= 0.5001e-4,
               `${key}: ${text}`,
             );
-          if (told === null) assert.equal(text, '–');
+          if (expected === null) assert.equal(text, '–');
           ++compared;
         }
         const blame = await page.locator('#target-details .blame-bars li').allTextContents();
@@ -83,13 +82,13 @@ test('steps, jumps and plays', () =>
     });
     await page.click('#play');
     await page.locator('html:not(.playing)').waitFor();
-    await drawn(page); // the frame that was being drawn
+    await page.waitForTimeout(500); // the frame that was being fetched
     const at = await frameShown(page);
     await page.waitForTimeout(500);
     assert.equal(await frameShown(page), at);
   }));
 
-test('after many steps at once it is the last frame that is drawn', () =>
+test('after many steps at once the last frame is displayed', () =>
   withPage('/#frame=9', desktop, async (page) => {
     await showsFrame(page, 9);
     const expected = await page.locator('#main').screenshot();
@@ -98,7 +97,7 @@ test('after many steps at once it is the last frame that is drawn', () =>
         await page.keyboard.press(key);
       await showsFrame(page, 9);
       const shown = await page.locator('#main').screenshot();
-      assert.ok((await changedShare(page, expected, shown)) < 0.001);
+      assert.ok((await changedFraction(page, expected, shown)) < 0.001);
     }
   }));
 
@@ -115,7 +114,7 @@ test('jumps to the next and the previous occlusion', () =>
     await showsFrame(page, 2);
   }));
 
-test('the timeline leads to the frame under the pointer', () =>
+test('a click in the timeline selects a frame', () =>
   withPage('/', desktop, async (page) => {
     const box = await page.locator('.row-body').first().boundingBox();
     const x = (frame) => box.x + ((frame + 0.5) * box.width) / shared.report.frames.length;
@@ -126,10 +125,10 @@ test('the timeline leads to the frame under the pointer', () =>
     await page.mouse.move(x(4), box.y + 10, { steps: 4 });
     await page.mouse.up();
     await showsFrame(page, 4);
-    assert.match(await page.locator('.tip').textContent(), /frame 4 .*\ncube: visible/);
+    assert.match(await page.locator('.tooltip').textContent(), /frame 4 .*\ncube: visible/);
   }));
 
-test('the address keeps frame and target', () =>
+test('the address contains frame and target', () =>
   withPage('/#frame=9&target=lid', desktop, async (page) => {
     await showsFrame(page, 9);
     assert.match(
@@ -142,7 +141,7 @@ test('the address keeps frame and target', () =>
     await page.waitForFunction(() => location.hash === '#frame=10&target=cube');
   }));
 
-test('the list and the details say how much is hidden and behind what, of unknown ones at least', () =>
+test('list and details show how much is hidden and by what; for unknown targets the known part', () =>
   withPage('/', desktop, async (page) => {
     let others = 0;
     let least = 0;
@@ -154,25 +153,25 @@ test('the list and the details say how much is hidden and behind what, of unknow
           all.map((one) => [one.querySelector('.amount').textContent, one.ariaLabel]),
         );
       for (const [i, target] of frame.targets.entries()) {
-        const share = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
-        const percent = Math.round(100 * share);
+        const fraction = target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
+        const percent = Math.round(100 * fraction);
         const isKnown = target.verdict !== 'unknown';
-        const isSaid = target.inside > 0 && (isKnown || percent > 0);
-        const text = isSaid ? `${isKnown ? '' : '≥ '}${percent} %` : '–';
+        const isShown = target.inside > 0 && (isKnown || percent > 0);
+        const text = isShown ? `${isKnown ? '' : '≥ '}${percent} %` : '–';
         assert.ok(
           shown[i][0].startsWith(text),
           `frame ${frame.index}: ${target.name}: ${shown[i]}`,
         );
         assert.ok(shown[i][1].endsWith(shown[i][0].replace('≥', 'at least')), shown[i][1]);
         others += isKnown && shown[i][0].includes('others') ? 1 : 0;
-        if (isKnown || !isSaid || target.blame.length === 0) continue;
+        if (isKnown || !isShown || target.blame.length === 0) continue;
         await page.click(`[data-target="${target.name}"]`);
-        const words = await page.locator('#target-details p').first().textContent();
-        assert.match(words, new RegExp(`^at least ${percent} % behind .*${target.blame[0].link}`));
+        const text_ = await page.locator('#target-details p').first().textContent();
+        assert.match(text_, new RegExp(`^at least ${percent} % behind .*${target.blame[0].link}`));
         ++least;
       }
       await page.keyboard.press('ArrowRight');
     }
-    assert.ok(others > 0, 'there is one that others hide');
-    assert.ok(least > 0, 'there is one that is unknown, and partly hidden');
+    assert.ok(others > 0, 'one is hidden by others');
+    assert.ok(least > 0, 'one is unknown and partly hidden');
   }));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a stored recording: light and dark, by keys, by touch, read aloud.
+// The page of a stored recording: themes, keys, touch, accessibility.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { desktop, drawn, phone, showsFrame } from './browser.mjs';
-import { changedShare } from './pictures.mjs';
+import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
 const shared = served();
 const { withPage } = shared;
 
-test('light and dark: the system’s, until one is chosen', async () => {
+test('the theme is the system’s until the user selects one', async () => {
   const theme = (page) => page.locator('html').getAttribute('data-theme');
   await withPage('/', { ...desktop, colorScheme: 'dark' }, async (page) => {
     assert.equal(await theme(page), 'dark');
@@ -19,13 +19,13 @@ test('light and dark: the system’s, until one is chosen', async () => {
     await page.keyboard.press('t');
     assert.equal(await theme(page), 'dark');
     await drawn(page);
-    assert.ok((await changedShare(page, light, await page.screenshot())) > 0.5);
+    assert.ok((await changedFraction(page, light, await page.screenshot())) > 0.5);
     await page.reload();
     assert.equal(await theme(page), 'dark');
   });
 });
 
-test('light and dark can be chosen where nothing may be stored', async () => {
+test('the theme can be selected without browser storage', async () => {
   const context = await shared.browser.newContext({ ...desktop, deviceScaleFactor: 1 });
   const page = await context.newPage();
   await page.addInitScript(() =>
@@ -44,7 +44,7 @@ test('light and dark can be chosen where nothing may be stored', async () => {
   await context.close();
 });
 
-test('layers are radio buttons to the keyboard, and arrows step elsewhere', () =>
+test('arrow keys select a layer or step frames', () =>
   withPage('/#frame=3', desktop, async (page) => {
     await showsFrame(page, 3);
     const checked = () => page.locator('#layers :checked').inputValue();
@@ -59,15 +59,15 @@ test('layers are radio buttons to the keyboard, and arrows step elsewhere', () =
       await page.keyboard.press(key);
       assert.equal(await checked(), layer, key);
     }
-    assert.equal(await frameShown(page), 3, 'no frame was stepped');
-    await page.click('#layers label:has([value=links])'); // by pointer: the keys step again
+    assert.equal(await frameShown(page), 3, 'steps no frame');
+    await page.click('#layers label:has([value=links])'); // by pointer: keys step again
     assert.equal(await checked(), 'links');
     await page.keyboard.press('ArrowRight');
     await showsFrame(page, 4);
     assert.equal(await checked(), 'links');
   }));
 
-test('panes are resized by pointer and by keys, which the browser remembers', () =>
+test('panes are resized by pointer and keys, and keep their sizes', () =>
   withPage('/', desktop, async (page) => {
     const boxOf = (selector) => page.locator(selector).boundingBox();
     const drag = async (border, dx, dy) => {
@@ -77,7 +77,8 @@ test('panes are resized by pointer and by keys, which the browser remembers', ()
       await page.mouse.move(x + width / 2 + dx, y + height / 2 + dy, { steps: 3 });
       await page.mouse.up();
     };
-    const near = (value, wanted) => assert.ok(Math.abs(value - wanted) < 12, `${value}, ${wanted}`);
+    const near = (value, expected) =>
+      assert.ok(Math.abs(value - expected) < 12, `${value}, ${expected}`);
     const sizes = async () => [
       (await boxOf('#scene')).width,
       (await boxOf('#details')).width,
@@ -86,7 +87,7 @@ test('panes are resized by pointer and by keys, which the browser remembers', ()
     const [scene, details] = await sizes();
     await drag('#scene-border', -150, 0);
     await drag('#details-border', -80, 0);
-    const [, , timeline] = await sizes(); // its legend may wrap
+    const [, , timeline] = await sizes(); // the legend may wrap
     await drag('#timeline-border', 0, 120);
     const dragged = await sizes();
     near(dragged[0], scene - 150);
@@ -96,13 +97,13 @@ test('panes are resized by pointer and by keys, which the browser remembers', ()
     near(canvas.width, dragged[0]);
     await page.reload();
     await showsFrame(page, 0);
-    assert.deepEqual(await sizes(), dragged, 'after a reload, too');
+    assert.deepEqual(await sizes(), dragged, 'also after a reload');
     await page.focus('#scene-border');
     await page.keyboard.press('ArrowRight');
     assert.ok((await sizes())[0] > dragged[0] + 40);
-    assert.equal(await frameShown(page), 0, 'no frame was stepped');
+    assert.equal(await frameShown(page), 0, 'steps no frame');
     await page.keyboard.press('End');
-    assert.ok((await boxOf('#picture')).width > 100, 'no pane vanishes');
+    assert.ok((await boxOf('#image')).width > 100, 'panes keep a minimum size');
     const overflow = await page.evaluate(
       () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
     );
@@ -111,7 +112,7 @@ test('panes are resized by pointer and by keys, which the browser remembers', ()
     near((await sizes())[0], scene);
   }));
 
-test('the button says what it does', () =>
+test('the label of the play button', () =>
   withPage('/', desktop, async (page) => {
     const name = () => page.locator('#play').getAttribute('aria-label');
     assert.equal(await name(), 'Play');
@@ -122,27 +123,27 @@ test('the button says what it does', () =>
     assert.equal(await name(), 'Play');
   }));
 
-test('keys are told, and the page can be used by keys alone', () =>
+test('keyboard shortcuts, help, and tab order', () =>
   withPage('/', desktop, async (page) => {
     await page.keyboard.press('?');
     assert.ok(await page.locator('#help').isVisible());
     await page.keyboard.press('Escape');
     assert.ok(!(await page.locator('#help').isVisible()));
     await page.keyboard.press('ArrowDown');
-    const chosen = page.locator('#target-list [aria-pressed=true]');
-    const name = await chosen.getAttribute('data-target');
+    const selected = page.locator('#target-list [aria-pressed=true]');
+    const name = await selected.getAttribute('data-target');
     await page.keyboard.press('ArrowUp');
-    assert.notEqual(await chosen.getAttribute('data-target'), name);
+    assert.notEqual(await selected.getAttribute('data-target'), name);
     const reached = new Set();
     for (let tabs = 0; tabs < 70; ++tabs) {
       await page.keyboard.press('Tab');
       reached.add(await page.evaluate(() => document.activeElement?.id ?? ''));
     }
-    for (const id of ['theme', 'scene-canvas', 'scene-border', 'picture-handle', 'play', 'speed'])
-      assert.ok(reached.has(id), `${id} is reached by tab`);
+    for (const id of ['theme', 'scene-canvas', 'scene-border', 'image-handle', 'play', 'speed'])
+      assert.ok(reached.has(id), `${id} has a tab stop`);
   }));
 
-test('what can be pressed has a name', () =>
+test('controls have a name', () =>
   withPage('/', desktop, async (page) => {
     const nameless = await page
       .locator('button:visible, select:visible, input:visible, [role]:visible, canvas:visible')
@@ -161,26 +162,26 @@ test('what can be pressed has a name', () =>
   }));
 
 for (const width of [360, 390])
-  test(`a phone of ${width} pixels shows all, by touch`, () =>
+  test(`a phone of ${width} pixels, by touch`, () =>
     withPage('/', { ...phone, viewport: { width, height: 780 } }, async (page) => {
       const overflow = await page.evaluate(
         () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
       );
-      assert.equal(overflow, 0, 'nothing sticks out at the side');
-      const mode = await page.locator('#mode').evaluate((node) => ({
+      assert.equal(overflow, 0, 'no horizontal overflow');
+      const state = await page.locator('#state').evaluate((node) => ({
         whole: node.scrollWidth <= node.clientWidth,
         text: node.textContent,
       }));
-      assert.deepEqual(mode, { whole: true, text: '12 frames' });
+      assert.deepEqual(state, { whole: true, text: '12 frames' });
       assert.ok(await page.locator('#scene').isVisible());
-      await page.tap('#view-tabs label:has([value=picture])');
+      await page.tap('#view-tabs label:has([value=image])');
       assert.ok(!(await page.locator('#scene').isVisible()));
       const without = page.getByRole('button', { name: 'Without robot' });
       for (const pressed of ['true', 'false']) {
         await without.tap();
         assert.equal(await without.getAttribute('aria-pressed'), pressed);
       }
-      await page.tap('#picture-frame', { position: { x: 200, y: 100 } });
+      await page.tap('#image-frame', { position: { x: 200, y: 100 } });
       await page.waitForFunction(() => document.getElementById('read-label').textContent !== '–');
       await page.tap('#step-forward');
       await showsFrame(page, 1);
@@ -189,12 +190,12 @@ for (const width of [360, 390])
         .evaluateAll(
           (nodes) => nodes.filter((node) => node.clientHeight < 40 || node.clientWidth < 40).length,
         );
-      assert.equal(small, 0, 'large enough for a finger');
+      assert.equal(small, 0, 'large enough for touch');
       const [end, top] = await page.evaluate(() => {
         const main = document.getElementById('main');
         main.scrollTo(0, main.scrollHeight);
         const boxOf = (id) => document.getElementById(id).getBoundingClientRect();
         return [boxOf('details').bottom, boxOf('transport').top];
       });
-      assert.ok(end <= top + 1, `the player covers nothing: ${end}, ${top}`);
+      assert.ok(end <= top + 1, `no overlap with the player: ${end}, ${top}`);
     }));

@@ -14,7 +14,7 @@ interface Part {
 const frame =
   '{"index": 7, "stamp_ns": 1700000000300000001, "joint_age_ms": 0.5, "status": "ok", "message": "\\"stamp_ns\\": 5", "pixels": {}, "timing_ms": {}, "targets": []}';
 
-/** Written anew here, after the contract alone. */
+/** Writes a packet as documented. */
 function packetOf(parts: readonly Part[], frameText = frame): ArrayBuffer {
   const heads = parts.map(({ name, type, bytes, width, height }) =>
     JSON.stringify({ name, type, size: bytes.length, width, height }),
@@ -50,31 +50,31 @@ const depth: Part = {
 };
 const cloud: Part = { name: 'cloud', type: 'xyzlrgb', bytes: new Uint8Array(32) };
 
-test('a packet holds what was written', () => {
+test('reads a packet', () => {
   const packet = parsePacket(packetOf([labels, depth, cloud]));
   assert.equal(packet.frame.index, 7);
-  assert.equal(packet.sceneVersion, 3);
-  assert.deepEqual(packet.linkPoses, [[1, 2, 3, 0, 0, 0, 1], null]);
-  assert.equal(packet.cameraPose, null);
+  assert.equal(packet.scene_version, 3);
+  assert.deepEqual(packet.link_poses, [[1, 2, 3, 0, 0, 0, 1], null]);
+  assert.equal(packet.camera_pose, null);
   assert.deepEqual([...(packet.labels?.values ?? [])], [0, 1, 2, 3, 4, 0]);
   assert.deepEqual([...(packet.depth?.values ?? [])], [1, 2]);
-  assert.equal(packet.cloud?.count, 2);
+  assert.equal(packet.cloud?.length, 32);
   assert.equal(packet.color, undefined);
 });
 
-test('a stamp keeps all of its nanoseconds, and texts that look like one stay texts', () => {
+test('a stamp keeps its nanoseconds, and texts do not change', () => {
   const packet = parsePacket(packetOf([]));
   assert.equal(packet.frame.stamp_ns, '1700000000300000001');
   assert.equal(packet.frame.message, '"stamp_ns": 5');
 });
 
-test('a packet cut off anywhere is refused', () => {
+test('refuses a packet truncated at any length', () => {
   const whole = packetOf([labels, depth, cloud]);
   for (let length = 0; length < whole.byteLength; ++length)
     assert.throws(() => parsePacket(whole.slice(0, length)), PacketError, `${length} bytes`);
 });
 
-test('sizes that do not fit are refused', () => {
+test('refuses wrong sizes', () => {
   assert.throws(() => parsePacket(packetOf([{ ...labels, width: 4 }])), PacketError);
   assert.throws(() => parsePacket(packetOf([{ ...labels, width: -3, height: -2 }])), PacketError);
   assert.throws(
@@ -86,7 +86,7 @@ test('sizes that do not fit are refused', () => {
   assert.throws(() => parsePacket(long.buffer), PacketError);
 });
 
-test('parts of a later server are passed over', () => {
+test('ignores unknown parts', () => {
   const packet = parsePacket(
     packetOf([{ name: 'heat', type: 'f16', bytes: new Uint8Array(3) }, labels]),
   );

@@ -45,7 +45,7 @@ const letters: Readonly<Record<string, Verdict>> = {
   o: 'out_of_view',
 };
 
-/** One frame for each letter; a dot: the target is not in the frame. */
+/** Returns one frame per letter; a dot: the target is not in the frame. */
 export const framesOf = (tracks: Readonly<Record<string, string>>): FrameReport[] => {
   const length = Math.max(...Object.values(tracks).map((letters_) => letters_.length));
   return Array.from({ length }, (_, index) => {
