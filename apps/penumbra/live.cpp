@@ -104,10 +104,10 @@ class Diagnostics {
 
 /// Waits for the graph's one camera. Nothing: it was stopped before. Throws InputError where there
 /// is none when the time is over.
-std::optional<io::LiveCameraOptions> find_camera(const LiveArguments& arguments,
-                                                 CameraSearch& search,
-                                                 const io::LiveCameraOptions& common,
-                                                 Diagnostics& diagnostics, StopSignal& stop) {
+std::optional<io::CameraInputOptions> find_camera(const LiveArguments& arguments,
+                                                  CameraSearch& search,
+                                                  const io::CameraInputOptions& common,
+                                                  Diagnostics& diagnostics, StopSignal& stop) {
   const Clock::time_point begin = Clock::now();
   Clock::time_point told = begin;
   while (!stop.wait(discovery_step)) {
@@ -153,7 +153,7 @@ class Live {
        const io::LiveOptions& options, LivePages& pages)
       : arguments_(arguments), pages_(pages) {
     std::vector<io::ResultSink*> sinks;
-    for (const io::LiveCameraOptions& camera : options.cameras) {
+    for (const io::CameraInputOptions& camera : options.cameras) {
       results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
         return is_published(arguments, topic) ? names.resolve(result_name(camera.name, topic))
                                               : std::string();
@@ -284,7 +284,7 @@ void tell_topics(const io::LiveOptions& options, int domain) {
   if (!options.robot.given) std::cout << "robot: " << options.description_topic << '\n';
   for (const std::string& name : options.joint_topics)
     if (options.poses != PoseSource::transforms) std::cout << "joints: " << name << '\n';
-  for (const io::LiveCameraOptions& camera : options.cameras) {
+  for (const io::CameraInputOptions& camera : options.cameras) {
     std::cout << (camera.name.empty() ? "depth: " : camera.name + ": depth: ")
               << io::printable(camera.depth_topic) << ", camera_info " << camera.info_topic;
     if (!camera.color_topic.empty()) std::cout << ", color " << camera.color_topic;
@@ -308,7 +308,7 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   check_draws(arguments.judging);
   const io::NameResolver names = live_names(arguments);
   io::LiveOptions options = live_options(arguments, names);
-  const io::LiveCameraOptions common = camera_options(arguments);
+  const io::CameraInputOptions common = camera_options(arguments);
   options.cameras = named_cameras(arguments, names, common);
   io::BagOptions searched = searched_topics(arguments, names);
   check_remaps(names, options.cameras);

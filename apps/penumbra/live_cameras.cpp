@@ -41,9 +41,9 @@ std::optional<std::string> resolved(const io::NameResolver& names,
 
 }  // namespace
 
-io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
+io::CameraInputOptions camera_options(const LiveArguments& arguments) {
   const io::BagOptions& topics = arguments.judging.input.bag;
-  io::LiveCameraOptions options;
+  io::CameraInputOptions options;
   options.mount = io::mount_options(topics);
   options.info_is_named = topics.camera_info_topic.has_value();
   options.is_rectified = topics.rectified;
@@ -53,15 +53,15 @@ io::LiveCameraOptions camera_options(const LiveArguments& arguments) {
   return options;
 }
 
-std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
-                                                 const io::NameResolver& names,
-                                                 const io::LiveCameraOptions& common) {
+std::vector<io::CameraInputOptions> named_cameras(const LiveArguments& arguments,
+                                                  const io::NameResolver& names,
+                                                  const io::CameraInputOptions& common) {
   const io::BagOptions& topics = arguments.judging.input.bag;
   auto named = arguments.cameras;
   if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
-  std::vector<io::LiveCameraOptions> cameras;
+  std::vector<io::CameraInputOptions> cameras;
   for (const auto& [name, topic] : named) {
-    io::LiveCameraOptions camera = common;
+    io::CameraInputOptions camera = common;
     camera.name = name;
     camera.depth_topic = names.resolve(topic);
     camera.info_topic = resolved(names, topics.camera_info_topic)
@@ -106,7 +106,7 @@ std::optional<io::BagTopics> CameraSearch::look() {
   return std::nullopt;
 }
 
-io::LiveCameraOptions found_camera(const io::BagTopics& chosen, io::LiveCameraOptions common) {
+io::CameraInputOptions found_camera(const io::BagTopics& chosen, io::CameraInputOptions common) {
   common.depth_topic = chosen.depth.name;
   common.info_topic = chosen.camera_info.name;
   if (chosen.color) common.color_topic = chosen.color->name;

@@ -16,12 +16,12 @@
 namespace penumbra::app {
 
 /// What does not depend on which camera it is. Throws InputError of the pose's file.
-[[nodiscard]] io::LiveCameraOptions camera_options(const LiveArguments& arguments);
+[[nodiscard]] io::CameraInputOptions camera_options(const LiveArguments& arguments);
 
 /// Cameras whose depth images are named: nothing has to be there yet.
-[[nodiscard]] std::vector<io::LiveCameraOptions> named_cameras(const LiveArguments& arguments,
-                                                               const io::NameResolver& names,
-                                                               const io::LiveCameraOptions& common);
+[[nodiscard]] std::vector<io::CameraInputOptions> named_cameras(
+    const LiveArguments& arguments, const io::NameResolver& names,
+    const io::CameraInputOptions& common);
 
 /// Returns what the user says of the topics of a camera that is not named.
 [[nodiscard]] io::BagOptions searched_topics(const LiveArguments& arguments,
@@ -44,7 +44,7 @@ class CameraSearch {
   std::chrono::steady_clock::time_point since_;  // it is as it is
 };
 
-[[nodiscard]] io::LiveCameraOptions found_camera(const io::BagTopics& chosen,
-                                                 io::LiveCameraOptions common);
+[[nodiscard]] io::CameraInputOptions found_camera(const io::BagTopics& chosen,
+                                                  io::CameraInputOptions common);
 
 }  // namespace penumbra::app

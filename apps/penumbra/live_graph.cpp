@@ -10,13 +10,13 @@ constexpr int result_depth = 10;   // of results that a subscriber has not fetch
 constexpr int image_depth = 8;     // of images that are not read yet: 0.25 s on a busy machine
 constexpr int state_depth = 1000;  // of joint states and transforms: a second of them
 
-bool is_image(io::LiveRole role) {
-  return role == io::LiveRole::depth || role == io::LiveRole::color;
+bool is_image(io::TopicRole role) {
+  return role == io::TopicRole::depth || role == io::TopicRole::color;
 }
 
 }  // namespace
 
-io::TopicQos live_qos(const io::LiveTopic& topic, bool reliable) {
+io::TopicQos live_qos(const io::InputTopic& topic, bool reliable) {
   return {.reliable = reliable || topic.latched,
           .latched = topic.latched,
           .depth = is_image(topic.role) ? image_depth : state_depth};
@@ -51,7 +51,7 @@ io::WrittenResults GraphResults::counts() const {
 LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)
     : graph_(graph), runner_(runner), reliable_(reliable) {
   topics_ = runner.with_inbox([](const io::LiveInbox& inbox) {
-    return std::vector<io::LiveTopic>(inbox.topics().begin(), inbox.topics().end());
+    return std::vector<io::InputTopic>(inbox.topics().begin(), inbox.topics().end());
   });
   subscriptions_.resize(topics_.size());
   other_types_.resize(topics_.size());
@@ -82,7 +82,7 @@ void LiveSubscriptions::follow(bool with_color) {
   const std::vector<io::GraphTopic> all = graph_.graph();
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < topics_.size(); ++i) {
-    io::LiveTopic& topic = topics_[i];
+    io::InputTopic& topic = topics_[i];
     const std::string told = type_on_graph(topic.name, all);
     if (topic.type.empty()) {
       const auto types = io::LiveInbox::target_types();
@@ -94,7 +94,8 @@ void LiveSubscriptions::follow(bool with_color) {
         });
       }
     }
-    const bool is_wanted = !topic.type.empty() && (topic.role != io::LiveRole::color || with_color);
+    const bool is_wanted =
+        !topic.type.empty() && (topic.role != io::TopicRole::color || with_color);
     if (is_wanted && !subscriptions_[i]) open(i);
     if (!is_wanted) close(i);
     other_types_[i] = told == topic.type ? "" : told;

@@ -19,7 +19,7 @@
 namespace penumbra::app {
 
 /// How a topic is subscribed to; `reliable`: asked of all.
-[[nodiscard]] io::TopicQos live_qos(const io::LiveTopic& topic, bool reliable);
+[[nodiscard]] io::TopicQos live_qos(const io::InputTopic& topic, bool reliable);
 
 /// Publishes a camera's results, those that somebody subscribes to.
 class GraphResults final : public io::ResultSink {
@@ -64,7 +64,7 @@ class LiveSubscriptions {
   io::Participant& graph_;
   io::LiveRunner& runner_;
   bool reliable_;
-  std::vector<io::LiveTopic> topics_;
+  std::vector<io::InputTopic> topics_;
   mutable std::mutex
       mutex_;  // guards what follows; taken before the runner's, not while it is held
   std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to

@@ -31,7 +31,8 @@ class LivePages::Page final : public io::FrameWatcher {
   void set_note(std::string note) { note_ = std::move(note); }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::LiveJob& job, const DepthView& depth, const FrameReport& report) override {
+  void take(const io::AssembledFrame& job, const DepthView& depth,
+            const FrameReport& report) override {
     if (view_.show(job, depth, report, io::LiveRunner::steady_now())) server_.wake();
   }
 
@@ -73,7 +74,7 @@ void LivePages::print() const {
   std::cout << std::flush;
 }
 
-void LivePages::watch(io::LiveRunner& runner, const std::vector<io::LiveCameraOptions>& cameras) {
+void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras) {
   for (std::size_t i = 0; i < pages_.size(); ++i) {
     runner.watch(i, *pages_[i]);
     if (cameras[i].color_topic.empty())

@@ -23,7 +23,7 @@ class LivePages {
   void print() const;
 
   /// Shows the frames that `runner` judges. Must outlive its threads.
-  void watch(io::LiveRunner& runner, const std::vector<io::LiveCameraOptions>& cameras);
+  void watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras);
 
   /// Shows statuses as LiveDiagnostics reports them: the cameras' are the last ones.
   void tell(const io::DiagnosticArrayMessage& message);

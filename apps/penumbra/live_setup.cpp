@@ -29,11 +29,11 @@ std::string result_name(const std::string& camera, const io::ResultTopic& topic)
 }
 
 void check_remaps(const io::NameResolver& names,
-                  const std::vector<io::LiveCameraOptions>& cameras) {
+                  const std::vector<io::CameraInputOptions>& cameras) {
   static_cast<void>(names.resolve(diagnostics_topic));
   std::vector<std::string> of_cameras;
   of_cameras.reserve(cameras.size() + 1);
-  for (const io::LiveCameraOptions& camera : cameras) of_cameras.push_back(camera.name);
+  for (const io::CameraInputOptions& camera : cameras) of_cameras.push_back(camera.name);
   if (of_cameras.empty()) of_cameras.emplace_back();
   for (const std::string& camera : of_cameras)
     for (const io::ResultTopic& topic : io::result_topics)

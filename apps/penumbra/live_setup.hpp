@@ -25,7 +25,8 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 
 /// To be called when all else is resolved: throws InputError for a name that is remapped and that
 /// nothing has.
-void check_remaps(const io::NameResolver& names, const std::vector<io::LiveCameraOptions>& cameras);
+void check_remaps(const io::NameResolver& names,
+                  const std::vector<io::CameraInputOptions>& cameras);
 
 /// All but the cameras. Throws InputError of a robot's file.
 [[nodiscard]] io::LiveOptions live_options(const LiveArguments& arguments,

@@ -4,82 +4,106 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/assembly/bag_scene.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::io {
 namespace {
 
 /// Returns the bag's faults for the end of an error message: the missing data may be in a damaged
 /// part.
-std::string damages_of(const BagInbox& inbox) {
+std::string damages_of(const std::vector<std::string>& notes) {
   std::string damages;
-  for (const std::string& note : inbox.notes()) damages += "; " + note;
+  for (const std::string& note : notes) damages += "; " + note;
   return damages;
-}
-
-BagTopics topics_of(const BagInbox& inbox, const BagOptions& options, bool with_color) {
-  try {
-    return choose_topics(inbox.name(), inbox.topics(), options, with_color);
-  } catch (const InputError& error) {
-    throw InputError(error.what() + damages_of(inbox));
-  }
 }
 
 }  // namespace
 
+std::vector<std::string> bag_notes(const std::string& name, const BagReader& bag,
+                                   const MessageFaults& faults) {
+  std::vector<std::string> lines(bag.faults().begin(), bag.faults().end());
+  for (const auto& [topic, fault] : faults.all())
+    lines.push_back(name + ": " + std::to_string(fault.messages) +
+                    (fault.messages == 1 ? " message of " : " messages of ") + printable(topic) +
+                    " cannot be used, the first recorded at " + std::to_string(fault.first) +
+                    " ns: " + fault.what);
+  return lines;
+}
+
 BagSceneReader::BagSceneReader(const std::filesystem::path& bag, const BagOptions& options,
                                bool with_color)
-    : inbox_(bag), topics_(topics_of(inbox_, options, with_color)) {}
+    : bag_(open_bag(bag)), name_(bag.string()) {
+  try {
+    topics_ = choose_topics(name_, bag_->topics(), options, with_color);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + damages_of(bag_notes(name_, *bag_, faults_)));
+  }
+}
 
 void BagSceneReader::read_robot_and_camera() {
   if (read_until([this](const BagScene&) { return lacking().empty(); })) return;
-  throw InputError(inbox_.name() + ": " + lacking() + " has no message that can be read" +
-                   damages_of(inbox_));
+  throw InputError(name_ + ": " + lacking() + " has no message that can be read" +
+                   damages_of(bag_notes(name_, *bag_, faults_)));
 }
 
 bool BagSceneReader::read_until(const std::function<bool(const BagScene&)>& found) {
   BagMessage message;
   while (!found(scene_)) {
-    if (!inbox_.next(message)) return false;
+    if (!bag_->next(message)) return false;
     take(message);
   }
   return true;
 }
 
 void BagSceneReader::take(const BagMessage& message) {
-  const BagTopic& topic = inbox_.topic_of(message);
-  const auto is = [&](const TopicUse& use) {
-    return topic.name == use.name && topic.type == use.type;
+  while (handlers_.size() <= message.topic)
+    handlers_.push_back(handler_of(bag_->topics()[handlers_.size()]));
+  if (const MessageHandler& handler = handlers_[message.topic])
+    if (const auto fault = handler({.data = message.data}, message.log_time))
+      faults_.add(bag_->topics()[message.topic].name, message.log_time, *fault);
+}
+
+MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
+  const auto role = topics_.role_of(topic);
+  if (!role) return {};
+  const auto take_image = [this](const auto& image, const auto&, auto) {
+    if (!scene_.depth_frame) scene_.depth_frame = image.header.frame_id;
   };
-  if (is(topics_.depth) && !scene_.depth_frame) {
-    if (topic.type == message_type<ImageMessage>())
-      take_depth<ImageMessage>(message);
-    else
-      take_depth<CompressedImageMessage>(message);
-  }
-  if (is(topics_.camera_info)) take_info(message, scene_.camera_info);
-  if (topics_.color_info && is(*topics_.color_info)) take_info(message, scene_.color_info);
-  if (topics_.description && is(*topics_.description) && !scene_.description)
-    if (StringMessage text; inbox_.decode(message, text)) scene_.description = std::move(text.data);
-  for (const TopicUse& use : topics_.transforms)
-    if (is(use)) take_transforms(message, use.name.ends_with("static"));
-}
-
-template <typename M>
-void BagSceneReader::take_depth(const BagMessage& message) {
-  if (M image; inbox_.decode(message, image)) scene_.depth_frame = image.header.frame_id;
-}
-
-void BagSceneReader::take_info(const BagMessage& message, std::optional<CameraInfoMessage>& info) {
-  if (info) return;
-  if (CameraInfoMessage found; inbox_.decode(message, found)) info = std::move(found);
-}
-
-void BagSceneReader::take_transforms(const BagMessage& message, bool is_static) {
-  TfMessage found;
-  if (!inbox_.decode(message, found)) return;
-  for (TransformMessage& transform : found.transforms) {
-    scene_.frames.add(transform.header.frame_id, transform.child_frame_id);
-    if (is_static) scene_.static_transforms.push_back(std::move(transform));
+  const auto take_info = [](std::optional<CameraInfoMessage>& kept) {
+    return [&kept](const CameraInfoMessage& info, const auto&, auto) {
+      if (!kept) kept = info;
+    };
+  };
+  const auto take_transforms = [this, role](const TfMessage& found, const auto&, auto) {
+    for (const TransformMessage& transform : found.transforms) {
+      scene_.frames.add(transform.header.frame_id, transform.child_frame_id);
+      if (role == TopicRole::static_transforms) scene_.static_transforms.push_back(transform);
+    }
+  };
+  try {
+    switch (*role) {
+      case TopicRole::depth:
+        if (topic.type == message_type<ImageMessage>())
+          return make_handler<ImageMessage>(topic.definition, take_image);
+        return make_handler<CompressedImageMessage>(topic.definition, take_image);
+      case TopicRole::camera_info:
+        return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.camera_info));
+      case TopicRole::color_info:
+        return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.color_info));
+      case TopicRole::description:
+        return make_handler<StringMessage>(topic.definition,
+                                           [this](const auto& text, const auto&, auto) {
+                                             if (!scene_.description)
+                                               scene_.description = text.data;
+                                           });
+      case TopicRole::transforms:
+      case TopicRole::static_transforms:
+        return make_handler<TfMessage>(topic.definition, take_transforms);
+      default:
+        return {};
+    }
+  } catch (const InputError& error) {
+    throw InputError(name_ + ": " + printable(topic.name) + ": " + error.what());
   }
 }
 

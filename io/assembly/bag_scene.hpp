@@ -3,13 +3,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <io/assembly/bag_inbox.hpp>
 #include <io/assembly/bag_topics.hpp>
 #include <io/assembly/frame_tree.hpp>
+#include <io/assembly/message_faults.hpp>
+#include <io/assembly/message_handler.hpp>
+#include <io/bag/bag_reader.hpp>
 
 namespace penumbra::io {
 
@@ -28,6 +31,8 @@ class BagSceneReader {
  public:
   /// Throws InputError as open_bag and choose_topics.
   BagSceneReader(const std::filesystem::path& bag, const BagOptions& options, bool with_color);
+  BagSceneReader(const BagSceneReader&) = delete;
+  BagSceneReader& operator=(const BagSceneReader&) = delete;
 
   [[nodiscard]] const BagTopics& topics() const { return topics_; }
   [[nodiscard]] const BagScene& scene() const { return scene_; }
@@ -41,15 +46,19 @@ class BagSceneReader {
 
  private:
   void take(const BagMessage& message);
-  template <typename M>
-  void take_depth(const BagMessage& message);
-  void take_transforms(const BagMessage& message, bool is_static);
-  void take_info(const BagMessage& message, std::optional<CameraInfoMessage>& info);
+  [[nodiscard]] MessageHandler handler_of(const BagTopic& topic);
   [[nodiscard]] std::string lacking() const;
 
-  BagInbox inbox_;
+  std::unique_ptr<BagReader> bag_;
+  std::string name_;
   BagTopics topics_;
   BagScene scene_;
+  std::vector<MessageHandler> handlers_;  // of each topic of the bag, null: not needed
+  MessageFaults faults_;
 };
+
+/// Returns the faults of a bag and of its messages, one line each.
+[[nodiscard]] std::vector<std::string> bag_notes(const std::string& name, const BagReader& bag,
+                                                 const MessageFaults& faults);
 
 }  // namespace penumbra::io

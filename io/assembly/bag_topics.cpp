@@ -190,7 +190,8 @@ void choose_color(const Chooser& chooser, const BagOptions& options, bool with_c
     const BagTopic* info = find_info(chooser, topics.color->name);
     if (info == nullptr)
       chooser.refuse("--color-topic: no camera_info is next to " + printable(*options.color_topic));
-    topics.color_info = Chooser::use("color camera_info", *info, "next to these images");
+    if (info->name != topics.camera_info.name)  // else both are images of one camera
+      topics.color_info = Chooser::use("color camera_info", *info, "next to these images");
     return;
   }
   if (!with_color) return;
@@ -266,6 +267,24 @@ std::vector<TopicUse> BagTopics::all() const {
   for (const auto* several : {&joints, &transforms, &targets})
     uses.insert(uses.end(), several->begin(), several->end());
   return uses;
+}
+
+std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
+  const auto is = [&](const TopicUse& use) {
+    return topic.name == use.name && topic.type == use.type;
+  };
+  const auto is_one_of = [&](const std::vector<TopicUse>& uses) {
+    return std::any_of(uses.begin(), uses.end(), is);
+  };
+  if (is(depth)) return TopicRole::depth;
+  if (is(camera_info)) return TopicRole::camera_info;
+  if (color_info && is(*color_info)) return TopicRole::color_info;
+  if (color && is(*color)) return TopicRole::color;
+  if (description && is(*description)) return TopicRole::description;
+  if (is_one_of(joints)) return TopicRole::joints;
+  if (is_one_of(targets)) return TopicRole::targets;
+  if (!is_one_of(transforms)) return std::nullopt;
+  return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
 }
 
 std::string camera_info_topic(const std::string& image_topic) {

@@ -11,6 +11,7 @@
 #include <penumbra/pipeline/pose_lookup.hpp>
 
 #include <io/assembly/bag_options.hpp>
+#include <io/assembly/input_topic.hpp>
 #include <io/bag/bag_reader.hpp>
 
 namespace penumbra::io {
@@ -35,6 +36,8 @@ struct BagTopics {
 
   /// Returns all topics, in the order in which they are printed.
   [[nodiscard]] std::vector<TopicUse> all() const;
+  /// Returns the role of a topic of the bag, or nothing if it is not used.
+  [[nodiscard]] std::optional<TopicRole> role_of(const BagTopic& topic) const;
 };
 
 /// Several topics match and the user named none of them.

@@ -22,6 +22,7 @@ struct KeptImage {
   std::optional<CompressedImageMessage> compressed;
   std::shared_ptr<const void> owner;
 
+  [[nodiscard]] bool is_empty() const { return !image && !compressed; }
   [[nodiscard]] const MessageHeader& header() const {
     return image ? image->header : compressed->header;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -7,41 +8,59 @@
 namespace penumbra::io {
 namespace {
 
-std::string pixels_text(int width, int height) {
+std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
 }  // namespace
 
-DepthInput::DepthInput(const Camera& judged, const std::optional<Camera>& depth_camera)
-    : width_((depth_camera ? *depth_camera : judged).intrinsics.width()),
-      height_((depth_camera ? *depth_camera : judged).intrinsics.height()) {
-  if (depth_camera) registration_.emplace(*depth_camera, judged);
+DepthInput::DepthInput(const JudgedCameras& cameras) {
+  const Intrinsics& intrinsics = (cameras.depth ? *cameras.depth : cameras.judged).intrinsics;
+  width_ = intrinsics.width();
+  height_ = intrinsics.height();
+  if (cameras.depth) registration_.emplace(*cameras.depth, cameras.judged);
 }
 
-template <typename M>
-std::string DepthInput::decode(const M& message, DepthView& depth) {
-  if (const auto fault = decode_depth(message, decoded_)) return *fault;
+std::string DepthInput::read(const AssembledFrame& from, Frame& frame, std::string& message) {
+  frame = from.pose.frame();
+  if (from.pose.stamp <= 0) frame.stamp.reset();
+  frame.targets = from.targets;
+  message = from.pose.pose.message;
+  std::string undecoded, fault = from.fault;
+  if (fault.empty()) fault = undecoded = decode(from.image, frame.depth);
+  if (fault.empty()) fault = bring(from, frame.depth);
+  if (!fault.empty()) {
+    message += (message.empty() ? "" : "; ") + fault;
+    if (frame.source_status == FrameStatus::ok) frame.source_status = FrameStatus::bad_depth;
+    frame.depth = empty_;
+  }
+  frame.source_message = message;
+  return undecoded;
+}
+
+std::string DepthInput::decode(const KeptImage& image, DepthView& depth) {
+  const auto fault = image.image ? decode_depth(*image.image, decoded_)
+                                 : decode_depth(*image.compressed, decoded_);
+  if (fault) return *fault;
   depth = decoded_.view;
+  std::visit([this](const auto& view) { empty_ = std::decay_t<decltype(view)>(); }, depth);
   return {};
 }
 
-template std::string DepthInput::decode(const ImageMessage&, DepthView&);
-template std::string DepthInput::decode(const CompressedImageMessage&, DepthView&);
-
-std::string DepthInput::check_size(DepthView& depth) const {
+std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
   const auto [width, height] =
       std::visit([](const auto& view) { return std::pair(view.width, view.height); }, depth);
-  if (width == width_ && height == height_) return {};
-  depth = {};
-  return "the depth image is " + pixels_text(width, height) + ", the camera " +
-         pixels_text(width_, height_);
-}
-
-std::string DepthInput::bring(const TransformAnswer& T_judged_depth, DepthView& depth) {
-  if (T_judged_depth.status != TransformStatus::ok)
-    return "depth cannot be brought to the color camera: " + T_judged_depth.message;
-  depth = registration_->warp(depth, T_judged_depth.T_target_source);
+  if (width != width_ || height != height_)
+    return "the depth image is " + size_text(width, height) + ", the camera " +
+           size_text(width_, height_);
+  if (!registration_) return {};
+  if (!has_pose(from.pose.pose.status)) {
+    depth = empty_;  // the depth camera's position is not known
+    return {};
+  }
+  if (from.T_judged_depth.status != TransformStatus::ok)
+    return "depth cannot be registered to the color camera: " + from.T_judged_depth.message;
+  depth = registration_->warp(depth, from.T_judged_depth.T_target_source);
   return {};
 }
 

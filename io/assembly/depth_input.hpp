@@ -6,38 +6,33 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/registration.hpp>
-#include <penumbra/time/transform_buffer.hpp>
+#include <penumbra/pipeline/frame.hpp>
 
+#include <io/assembly/assembled_frame.hpp>
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::io {
 
-/// Converts depth images of messages to the input of the pipeline: checks their size, and registers
-/// them to the judged camera if they are of another camera.
+/// Makes the pipeline's frames of assembled ones: decodes depth images, checks their size, and
+/// registers them to the judged camera if they are of another camera.
 class DepthInput {
  public:
-  /// `depth_camera`: the camera of the depth images, if they have to be registered to `judged`.
-  DepthInput(const Camera& judged, const std::optional<Camera>& depth_camera);
+  explicit DepthInput(const JudgedCameras& cameras);
 
-  /// Decodes an image. Returns what is wrong with it, one line, or an empty text. `depth` views the
-  /// message's data or this object until the next call.
-  template <typename M>
-  [[nodiscard]] std::string decode(const M& message, DepthView& depth);
-
-  /// Returns why an image does not have the camera's size, or an empty text. Clears `depth` if the
-  /// size is wrong.
-  [[nodiscard]] std::string check_size(DepthView& depth) const;
-
-  /// Returns whether images have to be registered to the judged camera.
-  [[nodiscard]] bool is_of_other_camera() const { return registration_.has_value(); }
-
-  /// Registers an image to the judged camera by TF. Returns why that fails, or an empty text.
-  [[nodiscard]] std::string bring(const TransformAnswer& T_judged_depth, DepthView& depth);
+  /// Fills `frame`, all but its index. An image that cannot be used makes the status bad_depth,
+  /// unless there is no pose either, and leaves the depth empty. `message` gets the frame's
+  /// message. `frame` refers to all arguments and to this until the next call. Returns why the
+  /// image's message cannot be decoded, or an empty text.
+  [[nodiscard]] std::string read(const AssembledFrame& from, Frame& frame, std::string& message);
 
  private:
+  [[nodiscard]] std::string decode(const KeptImage& image, DepthView& depth);
+  [[nodiscard]] std::string bring(const AssembledFrame& from, DepthView& depth);
+
   int width_, height_;  // of the depth images
   std::optional<DepthRegistration> registration_;
   DecodedDepth decoded_;
+  DepthView empty_;  // of the images' pixel type
 };
 
 }  // namespace penumbra::io

@@ -4,7 +4,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/live/live_job.hpp>
+#include <io/assembly/assembled_frame.hpp>
 
 namespace penumbra::io {
 
@@ -22,7 +22,8 @@ class FrameWatcher {
   /// Receives a frame after its results were published. The camera's thread calls this and judges
   /// no other frame meanwhile: copy the data you need and return. `depth` is the judged image and
   /// may be empty. All arguments are valid during the call only.
-  virtual void take(const LiveJob& job, const DepthView& depth, const FrameReport& report) = 0;
+  virtual void take(const AssembledFrame& job, const DepthView& depth,
+                    const FrameReport& report) = 0;
 };
 
 }  // namespace penumbra::io

@@ -34,7 +34,7 @@ std::string seconds_since(std::int64_t then, std::int64_t now) {
 }
 
 /// Returns why a topic has no messages, or an empty text if the transport gives no reason.
-std::string silence_of(const LiveLink& link, const LiveTopic& topic) {
+std::string silence_of(const LiveLink& link, const InputTopic& topic) {
   const std::string name = printable(topic.name);
   if (!link.other_type.empty())
     return name + " is of type " + printable(link.other_type) + ", " + topic.type + " is wanted";
@@ -49,12 +49,12 @@ std::string silence_of(const LiveLink& link, const LiveTopic& topic) {
 
 /// Calls `call` with the index of each topic of a role and camera.
 template <typename F>
-void for_each_topic(const LiveInbox& inbox, LiveRole role, std::size_t camera, const F& call) {
+void for_each_topic(const LiveInbox& inbox, TopicRole role, std::size_t camera, const F& call) {
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
     if (inbox.topics()[i].role == role && inbox.topics()[i].camera == camera) call(i);
 }
 
-std::string why_silent(const LiveInbox& inbox, LiveRole role, std::size_t camera,
+std::string why_silent(const LiveInbox& inbox, TopicRole role, std::size_t camera,
                        std::span<const LiveLink> links) {
   std::string why;
   for_each_topic(inbox, role, camera, [&](std::size_t i) {
@@ -85,24 +85,24 @@ void add_quantiles(Status& status, const std::string& key, const LatencyHistogra
   if (const auto p99 = times.quantile(0.99)) add(status, key + " p99", decimal(*p99, " ms"));
 }
 
-void add_link(Status& status, const LiveTopic& topic, const LiveLink& link, double rate) {
+void add_link(Status& status, const InputTopic& topic, const LiveLink& link, double rate) {
   std::string text = decimal(rate, " Hz") + ", " + std::to_string(link.publishers) + " publishers";
   if (link.lost > 0) text += ", " + std::to_string(link.lost) + " lost";
   if (link.overwritten > 0) text += ", " + std::to_string(link.overwritten) + " overwritten";
   add(status, printable(topic.name), text);
 }
 
-void add_counts(Status& status, const LiveCounts& counts) {
+void add_counts(Status& status, const ImageCounts& counts) {
   add_count(status, "received", counts.received);
   add_count(status, "judged", counts.judged);
   add_count(status, "failed", counts.failed);
-  for (std::size_t i = 0; i < live_drops; ++i)
+  for (std::size_t i = 0; i < frame_drops; ++i)
     if (counts.dropped[i] > 0)
-      add_count(status, "dropped: " + std::string(to_string(static_cast<LiveDrop>(i))),
+      add_count(status, "dropped: " + std::string(to_string(static_cast<FrameDrop>(i))),
                 counts.dropped[i]);
 }
 
-void add_targets(Status& status, const LiveTargets& targets) {
+void add_targets(Status& status, const UnjudgedTargets& targets) {
   if (targets.early > 0)
     add_count(status, "target messages before robot and camera were known", targets.early);
   if (targets.replaced > 0)
@@ -129,13 +129,13 @@ void add_renderer(Status& status, const RendererInfo& renderer) {
       add(status, "renderer " + key, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-bool is_of_robot(LiveRole role) {
-  return role == LiveRole::description || role == LiveRole::joints ||
-         role == LiveRole::transforms || role == LiveRole::static_transforms ||
-         role == LiveRole::targets;
+bool is_of_robot(TopicRole role) {
+  return role == TopicRole::description || role == TopicRole::joints ||
+         role == TopicRole::transforms || role == TopicRole::static_transforms ||
+         role == TopicRole::targets;
 }
 
-std::string name_of(const LiveCamera& camera) {
+std::string name_of(const CameraInput& camera) {
   const std::string& name = camera.options().name;
   return "camera" + (name.empty() ? "" : " " + name);
 }
@@ -143,20 +143,20 @@ std::string name_of(const LiveCamera& camera) {
 }  // namespace
 
 LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, std::int64_t now) {
-  const LiveRobot& robot = inbox.robot();
+  const RobotInput& robot = inbox.robot();
   if (!robot.fault().empty()) return {Status::error, robot.fault()};
   if (robot.is_being_made())
     return {Status::stale, "the robot of the robot_description is being made: its meshes are read"};
   if (!robot.posed())
     return {Status::stale,
-            "no robot_description yet: " + why_silent(inbox, LiveRole::description, 0, links)};
+            "no robot_description yet: " + why_silent(inbox, TopicRole::description, 0, links)};
   const bool by_joints = inbox.options().poses != PoseSource::transforms;
   if (by_joints && robot.posed()->robot.variables().empty()) return {};
   const auto& last = by_joints ? robot.last_joints() : robot.last_transforms();
   if (!last || now - *last > silence)
     return {Status::stale,
             std::string(by_joints ? "no joint states" : "no tf") + since(last, now) + ": " +
-                why_silent(inbox, by_joints ? LiveRole::joints : LiveRole::transforms, 0, links)};
+                why_silent(inbox, by_joints ? TopicRole::joints : TopicRole::transforms, 0, links)};
   const auto& used = robot.last_used_joints();
   if (by_joints && (!used || now - *used > silence))
     return {Status::error, "no joint states of the robot" + since(used, now) + ": " +
@@ -167,25 +167,25 @@ LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, s
 
 LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
                        std::int64_t now) {
-  const LiveCamera& camera = inbox.camera(number);
+  const CameraInput& camera = inbox.camera(number);
   const LiveTally& tally = inbox.tally(number);
   const std::int64_t patience = silence + periods_awaited * camera.depth_period().value_or(0);
   if (!camera.last_depth() || now - *camera.last_depth() > patience)
     return {Status::stale, "no depth images" + since(camera.last_depth(), now) + ": " +
-                               why_silent(inbox, LiveRole::depth, number, links)};
+                               why_silent(inbox, TopicRole::depth, number, links)};
   if (!camera.has_info())
     return {Status::error,
-            "no camera_info yet: " + why_silent(inbox, LiveRole::camera_info, number, links)};
+            "no camera_info yet: " + why_silent(inbox, TopicRole::camera_info, number, links)};
   if (camera.lacks_color_info())
     return {Status::error, "no camera_info of the color images yet: " +
-                               why_silent(inbox, LiveRole::color_info, number, links)};
+                               why_silent(inbox, TopicRole::color_info, number, links)};
   if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
   if (camera.without_info() >= least_without_info)
     return {Status::error,
             std::to_string(camera.without_info()) +
                 " images have no camera_info of their own, as others do: they may be "
                 "another camera's and are not judged: " +
-                why_silent(inbox, LiveRole::camera_info, number, links)};
+                why_silent(inbox, TopicRole::camera_info, number, links)};
   if (!inbox.robot().posed()) {
     const LiveFault robot = robot_fault(inbox, links, now);
     return {Status::error, "nothing can be judged: " + robot.why};
@@ -232,8 +232,8 @@ DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
 DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, std::size_t number,
                                                        std::span<const LiveLink> links,
                                                        const Period& period) const {
-  const LiveCamera& camera = inbox.camera(number);
-  const LiveCounts counts = camera.counts();
+  const CameraInput& camera = inbox.camera(number);
+  const ImageCounts counts = camera.counts();
   const LiveFault current = camera_fault(inbox, number, links, period.now);
   const double rate = static_cast<double>(counts.judged - judged_[number]) / period.seconds;
   Status status = make_status(name_of(camera), current);

@@ -12,6 +12,21 @@ namespace {
 /// steps, and people look at them, so not every frame needs one.
 constexpr std::int64_t overlay_period = 200'000'000;
 
+/// Forwards all results except overlays.
+class WithoutOverlay final : public ResultSink {
+ public:
+  explicit WithoutOverlay(ResultSink& to) : to_(to) {}
+  [[nodiscard]] bool wants(Result result) const override {
+    return result != Result::overlay && to_.wants(result);
+  }
+  void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
+    to_.write(result, stamp, payload);
+  }
+
+ private:
+  ResultSink& to_;
+};
+
 template <typename Clock>
 std::int64_t nanoseconds_of() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
@@ -52,7 +67,7 @@ void LiveRunner::stop() {
     if (camera.thread.joinable()) camera.thread.join();
 }
 
-void LiveRunner::receive(std::size_t topic, const LiveMessage& message) {
+void LiveRunner::receive(std::size_t topic, const SerializedMessage& message) {
   bool has_order = false;
   {
     const std::lock_guard lock(mutex_);
@@ -103,7 +118,7 @@ void LiveRunner::wait(std::size_t camera, std::unique_lock<std::mutex>& lock) {
 
 void LiveRunner::work(std::size_t camera) {
   CameraThread& self = cameras_[camera];
-  LiveJob job;
+  AssembledFrame job;
   std::unique_lock lock(mutex_);
   try {
     while (!stopping_) {
@@ -117,10 +132,11 @@ void LiveRunner::work(std::size_t camera) {
         wait(camera, lock);
         continue;
       }
-      job.with_overlay = with_overlay;
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       lock.unlock();
-      const LiveOutcome outcome = self.worker->judge(job, *self.sink, self.watcher);
+      WithoutOverlay without_overlay(*self.sink);
+      ResultSink& sink = with_overlay ? *self.sink : without_overlay;
+      const LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
       job.color.reset();

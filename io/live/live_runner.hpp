@@ -52,7 +52,7 @@ class LiveRunner {
   void stop();
 
   /// Receives a message. Any thread may call this.
-  void receive(std::size_t topic, const LiveMessage& message);
+  void receive(std::size_t topic, const SerializedMessage& message);
 
   /// Calls `read` with the inbox while it does not change.
   template <typename F>

@@ -11,12 +11,12 @@ Json quantiles_json(const LatencyHistogram& times) {
           {"p99", or_null(times.quantile(0.99))}};
 }
 
-Json camera_json(const LiveCamera& camera, const LiveTally& tally, const WrittenResults& results) {
-  const LiveCounts counts = camera.counts();
-  const LiveTargets targets = camera.targets();
+Json camera_json(const CameraInput& camera, const LiveTally& tally, const WrittenResults& results) {
+  const ImageCounts counts = camera.counts();
+  const UnjudgedTargets targets = camera.targets();
   Json dropped = Json::object();
-  for (std::size_t i = 0; i < live_drops; ++i)
-    dropped[std::string(to_string(static_cast<LiveDrop>(i)))] = counts.dropped[i];
+  for (std::size_t i = 0; i < frame_drops; ++i)
+    dropped[std::string(to_string(static_cast<FrameDrop>(i)))] = counts.dropped[i];
   Json frames = Json::object();
   for (const auto& [status, number] : tally.statuses) frames[status] = number;
   Json written = Json::object();

@@ -10,7 +10,7 @@
 #include <io/assembly/depth_input.hpp>
 #include <io/assembly/result_encoder.hpp>
 #include <io/live/frame_watcher.hpp>
-#include <io/live/live_job.hpp>
+#include <io/live/live_inbox.hpp>
 
 namespace penumbra::io {
 
@@ -23,28 +23,26 @@ class LiveWorker {
   /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
   /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
   /// like Pipeline.
-  LiveOutcome judge(LiveJob& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
+  LiveOutcome judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
 
  private:
   /// The objects made for a setup.
   struct Tools {
-    Tools(const LiveSetup& setup, const PipelineConfig& config);
+    Tools(const CameraSetup& setup, const PipelineConfig& config);
     Pipeline pipeline;
     ResultEncoder encoder;
     DepthInput depth;
   };
 
-  [[nodiscard]] bool follow(const std::shared_ptr<LiveSetup>& setup);
-  [[nodiscard]] std::string read_depth(const LiveJob& job, DepthView& depth);
-  void show_color(const LiveJob& job, bool wanted);
+  [[nodiscard]] bool follow(const std::shared_ptr<CameraSetup>& setup);
+  void show_color(const AssembledFrame& job, bool wanted);
 
   PipelineConfig config_;
-  std::shared_ptr<LiveSetup> setup_;
+  std::shared_ptr<CameraSetup> setup_;
   std::unique_ptr<Tools> tools_;
   std::string fault_;    // why `tools_` is null
   std::string message_;  // of the current frame
   std::size_t judged_ = 0;
-  DepthView no_depth_;  // empty, of the images' pixel type
   Image<Rgb8> color_;
 };
 

@@ -31,7 +31,7 @@ std::string take_message(std::span<const std::byte> content, std::uint64_t at,
 // Reads a chunk's records up to the first damaged one.
 void take_records(const MessagePlace& place, LoadedChunk& chunk, Definitions& definitions,
                   FaultLog& faults) {
-  const auto records = chunk.records.view();
+  const auto records = std::span<const std::byte>(chunk.records);
   ByteCursor cursor(records);
   while (!cursor.rest().empty()) {
     const std::size_t at = records.size() - cursor.rest().size();
@@ -58,12 +58,12 @@ void take_records(const MessagePlace& place, LoadedChunk& chunk, Definitions& de
 
 void ChunkLoader::load(const MessagePlace& place, LoadedChunk& chunk, Definitions& definitions,
                        FaultLog& faults) {
-  chunk.records.resize(0);
+  chunk.records.clear();
   chunk.messages.clear();
   const std::string fault = load_records(place, chunk.records);
   if (compressed_.capacity() > spare_compressed) compressed_ = {};
   if (!fault.empty()) {
-    chunk.records.resize(0);
+    chunk.records.clear();
     faults.add(place.offset, fault + "; its messages are left out");
     return;
   }
@@ -75,7 +75,7 @@ void ChunkLoader::load(const MessagePlace& place, LoadedChunk& chunk, Definition
     std::stable_sort(chunk.messages.begin(), chunk.messages.end(), earlier);
 }
 
-std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& records) {
+std::string ChunkLoader::load_records(const MessagePlace& place, std::vector<std::byte>& records) {
   constexpr const char* cut = "a chunk cannot be read to its end (was the file cut meanwhile?)";
   if (place.length > max_record_bytes + record_head_bytes && !place.loose)
     return "a chunk claims " + std::to_string(place.length) + " bytes, more than any may have";
@@ -100,19 +100,20 @@ std::string ChunkLoader::load_records(const MessagePlace& place, ByteBuffer& rec
     if (!read(records_at, chunk->records_size, records)) return cut;
   } else {
     if (!read(records_at, chunk->records_size, compressed_)) return cut;
-    const std::string fault = decompressor_.decompress(chunk->compression, compressed_.view(),
+    const std::string fault = decompressor_.decompress(chunk->compression, compressed_,
                                                        chunk->uncompressed_size, records);
     if (!fault.empty()) return "a chunk " + fault;
   }
-  if (chunk->uncompressed_crc != 0 && crc32(records.view()) != chunk->uncompressed_crc)
+  if (chunk->uncompressed_crc != 0 && crc32(records) != chunk->uncompressed_crc)
     return "a chunk has a wrong checksum";
   return {};
 }
 
-bool ChunkLoader::read(std::uint64_t offset, std::uint64_t count, ByteBuffer& to) const {
+bool ChunkLoader::read(std::uint64_t offset, std::uint64_t count,
+                       std::vector<std::byte>& to) const {
   if (offset > file_->size() || count > file_->size() - offset) return false;
   const auto bytes = static_cast<std::size_t>(count);
-  to.resize(0);
+  to.clear();
   to.resize(bytes);
   return file_->read_at(offset, to.data(), bytes) == bytes;
 }

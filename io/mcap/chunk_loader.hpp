@@ -18,7 +18,7 @@ struct LoadedChunk {
     std::uint64_t length = 0;   ///< of the content
   };
 
-  ByteBuffer records;
+  std::vector<std::byte> records;
   std::vector<Entry> messages;  ///< by log time, then in the file's order
 
   [[nodiscard]] std::size_t footprint() const {
@@ -39,12 +39,14 @@ class ChunkLoader {
             FaultLog& faults);
 
  private:
-  [[nodiscard]] std::string load_records(const MessagePlace& place, ByteBuffer& records);
-  [[nodiscard]] bool read(std::uint64_t offset, std::uint64_t count, ByteBuffer& to) const;
+  [[nodiscard]] std::string load_records(const MessagePlace& place,
+                                         std::vector<std::byte>& records);
+  [[nodiscard]] bool read(std::uint64_t offset, std::uint64_t count,
+                          std::vector<std::byte>& to) const;
 
   const InputFile* file_;
   Decompressor decompressor_;
-  ByteBuffer compressed_;
+  std::vector<std::byte> compressed_;
 };
 
 }  // namespace penumbra::io::mcap

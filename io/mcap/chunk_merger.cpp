@@ -14,9 +14,8 @@ constexpr std::size_t most_spare_bytes = std::size_t{16} << 20;  // each
 
 }  // namespace
 
-ChunkMerger::ChunkMerger(const InputFile& file, FileLayout& layout, FaultLog& faults,
-                         std::size_t held_bytes)
-    : loader_(file), layout_(&layout), faults_(&faults), most_held_(held_bytes) {
+ChunkMerger::ChunkMerger(const InputFile& file, FileLayout& layout, FaultLog& faults)
+    : loader_(file), layout_(&layout), faults_(&faults) {
   for (const MessagePlace& place : layout.places) order_.push_back(&place);
   std::stable_sort(order_.begin(), order_.end(), [](const MessagePlace* a, const MessagePlace* b) {
     return a->start_time < b->start_time;
@@ -42,17 +41,13 @@ void ChunkMerger::complete_definitions() {
 
 std::optional<ChunkMerger::Item> ChunkMerger::next() {
   advance();
-  while (true) {
-    while (next_place_ < order_.size() &&
-           (runs_.empty() || order_[next_place_]->start_time <= runs_.front().time))
-      start(*order_[next_place_++]);
-    if (runs_.empty()) return std::nullopt;
-    std::pop_heap(runs_.begin(), runs_.end(), later);
-    current_ = std::move(runs_.back());
-    runs_.pop_back();
-    if (current_.chunk || reload(current_)) break;
-    current_ = {};
-  }
+  while (next_place_ < order_.size() &&
+         (runs_.empty() || order_[next_place_]->start_time <= runs_.front().time))
+    start(*order_[next_place_++]);
+  if (runs_.empty()) return std::nullopt;
+  std::pop_heap(runs_.begin(), runs_.end(), later);
+  current_ = std::move(runs_.back());
+  runs_.pop_back();
   const LoadedChunk& chunk = *current_.chunk;
   const LoadedChunk::Entry& entry = chunk.messages[current_.next];
   if (entry.log_time < last_time_)
@@ -60,7 +55,8 @@ std::optional<ChunkMerger::Item> ChunkMerger::next() {
                  "a chunk has messages from before the time at which it should begin; they come "
                  "late");
   last_time_ = std::max(last_time_, entry.log_time);
-  const auto content = chunk.records.view().subspan(entry.content, entry.length);
+  const auto content =
+      std::span<const std::byte>(chunk.records).subspan(entry.content, entry.length);
   const auto head = parse_message_head(content);
   return Item{head.value(), content.subspan(message_head_bytes), current_.place->offset};
 }
@@ -75,35 +71,17 @@ void ChunkMerger::start(const MessagePlace& place) {
     release(std::move(chunk));
     return;
   }
-  held_ += chunk->footprint();
-  const std::size_t count = chunk->messages.size();
   const std::uint64_t time = chunk->messages.front().log_time;
-  push({&place, 0, count, time, std::move(chunk)});
-  hold_less();
-}
-
-bool ChunkMerger::reload(Run& run) {
-  run.chunk = load(*run.place);
-  if (run.chunk->messages.size() != run.count) {
-    faults_->add(run.place->offset,
-                 "a chunk is not what it was when it was read before; the rest "
-                 "of its messages are left out");
-    release(std::move(run.chunk));
-    return false;
-  }
-  held_ += run.chunk->footprint();
-  hold_less();
-  return true;
+  push({&place, 0, time, std::move(chunk)});
 }
 
 void ChunkMerger::advance() {
   if (current_.place == nullptr) return;
   Run run = std::exchange(current_, {});
-  if (++run.next < run.count) {
+  if (++run.next < run.chunk->messages.size()) {
     run.time = run.chunk->messages[run.next].log_time;
     push(std::move(run));
   } else {
-    held_ -= run.chunk->footprint();
     release(std::move(run.chunk));
   }
 }
@@ -111,21 +89,6 @@ void ChunkMerger::advance() {
 void ChunkMerger::push(Run run) {
   runs_.push_back(std::move(run));
   std::push_heap(runs_.begin(), runs_.end(), later);
-}
-
-void ChunkMerger::hold_less() {
-  while (held_ > most_held_) {
-    Run* last = nullptr;
-    std::size_t loaded = current_.chunk ? 1 : 0;
-    for (Run& run : runs_) {
-      if (!run.chunk) continue;
-      ++loaded;
-      if (last == nullptr || later(run, *last)) last = &run;
-    }
-    if (last == nullptr || loaded < 2) return;
-    held_ -= last->chunk->footprint();
-    last->chunk = nullptr;
-  }
 }
 
 std::unique_ptr<LoadedChunk> ChunkMerger::load(const MessagePlace& place) {

@@ -11,22 +11,17 @@
 namespace penumbra::io::mcap {
 
 /// Returns a file's messages by log time, then in the file's order. It holds the chunks that
-/// overlap in time. If these take too much memory, it drops the chunks needed last and loads them
-/// again when they are due.
+/// overlap in time.
 class ChunkMerger {
  public:
-  static constexpr std::size_t most_held_bytes = std::size_t{96} << 20;
-
   struct Item {
     MessageHead head;
     std::span<const std::byte> data;  ///< valid until the next call
     std::uint64_t place = 0;          ///< offset of the message's chunk
   };
 
-  /// All arguments must outlive this. `held_bytes`: the limit for chunks in memory; a single larger
-  /// chunk is still loaded.
-  ChunkMerger(const InputFile& file, FileLayout& layout, FaultLog& faults,
-              std::size_t held_bytes = most_held_bytes);
+  /// All arguments must outlive this.
+  ChunkMerger(const InputFile& file, FileLayout& layout, FaultLog& faults);
 
   [[nodiscard]] std::optional<Item> next();
 
@@ -36,31 +31,26 @@ class ChunkMerger {
  private:
   struct Run {  // a chunk whose messages are being returned
     const MessagePlace* place = nullptr;
-    std::size_t next = 0;  // index of the next message
-    std::size_t count = 0;
-    std::uint64_t time = 0;              // log time of the next message
-    std::unique_ptr<LoadedChunk> chunk;  // null: dropped, to be loaded again
+    std::size_t next = 0;    // index of the next message
+    std::uint64_t time = 0;  // log time of the next message
+    std::unique_ptr<LoadedChunk> chunk;
   };
 
   static bool later(const Run& a, const Run& b);
   void start(const MessagePlace& place);
-  [[nodiscard]] bool reload(Run& run);
   void advance();
   void push(Run run);
-  void hold_less();
   void release(std::unique_ptr<LoadedChunk> chunk);
   [[nodiscard]] std::unique_ptr<LoadedChunk> load(const MessagePlace& place);
 
   ChunkLoader loader_;
   FileLayout* layout_;
   FaultLog* faults_;
-  std::size_t most_held_;
   std::vector<const MessagePlace*> order_;  // by start time
   std::size_t next_place_ = 0;
   std::vector<Run> runs_;  // a heap with the earliest message first
   Run current_;            // the run of the last returned message; no place: none
   std::uint64_t last_time_ = 0;
-  std::size_t held_ = 0;
   std::vector<std::unique_ptr<LoadedChunk>> spare_;
 };
 

@@ -48,10 +48,10 @@ std::string undone(std::string_view codec, std::string_view reason) {
 // Zstandard needs its window in one piece, and a frame may claim a window of any size. So a whole
 // frame is decompressed at once, and the result itself is the window.
 std::string zstd_decompress(ZSTD_DCtx* context, std::span<const std::byte> from, std::uint64_t size,
-                            ByteBuffer& to) {
+                            std::vector<std::byte>& to) {
   for (std::uint64_t room = first_room(from.size(), size);; room = std::min(size, growth * room)) {
-    to.resize(0);
-    to.reserve(room);
+    to.clear();
+    to.resize(room);
     const std::size_t result =
         ZSTD_decompressDCtx(context, to.data(), room, from.data(), from.size());
     if (ZSTD_isError(result) == 0) {
@@ -65,28 +65,26 @@ std::string zstd_decompress(ZSTD_DCtx* context, std::span<const std::byte> from,
 }
 
 std::string lz4_decompress(LZ4F_dctx* context, std::span<const std::byte> from, std::uint64_t size,
-                           ByteBuffer& to) {
+                           std::vector<std::byte>& to) {
   LZ4F_resetDecompressionContext(context);
-  std::uint64_t room = first_room(from.size(), size);
-  to.resize(0);
-  to.reserve(room + lz4_block);
+  to.clear();
+  to.resize(first_room(from.size(), size) + lz4_block);
+  std::uint64_t done = 0;
   bool in_frame = true;
   while (in_frame || !from.empty()) {
-    if (to.size() > size) return of_other_size(size, "more");
-    if (to.size() >= room && room < size) {
-      room = std::min(size, growth * room);
-      to.reserve(room + lz4_block);
-    }
+    if (done > size) return of_other_size(size, "more");
+    if (to.size() < done + lz4_block) to.resize(std::min(size, growth * done) + lz4_block);
     std::size_t taken = from.size();
-    std::size_t given = to.capacity() - to.size();
+    std::size_t given = to.size() - done;
     const std::size_t result =
-        LZ4F_decompress(context, to.data() + to.size(), &given, from.data(), &taken, nullptr);
+        LZ4F_decompress(context, to.data() + done, &given, from.data(), &taken, nullptr);
     if (LZ4F_isError(result) != 0) return undone("lz4", LZ4F_getErrorName(result));
     if (taken == 0 && given == 0 && in_frame) return undone("lz4", "its frame has no end");
-    to.resize(to.size() + given);
+    done += given;
     from = from.subspan(taken);
     in_frame = result != 0;
   }
+  to.resize(done);
   if (to.size() == size) return {};
   return of_other_size(size, to.size() < size ? "fewer" : "more");
 }
@@ -120,7 +118,7 @@ Decompressor::Decompressor(Decompressor&&) noexcept = default;
 Decompressor& Decompressor::operator=(Decompressor&&) noexcept = default;
 
 std::string Decompressor::decompress(std::string_view compression, std::span<const std::byte> from,
-                                     std::uint64_t size, ByteBuffer& to) {
+                                     std::uint64_t size, std::vector<std::byte>& to) {
   if (size > most_decompressed(from.size()))
     return "claims to decompress from " + std::to_string(from.size()) + " to " +
            std::to_string(size) + " bytes";
@@ -158,17 +156,16 @@ Compressor::Compressor(Compression compression)
 
 Compressor::~Compressor() = default;
 
-void Compressor::compress(std::span<const std::byte> from, ByteBuffer& to) {
+void Compressor::compress(std::span<const std::byte> from, std::vector<std::byte>& to) {
   std::size_t result = 0;
   bool failed = true;
-  to.resize(0);
   if (compression_ == Compression::lz4) {
-    to.reserve(LZ4F_compressFrameBound(from.size(), nullptr));
-    result = LZ4F_compressFrame(to.data(), to.capacity(), from.data(), from.size(), nullptr);
+    to.resize(LZ4F_compressFrameBound(from.size(), nullptr));
+    result = LZ4F_compressFrame(to.data(), to.size(), from.data(), from.size(), nullptr);
     failed = LZ4F_isError(result) != 0;
   } else if (compression_ == Compression::zstd) {
-    to.reserve(ZSTD_compressBound(from.size()));
-    result = ZSTD_compressCCtx(contexts_->zstd.get(), to.data(), to.capacity(), from.data(),
+    to.resize(ZSTD_compressBound(from.size()));
+    result = ZSTD_compressCCtx(contexts_->zstd.get(), to.data(), to.size(), from.data(),
                                from.size(), zstd_level);
     failed = ZSTD_isError(result) != 0;
   }

@@ -7,8 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include <io/mcap/byte_buffer.hpp>
+#include <vector>
 
 namespace penumbra::io::mcap {
 
@@ -33,7 +32,7 @@ class Decompressor {
   /// with the actual output, whatever `size` claims. Returns what is wrong, or an empty text.
   [[nodiscard]] std::string decompress(std::string_view compression,
                                        std::span<const std::byte> from, std::uint64_t size,
-                                       ByteBuffer& to);
+                                       std::vector<std::byte>& to);
 
  private:
   struct Contexts;
@@ -49,7 +48,7 @@ class Compressor {
 
   /// Compresses bytes. The same input always gives the same output. Do not call it for
   /// Compression::none.
-  void compress(std::span<const std::byte> from, ByteBuffer& to);
+  void compress(std::span<const std::byte> from, std::vector<std::byte>& to);
 
  private:
   struct Contexts;

@@ -7,14 +7,14 @@
 
 namespace penumbra::io::mcap {
 
-/// The CRC-32 of zlib and Ethernet (polynomial 0xEDB88320, reflected), computed piece by piece.
+/// The CRC-32 of zlib, computed piece by piece.
 class Crc32 {
  public:
   void add(std::span<const std::byte> bytes);
-  [[nodiscard]] std::uint32_t value() const { return ~state_; }
+  [[nodiscard]] std::uint32_t value() const { return value_; }
 
  private:
-  std::uint32_t state_ = 0xffffffffU;
+  std::uint32_t value_ = 0;
 };
 
 [[nodiscard]] inline std::uint32_t crc32(std::span<const std::byte> bytes) {

@@ -5,7 +5,6 @@
 
 #include <io/mcap/byte_cursor.hpp>
 #include <io/mcap/data_walk.hpp>
-#include <io/mcap/passed_records.hpp>
 
 namespace penumbra::io::mcap {
 namespace {
@@ -28,10 +27,20 @@ bool of_data(Opcode opcode) {
   }
 }
 
+// Returns whether this is the start of a chunk's content. The fields of a chunk's head must agree
+// in so many ways that other bytes do not pass.
+bool is_chunk_content(std::span<const std::byte> content, std::uint64_t length) {
+  const auto chunk = parse_chunk_head(content);
+  return chunk && chunk->start_time <= chunk->end_time &&
+         (chunk->compression.empty() || chunk->compression == "lz4" ||
+          chunk->compression == "zstd") &&
+         chunk->records_size == length - chunk->records_offset;
+}
+
 }  // namespace
 
 void DataWalk::run(std::uint64_t begin, std::uint64_t end) {
-  for (std::uint64_t at = begin; at < end && !end_;) {
+  for (std::uint64_t at = begin; at < end && !has_end_;) {
     const auto bytes = window_->view(at, record_head_bytes);
     std::string fault;
     RecordHead head;
@@ -75,18 +84,33 @@ void DataWalk::take(const RecordHead& head, std::uint64_t offset) {
     default:
       break;
   }
-  if (const std::string fault = fault_of_passed(head, offset, *window_); !fault.empty())
+  if (const std::string fault = fault_of_skipped(head, offset); !fault.empty())
     return skip(head, offset, fault);
   if (head.opcode == Opcode::message_index) take_message_index(offset);
-  if (head.opcode == Opcode::footer) end_ = {offset, 0};
-  if (head.opcode == Opcode::data_end) {
-    ByteCursor cursor(window_->view(offset + record_head_bytes, sizeof(std::uint32_t)));
-    end_ = {offset, cursor.number<std::uint32_t>()};
+  has_end_ = head.opcode == Opcode::footer || head.opcode == Opcode::data_end;
+}
+
+// Returns what is wrong with a record that is not needed, or an empty text if it may be skipped.
+// Without this check, a flipped bit in a record's kind could hide a chunk.
+std::string DataWalk::fault_of_skipped(const RecordHead& head, std::uint64_t offset) {
+  const std::string kind = "a record of kind " + std::to_string(static_cast<int>(head.opcode));
+  const auto content = window_->view(
+      offset + record_head_bytes,
+      static_cast<std::size_t>(std::min<std::uint64_t>(head.length, most_chunk_head_bytes)));
+  if (is_chunk_content(content, head.length)) return kind + " has the content of a chunk";
+  switch (head.opcode) {
+    case Opcode::message_index:
+    case Opcode::attachment:
+    case Opcode::metadata:
+    case Opcode::data_end:
+    case Opcode::footer:
+      return {};
+    default:
+      return kind +
+             (head.opcode > Opcode::data_end ? " is not known" : " does not belong among the data");
   }
 }
 
-// Skips a record. Files of other programs may have many unknown records, so each kind is reported
-// once.
 void DataWalk::skip(const RecordHead& head, std::uint64_t offset, const std::string& fault) {
   if (head.opcode > Opcode::data_end && !reported_.insert(head.opcode).second) return;
   faults_->add(offset, fault + "; its " + std::to_string(head.length) + " bytes are skipped");
@@ -144,18 +168,13 @@ void DataWalk::take_message_index(std::uint64_t offset) {
   layout_->places.back().channels_known = true;
 }
 
-// Returns whether a chunk begins here. The fields of a chunk's head must agree in so many ways that
-// other bytes do not pass.
+// Returns whether a chunk begins here.
 bool DataWalk::is_chunk(std::span<const std::byte> bytes, std::uint64_t left) const {
   if (bytes.size() < record_head_bytes || left < record_head_bytes) return false;
   const RecordHead head = parse_head(bytes);
   if (head.opcode != Opcode::chunk || !fault_of(head, left - record_head_bytes).empty())
     return false;
-  const auto chunk = parse_chunk_head(bytes.subspan(record_head_bytes));
-  return chunk && chunk->start_time <= chunk->end_time &&
-         (chunk->compression.empty() || chunk->compression == "lz4" ||
-          chunk->compression == "zstd") &&
-         chunk->records_size == head.length - chunk->records_offset;
+  return is_chunk_content(bytes.subspan(record_head_bytes), head.length);
 }
 
 std::uint64_t DataWalk::find_chunk(std::uint64_t from, std::uint64_t end) {

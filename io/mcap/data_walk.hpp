@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -15,11 +14,6 @@ namespace penumbra::io::mcap {
 /// Walks through the records of a file's data section without reading the messages.
 class DataWalk {
  public:
-  struct End {
-    std::uint64_t offset = 0;
-    std::uint32_t crc = 0;  // of all bytes before the record; 0: none
-  };
-
   DataWalk(FileWindow& window, FileLayout& layout, FaultLog& faults)
       : window_(&window), layout_(&layout), faults_(&faults) {}
 
@@ -27,8 +21,8 @@ class DataWalk {
   /// After damage it continues at the next recognisable chunk.
   void run(std::uint64_t begin, std::uint64_t end);
 
-  /// Returns the end of the data section by the file, or nothing if it was not reached yet.
-  [[nodiscard]] const std::optional<End>& end() const { return end_; }
+  /// Returns whether the end of the data section was reached.
+  [[nodiscard]] bool has_end() const { return has_end_; }
   /// Returns whether damage was found.
   [[nodiscard]] bool damaged() const { return damaged_; }
 
@@ -42,11 +36,12 @@ class DataWalk {
   void take_message_index(std::uint64_t offset);
   [[nodiscard]] std::uint64_t find_chunk(std::uint64_t from, std::uint64_t end);
   [[nodiscard]] bool is_chunk(std::span<const std::byte> bytes, std::uint64_t left) const;
+  [[nodiscard]] std::string fault_of_skipped(const RecordHead& head, std::uint64_t offset);
 
   FileWindow* window_;
   FileLayout* layout_;
   FaultLog* faults_;
-  std::optional<End> end_;
+  bool has_end_ = false;
   bool damaged_ = false;
   std::set<Opcode> reported_;  // unknown record kinds that were reported
 };

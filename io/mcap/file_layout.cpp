@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include <io/mcap/crc32.hpp>
 #include <io/mcap/data_walk.hpp>
 #include <io/mcap/file_layout.hpp>
 #include <io/mcap/file_summary.hpp>
 
 namespace penumbra::io::mcap {
 namespace {
-
-constexpr std::size_t crc_step = std::size_t{1} << 20;
 
 // Reads the header and returns the offset after it.
 std::uint64_t read_header(FileWindow& window, HeaderRecord& header, FaultLog& faults) {
@@ -46,26 +43,6 @@ void walk_between(DataWalk& walk, FileSummary& summary, std::uint64_t begin, Fil
   walk.run(begin, summary.start);
 }
 
-// Checks the checksum of the data section, the only one that covers messages outside of chunks.
-void check_data_crc(FileWindow& window, const FileLayout& layout, const DataWalk::End& end,
-                    FaultLog& faults) {
-  const bool any_loose = std::any_of(layout.places.begin(), layout.places.end(),
-                                     [](const MessagePlace& place) { return place.loose; });
-  if (!any_loose || end.crc == 0) return;
-  Crc32 crc;
-  for (std::uint64_t at = 0; at < end.offset;) {
-    const auto bytes = window.view(
-        at, static_cast<std::size_t>(std::min<std::uint64_t>(crc_step, end.offset - at)));
-    if (bytes.empty()) break;
-    crc.add(bytes);
-    at += bytes.size();
-  }
-  if (crc.value() != end.crc)
-    faults.add(end.offset,
-               "the data has a wrong checksum; messages outside of "
-               "chunks may be damaged");
-}
-
 }  // namespace
 
 FileLayout read_layout(const InputFile& file, FaultLog& faults) {
@@ -86,11 +63,9 @@ FileLayout read_layout(const InputFile& file, FaultLog& faults) {
     walk.run(begin, file.size());
   }
 
-  if (walk.end())
-    check_data_crc(window, layout, *walk.end(), faults);
-  else if (!walk.damaged() && !has_summary)
+  if (!walk.has_end() && !walk.damaged() && !has_summary)
     faults.add(file.size(), "the data has no end (was the recorder killed?); all of it is read");
-  if (walk.end() && !footer)
+  if (walk.has_end() && !footer)
     faults.add(file.size(), "the file has no footer (was it cut?); it is read without its summary");
   return layout;
 }

@@ -20,13 +20,14 @@ std::span<const std::byte> FileWindow::view(std::uint64_t offset, std::size_t co
     const bool goes_on = offset >= start_ && offset <= end;
     const std::size_t block = goes_on ? long_block : short_block;
     const std::uint64_t wanted = std::min<std::uint64_t>(std::max(count, block), left);
-    bytes_.resize(0);
-    bytes_.reserve(static_cast<std::size_t>(wanted));
+    bytes_.clear();
+    bytes_.resize(static_cast<std::size_t>(wanted));
     start_ = offset;
     bytes_.resize(file_->read_at(offset, bytes_.data(), static_cast<std::size_t>(wanted)));
     count = std::min(count, bytes_.size());
   }
-  return bytes_.view().subspan(static_cast<std::size_t>(offset - start_), count);
+  return std::span<const std::byte>(bytes_).subspan(static_cast<std::size_t>(offset - start_),
+                                                    count);
 }
 
 }  // namespace penumbra::io::mcap

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <io/files/disk_file.hpp>
-#include <io/mcap/byte_buffer.hpp>
 
 namespace penumbra::io::mcap {
 
@@ -25,7 +25,7 @@ class FileWindow {
  private:
   const InputFile* file_;
   std::uint64_t start_ = 0;
-  ByteBuffer bytes_;
+  std::vector<std::byte> bytes_;
 };
 
 }  // namespace penumbra::io::mcap

@@ -17,8 +17,8 @@ namespace penumbra::io::mcap {
 /// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
 /// chunk and a truncation is a fault.
 ///
-/// Memory is bounded by about 200 MB or a few times the largest chunk. It follows the actual
-/// content of the file, not the sizes that it claims.
+/// Memory holds the chunks that overlap in time. It follows the actual content of the file, not the
+/// sizes that it claims.
 class Reader {
  public:
   /// Throws InputError that names the file if it cannot be read or does not begin like MCAP.

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
-#include <io/mcap/byte_buffer.hpp>
 #include <io/mcap/record_format.hpp>
 
 namespace penumbra::io::mcap {
@@ -16,16 +16,12 @@ namespace penumbra::io::mcap {
 /// Builds records one after another: call begin(), add the fields in order, call end().
 class RecordBuilder {
  public:
-  [[nodiscard]] std::span<const std::byte> view() const { return bytes_.view(); }
+  [[nodiscard]] std::span<const std::byte> view() const { return bytes_; }
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
-  void clear() { bytes_.resize(0); }
+  void clear() { bytes_.clear(); }
 
   void bytes(std::span<const std::byte> value) {
-    const std::size_t at = bytes_.size();
-    const std::size_t size = at + value.size();
-    if (size > bytes_.capacity()) bytes_.reserve(2 * size);
-    bytes_.resize(size);
-    if (!value.empty()) std::memcpy(bytes_.data() + at, value.data(), value.size());
+    bytes_.insert(bytes_.end(), value.begin(), value.end());
   }
 
   template <typename T>
@@ -59,7 +55,7 @@ class RecordBuilder {
   }
 
  private:
-  ByteBuffer bytes_;
+  std::vector<std::byte> bytes_;
   std::size_t record_ = 0;
 };
 

@@ -8,16 +8,106 @@
 #include <penumbra/base/version.hpp>
 
 #include <io/files/disk_file.hpp>
-#include <io/mcap/chunk_builder.hpp>
 #include <io/mcap/crc32.hpp>
+#include <io/mcap/record_builder.hpp>
 #include <io/mcap/writer.hpp>
 
 namespace penumbra::io::mcap {
-namespace {
 
 constexpr std::size_t most_chunk_size = max_record_bytes / 2;
 
-}  // namespace
+// A written chunk, for the index.
+struct WrittenChunk {
+  ChunkHead head;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;                              // of the chunk record
+  std::map<std::uint16_t, std::uint64_t> index_offsets;  // offset of each channel's message index
+  std::uint64_t index_length = 0;                        // of all message indexes
+};
+
+// Collects the records of a chunk and the positions of its messages.
+class ChunkBuilder {
+ public:
+  void add(const Schema& schema) { put_schema(records_, schema); }
+  void add(const Channel& channel) { put_channel(records_, channel); }
+  void add(const MessageHead& head, std::span<const std::byte> data);
+
+  [[nodiscard]] bool empty() const { return records_.size() == 0; }
+  [[nodiscard]] std::size_t size() const { return records_.size(); }
+  [[nodiscard]] std::span<const std::byte> records() const { return records_.view(); }
+  [[nodiscard]] std::uint64_t start_time() const { return start_time_; }  // 0 without messages
+  [[nodiscard]] std::uint64_t end_time() const { return end_time_; }
+
+  // Appends the message indexes, which will be at `offset` in the file, and stores their positions
+  // in `chunk`.
+  void put_message_indexes(RecordBuilder& to, std::uint64_t offset, WrittenChunk& chunk) const;
+
+  void clear();
+
+ private:
+  using Entry = std::pair<std::uint64_t, std::uint64_t>;  // log time, offset in the records
+
+  RecordBuilder records_;
+  std::map<std::uint16_t, std::vector<Entry>> entries_;
+  std::uint64_t start_time_ = 0;
+  std::uint64_t end_time_ = 0;
+};
+
+void ChunkBuilder::add(const MessageHead& head, std::span<const std::byte> data) {
+  start_time_ = entries_.empty() ? head.log_time : std::min(start_time_, head.log_time);
+  end_time_ = std::max(end_time_, head.log_time);
+  entries_[head.channel].emplace_back(head.log_time, records_.size());
+  records_.begin(Opcode::message);
+  records_.number(head.channel);
+  records_.number(head.sequence);
+  records_.number(head.log_time);
+  records_.number(head.publish_time);
+  records_.bytes(data);
+  records_.end();
+}
+
+void ChunkBuilder::put_message_indexes(RecordBuilder& to, std::uint64_t offset,
+                                       WrittenChunk& chunk) const {
+  const std::size_t start = to.size();
+  for (const auto& [channel, entries] : entries_) {
+    chunk.index_offsets.emplace(channel, offset + to.size() - start);
+    to.begin(Opcode::message_index);
+    to.number(channel);
+    const std::size_t list = to.begin_counted<std::uint32_t>();
+    for (const auto& [time, at] : entries) {
+      to.number(time);
+      to.number(at);
+    }
+    to.end_counted<std::uint32_t>(list);
+    to.end();
+  }
+  chunk.index_length = to.size() - start;
+}
+
+void ChunkBuilder::clear() {
+  records_.clear();
+  entries_.clear();
+  start_time_ = end_time_ = 0;
+}
+
+void put_chunk_index(RecordBuilder& to, const WrittenChunk& chunk) {
+  to.begin(Opcode::chunk_index);
+  to.number(chunk.head.start_time);
+  to.number(chunk.head.end_time);
+  to.number(chunk.offset);
+  to.number(chunk.length);
+  const std::size_t offsets = to.begin_counted<std::uint32_t>();
+  for (const auto& [channel, offset] : chunk.index_offsets) {
+    to.number(channel);
+    to.number(offset);
+  }
+  to.end_counted<std::uint32_t>(offsets);
+  to.number(chunk.index_length);
+  to.text(chunk.head.compression);
+  to.number(chunk.head.records_size);
+  to.number(chunk.head.uncompressed_size);
+  to.end();
+}
 
 struct Writer::State {
   // The position of a group of records of one kind in the summary.
@@ -50,7 +140,7 @@ struct Writer::State {
   Crc32 summary_crc;
   RecordBuilder records;  // records being built
   ChunkBuilder chunk;
-  ByteBuffer compressed;
+  std::vector<std::byte> compressed;
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;
   std::vector<WrittenChunk> chunks;
@@ -93,7 +183,7 @@ void Writer::State::finish_chunk() {
   if (options.compression != Compression::none) {
     compressor.compress(raw, compressed);
     if (compressed.size() < raw.size() && raw.size() <= most_decompressed(compressed.size())) {
-      stored = compressed.view();
+      stored = compressed;
       head.compression = to_string(options.compression);
       head.records_size = stored.size();
     }

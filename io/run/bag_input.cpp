@@ -110,14 +110,15 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& tell) {
       return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);
     });
 
+  const BagScene& scene = reader.scene();
   BagSourceOptions source{.topics = reader.topics(),
-                          .scene = reader.scene(),
-                          .camera = cameras.judged,
-                          .depth_camera = cameras.depth,
-                          .poses = {.source = reader.topics().poses,
-                                    .frame_prefix = options.bag.frame_prefix,
-                                    .camera_parent = mount.parent,
-                                    .camera_frame = mount.frame},
+                          .camera = {.info = *scene.camera_info,
+                                     .color_info = scene.color_info,
+                                     .depth_frame = *scene.depth_frame,
+                                     .cameras = cameras,
+                                     .mount = mount},
+                          .static_transforms = scene.static_transforms,
+                          .frame_prefix = options.bag.frame_prefix,
                           .compare_sources = !options.bag.first_publisher,
                           .time_offset = options.bag.time_offset,
                           .first = options.frames.first,

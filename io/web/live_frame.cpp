@@ -53,7 +53,7 @@ const CloudMaker& LiveScene::cloud() const {
   return *cloud_;
 }
 
-LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const LiveJob& job,
+LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
                      const DepthView& depth, const FrameReport& report, const PartSet& kept)
     : scene_(std::move(scene)),
       kept_(kept),

@@ -12,7 +12,7 @@
 
 #include <Eigen/Geometry>
 
-#include <io/live/live_job.hpp>
+#include <io/assembly/assembled_frame.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/scene.hpp>
 
@@ -21,10 +21,10 @@ namespace penumbra::io {
 /// A set of parts, by Part.
 using PartSet = std::bitset<part_count>;
 
-/// The robot and the camera of a LiveSetup, in the form that pages show. Thread-safe.
+/// The robot and the camera of a CameraSetup, in the form that pages show. Thread-safe.
 class LiveScene {
  public:
-  LiveScene(const LiveSetup& setup, std::uint64_t number)
+  LiveScene(const CameraSetup& setup, std::uint64_t number)
       : version(number), camera(setup.cameras.judged), posed_(setup.posed) {}
 
   [[nodiscard]] const Robot& robot() const { return posed_->robot; }
@@ -48,8 +48,8 @@ class LiveScene {
 class LiveFrame final : public PacketFrame {
  public:
   /// Copies the parts in `kept`.
-  LiveFrame(std::shared_ptr<const LiveScene> scene, const LiveJob& job, const DepthView& depth,
-            const FrameReport& report, const PartSet& kept);
+  LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
+            const DepthView& depth, const FrameReport& report, const PartSet& kept);
 
   [[nodiscard]] std::string report() const override { return report_; }
   [[nodiscard]] std::string poses() const override;

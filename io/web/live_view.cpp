@@ -129,7 +129,7 @@ class LiveView::Client final : public WebChannel {
 
 LiveView::LiveView(std::string input) : input_(std::move(input)) {}
 
-bool LiveView::show(const LiveJob& job, const DepthView& depth, const FrameReport& report,
+bool LiveView::show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
                     std::int64_t now) {
   PartSet kept;
   std::shared_ptr<const LiveScene> scene;

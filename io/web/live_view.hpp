@@ -31,7 +31,7 @@ class LiveView final : public WebHandler {
   /// Takes the newest frame, like FrameWatcher::take. Copies only the parts that clients want, and
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
-  bool show(const LiveJob& job, const DepthView& depth, const FrameReport& report,
+  bool show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
             std::int64_t now);
   /// Sets the diagnostics of `penumbra live` and the list of missing data.
   void set_diagnostics(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
@@ -60,7 +60,7 @@ class LiveView final : public WebHandler {
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
   std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two
-  std::weak_ptr<const LiveSetup> setup_;    // the setup of scene_
+  std::weak_ptr<const CameraSetup> setup_;  // the setup of scene_
   std::shared_ptr<const LiveScene> scene_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::string> missing_;

@@ -76,7 +76,7 @@ std::string SpoolFile::read(const SpoolPlace& place) const {
   }
   if (!place.is_packed) return bytes;
   mcap::Decompressor decompressor;
-  mcap::ByteBuffer content;
+  std::vector<std::byte> content;
   const std::string fault =
       decompressor.decompress("zstd", std::as_bytes(std::span(bytes)), place.size, content);
   if (!fault.empty()) throw std::runtime_error("the temporary file " + fault);

@@ -45,7 +45,7 @@ class SpoolFile {
   int descriptor_ = -1;
   std::uint64_t end_ = 0;
   mcap::Compressor compressor_{mcap::Compression::zstd};
-  mcap::ByteBuffer packed_;
+  std::vector<std::byte> packed_;
 };
 
 }  // namespace penumbra::io

@@ -74,6 +74,7 @@ const std::vector<Library>& libraries() {
                                         {"nlohmann/", "io", 2},
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
+                                        {"zlib.h", "io/mcap", 1},
                                         {"sqlite3.h", "io/bag", 1},
                                         {"boost/", "io/web", 2},
                                         {"dds/", "io/dds", 8},

@@ -86,7 +86,7 @@ TEST(LiveChaos, NoLabelImageIsOfAWrongPose) {
     script.play(bench);
     LiveTruth truth;
     EXPECT_GT(expect_true_labels(bench.results.published, truth), 100U);
-    const io::LiveCounts counts = bench.counts();
+    const io::ImageCounts counts = bench.counts();
     std::size_t all = counts.judged + counts.failed + counts.waiting;
     for (const std::size_t dropped : counts.dropped) all += dropped;
     EXPECT_EQ(all, counts.received);

@@ -22,7 +22,7 @@ class LiveDiagnosticsTest : public testing::Test {
     links_.resize(bench_.inbox.topics().size());
     for (io::LiveLink& link : links_) link = {.is_open = true, .publishers = 1};
   }
-  io::LiveLink& link(io::LiveRole role) {
+  io::LiveLink& link(io::TopicRole role) {
     for (std::size_t i = 0; i < links_.size(); ++i)
       if (bench_.inbox.topics()[i].role == role) return links_[i];
     ADD_FAILURE();
@@ -51,12 +51,12 @@ class LiveDiagnosticsTest : public testing::Test {
 };
 
 TEST_F(LiveDiagnosticsTest, SaysWhatIsMissing) {
-  link(io::LiveRole::depth).publishers = 0;
+  link(io::TopicRole::depth).publishers = 0;
   expect_says(camera(), Status::stale, "no publisher of /camera/depth/image_rect_raw");
   expect_says(robot(), Status::stale, "no robot_description yet");
-  link(io::LiveRole::depth) = {.is_open = true, .publishers = 0, .refused_because = "reliability"};
+  link(io::TopicRole::depth) = {.is_open = true, .publishers = 0, .refused_because = "reliability"};
   expect_says(camera(), Status::stale, "leave --reliable out");
-  link(io::LiveRole::depth) = {.is_open = true, .publishers = 1};
+  link(io::TopicRole::depth) = {.is_open = true, .publishers = 1};
   bench_.tell_depth(bench_.now);
   expect_says(camera(), Status::error, "no camera_info yet");
   bench_.tell_info(0);

@@ -78,7 +78,7 @@ TEST_F(LiveInboxTest, NothingIsPublishedBeforeRobotAndCameraAreKnown) {
   bench_.tell_robot();
   bench_.tell_depth(start + milliseconds);
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::not_ready), 2U);
+  EXPECT_EQ(bench_.counts().of(io::FrameDrop::not_ready), 2U);
   bench_.tell_info(0);
   bench_.tell_mount();
   EXPECT_EQ(judge(start + 2 * milliseconds), 1U);
@@ -167,7 +167,7 @@ TEST_F(LiveInboxTest, TheNewestImageWins) {
     bench_.tell_depth(start + i * 33 * milliseconds);
   }
   EXPECT_EQ(bench_.work(), 1U);
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::superseded), 3U);
+  EXPECT_EQ(bench_.counts().of(io::FrameDrop::superseded), 3U);
   EXPECT_EQ(bench_.results.last<io::ImageMessage>(io::Result::labels).header.stamp,
             start + 99 * milliseconds);
 }
@@ -180,10 +180,10 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   bench_.tell_depth(start + 33 * milliseconds);
   bench_.tell_info(start + 66 * milliseconds, 90.0);
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::changed), 1U);
+  EXPECT_EQ(bench_.counts().of(io::FrameDrop::changed), 1U);
   bench_.tell_depth(start + 50 * milliseconds);
   EXPECT_EQ(bench_.work(), 0U) << "it is from before the change";
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::changed), 2U);
+  EXPECT_EQ(bench_.counts().of(io::FrameDrop::changed), 2U);
   bench_.results.published.clear();
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
   LiveTruth other({.focal = 90.0});
@@ -253,7 +253,7 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
   bench_.now += 200 * milliseconds;
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::LiveDrop::no_camera_info), 30U);
+  EXPECT_EQ(bench_.counts().of(io::FrameDrop::no_camera_info), 30U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 30U);
   EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
@@ -279,9 +279,9 @@ TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   }
   bench_.now += 200 * milliseconds;
   judged += bench_.work();
-  const io::LiveCounts counts = bench_.counts();
-  EXPECT_EQ(counts.of(io::LiveDrop::no_camera_info), 0U);
-  EXPECT_EQ(judged + counts.of(io::LiveDrop::superseded), 60U);
+  const io::ImageCounts counts = bench_.counts();
+  EXPECT_EQ(counts.of(io::FrameDrop::no_camera_info), 0U);
+  EXPECT_EQ(judged + counts.of(io::FrameDrop::superseded), 60U);
   EXPECT_GT(judged, 50U);
   EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), judged);
 }
@@ -345,7 +345,7 @@ TEST(LiveTargets, ComeWithTheNextImage) {
   options.target_topics = {"/wrist"};
   LiveBench bench(options);
   for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::LiveRole::targets)
+    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
       bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
   bench.tell_all();
   bench.tell_depth(start - seconds);  // the camera's frame is known by its first image

@@ -27,7 +27,7 @@ class LiveMemory : public testing::Test {
   }
   LiveMemory() {
     for (std::size_t i = 0; i < bench_.inbox.topics().size(); ++i) {
-      const io::LiveTopic& topic = bench_.inbox.topics()[i];
+      const io::InputTopic& topic = bench_.inbox.topics()[i];
       if (topic.name == "/wrist") bench_.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
       if (topic.name == "/objects") bench_.inbox.set_type(i, "penumbra_msgs/msg/Keypoints");
     }

@@ -44,12 +44,12 @@ class LiveRunnerTest : public testing::Test {
                                   .depth_topic = std::string("/") + name + "/depth",
                                   .info_topic = std::string("/") + name + "/camera_info"});
   }
-  static std::vector<io::LiveTopic> topics_of(io::LiveRunner& runner) {
+  static std::vector<io::InputTopic> topics_of(io::LiveRunner& runner) {
     return runner.with_inbox([](const io::LiveInbox& inbox) {
-      return std::vector<io::LiveTopic>(inbox.topics().begin(), inbox.topics().end());
+      return std::vector<io::InputTopic>(inbox.topics().begin(), inbox.topics().end());
     });
   }
-  static void tell(io::LiveRunner& runner, const std::vector<io::LiveTopic>& topics,
+  static void tell(io::LiveRunner& runner, const std::vector<io::InputTopic>& topics,
                    const std::string& name, std::vector<std::byte> payload) {
     const auto owned = std::make_shared<const std::vector<std::byte>>(std::move(payload));
     for (std::size_t i = 0; i < topics.size(); ++i)
@@ -82,7 +82,7 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
     return runner.with_inbox([](const io::LiveInbox& inbox) {
       bool done = true;
       for (std::size_t i = 0; i < inbox.camera_count(); ++i) {
-        const io::LiveCounts counts = inbox.camera(i).counts();
+        const io::ImageCounts counts = inbox.camera(i).counts();
         done &= counts.waiting == 0 && counts.in_work == 0;
       }
       return done;
@@ -145,7 +145,7 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   const std::vector<io::LiveLink> links(topics.size());
   runner.with_inbox([&](const io::LiveInbox& inbox) {
     EXPECT_TRUE(inbox.robot().is_being_made());
-    EXPECT_EQ(inbox.camera(0).counts().of(io::LiveDrop::not_ready), 10U);
+    EXPECT_EQ(inbox.camera(0).counts().of(io::FrameDrop::not_ready), 10U);
     const auto fault = io::robot_fault(inbox, links, io::LiveRunner::steady_now());
     EXPECT_NE(fault.why.find("is being made"), std::string::npos) << fault.why;
     return true;

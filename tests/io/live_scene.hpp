@@ -211,12 +211,12 @@ class LiveBench {
     return judged;
   }
 
-  [[nodiscard]] io::LiveCounts counts() const { return inbox.camera(0).counts(); }
+  [[nodiscard]] io::ImageCounts counts() const { return inbox.camera(0).counts(); }
 
   std::int64_t now = 1000 * seconds;
   io::LiveInbox inbox;
   io::LiveWorker worker{PipelineConfig{}};
-  io::LiveJob job;
+  io::AssembledFrame job;
   KeptResults results;
 };
 

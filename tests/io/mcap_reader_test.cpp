@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <io/mcap/chunk_merger.hpp>
-
 namespace penumbra::io::mcap {
 namespace {
 
@@ -122,15 +120,6 @@ TEST_F(McapReader, NamesEveryOtherFault) {
   }
 }
 
-TEST_F(McapReader, TrustsNoLooseMessageWhoseChecksumIsWrong) {
-  const std::string start = magic + header() + channel(0, 0, "/a") + message(0, 1);
-  EXPECT_TRUE(read(start + data_end(crc(start)) + footer()).faults.empty());
-  const McapContents wrong = read(start + data_end(crc(start) + 1) + footer());
-  ASSERT_EQ(wrong.faults.size(), 1U);
-  EXPECT_EQ(wrong.fault_offsets[0], start.size());
-  EXPECT_HAS(wrong.faults[0], "wrong checksum");
-}
-
 TEST_F(McapReader, GoesOnBehindDamageThatHidesALength) {
   const std::string first = chunk(1, 1, definitions_ + message(0, 1));
   const std::string second = chunk(2, 2, message(0, 2));
@@ -154,33 +143,6 @@ TEST_F(McapReader, RefusesWhatIsNoMcap) {
   EXPECT_HAS(refusal("\x89MCAP1\r\n"), "version 0 is read");
   EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path() / "none.mcap"); }), "none.mcap");
   EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path()); }), "regular file");
-}
-
-// However little may be held, the messages and their order stay.
-TEST_F(McapReader, HoldsNoMoreThanAsked) {
-  std::mt19937_64 random = test::seeded_random(52);
-  std::vector<RecordedMessage> messages;
-  for (std::uint32_t i = 0; i < 2000; ++i)
-    messages.push_back({"/t" + std::to_string(i % 5), "p/msg/A", i,
-                        static_cast<std::int64_t>(random() % 1000), 7,
-                        std::string(random() % 300, static_cast<char>(i))});
-  const auto path = folder_.path() / "a.mcap";
-  test::write_mcap(path, {.compression = Compression::lz4, .chunk_size = 10'000, .profile = ""},
-                   messages);
-  const auto expected = test::by_time(messages);
-  for (const std::size_t held : {std::size_t{1}, std::size_t{60'000}, std::size_t{1} << 30}) {
-    InputFile input;
-    input.open(path).require();
-    FaultLog faults;
-    FileLayout layout = read_layout(input, faults);
-    ASSERT_GT(layout.places.size(), 30U);
-    ChunkMerger merger(input, layout, faults, held);
-    std::size_t i = 0;
-    for (; const auto item = merger.next(); ++i)
-      ASSERT_EQ(item->head.sequence, expected[i].sequence) << i << " of those held " << held;
-    EXPECT_EQ(i, expected.size());
-    EXPECT_TRUE(faults.all().empty());
-  }
 }
 
 TEST_F(McapReader, SaysWhenMessagesAreMissing) {

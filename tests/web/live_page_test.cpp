@@ -51,7 +51,8 @@ class LivePage : public testing::Test, public io::FrameWatcher {
   }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::LiveJob& job, const DepthView& depth, const FrameReport& report) override {
+  void take(const io::AssembledFrame& job, const DepthView& depth,
+            const FrameReport& report) override {
     report_ = io::report_frame(report);
     parts_ = {{"labels", bytes_of(report.labels)},
               {"links", bytes_of(report.virtual_depth.links)},

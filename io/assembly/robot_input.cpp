@@ -5,8 +5,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/assembly/pose_messages.hpp>
+#include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
-#include <io/live/live_robot.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -45,13 +45,15 @@ MadeRobot make_robot(const RobotOrder& order) {
   }
 }
 
-LiveRobot::LiveRobot(LiveRobotOptions options) : options_(std::move(options)) {
+RobotInput::RobotInput(RobotInputOptions options) : options_(std::move(options)) {
+  for (const TransformMessage& t : options_.static_transforms)
+    static_transforms_.emplace(t.child_frame_id, t);
   if (options_.given)
     replace(
         std::make_shared<PosedRobot>(*options_.given, history_options(options_.compare_sources)));
 }
 
-void LiveRobot::replace(std::shared_ptr<PosedRobot> robot) {
+void RobotInput::replace(std::shared_ptr<PosedRobot> robot) {
   posed_ = std::move(robot);
   last_used_joints_.reset();
   unused_joints_.clear();
@@ -60,7 +62,7 @@ void LiveRobot::replace(std::shared_ptr<PosedRobot> robot) {
   ++robots_;
 }
 
-void LiveRobot::take(const StringMessage& description) {
+void RobotInput::take(const StringMessage& description) {
   if (options_.given) return;
   if (description_ == description.data) return retry();
   description_ = description.data;
@@ -69,23 +71,23 @@ void LiveRobot::take(const StringMessage& description) {
   order();
 }
 
-void LiveRobot::order() {
+void RobotInput::order() {
   order_ = std::make_unique<const RobotOrder>(
       RobotOrder{++orders_, *description_, options_.robot, options_.compare_sources});
 }
 
-void LiveRobot::retry() {
+void RobotInput::retry() {
   if (!fault_.empty() && !is_being_made()) order();
 }
 
-void LiveRobot::place(MadeRobot made) {
+void RobotInput::place(MadeRobot made) {
   if (made.number != orders_) return;
   placed_ = orders_;
   fault_ = std::move(made.fault);
   if (made.robot) replace(std::move(made.robot));
 }
 
-void LiveRobot::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
+void RobotInput::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
   last_joints_ = now;
   if (!posed_) return;
   if (add_to_history(message, source, posed_->history) > 0)
@@ -94,8 +96,8 @@ void LiveRobot::take(const JointStateMessage& message, std::string_view source, 
     unused_joints_ = why_unused(message, posed_->robot);
 }
 
-void LiveRobot::take(const TfMessage& message, bool is_static, std::string_view source,
-                     std::int64_t now) {
+void RobotInput::take(const TfMessage& message, bool is_static, std::string_view source,
+                      std::int64_t now) {
   last_transforms_ = now;
   for (const TransformMessage& t : message.transforms) {
     if (frames_.add(t.header.frame_id, t.child_frame_id)) ++frames_revision_;

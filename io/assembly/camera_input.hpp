@@ -9,20 +9,31 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 
+#include <io/assembly/assembled_frame.hpp>
+#include <io/assembly/camera_infos.hpp>
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/color_images.hpp>
-#include <io/assembly/info_pairs.hpp>
-#include <io/live/live_job.hpp>
-#include <io/live/live_robot.hpp>
+#include <io/assembly/robot_input.hpp>
 #include <io/ros/messages.hpp>
 
 namespace penumbra::io {
 
-struct LiveCameraOptions {
+/// A camera that was read before its images, as from a bag.
+struct KnownCamera {
+  CameraInfoMessage info;
+  std::optional<CameraInfoMessage> color_info;  ///< if depth is registered to the color camera
+  std::string depth_frame;                      ///< frame_id of the depth images
+  JudgedCameras cameras;
+  CameraMount mount;
+};
+
+struct CameraInputOptions {
   std::string name = {};         ///< empty if there is one camera only
   std::string depth_topic = {};  ///< the topic names are used in messages to the user
   std::string info_topic = {};
@@ -35,10 +46,14 @@ struct LiveCameraOptions {
   double time_offset = 0.0;    ///< see FrameQueueOptions
   double max_wait = 0.2;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
+  /// Given: every image becomes a frame, in order; one that is of another camera, or that has no
+  /// pose or cannot be read, says so (DropPolicy::every). Nothing: the setup follows what is
+  /// received, and the newest image is given (DropPolicy::newest).
+  std::optional<KnownCamera> known = {};
 };
 
 /// The reason why an image was not judged.
-enum class LiveDrop {
+enum class FrameDrop {
   superseded,  ///< this and the next five are those of DropReason
   late,
   overflow,
@@ -50,25 +65,25 @@ enum class LiveDrop {
   changed,        ///< robot, camera_info or mount changed while it waited, or it was taken before
   no_camera_info  ///< its own camera_info is missing, other images have one
 };
-inline constexpr std::size_t live_drops = 10;
-[[nodiscard]] std::string_view to_string(LiveDrop reason);
+inline constexpr std::size_t frame_drops = 10;
+[[nodiscard]] std::string_view to_string(FrameDrop reason);
 
 /// Counts depth images by result: received = judged + failed + dropped + waiting + in_work.
-struct LiveCounts {
+struct ImageCounts {
   std::size_t received = 0;
   std::size_t judged = 0;  ///< judged and published
   std::size_t failed = 0;  ///< no result could be computed
   std::size_t waiting = 0;
   std::size_t in_work = 0;
-  std::array<std::size_t, live_drops> dropped{};
+  std::array<std::size_t, frame_drops> dropped{};
 
-  [[nodiscard]] std::size_t of(LiveDrop reason) const {
+  [[nodiscard]] std::size_t of(FrameDrop reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }
 };
 
 /// Targets that were never judged.
-struct LiveTargets {
+struct UnjudgedTargets {
   std::size_t replaced = 0;  ///< replaced by newer targets of the same name
   /// Sums TargetInbox::discarded, the targets that waited when the setup changed, and the targets
   /// of images that failed.
@@ -76,22 +91,19 @@ struct LiveTargets {
   std::size_t early = 0;  ///< messages received before robot and camera were known
 };
 
-/// Receives the messages of one camera and keeps depth images until they can be judged, newest
-/// first. Uses no threads and no clock, like FrameQueue.
-class LiveCamera {
+/// The messages of one camera: keeps depth images until their pose is known, then until their
+/// camera_info has come. Part of FrameAssembler; uses no threads and no clock.
+class CameraInput {
  public:
-  /// How long an image waits for its own camera_info if the driver sends one with each image, in
-  /// nanoseconds.
-  static constexpr std::int64_t companion_wait = 100'000'000;
-
   /// `robot` must outlive this. Throws InputError for options that FrameQueue refuses.
-  LiveCamera(LiveCameraOptions options, const LiveRobot& robot);
+  CameraInput(CameraInputOptions options, const RobotInput& robot);
 
   void take_depth(KeptImage image, std::int64_t now);
-  /// Counts an image that cannot be decoded.
-  void drop_unreadable();
-  void take_info(const CameraInfoMessage& info, std::int64_t now);
-  void take_color_info(const CameraInfoMessage& info);
+  /// Takes a depth message that cannot be decoded.
+  void take_unreadable(const std::string& fault, std::int64_t now);
+  /// Both return whether the camera is another one than the known one, and was not before.
+  bool take_info(const CameraInfoMessage& info);
+  bool take_color_info(const CameraInfoMessage& info);
   void take_color(KeptImage image) { colors_.add(std::move(image)); }
   template <typename M>
   void take_targets(const std::string& topic, const M& message) {
@@ -102,40 +114,41 @@ class LiveCamera {
   }
 
   /// Updates the setup. Call this when the robot may have changed.
-  void follow_robot() { refresh(); }
+  void refresh();
+  /// Gives out what waits: no further message will come.
+  void finish();
 
-  /// Sets `job` to the next image to judge. Returns false if no image is ready. `with_color`: adds
-  /// the colour image.
-  bool next(std::int64_t now, bool with_color, LiveJob& job);
-  /// Counts the outcome of a job. Call this once for each job.
-  void done(const LiveOutcome& outcome);
-  /// Returns when next() will have an image even if no message arrives.
+  /// See FrameAssembler.
+  bool next(std::int64_t now, bool with_color, AssembledFrame& frame);
+  void done(bool is_judged, std::size_t unjudged_targets);
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
 
-  [[nodiscard]] const LiveCameraOptions& options() const { return options_; }
-  [[nodiscard]] LiveCounts counts() const;
+  [[nodiscard]] const CameraInputOptions& options() const { return options_; }
+  [[nodiscard]] ImageCounts counts() const;
   /// Returns the current setup, or null if setup_fault() is set or robot or camera are not known.
-  [[nodiscard]] const LiveSetup* setup() const { return setup_.get(); }
+  [[nodiscard]] const CameraSetup* setup() const { return setup_.get(); }
   [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
   [[nodiscard]] bool has_info() const { return info_.has_value(); }
   [[nodiscard]] bool lacks_color_info() const {
     return !options_.color_info_topic.empty() && !color_info_;
   }
-  /// Returns the number of consecutive images that were dropped as LiveDrop::no_camera_info.
+  /// Returns the number of consecutive images that were dropped as FrameDrop::no_camera_info.
   [[nodiscard]] std::size_t without_info() const { return without_info_; }
   [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
   [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
-  /// Returns the stamp of the last image.
-  [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }
   /// Returns the period of the images in nanoseconds, or nothing if it is not known yet. It is the
   /// shortest of the last intervals, because a long one may be a pause.
   [[nodiscard]] std::optional<std::int64_t> depth_period() const;
-  [[nodiscard]] LiveTargets targets() const;
+  [[nodiscard]] UnjudgedTargets targets() const;
 
  private:
+  /// An image that waits for its pose, then, with its pose, for its camera_info.
   struct Waiting {
+    std::uint64_t index = 0;
     KeptImage image;
     std::int64_t arrived = 0;
+    std::string fault = {};  // why it must not be used
+    QueuedFrame pose = {};
   };
   /// The state of an image's own camera_info if the driver sends one with each image.
   enum class InfoState { known, awaited, missing };
@@ -147,17 +160,27 @@ class LiveCamera {
     bool operator==(const Basis&) const = default;
   };
 
-  void refresh();
-  [[nodiscard]] std::shared_ptr<LiveSetup> make_setup();
+  [[nodiscard]] bool gives_every() const { return options_.known.has_value(); }
+  void note_arrival(std::int64_t now);
+  [[nodiscard]] std::shared_ptr<CameraSetup> find_setup();
+  [[nodiscard]] std::shared_ptr<CameraSetup> make_setup(JudgedCameras cameras, CameraMount mount);
   [[nodiscard]] JudgedCameras find_cameras() const;
-  void drop_waiting(LiveDrop reason);
-  void drop(LiveDrop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; }
-  void admit(std::int64_t now);
+  void replace_setup(std::shared_ptr<CameraSetup> setup);
+  void drop(FrameDrop reason, std::size_t images = 1) {
+    counts_.dropped[static_cast<std::size_t>(reason)] += images;
+  }
+  void hold_without_pose(Waiting waiting, const std::string& why);
+  void collect(std::int64_t now);
+  [[nodiscard]] bool find_next(std::int64_t now, bool with_color, Waiting& found);
+  [[nodiscard]] bool find_newest(std::int64_t now, Waiting& found);
   [[nodiscard]] InfoState find_info(const Waiting& waiting, std::int64_t now);
+  [[nodiscard]] bool awaits_companions(const Waiting& waiting, std::int64_t now,
+                                       bool with_color) const;
+  [[nodiscard]] std::string fault_of(const Waiting& waiting) const;
 
-  LiveCameraOptions options_;
-  const LiveRobot& robot_;
-  std::shared_ptr<LiveSetup> setup_;
+  CameraInputOptions options_;
+  const RobotInput& robot_;
+  std::shared_ptr<CameraSetup> setup_;
   Basis basis_;  // of the setup, or of the last attempt to make one
   std::string setup_fault_;
   std::optional<CameraInfoMessage> info_, color_info_;
@@ -165,18 +188,18 @@ class LiveCamera {
   std::size_t camera_changes_ = 0;
   std::int64_t valid_from_ = 0;   // images with earlier stamps come from another camera
   std::int64_t newest_info_ = 0;  // stamp
-  InfoPairs pairs_;
+  CameraInfos infos_, color_infos_;
   std::size_t without_info_ = 0;
   std::string depth_frame_;
-  std::deque<Waiting> arrived_;              // images that wait for their camera_info
-  std::map<std::uint64_t, Waiting> queued_;  // those in the setup's queue, by key
-  std::uint64_t next_key_ = 0;
+  std::map<std::uint64_t, Waiting> queued_;  // those in the setup's queue, by index
+  std::vector<DroppedFrame> dropped_;        // by the queue, to be given out nevertheless
+  std::deque<Waiting> held_;                 // those whose pose is decided
+  bool finished_ = false;
   ColorImages colors_;
-  LiveCounts counts_;
+  ImageCounts counts_;
   std::optional<std::int64_t> last_depth_;
-  std::int64_t last_stamp_ = 0;
   std::deque<std::int64_t> intervals_;  // between the last depth images
-  LiveTargets targets_;                 // of previous setups
+  UnjudgedTargets targets_;             // of previous setups
 };
 
 }  // namespace penumbra::io

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/pose_history.hpp>
@@ -29,18 +30,20 @@ struct PosedRobot {
   PoseHistory history;
 };
 
-struct LiveRobotOptions {
+struct RobotInputOptions {
   RobotOptions robot;           ///< for robots that are received
   std::optional<Robot> given;   ///< used in place of received descriptions
   bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
+  /// Known before their messages, as from a bag; of one child frame the first one.
+  std::vector<TransformMessage> static_transforms = {};
 };
 
 /// A received robot that has to be made. Reading its meshes takes time.
 struct RobotOrder {
-  std::uint64_t number = 0;  ///< number of LiveRobot
+  std::uint64_t number = 0;  ///< number of RobotInput
   std::string description;
   RobotOptions options;
-  bool compare_sources = true;  ///< see LiveRobotOptions
+  bool compare_sources = true;  ///< see RobotInputOptions
 };
 
 /// The outcome of an order: a robot, or the reason why it could not be made.
@@ -54,9 +57,9 @@ struct MadeRobot {
 [[nodiscard]] MadeRobot make_robot(const RobotOrder& order);
 
 /// The robot of a graph, from robot_description, joint states and transforms.
-class LiveRobot {
+class RobotInput {
  public:
-  explicit LiveRobot(LiveRobotOptions options);
+  explicit RobotInput(RobotInputOptions options);
 
   /// Receives a description. A new text orders a new robot and forgets the old robot and its joint
   /// states, because they may be wrong now: there is no robot until the new one is made. The same
@@ -98,7 +101,7 @@ class LiveRobot {
   void replace(std::shared_ptr<PosedRobot> robot);
   void order();
 
-  LiveRobotOptions options_;
+  RobotInputOptions options_;
   std::shared_ptr<PosedRobot> posed_;
   std::optional<std::string> description_;  // the last received one
   std::unique_ptr<const RobotOrder> order_;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <penumbra/pipeline/frame_queue.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/time/transform_buffer.hpp>
+
+#include <io/assembly/camera_mount.hpp>
+#include <io/assembly/color_images.hpp>
+#include <io/assembly/judged_cameras.hpp>
+#include <io/assembly/robot_input.hpp>
+#include <io/ros/target_inbox.hpp>
+
+namespace penumbra::io {
+
+/// The robot, camera and mount that a camera's images are judged with, and the images that wait for
+/// their pose. Another robot, camera_info or mount gives another setup. Constant members may be
+/// read at any time; see FrameAssembler for the others.
+struct CameraSetup {
+  CameraSetup(std::shared_ptr<PosedRobot> of, JudgedCameras cameras_, CameraMount where,
+              const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
+      : posed(std::move(of)),
+        cameras(std::move(cameras_)),
+        mount(std::move(where)),
+        queue(posed->robot, posed->history, options, std::move(on_drop)),
+        targets(posed->robot, cameras.judged.frame_id, options.poses.frame_prefix) {}
+
+  const std::shared_ptr<PosedRobot> posed;
+  const JudgedCameras cameras;
+  const CameraMount mount;
+  FrameQueue queue;
+  TargetInbox targets;
+};
+
+/// A depth image with all that is needed to judge it. DepthInput makes the pipeline's frame of it.
+struct AssembledFrame {
+  std::shared_ptr<CameraSetup> setup;
+  std::uint64_t index = 0;  ///< the number of the camera's depth message, from 0
+  KeptImage image;
+  std::int64_t arrived = 0;         ///< on the caller's clock
+  QueuedFrame pose;                 ///< at the image's own stamp, or a status without a pose
+  std::string fault;                ///< why the image must not be used; empty: it may be
+  TransformAnswer T_judged_depth;   ///< if the setup has a separate depth camera
+  std::span<const Target> targets;  ///< valid until the setup's next frame
+  std::optional<KeptImage> color;   ///< if it was requested and received
+};
+
+}  // namespace penumbra::io

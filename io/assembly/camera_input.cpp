@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
+
+#include <io/assembly/camera_input.hpp>
+#include <io/files/printable.hpp>
+
+namespace penumbra::io {
+namespace {
+
+/// How long images wait for the camera_info and colour image with their stamp, in nanoseconds of
+/// the caller's clock. Drivers send them together, but some send one camera_info for all images.
+constexpr std::int64_t newest_companion_wait = 100'000'000;
+constexpr std::int64_t every_companion_wait = 200'000'000;
+constexpr std::size_t newest_most_colors = 8, every_most_colors = 64;
+constexpr std::size_t most_intervals = 4;
+
+std::string why_dropped(DropReason reason) {
+  switch (reason) {
+    case DropReason::no_stamp:
+      return "the depth image's stamp is 0: it is not known when it was taken";
+    case DropReason::clock_jump:
+      return "the clock jumped back while the depth image waited for its pose";
+    default:
+      return "too many depth images waited for their poses";
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(FrameDrop reason) {
+  switch (reason) {
+    case FrameDrop::unreadable:
+      return "unreadable";
+    case FrameDrop::not_ready:
+      return "not_ready";
+    case FrameDrop::changed:
+      return "changed";
+    case FrameDrop::no_camera_info:
+      return "no_camera_info";
+    default:
+      return to_string(static_cast<DropReason>(reason));
+  }
+}
+
+CameraInput::CameraInput(CameraInputOptions options, const RobotInput& robot)
+    : options_(std::move(options)),
+      robot_(robot),
+      colors_(options_.known ? every_most_colors : newest_most_colors) {
+  if (!options_.known) return;
+  const KnownCamera& known = *options_.known;
+  info_ = known.info;
+  color_info_ = known.color_info;
+  depth_frame_ = known.depth_frame;
+  setup_ = make_setup(known.cameras, known.mount);
+}
+
+void CameraInput::note_arrival(std::int64_t now) {
+  if (last_depth_) intervals_.push_back(now - *last_depth_);
+  if (intervals_.size() > most_intervals) intervals_.pop_front();
+  last_depth_ = now;
+}
+
+void CameraInput::take_depth(KeptImage image, std::int64_t now) {
+  const std::uint64_t index = counts_.received++;
+  note_arrival(now);
+  const std::int64_t stamp = image.header().stamp;
+  const std::string frame = image.header().frame_id;
+  infos_.add_image(stamp);
+  color_infos_.add_image(stamp);
+  Waiting waiting{.index = index, .image = std::move(image), .arrived = now};
+  if (gives_every()) {
+    if (frame_name(frame) != frame_name(depth_frame_))
+      waiting.fault = "the depth image is of the frame '" + printable(frame) +
+                      "', the first one of '" + printable(depth_frame_) + "'";
+  } else {
+    depth_frame_ = frame;
+    refresh();
+    if (!setup_) return drop(FrameDrop::not_ready);
+    if (stamp < valid_from_) return drop(FrameDrop::changed);
+  }
+  queued_.emplace(index, std::move(waiting));
+  setup_->queue.push(index, stamp, now);
+}
+
+void CameraInput::take_unreadable(const std::string& fault, std::int64_t now) {
+  const std::uint64_t index = counts_.received++;
+  if (!gives_every()) return drop(FrameDrop::unreadable);
+  hold_without_pose({.index = index, .image = {}, .arrived = now, .fault = fault},
+                    "the depth image's message cannot be read");
+}
+
+bool CameraInput::take_info(const CameraInfoMessage& info) {
+  const std::int64_t stamp = info.header.stamp;
+  const bool differs = info_ && !is_same_camera(*info_, info);
+  if (gives_every()) {
+    const bool begins = differs && !infos_.last_differs();
+    infos_.add_info(stamp, differs);
+    return begins;
+  }
+  infos_.add_info(stamp);
+  const bool jumped = is_clock_jump(stamp, newest_info_);
+  newest_info_ = jumped ? stamp : std::max(newest_info_, stamp);
+  if (jumped) valid_from_ = 0;
+  if (differs) {
+    ++camera_changes_;
+    valid_from_ = stamp;
+  }
+  if (differs || !info_) {
+    info_ = info;
+    ++cameras_revision_;
+  }
+  refresh();
+  return false;
+}
+
+bool CameraInput::take_color_info(const CameraInfoMessage& info) {
+  const bool differs = color_info_ && !is_same_camera(*color_info_, info);
+  if (gives_every()) {
+    const bool begins = differs && !color_infos_.last_differs();
+    color_infos_.add_info(info.header.stamp, differs);
+    return begins;
+  }
+  if (color_info_ && !differs) return false;
+  if (differs) {
+    ++camera_changes_;
+    valid_from_ = std::max(valid_from_, info.header.stamp);
+  }
+  color_info_ = info;
+  ++cameras_revision_;
+  refresh();
+  return false;
+}
+
+void CameraInput::refresh() {
+  if (gives_every()) return;
+  Basis basis{.robot = robot_.posed().get(),
+              .frames = robot_.frames_revision(),
+              .cameras = cameras_revision_,
+              .depth_frame = depth_frame_};
+  if (basis == basis_) return;
+  const bool only_frames_are_new = setup_ && basis.robot == basis_.robot &&
+                                   basis.cameras == basis_.cameras &&
+                                   basis.depth_frame == basis_.depth_frame;
+  basis_ = std::move(basis);
+  setup_fault_.clear();
+  std::shared_ptr<CameraSetup> made = find_setup();
+  if (only_frames_are_new && made && made->mount == setup_->mount) return;
+  replace_setup(std::move(made));
+}
+
+void CameraInput::replace_setup(std::shared_ptr<CameraSetup> setup) {
+  drop(FrameDrop::changed, queued_.size() + held_.size());
+  queued_.clear();
+  held_.clear();
+  if (setup_) {
+    targets_.replaced += setup_->targets.replaced();
+    targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
+  }
+  setup_ = std::move(setup);
+}
+
+std::shared_ptr<CameraSetup> CameraInput::find_setup() {
+  if (!robot_.posed() || !info_ || depth_frame_.empty() || lacks_color_info()) return nullptr;
+  const Robot& robot = robot_.posed()->robot;
+  try {
+    JudgedCameras cameras = find_cameras();
+    const std::string& frame = cameras.judged.frame_id;
+    CameraMount mount = find_mount(robot, options_.mount, robot_.frames(), frame)
+                            .value_or(mount_by_root(robot, options_.mount, frame));
+    return make_setup(std::move(cameras), std::move(mount));
+  } catch (const InputError& error) {
+    setup_fault_ = error.what();
+    return nullptr;
+  }
+}
+
+std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, CameraMount mount) {
+  const FrameQueueOptions queue{.policy = gives_every() ? DropPolicy::every : DropPolicy::newest,
+                                .time_offset = options_.time_offset,
+                                .max_wait = options_.max_wait,
+                                .max_frames = options_.max_frames,
+                                .poses = {.source = options_.poses,
+                                          .frame_prefix = options_.mount.frame_prefix,
+                                          .camera_parent = mount.parent,
+                                          .camera_frame = mount.frame}};
+  const auto on_drop = [this](const DroppedFrame& frame) {
+    if (gives_every()) return dropped_.push_back(frame);
+    queued_.erase(frame.key);
+    drop(static_cast<FrameDrop>(frame.reason));
+  };
+  return std::make_shared<CameraSetup>(robot_.posed(), std::move(cameras), std::move(mount), queue,
+                                       on_drop);
+}
+
+JudgedCameras CameraInput::find_cameras() const {
+  CameraEvidence evidence{.source = {},
+                          .depth = {*info_, options_.info_topic, options_.depth_topic},
+                          .color = {},
+                          .depth_frame = depth_frame_,
+                          .info_is_named = options_.info_is_named,
+                          .is_rectified = options_.is_rectified};
+  if (color_info_ && !options_.color_info_topic.empty())
+    evidence.color.emplace(
+        InfoOfImages{*color_info_, options_.color_info_topic, options_.color_topic});
+  return judged_cameras(evidence);
+}
+
+void CameraInput::finish() {
+  finished_ = true;
+  if (setup_) setup_->queue.finish();
+}
+
+void CameraInput::hold_without_pose(Waiting waiting, const std::string& why) {
+  waiting.pose.stamp = waiting.image.is_empty() ? 0 : waiting.image.header().stamp;
+  waiting.pose.pose.status = options_.poses == PoseSource::transforms
+                                 ? FrameStatus::missing_transform
+                                 : FrameStatus::missing_joints;
+  waiting.pose.pose.message = why;
+  held_.push_back(std::move(waiting));
+}
+
+void CameraInput::collect(std::int64_t now) {
+  const auto take_queued = [this](std::uint64_t index) {
+    return std::move(queued_.extract(index).mapped());
+  };
+  for (QueuedFrame pose; setup_ && setup_->queue.next(now, pose); pose = {}) {
+    held_.push_back(take_queued(pose.key));
+    held_.back().pose = std::move(pose);
+  }
+  for (const DroppedFrame& frame : std::exchange(dropped_, {}))
+    hold_without_pose(take_queued(frame.key), why_dropped(frame.reason));
+  if (gives_every()) return;
+  for (; held_.size() > options_.max_frames; held_.pop_front()) drop(FrameDrop::overflow);
+}
+
+CameraInput::InfoState CameraInput::find_info(const Waiting& waiting, std::int64_t now) {
+  const std::int64_t stamp = waiting.pose.stamp;
+  if (!infos_.are_likely() || infos_.covers(stamp)) return InfoState::known;
+  if (now - waiting.arrived < newest_companion_wait) return InfoState::awaited;
+  if (infos_.are_certain()) return InfoState::missing;
+  infos_.note_missing();
+  return InfoState::known;
+}
+
+bool CameraInput::find_newest(std::int64_t now, Waiting& found) {
+  for (std::size_t i = held_.size(); i-- > 0;) {
+    const InfoState state = find_info(held_[i], now);
+    if (state == InfoState::awaited) continue;
+    const auto place = held_.begin() + static_cast<std::ptrdiff_t>(i);
+    if (state == InfoState::missing) {
+      ++without_info_;
+      drop(FrameDrop::no_camera_info);
+      held_.erase(place);
+      continue;
+    }
+    without_info_ = 0;
+    drop(FrameDrop::superseded, i);
+    found = std::move(*place);
+    held_.erase(held_.begin(), place + 1);
+    return true;
+  }
+  return false;
+}
+
+bool CameraInput::awaits_companions(const Waiting& waiting, std::int64_t now,
+                                    bool with_color) const {
+  if (finished_ || waiting.image.is_empty() || held_.size() >= options_.max_frames ||
+      now - waiting.arrived > every_companion_wait)
+    return false;
+  const std::int64_t stamp = waiting.pose.stamp;
+  const bool has_info = infos_.are_certain() ? infos_.covers(stamp) : infos_.reaches(stamp);
+  const bool has_color_info = options_.color_info_topic.empty() || color_infos_.reaches(stamp);
+  const bool has_color = !with_color || options_.color_topic.empty() || colors_.reaches(stamp);
+  return !has_info || !has_color_info || !has_color;
+}
+
+std::string CameraInput::fault_of(const Waiting& waiting) const {
+  if (!gives_every() || !waiting.fault.empty()) return waiting.fault;
+  const std::int64_t stamp = waiting.pose.stamp;
+  if (infos_.are_certain() && stamp > 0 && !infos_.covers(stamp))
+    return "its camera_info is missing, although other images have one: it may be another camera's";
+  if (infos_.differs(stamp) || color_infos_.differs(stamp))
+    return "camera_info is of another camera than the first one";
+  return {};
+}
+
+bool CameraInput::find_next(std::int64_t now, bool with_color, Waiting& found) {
+  collect(now);
+  if (!gives_every()) return find_newest(now, found);
+  if (held_.empty() || awaits_companions(held_.front(), now, with_color)) return false;
+  found = std::move(held_.front());
+  held_.pop_front();
+  return true;
+}
+
+bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& frame) {
+  Waiting found;
+  if (!find_next(now, with_color, found)) return false;
+  frame.fault = fault_of(found);
+  frame.setup = setup_;
+  frame.index = found.index;
+  frame.image = std::move(found.image);
+  frame.arrived = found.arrived;
+  frame.pose = std::move(found.pose);
+  frame.targets = setup_->targets.take();
+  if (setup_->cameras.depth && has_pose(frame.pose.pose.status))
+    setup_->posed->history.transforms().at(frame.pose.pose_stamp, setup_->cameras.judged.frame_id,
+                                           depth_frame_, frame.T_judged_depth);
+  const KeptImage* const color = with_color ? colors_.find(frame.pose.stamp) : nullptr;
+  frame.color.reset();
+  if (color != nullptr) frame.color = *color;
+  colors_.forget_before(frame.pose.stamp);
+  ++counts_.in_work;
+  return true;
+}
+
+void CameraInput::done(bool is_judged, std::size_t unjudged_targets) {
+  --counts_.in_work;
+  ++(is_judged ? counts_.judged : counts_.failed);
+  targets_.discarded += unjudged_targets;
+}
+
+std::optional<std::int64_t> CameraInput::wake_at() const {
+  std::optional<std::int64_t> first;
+  if (setup_) first = setup_->queue.wake_at();
+  if (!held_.empty()) {
+    const std::int64_t alone = held_.front().arrived + newest_companion_wait;
+    first = std::min(first.value_or(alone), alone);
+  }
+  return first;
+}
+
+std::optional<std::int64_t> CameraInput::depth_period() const {
+  if (intervals_.empty()) return std::nullopt;
+  return *std::min_element(intervals_.begin(), intervals_.end());
+}
+
+UnjudgedTargets CameraInput::targets() const {
+  UnjudgedTargets all = targets_;
+  if (setup_) {
+    all.replaced += setup_->targets.replaced();
+    all.discarded += setup_->targets.discarded();
+  }
+  return all;
+}
+
+ImageCounts CameraInput::counts() const {
+  ImageCounts counts = counts_;
+  counts.waiting = queued_.size() + held_.size();
+  return counts;
+}
+
+}  // namespace penumbra::io

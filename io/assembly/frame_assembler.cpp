@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <type_traits>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/frame_assembler.hpp>
+#include <io/files/printable.hpp>
+
+namespace penumbra::io {
+namespace {
+
+/// Whether the targets of a message are regions of the image.
+template <typename M>
+constexpr bool is_of_pixels =
+    std::is_same_v<M, Detection2DArrayMessage> || std::is_same_v<M, KeypointsMessage>;
+
+}  // namespace
+
+std::span<const std::string> FrameAssembler::target_types() {
+  static const std::array types = {
+      message_type<Detection2DArrayMessage>(), message_type<Detection3DArrayMessage>(),
+      message_type<KeypointsMessage>(), message_type<PoseStampedMessage>()};
+  return types;
+}
+
+FrameAssembler::FrameAssembler(RobotInputOptions robot,
+                               const std::vector<CameraInputOptions>& cameras)
+    : robot_(std::move(robot)) {
+  for (const CameraInputOptions& camera : cameras)
+    cameras_.push_back(std::make_unique<CameraInput>(camera, robot_));
+}
+
+std::size_t FrameAssembler::add_topic(InputTopic topic) {
+  topics_.push_back(std::move(topic));
+  received_.push_back(0);
+  handlers_.push_back(handler_of(topics_.size() - 1));
+  return topics_.size() - 1;
+}
+
+void FrameAssembler::set_type(std::size_t topic, const std::string& type) {
+  topics_[topic].type = type;
+  handlers_[topic] = handler_of(topic);
+}
+
+void FrameAssembler::receive(std::size_t topic, const SerializedMessage& message,
+                             std::int64_t now) {
+  ++received_[topic];
+  if (!handlers_[topic]) return;
+  const auto fault = handlers_[topic](message, now);
+  if (!fault) return;
+  add_fault(topics_[topic].name, now, *fault);
+  if (topics_[topic].role == TopicRole::depth)
+    cameras_[topics_[topic].camera]->take_unreadable(*fault, now);
+}
+
+void FrameAssembler::place(MadeRobot made) {
+  robot_.place(std::move(made));
+  follow_robot();
+}
+
+void FrameAssembler::follow_robot() {
+  for (const auto& camera : cameras_) camera->refresh();
+}
+
+void FrameAssembler::finish() {
+  for (const auto& camera : cameras_) camera->finish();
+}
+
+template <typename M, typename F>
+MessageHandler FrameAssembler::handler(std::size_t topic, F take) const {
+  try {
+    return make_handler<M>(topics_[topic].definition, std::move(take));
+  } catch (const InputError& error) {
+    throw InputError(printable(topics_[topic].name) + ": " + error.what());
+  }
+}
+
+MessageHandler FrameAssembler::handler_of(std::size_t topic) {
+  const InputTopic& from = topics_[topic];
+  switch (from.role) {
+    case TopicRole::description:
+      return handler<StringMessage>(topic, [this](const auto& text, const auto&, auto) {
+        robot_.take(text);
+        follow_robot();
+      });
+    case TopicRole::joints:
+      return handler<JointStateMessage>(topic, [this, topic](const auto& state, const auto& message,
+                                                             std::int64_t now) {
+        robot_.take(state, sources_.of_joints(topics_[topic].name, message.publisher, state), now);
+      });
+    case TopicRole::transforms:
+    case TopicRole::static_transforms:
+      return handler<TfMessage>(
+          topic, [this, topic](const auto& found, const auto& message, std::int64_t now) {
+            robot_.take(found, topics_[topic].role == TopicRole::static_transforms,
+                        sources_.of_transforms(topics_[topic].name, message.publisher), now);
+            follow_robot();
+          });
+    case TopicRole::depth:
+    case TopicRole::color:
+      return from.type == message_type<ImageMessage>()
+                 ? handler_of_images<ImageMessage>(topic)
+                 : handler_of_images<CompressedImageMessage>(topic);
+    case TopicRole::camera_info:
+    case TopicRole::color_info:
+      return handler<CameraInfoMessage>(
+          topic, [this, topic](const auto& info, const auto&, std::int64_t now) {
+            take_info(topic, info, now);
+          });
+    case TopicRole::targets:
+      return handler_of_targets(topic);
+  }
+  return {};
+}
+
+template <typename M>
+MessageHandler FrameAssembler::handler_of_images(std::size_t topic) {
+  return handler<M>(topic, [this, topic](const M& image, const auto& message, std::int64_t now) {
+    CameraInput& camera = *cameras_[topics_[topic].camera];
+    KeptImage kept = keep_image(image, message.owner);
+    if (topics_[topic].role == TopicRole::depth)
+      camera.take_depth(std::move(kept), now);
+    else
+      camera.take_color(std::move(kept));
+  });
+}
+
+void FrameAssembler::take_info(std::size_t topic, const CameraInfoMessage& info, std::int64_t now) {
+  CameraInput& camera = *cameras_[topics_[topic].camera];
+  const bool differs = topics_[topic].role == TopicRole::camera_info ? camera.take_info(info)
+                                                                     : camera.take_color_info(info);
+  if (differs) add_fault(topics_[topic].name, now, "is of another camera than the first one");
+}
+
+MessageHandler FrameAssembler::handler_of_targets(std::size_t topic) {
+  const std::string& type = topics_[topic].type;
+  if (type.empty()) return {};
+  if (type == message_type<Detection2DArrayMessage>())
+    return handler_of_targets_as<Detection2DArrayMessage>(topic);
+  if (type == message_type<Detection3DArrayMessage>())
+    return handler_of_targets_as<Detection3DArrayMessage>(topic);
+  if (type == message_type<KeypointsMessage>())
+    return handler_of_targets_as<KeypointsMessage>(topic);
+  return handler_of_targets_as<PoseStampedMessage>(topic);
+}
+
+template <typename M>
+MessageHandler FrameAssembler::handler_of_targets_as(std::size_t topic) {
+  return handler<M>(topic, [this, topic](const M& found, const auto&, auto) {
+    // Pixel coordinates belong to the camera that the message names. If no camera has that frame,
+    // all cameras take the message and report the mismatch.
+    const auto is_named = [&](const std::unique_ptr<CameraInput>& camera) {
+      return is_of_pixels<M> && camera->setup() != nullptr &&
+             frame_name(camera->setup()->cameras.judged.frame_id) ==
+                 frame_name(found.header.frame_id);
+    };
+    const bool any_is_named = std::any_of(cameras_.begin(), cameras_.end(), is_named);
+    for (const auto& camera : cameras_)
+      if (!any_is_named || is_named(camera)) camera->take_targets(topics_[topic].name, found);
+  });
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace penumbra::io {
+
+/// The content of a topic.
+enum class TopicRole {
+  description,
+  joints,
+  transforms,
+  static_transforms,
+  depth,
+  camera_info,
+  color,
+  color_info,
+  targets
+};
+
+/// A topic whose messages FrameAssembler takes.
+struct InputTopic {
+  TopicRole role = TopicRole::depth;
+  std::size_t camera = 0;  ///< for topics of one camera
+  std::string name = {};
+  std::string type = {};        ///< empty if there are several, see FrameAssembler::set_type
+  bool latched = false;         ///< published once, and kept for late subscribers
+  std::string definition = {};  ///< see make_handler
+};
+
+}  // namespace penumbra::io
