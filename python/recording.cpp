@@ -6,7 +6,7 @@
 #include <python/recording.hpp>
 
 #include <io/files/recording.hpp>
-#include <io/files/recording_source.hpp>
+#include <io/files/frame_reader.hpp>
 #include <io/files/targets_file.hpp>
 
 namespace penumbra::python {

@@ -17,7 +17,7 @@
 namespace penumbra::research {
 namespace {
 
-constexpr double longest_run = 600;  // seconds
+constexpr double longest_run = 600.0;  // seconds
 
 constexpr const char* examples = R"(
 OUT gets metrics.json; scripts/experiment_tables.py makes tables of it. With --frames OUT also gets
@@ -37,29 +37,19 @@ void to_seeds(const std::string& text, ExperimentOptions& options) {
   options.end_seed = *end;
 }
 
-void to_duration(const std::string& text, ExperimentOptions& options) {
-  const auto seconds = io::parse_number<double>(text);
-  if (!seconds || !(*seconds > 0) || *seconds > longest_run)
-    app::refuse_option("--duration", text, "a number of seconds above 0, 600 at most");
-  options.duration = *seconds;
-}
-
 void add_options(CLI::App& cli, ExperimentOptions& options) {
   cli.footer(examples);
   cli.set_version_flag("--version", std::string("penumbra_research ") + PENUMBRA_VERSION);
   cli.add_option("NAME", options.experiment, "conveyor or handover")->required();
-  app::add_path(cli, "-o,--output", "folder for the results; made if it is not there", "OUT",
+  app::add_text(cli, "-o,--output", "folder for the results; made if it is not there", "OUT",
                 options.output)
       ->required();
   app::add_option(cli, "--seeds", "seeds from A up to but without B; default 0:30", "A:B",
                   [&](const std::string& text) { to_seeds(text, options); });
-  app::add_option(cli, "--threads", "seeds that run at the same time; default: one per core", "N",
-                  [&](const std::string& text) {
-                    options.threads =
-                        app::to_count("--threads", text, 1, RendererOptions::max_threads);
-                  });
-  app::add_option(cli, "--duration", "seconds of each run; default: the scene's own", "S",
-                  [&](const std::string& text) { to_duration(text, options); });
+  app::add_number(cli, "--threads", "seeds that run at the same time; default: one per core", "N",
+                  options.threads, 1, RendererOptions::max_threads);
+  app::add_number(cli, "--duration", "seconds of each run; default: the scene's own", "S",
+                  options.duration, 1e-3, longest_run);
   cli.add_flag("--frames", options.frames, "write the first seed's frames with boxes");
 }
 

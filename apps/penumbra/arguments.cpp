@@ -10,7 +10,6 @@
 #include <penumbra/base/version.hpp>
 
 #include <apps/penumbra/arguments.hpp>
-#include <apps/penumbra/graph_options.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 
@@ -20,51 +19,45 @@ namespace {
 constexpr int most_repeats = 1'000'000;
 
 void add_robot(CLI::App& app, RobotOptions& options) {
-  add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
-           [&](const std::string& text) { take_package(text, options.packages); });
-  add_option(app, "--geometry", "collision or visual; default collision", "NAME",
-             [&](const std::string& text) { options.geometry = to_geometry(text); });
+  add_packages(app, options.packages);
+  add_geometry(app, options.geometry, "collision");
   add_extra(app, options.extra);
   add_leniency(app, options.allow_missing_meshes, options.geometry_fallback);
 }
 
 void add_render(CLI::App& app, RenderArguments& render) {
   app.footer(render_examples);
-  add_path(app, "--robot", "the robot", "URDF", render.robot)->required();
+  add_text(app, "--robot", "the robot", "URDF", render.robot)->required();
   add_robot(app, render.options);
-  add_path(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
+  add_text(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
   app.add_flag("--rectified", render.rectified,
                "the images are free of distortion already: take the camera's p, not its k and d");
-  add_path(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",
+  add_text(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",
            render.pose)
       ->required();
   app.add_option("--parent", render.parent, "link that the pose is given in; default: the root")
       ->type_name("LINK");
   add_list(app, "--joint", "a joint's position, rad or m; may be given several times", "NAME=VALUE",
-           [&](const std::string& text) { render.joints.push_back(to_joint(text)); });
-  add_path(app, "-o,--output", "virtual depth image, float32 metres, 0 = no robot", "NPY",
+           [&](const std::string& text) {
+             const char* const wanted = "NAME=VALUE with a number (radians or metres)";
+             const auto [name, value] = to_pair("--joint", text, wanted);
+             const auto number = io::parse_number<double>(value);
+             if (!number) refuse_option("--joint", text, wanted);
+             render.joints.emplace_back(name, *number);
+           });
+  add_text(app, "-o,--output", "virtual depth image, float32 metres, 0 = no robot", "NPY",
            render.output)
       ->required();
-  add_option(app, "--links", "link image, 16-bit: link number + 1, 0 = none", "PNG",
-             [&](const std::string& text) {
-               if (text.empty()) refuse_option("--links", text, "a path");
-               render.links = text;
-             });
+  add_text(app, "--links", "link image, 16-bit: link number + 1, 0 = none", "PNG", render.links);
   add_renderer(app, render.backend, render.renderer);
-  add_option(app, "--repeat", "render N times and print the times", "N",
-             [&](const std::string& text) {
-               render.repeat = to_count("--repeat", text, 1, most_repeats);
-             });
+  add_number(app, "--repeat", "render N times and print the times", "N", render.repeat, 1,
+             most_repeats);
   app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
-}
-
-void check_render(const CLI::App&, const RenderArguments& render) {
-  check_renderer(render.backend, render.renderer);
 }
 
 void add_inspect(CLI::App& app, InspectArguments& inspect) {
   app.footer(inspect_examples);
-  add_path(app, "URDF", "the robot", "", inspect.robot)->required();
+  add_text(app, "URDF", "the robot", "", inspect.robot)->required();
   add_robot(app, inspect.options);
   app.add_flag("--json", inspect.json, "print JSON instead of tables");
 }
@@ -74,11 +67,36 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
   app.add_flag("--json", doctor.json, "print JSON instead of text");
 }
 
-/// Names the help that lists the options: the command's own, if one is given.
+void add_simulate(CLI::App& app, SimulateArguments& simulate) {
+  app.footer(simulate_examples);
+  sim::SimulationOptions& options = simulate.options;
+  app.add_option("SCENE", simulate.scene, "conveyor, handover or random")->required();
+  add_text(app, "-o,--output", "folder for the recording, new or empty; or a new bag NAME.mcap",
+           "OUT", simulate.output)
+      ->required();
+  add_number(app, "--seed", "of the random numbers; default 0", "N", options.seed);
+  add_frames(app, simulate.frames);
+  add_number(app, "--duration", "length of the scene; default: its own", "S", options.duration,
+             1e-3, 1e6);
+  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
+  app.add_flag_callback(
+      "--no-noise", [&] { options.depth = {}; },
+      "true depth, rounded to millimetres; default: noise as a RealSense D415's");
+  add_number(app, "--joint-sigma", "noise of the reported joint positions; default 0", "RAD",
+             options.joint_sigma);
+  add_number(app, "--joint-latency", "how much older they are than their stamps; default 0", "S",
+             options.joint_latency);
+  add_number(app, "--belt-jitter", "variation of the belt's speed, relative; default 0", "SHARE",
+             options.belt_jitter);
+  app.add_flag("--second-camera", options.second_camera,
+               "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
+}
+
+/// Returns a hint at the help of the given command.
 std::string help_hint(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-  return " (penumbra " + command + "--help tells the options)";
+  return " (penumbra " + command + "--help lists the options)";
 }
 
 }  // namespace
@@ -112,7 +130,10 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add("run", "label every frame of a recording or bag", run, add_run, check_run);
   add("tune", "measure the sensor: tolerance, fringe, missing parts of the URDF", tune, add_tune,
       check_tune);
-  add("render", "render one virtual depth image", render, add_render, check_render);
+  add("render", "render one virtual depth image", render, add_render,
+      [](const CLI::App&, const RenderArguments& given) {
+        check_renderer(given.backend, given.renderer);
+      });
   add("inspect", "list which links of a URDF are drawn", inspect, add_inspect, any);
   add("doctor", "print what this machine offers", doctor, add_doctor, any);
   add("simulate", "record a simulated scene with its truth", simulate, add_simulate, any);

@@ -33,7 +33,7 @@ struct RenderArguments {
   bool rectified = false;  ///< the images are free of distortion: p of camera_info is the camera
   std::filesystem::path pose;
   std::string parent;
-  std::vector<std::pair<std::string, double>> joints;  ///< name and value, as they were given
+  std::vector<std::pair<std::string, double>> joints;  ///< name and value, in the given order
   std::filesystem::path output;
   std::optional<std::filesystem::path> links;
   Backend backend = Backend::cpu;
@@ -83,7 +83,7 @@ struct SimulateArguments {
   sim::SimulationOptions options;
 };
 
-/// Where the viewer's page is served.
+/// The address of the viewer's page.
 struct ServerArguments {
   std::optional<std::uint16_t> port;
   std::optional<std::string> address;
@@ -107,12 +107,12 @@ struct LiveArguments {
   std::optional<std::string> publish;  ///< names of results; nothing: all
   std::optional<double> duration;      ///< seconds
   std::optional<std::filesystem::path> summary;
-  ServerArguments server;  ///< without a port no page is served
+  ServerArguments server;  ///< no page is served without a port
 };
 
 struct ViewArguments {
   io::JudgingOptions judging;
-  std::string judging_option;  ///< the name of one that was given; empty: none was
+  std::string judging_option;  ///< name of an option that was given; empty: none
   ServerArguments server;
 };
 
@@ -120,8 +120,8 @@ using Command = std::variant<RunArguments, RenderArguments, InspectArguments, Do
                              SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
                              ViewArguments, TuneArguments>;
 
-/// Reads the command line. Prints what --help and --version ask for and then answers nothing.
-/// Throws InputError that names the argument.
+/// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
+/// InputError that names the argument.
 [[nodiscard]] std::optional<Command> parse_arguments(int argc, const char* const* argv);
 
 }  // namespace penumbra::app

@@ -1,40 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
+// Options of the commands that take part in ROS 2's graph.
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/graph_options.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/assembly/result_encoder.hpp>
 #include <io/dds/graph_names.hpp>
+#include <io/live/name_resolver.hpp>
 
 namespace penumbra::app {
 namespace {
 
 constexpr int last_domain = 232;
-constexpr double longest_wait = 3600.0;  // s
-constexpr double longest_bag = 1e8;      // s: three years
-constexpr double least_rate = 0.001, most_rate = 1000.0;
-
-double to_rate(const std::string& text) {
-  const auto rate = io::parse_number<double>(text);
-  if (!rate || *rate < least_rate || *rate > most_rate)
-    refuse_option("--rate", text, "a number from 0.001 to 1000: 2 is twice as fast");
-  return *rate;
-}
-
-}  // namespace
-
-double to_seconds(const std::string& option, const std::string& text, double most) {
-  const auto seconds = io::parse_number<double>(text);
-  if (!seconds || *seconds < 0.0 || *seconds > most)
-    refuse_option(option, text, "a number of seconds from 0 to " + fixed(most, 0));
-  return *seconds;
-}
+constexpr double longest_wait = 3600.0;   // s
+constexpr double longest_bag = 1e8;       // s: three years
+constexpr double longest_duration = 1e9;  // s
+constexpr int most_waiting = 1000;        // images
 
 void add_domain(CLI::App& app, io::ParticipantOptions& graph) {
-  add_option(
-      app, "--domain", "DDS's domain; default: ROS_DOMAIN_ID, else 0", "N",
-      [&](const std::string& text) { graph.domain = to_count("--domain", text, 0, last_domain); });
+  add_number(app, "--domain", "DDS's domain; default: ROS_DOMAIN_ID, else 0", "N", graph.domain, 0,
+             last_domain);
+}
+
+/// "overlay" of "overlay/compressed".
+std::string_view short_name(std::string_view topic) { return topic.substr(0, topic.find('/')); }
+
+void check_results(const std::string& list) {
+  for (const std::string& name : split(list, ',')) {
+    const bool known =
+        std::any_of(io::result_topics.begin(), io::result_topics.end(),
+                    [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; });
+    if (!known)
+      refuse_option("--publish", name,
+                    "of vdi, labels, mask, filtered_depth, points, targets, overlay");
+  }
+}
+
+/// Results come below the name.
+void check_camera_name(const std::string& name) {
+  try {
+    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
+  } catch (const InputError&) {
+    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
+  }
+}
+
+void add_graph(CLI::App& app, LiveArguments& live) {
+  add_domain(app, live.graph);
+  add_option(app, "--namespace", "put before names that do not begin with /", "NS",
+             [&](const std::string& text) { live.name_space = text; });
+  add_list(app, "--remap", "another name for a topic; may be given several times", "FROM:=TO",
+           [&](const std::string& text) { live.remaps.push_back(text); });
+  app.add_flag("--reliable", live.reliable,
+               "ask for QoS reliable of images, joint states and tf: nothing is lost, but "
+               "publishers with best effort are not received");
+  add_number(app, "--queue", "images that wait for their pose at a time; default 8", "N",
+             live.queue, 1, most_waiting);
+}
+
+void add_cameras(CLI::App& app, LiveArguments& live) {
+  add_list(app, "--camera",
+           "depth images of a camera, whose results come below /penumbra/NAME; may be given "
+           "several times. Default: the only one, found by type and name",
+           "NAME=TOPIC", [&](const std::string& text) {
+             const auto [name, topic] = to_pair("--camera", text, "NAME=TOPIC of depth images");
+             check_camera_name(name);
+             live.cameras.push_back({name, topic});
+           });
 }
 
 void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
@@ -51,27 +88,25 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
            });
 }
 
+}  // namespace
+
 void add_topics(CLI::App& app, TopicsArguments& topics) {
   app.footer(topics_examples);
   add_domain(app, topics.graph);
-  add_option(
-      app, "--wait", "how long to listen for others; default 2", "S",
-      [&](const std::string& text) { topics.wait = to_seconds("--wait", text, longest_wait); });
+  add_number(app, "--wait", "how long to listen for others; default 2", "S", topics.wait, 0.0,
+             longest_wait);
   app.add_flag("--json", topics.json, "print JSON instead of a table");
 }
 
 void add_play(CLI::App& app, PlayArguments& play) {
   app.footer(play_examples);
-  add_path(app, "BAG", "*.mcap, *.db3, or a folder with metadata.yaml", "", play.bag)->required();
+  add_text(app, "BAG", "*.mcap, *.db3, or a folder with metadata.yaml", "", play.bag)->required();
   add_domain(app, play.graph);
-  add_option(app, "--rate", "times as fast as recorded; default 1", "R",
-             [&](const std::string& text) { play.rate = to_rate(text); });
-  add_option(
-      app, "--start", "begin so many seconds after the first message; default 0", "S",
-      [&](const std::string& text) { play.start = to_seconds("--start", text, longest_bag); });
-  add_option(
-      app, "--delay", "wait before the first message, for others to find us; default 1", "S",
-      [&](const std::string& text) { play.delay = to_seconds("--delay", text, longest_wait); });
+  add_number(app, "--rate", "times as fast as recorded; default 1", "R", play.rate, 0.001, 1000.0);
+  add_number(app, "--start", "begin so many seconds after the first message; default 0", "S",
+             play.start, 0.0, longest_bag);
+  add_number(app, "--delay", "wait before the first message, for others to find us; default 1", "S",
+             play.delay, 0.0, longest_wait);
   app.add_flag("--loop", play.loop, "begin again at the end, until Ctrl-C");
   add_option(app, "--topics", "play only these, with commas between; default: all", "LIST",
              [&](const std::string& text) { play.topics = split(text, ','); });
@@ -84,6 +119,54 @@ void add_play(CLI::App& app, PlayArguments& play) {
   app.add_flag(
       "--restamp", play.restamp,
       "shift stamps to now: of headers at the beginning of messages, in TFMessage and detections");
+}
+
+void add_live(CLI::App& app, LiveArguments& live) {
+  app.footer(live_examples);
+  add_cameras(app, live);
+  add_option(app, "--publish",
+             "results to publish: of vdi,labels,mask,filtered_depth,points,targets,overlay; "
+             "default: all that somebody subscribes to",
+             "LIST", [&](const std::string& text) {
+               check_results(text);
+               live.publish = text;
+             });
+  add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
+             0.0, longest_duration);
+  add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);
+  add_server(app, live.server,
+             "serve the viewer's page of this camera there; of several cameras each next one's at "
+             "the next port; 0: any that is free; default: no page");
+  add_graph(app, live);
+  add_judging(app, live.judging, "collision");
+  add_bag(app, live.judging.input.bag,
+          {.group = "Of topics", .joints = "joint_states", .poses = "joints, never tf by itself"});
+}
+
+void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
+  check_renderer(live.judging.backend, live.judging.renderer);
+  if (live.server.address && !live.server.port)
+    throw InputError("--address: belongs to the page that --port serves; give --port, too");
+  const io::BagOptions& topics = live.judging.input.bag;
+  if (live.cameras.empty()) return;
+  if (topics.depth_topic)
+    throw InputError("--depth-topic: --camera is given too; leave one of them out");
+  for (std::size_t i = 0; i < live.cameras.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (live.cameras[i].name == live.cameras[j].name)
+        refuse_option("--camera", live.cameras[i].name, "another name for each camera");
+  if (live.cameras.size() == 1) return;
+  const auto refuse = [](const char* option) {
+    throw InputError(
+        std::string(option) +
+        ": belongs to one camera, and --camera names several; start one penumbra live for "
+        "each, or leave it out");
+  };
+  if (topics.camera_info_topic) refuse("--camera-info-topic");
+  if (topics.color_topic) refuse("--color-topic");
+  if (topics.camera_frame) refuse("--camera-frame");
+  if (topics.parent) refuse("--parent");
+  if (topics.pose) refuse("--pose");
 }
 
 }  // namespace penumbra::app

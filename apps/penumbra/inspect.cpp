@@ -85,7 +85,7 @@ void print_robot(const Robot& robot) {
 
 int execute(const InspectArguments& arguments) {
   RobotOptions options = arguments.options;
-  options.allow_missing_meshes = true;  // to show the other links, too; the fault is told below
+  options.allow_missing_meshes = true;  // shows the other links; the fault is thrown below
   const Robot robot = Robot::load(arguments.robot, options);
   if (arguments.json) {
     std::cout << io::robot_json(robot) << '\n';

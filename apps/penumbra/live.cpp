@@ -3,7 +3,6 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -25,6 +24,7 @@
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/dds/receive_buffers.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/printable.hpp>
 #include <io/live/diagnostic_changes.hpp>
@@ -35,6 +35,7 @@ namespace penumbra::app {
 namespace {
 
 using namespace std::chrono_literals;
+using namespace std::string_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto report_period = 1s;
@@ -247,39 +248,7 @@ class Live {
   std::exception_ptr fault_;
 };
 
-/// Takes its name once it is written: a run that fails before leaves an earlier one's as it was.
-class SummaryFile {
- public:
-  explicit SummaryFile(const std::filesystem::path& file)
-      : file_(file), former_({file}), pending_(file) {
-    io::check_is_no_folder("--summary", file);
-    stream_.open(pending_.part());
-    if (!stream_) refuse();
-  }
-
-  void write(const std::string& summary) {
-    stream_ << summary << '\n';
-    stream_.close();
-    if (!stream_) refuse();
-    pending_.finish();
-  }
-
-  void tell_unwritten() const {
-    tell_notes(std::vector{"no camera was found, and no summary is written" + former_.state()});
-  }
-
- private:
-  [[noreturn]] void refuse() const {
-    throw InputError("--summary " + file_.string() + ": cannot be written");
-  }
-
-  std::filesystem::path file_;
-  io::FormerFiles former_;
-  io::PendingFile pending_;
-  std::ofstream stream_;
-};
-
-void tell_topics(const io::LiveOptions& options, int domain) {
+void print_topics(const io::LiveOptions& options, int domain) {
   std::cout << "live on domain " << domain << ", until Ctrl-C\n";
   if (!options.robot.given) std::cout << "robot: " << options.description_topic << '\n';
   for (const std::string& name : options.joint_topics)
@@ -293,18 +262,15 @@ void tell_topics(const io::LiveOptions& options, int domain) {
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
-/// A summary that cannot be written does not hide what ended the run before its time.
-void write_summary(SummaryFile& file, Live& live, bool has_fault) {
-  try {
-    file.write(live.summary());
-  } catch (const InputError& error) {
-    if (!has_fault) throw;
-    tell_notes(std::vector<std::string>{error.what()});
-  }
+void write_summary(io::PendingFile& file, const std::string& summary) {
+  const std::string text = summary + "\n";
+  io::write_file(file.part(), text.data(), text.size());
+  file.finish();
 }
 
-/// `fault` gets what ended it before its time, when all is told that is known until then.
-int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
+}  // namespace
+
+int execute(const LiveArguments& arguments) {
   check_draws(arguments.judging);
   const io::NameResolver names = live_names(arguments);
   io::LiveOptions options = live_options(arguments, names);
@@ -312,13 +278,16 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
   options.cameras = named_cameras(arguments, names, common);
   io::BagOptions searched = searched_topics(arguments, names);
   check_remaps(names, options.cameras);
-  std::optional<SummaryFile> summary;
-  if (arguments.summary) summary.emplace(*arguments.summary);
+  std::optional<io::PendingFile> summary;
+  if (arguments.summary) {
+    io::check_is_no_folder("--summary", *arguments.summary);
+    summary.emplace(*arguments.summary);
+  }
   StopSignal stop;
   const auto graph = io::join_graph(arguments.graph);
   if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
       !advice.empty())
-    tell_notes(std::vector{advice});
+    print_notes(std::vector{advice});
   LivePages pages(arguments, graph->domain());
   pages.print();
   Diagnostics diagnostics(*graph, names, pages);
@@ -326,31 +295,20 @@ int label_live(const LiveArguments& arguments, std::exception_ptr& fault) {
     CameraSearch search(*graph, std::move(searched));
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
     if (!camera) {
-      if (summary) summary->tell_unwritten();
+      if (summary) print_notes(std::vector{"no camera was found, and no summary is written"s});
       return 0;
     }
     options.cameras.push_back(std::move(*camera));
   }
-  tell_topics(options, graph->domain());
+  print_topics(options, graph->domain());
   Live live(arguments, names, *graph, options, pages);
   const bool stopped = live.run(*graph, diagnostics, stop);
-  tell_notes(graph->take_complaints());
-  fault = live.fault();
-  if (summary) write_summary(*summary, live, fault != nullptr);
-  if (fault || stopped || live.judged() > 0) return 0;
+  print_notes(graph->take_complaints());
+  if (summary) write_summary(*summary, live.summary());
+  if (live.fault()) std::rethrow_exception(live.fault());
+  if (stopped || live.judged() > 0) return 0;
   std::cerr << "penumbra: no image was judged\n";
   return 2;
-}
-
-}  // namespace
-
-int execute(const LiveArguments& arguments) {
-  std::exception_ptr fault;
-  std::vector<std::filesystem::path> files;
-  if (arguments.summary) files.push_back(*arguments.summary);
-  const int status = io::run_or_say_state(files, [&] { return label_live(arguments, fault); });
-  if (fault) std::rethrow_exception(fault);
-  return status;
 }
 
 }  // namespace penumbra::app

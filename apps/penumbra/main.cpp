@@ -24,8 +24,7 @@ int fail(int status, std::string message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Mesa's own words beside ours would not be the one line that was promised; the user's choice of
-  // a level stays.
+  // Errors are one line: Mesa adds none of its own, unless the user chooses a level.
   setenv("EGL_LOG_LEVEL", "fatal", 0);
   try {
     const auto command = penumbra::app::parse_arguments(argc, argv);

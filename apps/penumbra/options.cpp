@@ -2,22 +2,26 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/options.hpp>
+#include <apps/penumbra/text.hpp>
 
 namespace penumbra::app {
 namespace {
 
 constexpr int most_gl_devices = 1000;
-constexpr int most_port = 65535;
-constexpr std::uint16_t default_port = 8470;
+constexpr std::uint16_t most_port = 65535, default_port = 8470;
 
 }  // namespace
 
-CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
-                      const std::string& value, std::filesystem::path& to) {
-  return add_option(app, names, help, value, [&to, names](const std::string& text) {
-    if (text.empty()) refuse_option(names, text, "a path");
-    to = text;
-  });
+void refuse_option(const std::string& option, const std::string& value, const std::string& wanted) {
+  throw InputError(option + ": '" + value + "' is not " + wanted);
+}
+
+std::pair<std::string, std::string> to_pair(const std::string& option, const std::string& text,
+                                            const std::string& wanted) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+    refuse_option(option, text, wanted);
+  return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 io::WebOptions web_options(const ServerArguments& server) {
@@ -27,29 +31,34 @@ io::WebOptions web_options(const ServerArguments& server) {
 }
 
 void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help) {
-  add_option(app, "--port", port_help, "N", [&](const std::string& text) {
-    server.port = static_cast<std::uint16_t>(to_count("--port", text, 0, most_port));
-  });
-  add_option(app, "--address",
-             "IP address to serve on; default 127.0.0.1, this machine alone; another wants the "
-             "token that is printed",
-             "IP", [&](const std::string& text) {
-               if (text.empty()) refuse_option("--address", text, "an IP address");
-               server.address = text;
-             });
+  add_number<std::uint16_t>(app, "--port", port_help, "N", server.port, 0, most_port);
+  add_text(app, "--address",
+           "IP address to serve on; default 127.0.0.1, this machine alone; another needs the token "
+           "that is printed",
+           "IP", server.address);
+}
+
+void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages) {
+  const auto take = [&packages](const std::string& text) {
+    const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+      refuse_option("--package", text, "NAME=DIR with a folder that exists");
+    if (!packages.emplace(name, folder).second)
+      refuse_option("--package", text, "the only one of " + name + "; give each name once");
+  };
+  add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
+           take);
 }
 
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer) {
-  add_option(app, "--renderer", "cpu (default), gl (OpenGL) or reference", "NAME",
-             [&](const std::string& text) { backend = to_backend(text); });
-  add_option(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
-             [&](const std::string& text) {
-               renderer.gl_device = to_count("--gl-device", text, 0, most_gl_devices);
-             });
-  add_option(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
-             [&](const std::string& text) {
-               renderer.threads = to_count("--threads", text, 1, RendererOptions::max_threads);
-             });
+  add_choice<Backend>(
+      app, "--renderer", "cpu (default), gl (OpenGL) or reference", backend,
+      {{"cpu", Backend::cpu}, {"gl", Backend::gl}, {"reference", Backend::reference}});
+  add_number(app, "--gl-device", "OpenGL device by its number in penumbra doctor", "N",
+             renderer.gl_device, 0, most_gl_devices);
+  add_number(app, "--threads", "threads of the cpu renderer; results do not depend on it", "N",
+             renderer.threads, 1, RendererOptions::max_threads);
 }
 
 void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra) {
@@ -66,7 +75,23 @@ void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fall
                "go on without meshes that cannot be read and links that have only the other "
                "geometry; every result names the missing links");
   app.add_flag("--geometry-fallback", geometry_fallback,
-               "draw links that have only the other geometry by that; inspect says which");
+               "draw links that have only the other geometry with that; inspect lists them");
+}
+
+void add_frames(CLI::App& app, io::FrameRange& frames) {
+  const auto take = [&frames](const std::string& text) {
+    const auto parts = split(text, ':');
+    const auto read = [&](const std::string& part) -> std::optional<std::int64_t> {
+      if (part.empty()) return std::nullopt;
+      const auto bound = io::parse_number<std::int64_t>(part);
+      return bound && *bound >= 0 ? bound : std::optional<std::int64_t>(-1);
+    };
+    if (parts.size() == 2) frames = {read(parts[0]), read(parts[1])};
+    if (parts.size() != 2 || frames.first == -1 || frames.end == -1)
+      refuse_option("--frames", text,
+                    "A:B, the frames from A up to but without B (either may be left out)");
+  };
+  add_option(app, "--frames", "the frames from A up to but without B", "A:B", take);
 }
 
 void check_renderer(Backend backend, const RendererOptions& options) {

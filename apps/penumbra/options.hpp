@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+// Options of the command line. A text that cannot be read is an InputError that names the option
+// and what is wanted.
 #pragma once
 
+#include <concepts>
 #include <filesystem>
+#include <limits>
+#include <map>
+#include <sstream>
 #include <string>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include <apps/penumbra/argument_values.hpp>
 #include <apps/penumbra/arguments.hpp>
 #include <io/files/numbers.hpp>
 
 namespace penumbra::app {
+
+[[noreturn]] void refuse_option(const std::string& option, const std::string& value,
+                                const std::string& wanted);
+
+/// Splits NAME=VALUE at the first '='.
+[[nodiscard]] std::pair<std::string, std::string> to_pair(const std::string& option,
+                                                          const std::string& text,
+                                                          const std::string& wanted);
 
 /// Adds an option that may be given once and whose text `take` reads.
 template <typename Take>
@@ -37,30 +50,75 @@ CLI::Option* add_list(CLI::App& app, const std::string& names, const std::string
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+/// Adds an option with a text that is not empty. T: a string, a path or an optional one.
 template <typename T>
-void add_number(CLI::App& app, const std::string& names, const std::string& help,
-                const std::string& unit, T& to) {
-  const std::string wanted = std::is_floating_point_v<T> ? "a number" : "a whole number from 0";
-  add_option(app, names, help, unit, [&to, names, wanted](const std::string& text) {
-    const auto value = io::parse_number<T>(text);
-    if (!value) refuse_option(names, text, wanted);
-    to = *value;
+CLI::Option* add_text(CLI::App& app, const std::string& names, const std::string& help,
+                      const std::string& value, T& to) {
+  return add_option(app, names, help, value, [&to, names, value](const std::string& text) {
+    if (text.empty()) refuse_option(names, text, value.empty() ? "a path" : "a " + value);
+    to = text;
   });
 }
 
-/// A path that is not empty.
-CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& help,
-                      const std::string& value, std::filesystem::path& to);
+/// Adds an option with a number within bounds. To: T or an optional T.
+template <typename T, typename To>
+CLI::Option* add_number(CLI::App& app, const std::string& names, const std::string& help,
+                        const std::string& unit, To& to, T least, T most) {
+  return add_option(app, names, help, unit, [&to, names, least, most](const std::string& text) {
+    const auto value = io::parse_number<T>(text);
+    if (value && *value >= least && *value <= most) {
+      to = *value;
+      return;
+    }
+    std::ostringstream wanted;
+    wanted << (std::floating_point<T> ? "a number" : "a whole number") << " from " << least
+           << " to " << most;
+    refuse_option(names, text, wanted.str());
+  });
+}
 
-/// Options that several commands have.
+/// Adds an option with any finite number that T holds.
+template <typename T>
+void add_number(CLI::App& app, const std::string& names, const std::string& help,
+                const std::string& unit, T& to) {
+  using Limits = std::numeric_limits<T>;
+  add_number(app, names, help, unit, to, Limits::lowest(), Limits::max());
+}
+
+/// Adds an option with one of several names. To: T or an optional T.
+template <typename T, typename To>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, const std::string& help, To& to,
+                        const std::vector<std::pair<std::string, T>>& choices) {
+  return add_option(app, names, help, "NAME", [&to, names, choices](const std::string& text) {
+    std::string known;
+    for (const auto& [name, choice] : choices) {
+      if (name == text) {
+        to = choice;
+        return;
+      }
+      known += (known.empty() ? "" : ", ") + name;
+    }
+    refuse_option(names, text, "one of " + known);
+  });
+}
+
+// Options that several commands have.
+void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages);
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer);
 void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
+void add_frames(CLI::App& app, io::FrameRange& frames);
 
-/// --port and --address. `port_help`: what --port means.
+template <typename To>
+void add_geometry(CLI::App& app, To& geometry, const std::string& default_name) {
+  add_choice<Geometry>(app, "--geometry", "collision or visual; default: " + default_name, geometry,
+                       {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
+}
+
+/// --port and --address. `port_help`: the meaning of --port.
 void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help);
 
-/// What the help of a bag's options says.
+/// Texts in the help of a bag's options.
 struct BagHelp {
   std::string group = "Of bags";
   std::string joints = "/joint_states, or the only one";  ///< default of --joint-topic
@@ -70,21 +128,24 @@ struct BagHelp {
 /// How frames are judged: renderer, geometry, tolerance, labels.
 void add_judging(CLI::App& app, io::JudgingOptions& judging,
                  const std::string& geometry_default = "the recording's, else collision");
-/// Which topics are used, and what they leave open.
+/// Which topics are used, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
 /// Refuses options that the chosen renderer does not use.
 void check_renderer(Backend backend, const RendererOptions& options);
 
-// The commands with options of many kinds.
+// The options of the commands.
 void add_run(CLI::App& app, RunArguments& run);
 void add_tune(CLI::App& app, TuneArguments& tune);
 void add_view(CLI::App& app, ViewArguments& view);
-void add_simulate(CLI::App& app, SimulateArguments& simulate);
+void add_topics(CLI::App& app, TopicsArguments& topics);
+void add_play(CLI::App& app, PlayArguments& play);
+void add_live(CLI::App& app, LiveArguments& live);
 
 // Each refuses options of its command that exclude each other, and derives the rest from them.
 void check_run(const CLI::App& app, RunArguments& run);
 void check_tune(const CLI::App& app, TuneArguments& tune);
 void check_view(const CLI::App& app, ViewArguments& view);
+void check_live(const CLI::App& app, const LiveArguments& live);
 
 }  // namespace penumbra::app

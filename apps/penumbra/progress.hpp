@@ -6,11 +6,11 @@
 
 namespace penumbra::app {
 
-/// A bar on stderr with frames done, rate and time left; nothing where stderr is no terminal.
+/// A bar on stderr with frames done, rate and time left, if stderr is a terminal.
 class Progress {
  public:
-  explicit Progress(std::size_t total);  ///< 0: not known
-  ~Progress();                           ///< takes the bar away
+  explicit Progress(std::size_t total);  ///< 0: unknown
+  ~Progress();                           ///< removes the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

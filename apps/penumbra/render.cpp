@@ -16,6 +16,7 @@
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_info.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/files/names.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/pending_file.hpp>
@@ -45,7 +46,7 @@ std::vector<double> positions_of(const Robot& robot, const RenderArguments& argu
   return positions;
 }
 
-/// Which joints stand at rest while others were given; a pose at rest altogether is meant so.
+/// Returns a note about joints at rest if others are given.
 std::vector<std::string> rest_notes(const Robot& robot, const RenderArguments& arguments) {
   const auto& joints = arguments.joints;
   std::string names;
@@ -65,7 +66,7 @@ Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Came
   return io::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
 }
 
-/// Throws where `file` is one that is read, or written otherwise.
+/// Throws if `file` is an input or another output.
 void check_own(const std::string& option, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::filesystem::path>>& others) {
   std::error_code error;
@@ -77,7 +78,7 @@ void check_own(const std::string& option, const std::filesystem::path& file,
   }
 }
 
-/// A picture's name must not stand for what is none.
+/// Refuses a name whose ending does not match the content.
 void check_ending(const std::string& option, const std::filesystem::path& file,
                   const std::string& ending, const std::string& content) {
   if (file.extension() == ending) return;
@@ -104,14 +105,7 @@ void append(std::vector<std::string>& notes, const std::vector<std::string>& mor
   notes.insert(notes.end(), more.begin(), more.end());
 }
 
-Image<float> copy(ImageView<const float> from) {
-  Image<float> image(from.width, from.height);
-  for (int v = 0; v < from.height; ++v)
-    std::copy(from.row(v), from.row(v) + from.width, image.view().row(v));
-  return image;
-}
-
-/// The images that are asked for; they take their names in finish().
+/// The wanted images. finish() gives them their names.
 class RenderedImages {
  public:
   RenderedImages(const RenderArguments& arguments, const FrameReport& report)
@@ -135,35 +129,61 @@ class RenderedImages {
   std::optional<io::PendingFile> links_;
 };
 
-void print_text(const RenderArguments& arguments, const io::RenderResult& result) {
-  std::cout << arguments.output.string() << ": " << result.robot_pixels << " robot pixels of "
-            << result.triangles << " triangles\n";
+void print_text(const std::filesystem::path& output, const Pipeline& pipeline,
+                const PixelCounts& pixels, const io::Statistics& repeats) {
+  std::cout << output.string() << ": " << pixels.robot.value_or(0) << " robot pixels of "
+            << pipeline.triangle_count() << " triangles\n";
   for (std::size_t i = 0; i < io::stages.size(); ++i)
-    if (const auto q = result.statistics.timing(i))
+    if (const auto q = repeats.timing(i))
       std::cout << io::stages[i].name << ": min " << fixed(q->min, 3) << " ms, median "
                 << fixed(q->median, 3) << " ms, p99 " << fixed(q->p99, 3) << " ms\n";
 }
 
-int render(const RenderArguments& arguments) {
+void print_json(const Pipeline& pipeline, const PixelCounts& pixels,
+                const std::vector<double>& positions, const std::vector<std::string>& notes,
+                const io::Statistics& repeats) {
+  io::Json json = {{"triangles", pipeline.triangle_count()},
+                   {"robot_pixels", pixels.robot.value_or(0)},
+                   {"uncovered", pixels.uncovered}};
+  for (std::size_t i = 0; i < io::stages.size(); ++i) {
+    if (io::stages[i].name == "targets") continue;
+    const auto q = repeats.timing(i);
+    json[std::string(io::stages[i].name) + "_ms"] =
+        q ? io::Json{{"min", q->min}, {"median", q->median}, {"p99", q->p99}} : io::Json();
+  }
+  json["renderer"] = io::renderer_json(pipeline.renderer());
+  json["joints"] = io::Json::object();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    json["joints"][pipeline.robot().variables()[i]] = positions[i];
+  const auto missing = pipeline.missing_links();
+  json["missing_links"] = std::vector<std::string>(missing.begin(), missing.end());
+  json["notes"] = notes;
+  std::cout << json.dump(2, ' ', false, io::Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace
+
+int execute(const RenderArguments& arguments) {
+  check_outputs(arguments);
   Robot robot = Robot::load(arguments.robot, arguments.options);
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
   Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
 
-  // Any depth will do: nothing of what is written comes of it.
+  // The results do not depend on this depth.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
   const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
   if (!first.T_root_camera) throw InputError(first.message);
   RenderedImages images(arguments, first);
-  tell_notes(pipeline.robot().notes());
+  print_notes(pipeline.robot().notes());
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
   io::SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
   doubts.add(first, positions);
   append(of_pose, doubts.lines());
-  tell_notes(of_pose);
+  print_notes(of_pose);
 
   const PixelCounts pixels = first.pixels;
-  const Image<float> seen = copy(first.virtual_depth.depth);
+  const Image<float> seen = io::copy_of(first.virtual_depth.depth);
   io::Statistics repeats;
   for (int i = 0; i < arguments.repeat; ++i)
     repeats.add(pipeline.process({.depth = seen.view(), .joints = positions}));
@@ -172,30 +192,11 @@ int render(const RenderArguments& arguments) {
   std::vector<std::string> notes(of_robot.begin(), of_robot.end());
   append(notes, of_pose);
 
-  const io::RenderResult result{.triangles = pipeline.triangle_count(),
-                                .robot_pixels = pixels.robot.value_or(0),
-                                .uncovered_pixels = pixels.uncovered,
-                                .renderer = pipeline.renderer(),
-                                .variables = pipeline.robot().variables(),
-                                .positions = positions,
-                                .missing_links = pipeline.missing_links(),
-                                .notes = notes,
-                                .statistics = repeats};
-  if (arguments.json) {
-    std::cout << io::render_json(result) << '\n';
-  } else {
-    print_text(arguments, result);
-  }
+  if (arguments.json)
+    print_json(pipeline, pixels, positions, notes, repeats);
+  else
+    print_text(arguments.output, pipeline, pixels, repeats);
   return 0;
-}
-
-}  // namespace
-
-int execute(const RenderArguments& arguments) {
-  check_outputs(arguments);
-  std::vector<std::filesystem::path> files = {arguments.output};
-  if (arguments.links) files.push_back(*arguments.links);
-  return io::run_or_say_state(files, [&] { return render(arguments); });
 }
 
 }  // namespace penumbra::app

@@ -18,7 +18,7 @@
 namespace penumbra::app {
 namespace {
 
-/// Throws InputError if results would take the place of anything but an earlier run's.
+/// Throws InputError if results would replace anything but the results of an earlier run.
 void check_output(const RunArguments& arguments) {
   std::error_code error;
   const std::filesystem::path input = std::filesystem::absolute(arguments.judging.input.path);
@@ -40,7 +40,7 @@ void check_output(const RunArguments& arguments) {
   io::check_output_folder(arguments.output);
 }
 
-/// Takes the place of earlier results: in a folder now, in a bag at the end.
+/// Replaces earlier results: in a folder now, in a bag at the end.
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
                                            const io::Judging& judging) {
   const Pipeline& pipeline = judging.pipeline();
@@ -70,7 +70,7 @@ int status_of(const io::RunResult& result) {
   return result.statistics.usable_frames() > 0 ? 0 : nothing_judged;
 }
 
-/// With a bar on the terminal.
+/// Judges all frames, with a bar on the terminal.
 io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
   Progress progress(judging.size().value_or(0));
   return judging.run(output, [&] {
@@ -79,24 +79,20 @@ io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
   });
 }
 
-int run(const RunArguments& arguments, const std::filesystem::path& report) {
+}  // namespace
+
+int execute(const RunArguments& arguments) {
+  check_output(arguments);
   io::Judging judging(arguments.judging, print_line);
   const auto output = open_output(arguments.output, judging);
   catch_interrupts();
   output->begin(judging.head());
   const io::RunResult result = judge_all(judging, *output);
-  tell_result(result, judging.pipeline().robot(),
-              (report == arguments.output.path ? "results: " : "report: ") + report.string());
+  const std::filesystem::path& path = arguments.output.path;
+  print_result(result, judging.pipeline().robot(),
+               io::is_output_bag(path) ? "results: " + path.string()
+                                       : "report: " + (path / "report.json").string());
   return status_of(result);
-}
-
-}  // namespace
-
-int execute(const RunArguments& arguments) {
-  check_output(arguments);
-  const std::filesystem::path& output = arguments.output.path;
-  const auto report = io::is_output_bag(output) ? output : output / "report.json";
-  return io::run_or_say_state({report}, [&] { return run(arguments, report); });
 }
 
 }  // namespace penumbra::app

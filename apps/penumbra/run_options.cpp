@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
+#include <apps/penumbra/text.hpp>
 #include <io/run/output_bag.hpp>
 
 namespace penumbra::app {
 namespace {
 
-/// Adds an option whose text is not empty.
-template <typename T>
-CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& help,
-                      const std::string& value, T& to) {
-  return add_option(app, name, help, value, [&to, name, value](const std::string& text) {
-    if (text.empty()) refuse_option(name, text, "a " + value);
-    to = text;
-  });
-}
-
 void add_input(CLI::App& app, io::InputOptions& input) {
-  add_path(app, "INPUT",
+  add_text(app, "INPUT",
            "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
            "folder with metadata.yaml",
            "", input.path)
       ->required();
 }
 
-void add_frames(CLI::App& app, io::FrameRange& frames) {
-  add_option(app, "--frames", "the frames from A up to but without B", "A:B",
-             [&](const std::string& text) { frames = to_range(text); });
+void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
+  add_choice<ImageSpace>(
+      app, "--image", "raw (default): results fit the recorded images; or rectified", judging.image,
+      {{"raw", ImageSpace::raw}, {"rectified", ImageSpace::rectified}});
+  add_frames(app, judging.input.frames);
+  add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
+             "YAML", [&](const std::string& text) {
+               if (text.empty()) refuse_option("--targets", text, "a path, or none");
+               judging.no_targets = text == "none";
+               if (!judging.no_targets) judging.targets = text;
+             });
 }
 
-/// A bag holds its topics, all of them, in the camera's own image.
+Tolerance to_tolerance(const std::string& text) {
+  std::vector<double> abc;
+  for (const std::string& part : split(text, ','))
+    if (const auto number = io::parse_number<double>(part)) abc.push_back(*number);
+  if (abc.size() != 3 || std::count(text.begin(), text.end(), ',') != 2)
+    refuse_option("--tolerance", text, "A,B,C: three numbers, of e(z) = A + B z + C z^2 in metres");
+  return {abc[0], abc[1], abc[2]};
+}
+
+io::Saves to_saves(const std::string& text) {
+  static const std::map<std::string, bool io::Saves::*> kinds{
+      {"vdi", &io::Saves::vdi},           {"labels", &io::Saves::labels},
+      {"links", &io::Saves::links},       {"overlay", &io::Saves::overlay},
+      {"filtered", &io::Saves::filtered}, {"points", &io::Saves::points}};
+  io::Saves saves;
+  for (const std::string& part : split(text, ',')) {
+    const auto kind = kinds.find(part);
+    if (kind == kinds.end())
+      refuse_option("--save", part, "one of vdi, labels, links, overlay, filtered, points");
+    saves.*kind->second = true;
+  }
+  return saves;
+}
+
+/// A bag always holds all of its topics, in the camera's own image.
 void check_output_bag(const RunArguments& run) {
   const auto refuse = [](const std::string& option) {
     throw InputError(option +
@@ -45,7 +71,7 @@ void check_output_bag(const RunArguments& run) {
   if (run.judging.image == ImageSpace::rectified) refuse("--image rectified");
 }
 
-/// Targets come from a file or from topics, and pixels of topics are those of the camera's images.
+/// Targets come from a file or from topics. Pixels in topics are those of the camera's images.
 void check_targets(const io::JudgingOptions& judging) {
   if (judging.input.bag.target_topics.empty()) return;
   if (judging.targets || judging.no_targets)
@@ -55,7 +81,7 @@ void check_targets(const io::JudgingOptions& judging) {
         "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
-/// What recordings, bags and live topics have in common.
+/// Checks what run, tune and view have in common.
 void check_judging(const CLI::App& app, io::JudgingOptions& judging) {
   check_renderer(judging.backend, judging.renderer);
   check_targets(judging);
@@ -67,73 +93,68 @@ void check_judging(const CLI::App& app, io::JudgingOptions& judging) {
 }  // namespace
 
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
-  std::vector<CLI::Option*> options{
-      add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
-               bag.depth_topic),
-      add_text(app, "--camera-info-topic", "default: next to the depth images", "TOPIC",
-               bag.camera_info_topic),
-      add_text(app, "--color-topic",
-               "judge in this camera's image: depth is brought there by tf, if it is another's",
-               "TOPIC", bag.color_topic),
-      add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
-               "TOPIC", [&](const std::string& text) { bag.joint_topics.push_back(text); }),
-      add_list(app, "--target-topic",
-               "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be "
-               "given several times",
-               "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); }),
-      add_option(
-          app, "--poses",
-          "where the links' poses come from: joints, tf, or both, which must agree; default: " +
-              help.poses,
-          "NAME", [&](const std::string& text) { bag.poses = to_poses(text); }),
-      add_text(app, "--robot", "the robot, in place of the robot_description", "URDF", bag.robot),
-      add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
-               [&](const std::string& text) { take_package(text, bag.packages); }),
-      add_option(app, "--frame-prefix",
-                 "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",
-                 [&](const std::string& text) {
-                   if (text.empty()) refuse_option("--frame-prefix", text, "a TEXT");
-                   bag.frame_prefix = text.substr(text[0] == '/');
-                 }),
-      add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id",
-               "FRAME", bag.camera_frame),
-      add_text(app, "--parent",
-               "link that the camera is on; default: the first above its frame in tf", "LINK",
-               bag.parent),
-      add_text(app, "--pose",
-               "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
-               bag.pose),
-      add_option(app, "--time-offset",
-                 "added to the images' stamps before poses are looked up; default 0", "S",
-                 [&](const std::string& text) { bag.time_offset = to_time_offset(text); }),
-      app.add_flag("--first-publisher", bag.first_publisher,
-                   "do not compare several publishers of one joint or transform: use the first one "
-                   "heard; default: where they disagree, the pose is unknown"),
-      app.add_flag("--rectified", bag.rectified,
-                   "the images are free of distortion already, as those called image_rect... are")};
-  for (CLI::Option* option : options) option->group(help.group);
+  const std::size_t first = app.get_options().size();
+  add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
+           bag.depth_topic);
+  add_text(app, "--camera-info-topic", "default: next to the depth images", "TOPIC",
+           bag.camera_info_topic);
+  add_text(app, "--color-topic",
+           "judge in this camera's image: depth is brought there by tf, if it is another's",
+           "TOPIC", bag.color_topic);
+  add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
+           "TOPIC", [&](const std::string& text) { bag.joint_topics.push_back(text); });
+  add_list(app, "--target-topic",
+           "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
+           "several times",
+           "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
+  add_choice<PoseSource>(
+      app, "--poses",
+      "where the links' poses come from: joints, tf, or both, which must agree; default: " +
+          help.poses,
+      bag.poses,
+      {{"joints", PoseSource::joints}, {"tf", PoseSource::transforms}, {"both", PoseSource::both}});
+  add_text(app, "--robot", "the robot, in place of the robot_description", "URDF", bag.robot);
+  add_packages(app, bag.packages);
+  add_option(app, "--frame-prefix",
+             "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",
+             [&](const std::string& text) {
+               if (text.empty()) refuse_option("--frame-prefix", text, "a TEXT");
+               bag.frame_prefix = text.substr(text[0] == '/');
+             });
+  add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id", "FRAME",
+           bag.camera_frame);
+  add_text(app, "--parent", "link that the camera is on; default: the first above its frame in tf",
+           "LINK", bag.parent);
+  add_text(app, "--pose",
+           "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
+           bag.pose);
+  add_number(app, "--time-offset",
+             "added to the images' stamps before poses are looked up; default 0", "S",
+             bag.time_offset, -10.0, 10.0);
+  app.add_flag("--first-publisher", bag.first_publisher,
+               "do not compare several publishers of one joint or transform: use the first one "
+               "heard; default: where they disagree, the pose is unknown");
+  app.add_flag("--rectified", bag.rectified,
+               "the images are free of distortion already, as those called image_rect... are");
+  const auto options = app.get_options();
+  for (std::size_t i = first; i < options.size(); ++i) options[i]->group(help.group);
 }
 
 void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& geometry_default) {
   io::InputOptions& input = judging.input;
   io::RuleOptions& rule = judging.rule;
   add_renderer(app, judging.backend, judging.renderer);
-  add_option(app, "--geometry", "collision or visual; default: " + geometry_default, "NAME",
-             [&](const std::string& text) { input.geometry = to_geometry(text); });
+  add_geometry(app, input.geometry, geometry_default);
   add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
   add_extra(app, input.extra);
   add_option(app, "--tolerance",
              "depth that differs by less than e(z) = A + B z + C z^2 metres is the same", "A,B,C",
              [&](const std::string& text) { rule.tolerance = to_tolerance(text); });
-  add_option(app, "--front-min-width", "front regions narrower than this become occluded; 0: off",
-             "PX", [&](const std::string& text) {
-               rule.front_min_width = to_count("--front-min-width", text, 0, LabelRule::max_width);
-             });
-  add_option(app, "--fringe-reach",
+  add_number(app, "--front-min-width", "front regions narrower than this become occluded; 0: off",
+             "PX", rule.front_min_width, 0, LabelRule::max_width);
+  add_number(app, "--fringe-reach",
              "how far past its outline the sensor shows the robot's depth; 0: off", "PX",
-             [&](const std::string& text) {
-               rule.fringe_reach = to_count("--fringe-reach", text, 0, LabelRule::max_fringe_reach);
-             });
+             rule.fringe_reach, 0, LabelRule::max_fringe_reach);
   add_option(app, "--sensor",
              "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "
              "fringe reach; the two options override",
@@ -141,28 +162,16 @@ void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& 
                static_cast<void>(LabelRule::for_sensor(text));
                rule.sensor = text;
              });
-  add_option(app, "--labels",
-             "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
-             "--tolerance, --front-min-width and --fringe-reach override",
-             "NAME", [&](const std::string& text) { rule.paper_labels = to_paper(text); });
-}
-
-void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
-  add_option(app, "--image", "raw (default): results fit the recorded images; or rectified", "NAME",
-             [&](const std::string& text) { judging.image = to_image(text); });
-  add_frames(app, judging.input.frames);
-  add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
-             "YAML", [&](const std::string& text) {
-               if (text.empty()) refuse_option("--targets", text, "a path, or none");
-               judging.no_targets = text == "none";
-               if (!judging.no_targets) judging.targets = text;
-             });
+  add_choice<bool>(app, "--labels",
+                   "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
+                   "--tolerance, --front-min-width and --fringe-reach override",
+                   rule.paper_labels, {{"full", false}, {"paper", true}});
 }
 
 void add_tune(CLI::App& app, TuneArguments& tune) {
   app.footer(tune_examples);
   add_input(app, tune.judging.input);
-  add_path(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
       ->required();
   add_judging(app, tune.judging);
   add_frames(app, tune.judging.input.frames);
@@ -172,7 +181,7 @@ void add_tune(CLI::App& app, TuneArguments& tune) {
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_input(app, run.judging.input);
-  add_path(app, "-o,--output",
+  add_text(app, "-o,--output",
            "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
            run.output.path)
       ->required();
@@ -182,9 +191,9 @@ void add_run(CLI::App& app, RunArguments& run) {
           "threads of the cpu renderer, default 1, and of those that write images, default one per "
           "core; results do not depend on it");
   add_sequence(app, run.judging);
-  add_option(app, "--fps",
+  add_number(app, "--fps",
              "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",
-             [&](const std::string& text) { run.judging.input.fps = to_fps(text); });
+             run.judging.input.fps, 0.001, 1000.0);
   add_option(app, "--save",
              "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
              "filtered (depth) and points (PCD and PLY)",
@@ -218,7 +227,7 @@ void check_run(const CLI::App& app, RunArguments& run) {
 
 void add_view(CLI::App& app, ViewArguments& view) {
   app.footer(view_examples);
-  add_path(app, "INPUT",
+  add_text(app, "INPUT",
            "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
            "", view.judging.input.path)
       ->required();

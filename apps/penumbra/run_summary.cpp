@@ -10,7 +10,7 @@
 namespace penumbra::app {
 namespace {
 
-constexpr std::size_t most_targets = 20;  // that are told of by a line each
+constexpr std::size_t most_targets = 20;  // with a line each
 
 std::string more_reasons(const io::Fault& fault) {
   if (fault.frames == fault.reasons.front().frames) return "";
@@ -23,14 +23,14 @@ std::string percent(std::size_t part, std::size_t whole) {
              : fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
 }
 
-/// None where no frame was usable: why not is said already.
+/// Returns nothing if no frame was usable: the faults say why.
 std::span<const io::TargetStatistics> judged_targets(const io::Statistics& statistics) {
   if (statistics.usable_frames() == 0) return {};
   return statistics.targets();
 }
 
-/// A line for each target; of very many, for the first.
-void tell_targets(const io::Statistics& statistics) {
+/// Prints a line for each of the first targets.
+void print_targets(const io::Statistics& statistics) {
   const auto targets = judged_targets(statistics);
   for (const io::TargetStatistics& target : targets.first(std::min(most_targets, targets.size())))
     std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
@@ -41,7 +41,7 @@ void tell_targets(const io::Statistics& statistics) {
     std::cout << "and " << targets.size() - most_targets << " more targets, see the report\n";
 }
 
-void tell_faults(const io::RunResult& result) {
+void print_faults(const io::RunResult& result) {
   const io::Statistics& statistics = result.statistics;
   const auto frames = [&](std::size_t n) {
     return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
@@ -50,20 +50,20 @@ void tell_faults(const io::RunResult& result) {
     std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
               << ", first in frame " << fault.reasons.front().first << ": "
               << fault.reasons.front().message << more_reasons(fault) << '\n';
-  std::size_t told = 0;
+  std::size_t unknown = 0;
   for (const io::TargetStatistics& target : judged_targets(statistics))
-    if (target.frames(Verdict::unknown) > 0 && ++told <= most_targets)
+    if (target.frames(Verdict::unknown) > 0 && ++unknown <= most_targets)
       std::cerr << "penumbra: target '" << target.name << "' unknown in "
                 << frames(target.frames(Verdict::unknown)) << ", first in frame "
                 << target.first_unknown << ": " << target.reason << '\n';
-  if (told > most_targets)
-    std::cerr << "penumbra: " << told - most_targets << " more targets unknown in some frames\n";
+  if (unknown > most_targets)
+    std::cerr << "penumbra: " << unknown - most_targets << " more targets unknown in some frames\n";
   if (result.frames_without_color > 0)
     std::cerr << "penumbra: no colour in the overlay of " << frames(result.frames_without_color)
               << ", first: " << result.first_without_color << '\n';
 }
 
-void tell_summary(const io::Statistics& statistics, const std::string& where) {
+void print_summary(const io::Statistics& statistics, const std::string& where) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
   const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
@@ -74,7 +74,7 @@ void tell_summary(const io::Statistics& statistics, const std::string& where) {
             << " fringe pixels around it";
   if (pixels.uncovered > 0) std::cout << "; besides " << pixels.uncovered << " uncovered pixels";
   std::cout << '\n';
-  tell_targets(statistics);
+  print_targets(statistics);
   for (std::size_t i = 0; i < io::stages.size(); ++i)
     if (const auto q = statistics.timing(i))
       std::cout << io::stages[i].name << ": median " << fixed(q->median, 3) << " ms, p99 "
@@ -84,11 +84,11 @@ void tell_summary(const io::Statistics& statistics, const std::string& where) {
 
 }  // namespace
 
-void tell_result(const io::RunResult& result, const Robot& robot, const std::string& where) {
-  if (result.statistics.usable_frames() > 0) tell_notes(robot.notes());
-  tell_faults(result);
-  tell_notes(result.notes);
-  tell_summary(result.statistics, where);
+void print_result(const io::RunResult& result, const Robot& robot, const std::string& where) {
+  if (result.statistics.usable_frames() > 0) print_notes(robot.notes());
+  print_faults(result);
+  print_notes(result.notes);
+  print_summary(result.statistics, where);
 }
 
 }  // namespace penumbra::app

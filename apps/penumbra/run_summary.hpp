@@ -7,8 +7,8 @@
 
 namespace penumbra::app {
 
-/// Prints what was wrong with frames, targets and overlays, and the robot's notes and the run's, on
-/// stderr; counts and times, and where the results are, on stdout.
-void tell_result(const io::RunResult& result, const Robot& robot, const std::string& where);
+/// Prints faults of frames, targets and overlays, and all notes, on stderr; counts, times and the
+/// place of the results on stdout.
+void print_result(const io::RunResult& result, const Robot& robot, const std::string& where);
 
 }  // namespace penumbra::app

@@ -6,13 +6,13 @@
 
 namespace penumbra::app {
 
-/// Ctrl-C or SIGTERM as something that one waits for, in place of the end of the program. Made by
-/// the main thread before any other thread, which all inherit that these signals wait.
+/// Makes Ctrl-C and SIGTERM events to wait for instead of ending the program. Make it in the main
+/// thread before any other thread: threads inherit the blocked signals.
 class StopSignal {
  public:
   StopSignal();
 
-  /// Whether one came, before or within this time. From one thread at a time.
+  /// Returns whether a signal has come until then. Use one thread at a time.
   [[nodiscard]] bool wait(std::chrono::nanoseconds at_most);
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point end);
 

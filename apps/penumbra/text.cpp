@@ -43,7 +43,7 @@ void print_table(std::vector<std::vector<std::string>> rows) {
 
 void print_line(const std::string& line) { std::cout << line << '\n'; }
 
-void tell_notes(std::span<const std::string> notes) {
+void print_notes(std::span<const std::string> notes) {
   for (const std::string& note : notes)
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }

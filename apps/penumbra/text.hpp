@@ -10,10 +10,10 @@
 
 namespace penumbra::app {
 
-/// The parts between separators; one empty part of an empty text.
+/// Returns the parts between separators: one empty part for an empty text.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// A value with `digits` after the point.
+/// Formats a value with `digits` after the point.
 [[nodiscard]] std::string fixed(double value, int digits);
 
 [[nodiscard]] inline std::chrono::nanoseconds to_duration(double seconds) {
@@ -26,7 +26,7 @@ void print_table(std::vector<std::vector<std::string>> rows);
 /// Prints a line on stdout.
 void print_line(const std::string& line);
 
-/// Prints on stderr, a line each.
-void tell_notes(std::span<const std::string> notes);
+/// Prints notes on stderr, a line each.
+void print_notes(std::span<const std::string> notes);
 
 }  // namespace penumbra::app

@@ -17,6 +17,7 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/disk_file.hpp>
+#include <io/files/image_size.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
 #include <io/run/judging.hpp>
@@ -43,17 +44,6 @@ class KeptFrames final : public io::RunOutput {
   TuningFrames frames;
   std::map<std::size_t, Image<io::Rgb8>> colors;
 };
-
-/// The colour image of a frame as the report's images are; empty if there is none.
-Image<io::Rgb8> color_of(const KeptFrames& kept, std::size_t index, const Pipeline& pipeline) {
-  const auto found = kept.colors.find(index);
-  const Rectification* const lens = pipeline.rectification();
-  if (found == kept.colors.end() || lens == nullptr)
-    return found == kept.colors.end() ? Image<io::Rgb8>() : found->second;
-  Image<io::Rgb8> color(lens->pinhole().width(), lens->pinhole().height());
-  remap(lens->pinhole_to_raw(), found->second.view(), io::Rgb8{}, color.view());
-  return color;
-}
 
 std::string percent(double share) { return fixed(100.0 * share, 2) + " %"; }
 
@@ -123,12 +113,6 @@ void make_folder(const fs::path& folder) {
                      (error ? error.message() : "it is a file") + "); choose another");
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  io::OutputFile out(file);
-  out.write(text.data(), text.size());
-  out.close();
-}
-
 }  // namespace
 
 int execute(const TuneArguments& arguments) {
@@ -144,7 +128,7 @@ int execute(const TuneArguments& arguments) {
       return true;
     });
     if (!result.device_fault.empty()) {
-      tell_notes(std::vector{result.device_fault});
+      print_notes(std::vector{result.device_fault});
       return device_failed;
     }
   }
@@ -159,10 +143,13 @@ int execute(const TuneArguments& arguments) {
   }
   const auto frames = kept.frames.frames();
   const TuningFrame& shown = frames[tuning.fringe.shown_frame];
-  const Image<io::Rgb8> color = color_of(kept, shown.index, pipeline);
-  const Image<io::Rgb8> picture = io::draw_tuning(tuning, shown, color.view());
+  Image<io::Rgb8> color;
+  const auto seen = io::rectified(pipeline.rectification(),
+                                  std::as_const(kept.colors[shown.index]).view(), color);
+  const Image<io::Rgb8> picture = io::draw_tuning(tuning, shown, seen);
   io::write_png(folder / "tune.png", picture.view());
-  write_text(folder / "tune.json", io::tuning_json(tuning, frames, extras) + "\n");
+  const std::string json = io::tuning_json(tuning, frames, extras) + "\n";
+  io::write_file(folder / "tune.json", json.data(), json.size());
   print_measured(tuning, frames.size(), pipeline.robot());
   print_settings(tuning, extras, arguments);
   return 0;

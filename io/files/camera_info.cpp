@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,50 +16,15 @@
 namespace penumbra::io {
 namespace {
 
-/// The value of one of two spellings of a key, which must not both stand there.
-const YamlNode* find_either(const YamlNode& map, std::string_view key, std::string_view other) {
-  const YamlNode* first = map.find(key);
-  const YamlNode* second = map.find(other);
-  if (first != nullptr && second != nullptr)
-    second->fail("key '" + std::string(key) + "' is there too; keep one");
-  return first != nullptr ? first : second;
-}
-
-const YamlNode& at_either(const YamlNode& map, std::string_view key, std::string_view other) {
-  const YamlNode* node = find_either(map, key, other);
-  return node != nullptr ? *node : map.at(key);
-}
-
-/// The values of camera_calibration's {rows, cols, data}.
-std::vector<double> matrix(const YamlNode& node) {
-  node.allow_only({"rows", "cols", "data"});
-  const std::int64_t rows = node.at("rows").integer();
-  const std::int64_t cols = node.at("cols").integer();
-  std::vector<double> values = node.at("data").numbers();
-  const auto count = static_cast<std::int64_t>(values.size());
-  if (rows < 0 || cols < 0 || rows > count || cols > count + 1 || rows * cols != count)
-    node.at("data").fail("has " + std::to_string(count) + " values; rows x cols are " +
-                         std::to_string(rows) + " x " + std::to_string(cols));
-  return values;
-}
-
-std::string frame_of(const YamlNode& root) {
-  const YamlNode* own = root.find("frame_id");
-  const YamlNode* header = root.find("header");
-  if (header != nullptr) {
-    header->allow_only({"seq", "stamp", "frame_id"});
-    const YamlNode* in_header = header->find("frame_id");
-    if (own != nullptr && in_header != nullptr) own->fail("header.frame_id is there too; keep one");
-    if (in_header != nullptr) own = in_header;
-  }
-  return own != nullptr ? own->text_or_empty() : std::string();
-}
-
-/// Where the values stand in the two forms of the file.
-class InfoFile final : public CameraInfoFields {
+/// A camera_info file in one of its two forms.
+class InfoFile {
  public:
-  explicit InfoFile(const YamlNode& root) : root_(root), calibration_(is_calibration(root)) {
-    if (calibration_)
+  explicit InfoFile(const YamlNode& root)
+      : root_(root),
+        is_calibration_(root.find("image_width") != nullptr ||
+                        root.find("image_height") != nullptr ||
+                        root.find("camera_matrix") != nullptr) {
+    if (is_calibration_)
       root.allow_only({"image_width", "image_height", "camera_name", "camera_matrix",
                        "distortion_model", "distortion_coefficients", "rectification_matrix",
                        "projection_matrix"});
@@ -69,68 +33,89 @@ class InfoFile final : public CameraInfoFields {
                        "p", "D", "K", "R", "P", "binning_x", "binning_y", "roi"});
   }
 
-  [[nodiscard]] InfoValue<std::int64_t> width() const override {
-    return integer(root_.at(calibration_ ? "image_width" : "width"));
+  [[nodiscard]] Camera camera(bool rectified) const {
+    CameraInfoFields info{.width = at("width").integer(), .height = at("height").integer()};
+    if (rectified) {
+      info.r = matrix("r");
+      info.p = matrix("p");
+    } else {
+      info.k = matrix("k");
+      info.distortion_model = at("distortion_model").text_or_empty();
+      info.d = matrix("d");
+    }
+    info.binning_x = pixels(root_, "binning_x");
+    info.binning_y = pixels(root_, "binning_y");
+    if (const YamlNode* roi = root_.find("roi")) info.roi = window(*roi);
+    info.frame_id = frame_id();
+    info.fail = [this](const std::string& field, const std::string& what) { at(field).fail(what); };
+    return camera_of(info, rectified);
   }
-  [[nodiscard]] InfoValue<std::int64_t> height() const override {
-    return integer(root_.at(calibration_ ? "image_height" : "height"));
-  }
-  [[nodiscard]] InfoValue<std::string> distortion_model() const override {
-    const YamlNode& node = root_.at("distortion_model");
-    return {{&node}, node.text_or_empty()};
-  }
-  [[nodiscard]] InfoMatrix k() const override { return get("camera_matrix", "k", "K"); }
-  [[nodiscard]] InfoMatrix d() const override { return get("distortion_coefficients", "d", "D"); }
-  [[nodiscard]] InfoMatrix r() const override { return get("rectification_matrix", "r", "R"); }
-  [[nodiscard]] InfoMatrix p() const override { return get("projection_matrix", "p", "P"); }
-  [[nodiscard]] InfoValue<std::int64_t> binning_x() const override {
-    return pixels(root_, "binning_x");
-  }
-  [[nodiscard]] InfoValue<std::int64_t> binning_y() const override {
-    return pixels(root_, "binning_y");
-  }
-
-  [[nodiscard]] std::optional<InfoWindow> roi() const override {
-    const YamlNode* roi = root_.find("roi");
-    if (roi == nullptr) return std::nullopt;
-    roi->allow_only({"x_offset", "y_offset", "width", "height", "do_rectify"});
-    const YamlNode* do_rectify = roi->find("do_rectify");
-    return InfoWindow{{roi},
-                      pixels(*roi, "x_offset"),
-                      pixels(*roi, "y_offset"),
-                      pixels(*roi, "width"),
-                      pixels(*roi, "height"),
-                      {{do_rectify}, do_rectify != nullptr && do_rectify->boolean()}};
-  }
-
-  [[nodiscard]] std::string frame_id() const override { return frame_of(root_); }
 
  private:
-  static bool is_calibration(const YamlNode& root) {
-    return root.find("image_width") != nullptr || root.find("image_height") != nullptr ||
-           root.find("camera_matrix") != nullptr;
-  }
-
-  static InfoValue<std::int64_t> integer(const YamlNode& node) { return {{&node}, node.integer()}; }
-
-  /// 0 where the key is missing.
-  static InfoValue<std::int64_t> pixels(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
-    return node != nullptr ? integer(*node) : InfoValue<std::int64_t>{{&map}, 0};
-  }
-
-  [[nodiscard]] InfoMatrix get(std::string_view of_calibration, std::string_view of_message,
-                               std::string_view of_ros1) const {
-    if (calibration_) {
-      const YamlNode& node = root_.at(of_calibration);
-      return {{&node}, matrix(node)};
+  /// Returns the value of a field, which each form spells in its own way.
+  [[nodiscard]] const YamlNode& at(const std::string& field) const {
+    static const std::map<std::string, const char*> in_calibration{
+        {"width", "image_width"},
+        {"height", "image_height"},
+        {"k", "camera_matrix"},
+        {"d", "distortion_coefficients"},
+        {"r", "rectification_matrix"},
+        {"p", "projection_matrix"},
+        {"distortion_model", "distortion_model"}};
+    static const std::map<std::string, const char*> in_ros1{
+        {"k", "K"}, {"d", "D"}, {"r", "R"}, {"p", "P"}};
+    if (is_calibration_) return root_.at(in_calibration.at(field));
+    if (field.starts_with("roi.")) {
+      const YamlNode* value = root_.at("roi").find(field.substr(4));
+      return value != nullptr ? *value : root_.at("roi");
     }
-    const YamlNode& node = at_either(root_, of_message, of_ros1);
-    return {{&node}, node.numbers()};
+    const auto ros1 = in_ros1.find(field);
+    const YamlNode* other = ros1 != in_ros1.end() ? root_.find(ros1->second) : nullptr;
+    if (other == nullptr) return root_.at(field);
+    if (root_.find(field) != nullptr) other->fail("key '" + field + "' is there too; keep one");
+    return *other;
+  }
+
+  /// Returns a list of numbers, or the data of camera_calibration's {rows, cols, data}.
+  [[nodiscard]] std::vector<double> matrix(const std::string& field) const {
+    const YamlNode& node = at(field);
+    if (!is_calibration_) return node.numbers();
+    node.allow_only({"rows", "cols", "data"});
+    const std::int64_t rows = node.at("rows").integer(), cols = node.at("cols").integer();
+    std::vector<double> values = node.at("data").numbers();
+    const auto count = static_cast<std::int64_t>(values.size());
+    if (rows < 0 || cols < 0 || rows > count || cols > count + 1 || rows * cols != count)
+      node.at("data").fail("has " + std::to_string(count) + " values; rows x cols are " +
+                           std::to_string(rows) + " x " + std::to_string(cols));
+    return values;
+  }
+
+  static std::int64_t pixels(const YamlNode& map, const char* key) {
+    const YamlNode* node = map.find(key);
+    return node != nullptr ? node->integer() : 0;
+  }
+
+  static CameraInfoFields::Window window(const YamlNode& roi) {
+    roi.allow_only({"x_offset", "y_offset", "width", "height", "do_rectify"});
+    const YamlNode* do_rectify = roi.find("do_rectify");
+    return {pixels(roi, "x_offset"), pixels(roi, "y_offset"), pixels(roi, "width"),
+            pixels(roi, "height"), do_rectify != nullptr && do_rectify->boolean()};
+  }
+
+  [[nodiscard]] std::string frame_id() const {
+    const YamlNode* own = root_.find("frame_id");
+    if (const YamlNode* header = root_.find("header")) {
+      header->allow_only({"seq", "stamp", "frame_id"});
+      const YamlNode* in_header = header->find("frame_id");
+      if (own != nullptr && in_header != nullptr)
+        own->fail("header.frame_id is there too; keep one");
+      if (in_header != nullptr) own = in_header;
+    }
+    return own != nullptr ? own->text_or_empty() : std::string();
   }
 
   const YamlNode& root_;
-  bool calibration_;
+  bool is_calibration_;
 };
 
 bool is_same(const Camera& a, const Camera& b) {
@@ -144,13 +129,13 @@ Camera parse_camera_info(const std::string& text, const std::filesystem::path& f
   std::vector<YamlNode> documents = YamlNode::parse_all(text, file);
   // ros2 topic echo ends every message with the mark of a next document.
   while (documents.size() > 1 && documents.back().is_null()) documents.pop_back();
-  Camera camera = camera_of(InfoFile(documents.front()), rectified);
+  Camera camera = InfoFile(documents.front()).camera(rectified);
   for (std::size_t i = 1; i < documents.size(); ++i)
-    if (!is_same(camera, camera_of(InfoFile(documents[i]), rectified)))
+    if (!is_same(camera, InfoFile(documents[i]).camera(rectified)))
       documents[i].fail("document " + std::to_string(i + 1) + " of " +
                         std::to_string(documents.size()) +
-                        " (---) is another camera than the first; keep the one that the images "
-                        "were taken with");
+                        " (---) describes another camera than the first; keep the one that took "
+                        "the images");
   return camera;
 }
 

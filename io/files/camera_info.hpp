@@ -12,9 +12,9 @@ namespace penumbra::io {
 /// P; several documents must all be of the same camera) or the file that camera_calibration writes
 /// (camera_matrix, distortion_coefficients, ...).
 ///
-/// `rectified`: the images are free of distortion already; then p is used and no distortion, and r
-/// must be the identity. Otherwise k and d are used. binning and roi are applied: the camera is
-/// that of the images as they come. Throws InputError that names file, line and key.
+/// `rectified`: the images are free of distortion already. Then p is used without distortion, and r
+/// must be the identity. Otherwise k and d are used. binning and roi are applied, so that the
+/// camera fits the images as they come. Throws InputError that names file, line and key.
 [[nodiscard]] Camera read_camera_info(const std::filesystem::path& file, bool rectified);
 
 /// The same from text; `file` is for messages.

@@ -1,82 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera_info says, whatever it stands in, and the camera that it makes.
+// The values of a camera_info, from a file or a message, and the camera that they describe.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/camera/camera.hpp>
-
-#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 
-/// Where a value stands: what throws, throws InputError that names it.
-struct InfoPlace {
-  const YamlNode* node = nullptr;  ///< of a file
-  std::string name = {};           ///< of a value elsewhere
+/// The fields of sensor_msgs/CameraInfo. Fields that the wanted camera does not need may be empty.
+struct CameraInfoFields {
+  /// The window of the images in the full resolution; all 0: the whole image.
+  struct Window {
+    std::int64_t x = 0, y = 0, width = 0, height = 0;
+    bool do_rectify = false;
+  };
 
-  [[noreturn]] void fail(const std::string& what) const {
-    if (node != nullptr) node->fail(what);
-    throw InputError(name + ": " + what);
-  }
+  std::int64_t width = 0, height = 0;
+  std::string distortion_model = {};
+  std::vector<double> d = {}, k = {}, r = {}, p = {};
+  std::int64_t binning_x = 0, binning_y = 0;  ///< 0 is 1
+  Window roi = {};
+  std::string frame_id = {};
 
-  /// Runs `call`; an InputError that it throws is told as a fault of this value.
-  template <typename F>
-  auto blamed_for(const F& call) const {
-    try {
-      return call();
-    } catch (const InputError& fault) {
-      fail(fault.what());
-    }
-  }
+  /// Throws InputError that names the place of a field ("k", "roi.width").
+  std::function<void(const std::string& field, const std::string& what)> fail = {};
 };
 
-/// A value and where it stands.
-template <typename T>
-struct InfoValue {
-  InfoPlace place;
-  T value{};
-};
-
-struct InfoMatrix {
-  InfoPlace place;
-  std::vector<double> values;  ///< finite
-
-  void require(std::size_t count) const;
-  void require(std::size_t i, double wanted, const std::string& why) const;
-};
-
-/// The window of the images in the full resolution.
-struct InfoWindow {
-  InfoPlace place;
-  InfoValue<std::int64_t> x, y, width, height;
-  InfoValue<bool> do_rectify;
-};
-
-/// Each value is looked for when it is asked for: what is not needed may be missing.
-class CameraInfoFields {
- public:
-  virtual ~CameraInfoFields() = default;
-  [[nodiscard]] virtual InfoValue<std::int64_t> width() const = 0;
-  [[nodiscard]] virtual InfoValue<std::int64_t> height() const = 0;
-  [[nodiscard]] virtual InfoValue<std::string> distortion_model() const = 0;
-  [[nodiscard]] virtual InfoMatrix k() const = 0;
-  [[nodiscard]] virtual InfoMatrix d() const = 0;
-  [[nodiscard]] virtual InfoMatrix r() const = 0;
-  [[nodiscard]] virtual InfoMatrix p() const = 0;
-  [[nodiscard]] virtual InfoValue<std::int64_t> binning_x() const = 0;  ///< 0: none
-  [[nodiscard]] virtual InfoValue<std::int64_t> binning_y() const = 0;
-  [[nodiscard]] virtual std::optional<InfoWindow> roi() const = 0;
-  [[nodiscard]] virtual std::string frame_id() const = 0;
-};
-
-/// The camera of the images as they come (read_camera_info).
+/// Returns the camera of the images as they come (read_camera_info).
 [[nodiscard]] Camera camera_of(const CameraInfoFields& info, bool rectified);
 
 }  // namespace penumbra::io

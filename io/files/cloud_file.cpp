@@ -11,7 +11,7 @@
 namespace penumbra::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "points are written as they lie");
+static_assert(std::endian::native == std::endian::little, "points are written unchanged");
 
 Rgb8 color_at(ImageView<const Rgb8> color, std::uint32_t pixel) {
   const auto width = static_cast<std::uint32_t>(color.width);
@@ -31,9 +31,7 @@ void write(const std::filesystem::path& file, std::string bytes, const PointClou
     for (const float value : cloud.points[i]) append(value, bytes);
     if (!color.empty()) append_color(color_at(color, cloud.pixels[i]), bytes);
   }
-  OutputFile output(file);
-  output.write(bytes.data(), bytes.size());
-  output.close();
+  write_file(file, bytes.data(), bytes.size());
 }
 
 }  // namespace

@@ -85,4 +85,10 @@ void OutputFile::close() {
   if (closed != 0) throw_unwritable(file_, errno);
 }
 
+void write_file(const std::filesystem::path& file, const void* from, std::size_t count) {
+  OutputFile output(file);
+  output.write(from, count);
+  output.close();
+}
+
 }  // namespace penumbra::io

@@ -10,8 +10,8 @@
 
 namespace penumbra::io {
 
-/// A regular file that is read from its start; a pipe or a folder is refused, so that no read can
-/// wait for ever.
+/// A regular file that is read from its start. Pipes and folders are refused, so that no read waits
+/// for ever.
 class InputFile {
  public:
   InputFile() = default;
@@ -23,10 +23,10 @@ class InputFile {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Reads up to `count` bytes; fewer only at the file's end or after a fault of the device.
+  /// Reads up to `count` bytes; fewer only at the end of the file or after a fault of the device.
   std::size_t read(void* to, std::size_t count);
 
-  /// The same from any place; where read() goes on stays as it is.
+  /// The same from any position. Does not move the position of read().
   std::size_t read_at(std::uint64_t offset, void* to, std::size_t count) const;
 
  private:
@@ -34,8 +34,8 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// A file that is written from its start. Every member throws InputError that names the file where
-/// the system refuses.
+/// A file that is written from its start. Every member throws InputError that names the file if the
+/// system refuses.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
@@ -50,5 +50,8 @@ class OutputFile {
   std::filesystem::path file_;
   int descriptor_ = -1;
 };
+
+/// Writes a file. Throws as OutputFile.
+void write_file(const std::filesystem::path& file, const void* from, std::size_t count);
 
 }  // namespace penumbra::io

@@ -5,14 +5,14 @@
 
 namespace penumbra::io {
 
-/// Keeps other programs from writing to the same place as long as it lives, by an advisory lock
-/// (flock). A file system without such locks is used as if nobody else wrote.
+/// Keeps other programs from writing to the same place, by an advisory lock (flock). File systems
+/// without such locks are used without.
 class FileLock {
  public:
   /// Locks a folder. Throws InputError if another program holds it.
   explicit FileLock(const std::filesystem::path& folder);
 
-  /// Locks a file, which is made if it is not there. `name`: what messages call it.
+  /// Locks a file, and makes it if it does not exist. `name`: its name in messages.
   FileLock(const std::filesystem::path& file, const std::filesystem::path& name);
 
   ~FileLock();

@@ -11,7 +11,7 @@ namespace penumbra::io {
 
 enum class FileStatus { ok, missing, bad };
 
-/// How reading a file went. Readers of stream data answer with this and never throw for the file's
+/// The outcome of reading a file. Readers of stream data return it and never throw for the file's
 /// content.
 struct FileResult {
   FileStatus status = FileStatus::ok;

@@ -12,7 +12,7 @@ namespace penumbra::io {
 FramePattern::FramePattern(std::string_view pattern, const std::filesystem::path& folder)
     : folder_(folder) {
   const std::string fault = "'" + std::string(pattern) +
-                            "': exactly one %d or %0Nd (N from 1 to 9) must stand for the frame's "
+                            "': one %d or %0Nd (N from 1 to 9) is needed for the frame's "
                             "number; a percent sign is written %%";
   bool found = false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -60,7 +60,7 @@ std::optional<std::int64_t> FramePattern::index(std::string_view name, std::stri
 }
 
 std::vector<std::int64_t> FramePattern::existing() const {
-  // The number may stand in a folder's name: only that part of the path varies.
+  // The number may be in a folder's name: only that part of the path varies.
   const std::size_t start = before_.rfind('/') + 1;  // 0: no slash
   const std::string_view before = std::string_view(before_).substr(start);
   const std::string_view after = std::string_view(after_).substr(0, after_.find('/'));

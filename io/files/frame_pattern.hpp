@@ -14,24 +14,24 @@ namespace penumbra::io {
 /// sign).
 class FramePattern {
  public:
-  /// `folder` is put before relative patterns. Throws InputError unless there is exactly one %d or
-  /// %0Nd (N from 1 to 9) and no other %.
+  /// Relative patterns start at `folder`. Throws InputError unless there is exactly one %d or %0Nd
+  /// (N from 1 to 9) and no other %.
   FramePattern(std::string_view pattern, const std::filesystem::path& folder);
 
-  /// The file of frame `index` >= 0.
+  /// Returns the file of frame `index` >= 0.
   [[nodiscard]] std::filesystem::path file(std::int64_t index) const;
 
-  /// Numbers of the frames whose file exists, ascending. Throws InputError where the folder of the
-  /// files is there and cannot be listed.
+  /// Returns the numbers of frames whose file exists, ascending. Throws InputError if the folder
+  /// exists and cannot be listed.
   [[nodiscard]] std::vector<std::int64_t> existing() const;
 
-  /// Whether the pattern's name ends in `extension` (".npy"), whatever the case.
+  /// Returns whether the name ends in `extension` (".npy") in any case.
   [[nodiscard]] bool has_extension(std::string_view extension) const;
 
  private:
   [[nodiscard]] std::string written(std::int64_t index) const;
 
-  /// The number in the name of a file or folder, written as file() would write it.
+  /// Returns the number in a name that file() would make.
   [[nodiscard]] std::optional<std::int64_t> index(std::string_view name, std::string_view before,
                                                   std::string_view after) const;
 

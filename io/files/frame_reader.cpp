@@ -21,8 +21,7 @@ FileResult read_depth(const FramePattern& pattern, ImageSize size, FrameData& fr
                                        : read_png(file, depth_as<std::uint16_t>(frame), size);
 }
 
-/// The rows, and one at fault for every depth image that has none. It stands before the first row
-/// of a later frame.
+/// Adds a faulty row for every depth image without a row, before the first row of a later frame.
 std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrames& files) {
   std::unordered_set<std::int64_t> known;
   for (const JointRow& row : rows) known.insert(row.index);
@@ -50,6 +49,19 @@ std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrame
 
 DepthView FrameData::depth_view() const {
   return std::visit([](const auto& image) { return DepthView(image.view()); }, depth);
+}
+
+Frame frame_of(const FrameData& data) {
+  Frame frame;
+  frame.stamp = data.stamp;
+  frame.depth = data.depth_view();
+  frame.joints = data.positions;
+  frame.source_status = data.status;
+  frame.source_message = data.message;
+  frame.index = static_cast<std::size_t>(data.index);
+  // A recording's joint row is of the frame's own stamp.
+  if (data.stamp && !data.positions.empty()) frame.joints.age = 0;
+  return frame;
 }
 
 FrameReader::FrameReader(const Recording& recording, const Robot& robot)

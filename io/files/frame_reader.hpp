@@ -18,7 +18,7 @@
 
 namespace penumbra::io {
 
-/// One recorded frame. Buffers are reused from frame to frame.
+/// One recorded frame. Its buffers can be reused for the next.
 struct FrameData {
   std::int64_t index = 0;
   std::optional<std::int64_t> stamp;     ///< nanoseconds
@@ -26,26 +26,28 @@ struct FrameData {
   std::string message;                   ///< one line that names the file; empty if ok
   std::vector<double> positions;         ///< order of Robot::variables(); empty if missing_joints
   std::variant<Image<std::uint16_t>, Image<float>> depth;  ///< valid unless missing or bad
-  Image<Rgb8> color;          ///< empty where not asked for, not recorded or not usable
+  Image<Rgb8> color;          ///< empty if not wanted, not recorded or not usable
   std::string color_message;  ///< why a recorded colour image is not usable; empty if it is
 
   [[nodiscard]] DepthView depth_view() const;
 };
 
-/// Reads a recording's frames. Faults of a frame's data are told in its status, never thrown.
+/// Returns the input of the pipeline for a recorded frame; it refers to `data`.
+[[nodiscard]] Frame frame_of(const FrameData& data);
+
+/// Reads a recording's frames. Faults of a frame's data become its status and are never thrown.
 class FrameReader {
  public:
-  /// Reads the joint file and looks which depth images there are. Keeps neither argument. Throws
-  /// InputError as read_joint_file and FramePattern::existing do.
+  /// Reads the joint file and lists the depth images. Keeps neither argument. Throws InputError as
+  /// read_joint_file and FramePattern::existing.
   FrameReader(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] std::int64_t index(std::size_t i) const { return rows_[i].index; }
 
-  /// Reads the i-th frame in the order of the joint file; depth images without a row there are
-  /// frames too, of status missing_joints, before the first row of a later frame. The depth image
-  /// is read even where the joints are missing, so that a picture can be shown; colour only if
-  /// asked for. May be called from several threads, each with its own FrameData.
+  /// Reads the i-th frame in the order of the joint file. Depth images without a row are frames
+  /// with status missing_joints, before the first row of a later frame. The depth image is read
+  /// even if the joints are missing. Several threads may call this, each with its own FrameData.
   void read(std::size_t i, bool with_color, FrameData& frame) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace penumbra::io {
 
-/// Where frames come from, one after the other: a recording folder or a bag.
+/// A sequence of frames: a recording folder or a bag.
 class FrameSource {
  public:
   FrameSource() = default;
@@ -20,15 +20,15 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
   virtual ~FrameSource() = default;
 
-  /// The next frame: what pictures need of it, and what the pipeline takes, which refers to `data`
-  /// and to this and is valid until the next call. False at the end. What is wrong with a frame is
-  /// its status.
+  /// Reads the next frame: `data` for pictures, and `frame` for the pipeline, which refers to
+  /// `data` and to this and is valid until the next call. A frame's fault is its status. Returns
+  /// false at the end.
   virtual bool next(FrameData& data, Frame& frame) = 0;
 
-  /// How many frames there are in all, where it is known before the end.
+  /// Returns the number of frames, if it is known before the end.
   [[nodiscard]] virtual std::optional<std::size_t> size() const = 0;
 
-  /// What was found wrong with the source itself, a line each. All of it is known at the end.
+  /// Returns faults of the source, a line each. They are complete at the end.
   [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
 };
 

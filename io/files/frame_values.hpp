@@ -17,13 +17,13 @@
 
 namespace penumbra::io {
 
-/// What is given of one frame.
+/// The value of one frame.
 struct FrameValue {
   std::vector<double> numbers;
-  std::optional<std::int64_t> stamp;     ///< nanoseconds; of the image that they are of
+  std::optional<std::int64_t> stamp;     ///< of their image, nanoseconds
   std::optional<double> expected_depth;  ///< metres
-  std::string place;                     ///< of a file's row: "FILE:LINE: "
-  std::string fault;                     ///< why there are no numbers, with its place; else empty
+  std::string place;                     ///< "FILE:LINE: " of a CSV row
+  std::string fault;                     ///< with its place; empty if there are numbers
 };
 
 /// CSV files of per-frame values, each read once: a header "frame,[name,]...", then a row per frame
@@ -34,35 +34,35 @@ class ValueTables {
   ~ValueTables();
 
   struct Table;
-  /// Throws InputError for a file that cannot be read, or is none of the kind.
+  /// Throws InputError for a file that cannot be read or has another format.
   const Table& read(const std::filesystem::path& file);
 
  private:
   std::map<std::filesystem::path, std::unique_ptr<Table>> tables_;
 };
 
-/// How values of one kind are written.
+/// The format of one kind of values.
 struct ValueFormat {
   std::function<std::vector<double>(const YamlNode&)> read;  ///< one frame's value in YAML
   std::vector<std::string_view> columns;           ///< in a CSV file; empty: there is no such file
-  std::vector<std::string_view> optional_columns;  ///< follow in the numbers where all are there
+  std::vector<std::string_view> optional_columns;  ///< follow the numbers, if all are present
 };
 
-/// A target's numbers: the same in every frame, or given by frame.
+/// A target's numbers: constant, or by frame.
 class FrameValues {
  public:
   /// Reads a value: the numbers themselves, {frames: {INDEX: numbers or null, ...}} or
-  /// {csv: FILE}. Throws InputError for what cannot be right in any frame; a bad cell is its
-  /// frame's fault.
+  /// {csv: FILE}. Throws InputError for values that are wrong in every frame. A bad cell is a
+  /// fault of its frame.
   static FrameValues read(const YamlNode& node, const ValueFormat& format,
                           const std::filesystem::path& folder, std::string_view name,
                           ValueTables& tables);
 
-  /// Of a frame; with a fault where nothing is given of it.
+  /// Returns the value of a frame, with a fault if there is none.
   [[nodiscard]] FrameValue at(std::int64_t index) const;
 
-  /// Calls check(value) for every value that stands in the YAML file itself; what it throws is told
-  /// as that value's fault.
+  /// Calls check(value) for every value in the YAML file. What it throws becomes a fault of that
+  /// value.
   void check_written(const std::function<void(const FrameValue&)>& check) const;
 
   [[nodiscard]] bool has_stamps() const { return has_stamps_; }
@@ -77,7 +77,7 @@ class FrameValues {
   void read_csv(const YamlNode& node, const ValueFormat& format,
                 const std::filesystem::path& folder, std::string_view name, ValueTables& tables);
 
-  std::string file_;  // that a missing frame is missing in
+  std::string file_;  // named for missing frames
   std::optional<Written> constant_;
   std::vector<Written> written_;  // of `frames`
   std::unordered_map<std::int64_t, FrameValue> by_frame_;

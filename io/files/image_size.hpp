@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <utility>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/rectification.hpp>
 
 namespace penumbra::io {
 
@@ -11,11 +16,31 @@ struct ImageSize {
   bool operator==(const ImageSize&) const = default;
 };
 
-/// What is wrong with an image of another size than the camera's.
+/// Returns the fault of an image whose size differs from the camera's.
 [[nodiscard]] inline std::string wrong_size(ImageSize got, ImageSize wanted) {
   return "has " + std::to_string(got.width) + " x " + std::to_string(got.height) +
          " pixels; the camera has " + std::to_string(wanted.width) + " x " +
          std::to_string(wanted.height);
+}
+
+/// Returns a copy without gaps between its rows.
+template <typename T>
+[[nodiscard]] Image<T> copy_of(ImageView<const T> from) {
+  Image<T> image(from.width, from.height);
+  for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, image.view().row(v));
+  return image;
+}
+
+/// Returns an image in the geometry of the report's images: `raw` without a rectification, else
+/// `image`, to which it is remapped.
+template <typename T>
+[[nodiscard]] ImageView<const T> rectified(const Rectification* rectification,
+                                           ImageView<const T> raw, Image<T>& image) {
+  if (rectification == nullptr || raw.empty()) return raw;
+  const Intrinsics& pinhole = rectification->pinhole();
+  if (image.empty()) image = Image<T>(pinhole.width(), pinhole.height());
+  remap(rectification->pinhole_to_raw(), raw, T{}, image.view());
+  return std::as_const(image).view();
 }
 
 }  // namespace penumbra::io

@@ -15,10 +15,10 @@
 namespace penumbra::io {
 namespace {
 
-/// The number behind a frame's is one, too: ranges end there.
+/// Ranges end at the next number, which must be valid too.
 constexpr std::int64_t largest_frame = std::numeric_limits<std::int64_t>::max() - 1;
 
-// What each column of the file is.
+// The columns of the file.
 struct Columns {
   std::vector<std::string> names;
   std::vector<std::optional<std::size_t>> variables;  // per column; none: not a variable
@@ -59,7 +59,7 @@ Columns read_header(const std::vector<std::string_view>& cells, const Robot& rob
   return columns;
 }
 
-/// A stamp before the clock's start shows that the column is something else.
+/// A negative stamp shows that the column is something else.
 void check_stamp(const Columns& columns, const std::vector<std::string_view>& cells,
                  const std::string& place) {
   if (!columns.has_stamp || cells.size() < 2) return;
@@ -69,7 +69,7 @@ void check_stamp(const Columns& columns, const std::vector<std::string_view>& ce
                      " is negative; nanoseconds from 0 are wanted");
 }
 
-// Fills stamp and positions from the cells; answers what is wrong with them, or nothing.
+// Fills stamp and positions from the cells. Returns what is wrong, or nothing.
 std::string read_values(const Columns& columns, const std::vector<std::string_view>& cells,
                         JointRow& row) {
   if (cells.size() != columns.names.size())

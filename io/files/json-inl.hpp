@@ -6,9 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <penumbra/render/depth_renderer.hpp>
+
 namespace penumbra::io {
 
-using Json = nlohmann::ordered_json;  // keys in the order in which they are written
+using Json = nlohmann::ordered_json;  // keeps the order of keys
 
 inline Json or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
@@ -17,9 +19,12 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-/// On one line. Names come from files and may hold bytes that are no UTF-8: those are replaced.
+/// Returns one line. Replaces bytes that are not UTF-8, which names from files may hold.
 inline std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+/// Returns "renderer" of report.json.
+[[nodiscard]] Json renderer_json(const RendererInfo& info);
 
 }  // namespace penumbra::io

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstdint>
+#include <optional>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,101 +14,41 @@
 
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
+#include <io/files/numbers.hpp>
 
 namespace penumbra::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "samples are copied as they lie");
+static_assert(std::endian::native == std::endian::little, "samples are copied unchanged");
 
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t max_header = 4096;  // a plain array's header has about a hundred bytes
 constexpr std::size_t alignment = 64;     // of the first sample, by the format
 
 struct Header {
-  std::string type;
-  bool fortran_order = false;
+  std::string type, order;
   std::vector<std::uint64_t> shape;
 };
 
-// Reads the Python literal of a header: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3)}
-class HeaderParser {
- public:
-  explicit HeaderParser(std::string_view text) : rest_(text) {}
+/// Reads the Python literal of a header: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3)}
+std::optional<Header> parse(const std::string& text) {
+  const auto value = [&](const std::string& key, const char* pattern) {
+    std::smatch found;
+    std::regex_search(text, found, std::regex("['\"]" + key + "['\"]\\s*:\\s*" + pattern));
+    return found.size() == 2 ? std::optional(found.str(1)) : std::nullopt;
+  };
+  const auto type = value("descr", "['\"]([^'\"]*)['\"]");
+  const auto order = value("fortran_order", "(True|False)");
+  const auto shape = value("shape", "\\(([0-9, ]*)\\)");
+  if (!type || !order || !shape) return std::nullopt;
+  Header header{*type, *order, {}};
+  const std::regex number("[0-9]+");
+  for (std::sregex_iterator at(shape->begin(), shape->end(), number), end; at != end; ++at)
+    header.shape.push_back(parse_number<std::uint64_t>(at->str()).value_or(0));
+  return header;
+}
 
-  bool parse(Header& header) {
-    bool type = false, order = false, shape = false;
-    if (!take("{")) return false;
-    while (!take("}")) {
-      std::string key;
-      if (!quoted(key) || !take(":")) return false;
-      if (key == "descr" && !type) {
-        type = quoted(header.type);
-        if (!type) return false;
-      } else if (key == "fortran_order" && !order) {
-        order = boolean(header.fortran_order);
-        if (!order) return false;
-      } else if (key == "shape" && !shape) {
-        shape = numbers(header.shape);
-        if (!shape) return false;
-      } else {
-        return false;
-      }
-      if (!take(",") && !ahead('}')) return false;
-    }
-    skip_space();
-    return rest_.empty() && type && order && shape;
-  }
-
- private:
-  void skip_space() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
-  }
-
-  bool ahead(char wanted) {
-    skip_space();
-    return !rest_.empty() && rest_.front() == wanted;
-  }
-
-  bool take(std::string_view wanted) {
-    skip_space();
-    if (!rest_.starts_with(wanted)) return false;
-    rest_.remove_prefix(wanted.size());
-    return true;
-  }
-
-  bool quoted(std::string& text) {
-    const char* quote = ahead('\'') ? "'" : "\"";
-    if (!take(quote)) return false;
-    const std::size_t end = rest_.find(*quote);
-    if (end == std::string_view::npos) return false;
-    text = rest_.substr(0, end);
-    rest_.remove_prefix(end + 1);
-    return true;
-  }
-
-  bool boolean(bool& value) {
-    value = take("True");
-    return value || take("False");
-  }
-
-  bool numbers(std::vector<std::uint64_t>& values) {
-    if (!take("(")) return false;
-    while (!take(")")) {
-      skip_space();
-      std::uint64_t value = 0;
-      const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-      if (error != std::errc()) return false;
-      rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-      values.push_back(value);
-      if (!take(",") && !ahead(')')) return false;
-    }
-    return true;
-  }
-
-  std::string_view rest_;
-};
-
-// The header's text, behind magic, version and length; or why there is none.
+/// Reads the header's text after magic, version and length. Returns what is wrong, or nothing.
 std::string read_header_text(InputFile& input, std::string& text) {
   std::array<unsigned char, 12> start{};
   if (input.read(start.data(), 8) != 8 ||
@@ -131,7 +72,7 @@ std::string read_header_text(InputFile& input, std::string& text) {
 std::string check(const Header& header) {
   if (header.type != "<f4")
     return "holds '" + header.type + "'; depths must be '<f4' (little-endian float32, metres)";
-  if (header.fortran_order) return "is in Fortran order; C order (row by row) is wanted";
+  if (header.order == "True") return "is in Fortran order; C order (row by row) is wanted";
   if (header.shape.size() != 2)
     return "has " + std::to_string(header.shape.size()) +
            " dimensions; 2 (height, width) are wanted";
@@ -151,20 +92,20 @@ FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
   std::string text;
   if (const std::string fault = read_header_text(input, text); !fault.empty())
     return FileResult::bad(file, fault);
-  Header header;
-  if (!HeaderParser(text).parse(header)) return FileResult::bad(file, "has a damaged header");
-  if (const std::string fault = check(header); !fault.empty()) return FileResult::bad(file, fault);
+  const std::optional<Header> header = parse(text);
+  if (!header) return FileResult::bad(file, "has a damaged header");
+  if (const std::string fault = check(*header); !fault.empty()) return FileResult::bad(file, fault);
 
-  const ImageSize size{static_cast<int>(header.shape[1]), static_cast<int>(header.shape[0])};
+  const ImageSize size{static_cast<int>(header->shape[1]), static_cast<int>(header->shape[0])};
   if (wanted && size != *wanted) return FileResult::bad(file, wrong_size(size, *wanted));
-  const std::uint64_t bytes = header.shape[0] * header.shape[1] * sizeof(float);
+  const std::uint64_t bytes = header->shape[0] * header->shape[1] * sizeof(float);
   if (bytes > input.size()) return FileResult::bad(file, "ends before its last row");
   if (image.width() != size.width || image.height() != size.height)
     image = Image<float>(size.width, size.height);
   if (input.read(image.data(), bytes) != bytes)
     return FileResult::bad(file, "ends before its last row");
   char more = 0;
-  if (input.read(&more, 1) != 0) return FileResult::bad(file, "has bytes behind its last row");
+  if (input.read(&more, 1) != 0) return FileResult::bad(file, "has bytes after its last row");
   return {};
 }
 

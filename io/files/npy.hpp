@@ -11,10 +11,10 @@
 
 namespace penumbra::io {
 
-/// Reads a NumPy file of H x W little-endian float32 in C order (format versions 1 to 3) into
-/// `image`, whose buffer is kept where the size stays. Any fault of the file, or another element
-/// type, order, number of dimensions or (where given) size, is answered, never thrown; `image` is
-/// then unspecified.
+/// Reads a NumPy file of H x W little-endian float32 in C order (format versions 1 to 3). Reuses
+/// the buffer of `image` if the size stays the same. Returns a fault of the file, or another
+/// element type, order, number of dimensions or wanted size; `image` is then unspecified. Never
+/// throws.
 [[nodiscard]] FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
                                   std::optional<ImageSize> wanted = {});
 

@@ -9,8 +9,8 @@
 
 namespace penumbra::io {
 
-/// The number that the whole of `text` spells, if it does, is finite and fits. No spaces; one
-/// leading + may stand.
+/// Returns the number in `text`, if it is finite and fits. Spaces are refused; a leading + is
+/// allowed.
 template <typename T>
 [[nodiscard]] std::optional<T> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -22,7 +22,7 @@ template <typename T>
   return value;
 }
 
-/// `text` without the spaces and tabs around it.
+/// Returns `text` without spaces and tabs around it.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};

@@ -63,8 +63,8 @@ bool is_robot(std::uint8_t label) {
          label != static_cast<std::uint8_t>(Label::fringe);
 }
 
-// Labels, and a double line along the robot's outline: white within, black without, so that one of
-// them stands out on any ground.
+// Draws labels and a double line along the robot's outline, white inside and black outside, which
+// is visible on any background.
 void draw_labels(ImageView<const std::uint8_t> labels, Image<Rgb8>& out) {
   for (int v = 0; v < out.height(); ++v) {
     for (int u = 0; u < out.width(); ++u) {
@@ -88,7 +88,7 @@ struct Line {
   std::optional<Rgb8> swatch;
 };
 
-/// How many pixels the robot has, and how many of each label; those of the fringe are not of it.
+/// Adds the number of robot pixels and of each label. Fringe pixels are not part of the robot.
 void add_counts(const LabelView& labels, std::vector<Line>& lines) {
   std::array<char, 64> text{};
   std::size_t robot = 0;
@@ -96,14 +96,14 @@ void add_counts(const LabelView& labels, std::vector<Line>& lines) {
     if (is_robot(static_cast<std::uint8_t>(i))) robot += labels.pixels[i];
   lines.push_back({"robot " + std::to_string(robot) + " px", {}});
   for (std::size_t i = 1; i < label_count; ++i) {
-    const double share =
+    const double percent =
         robot == 0 ? 0.0
                    : 100.0 * static_cast<double>(labels.pixels[i]) / static_cast<double>(robot);
     const bool is_of_robot = is_robot(static_cast<std::uint8_t>(i));
     if (!is_of_robot && labels.pixels[i] == 0) continue;
     if (is_of_robot)
       std::snprintf(text.data(), text.size(), "%-8s %7zu %5.1f%%", label_names[i], labels.pixels[i],
-                    share);
+                    percent);
     else
       std::snprintf(text.data(), text.size(), "%-8s %7zu", label_names[i], labels.pixels[i]);
     lines.push_back({text.data(), label_color(static_cast<Label>(i))});
@@ -150,7 +150,7 @@ std::size_t robot_pixels(const Box& box, ImageView<const std::uint8_t> labels) {
   return count;
 }
 
-// The corner in which the box hides the least of the robot; above `bottom`.
+// Returns the corner above `bottom` in which the box hides the fewest robot pixels.
 Box place(int width, int height, int bottom, const OverlayInput& input, const Image<Rgb8>& out) {
   const int right = out.width() - width, low = bottom - height;
   const std::array<Box, 4> corners = {{{0, 0, width, height},
@@ -184,7 +184,7 @@ void draw_legend(const OverlayInput& input, int scale, int bottom, Image<Rgb8>& 
   }
 }
 
-// Draws the message at the lower edge, broken to the image's width; answers its upper edge.
+// Draws the message at the lower edge in lines of the image's width. Returns its upper edge.
 int draw_message(std::string_view message, int scale, Image<Rgb8>& out) {
   const int margin = 3 * scale;
   const int line_height = (BitmapFont::height + 1) * scale;

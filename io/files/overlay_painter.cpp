@@ -2,6 +2,7 @@
 #include <utility>
 #include <variant>
 
+#include <io/files/image_size.hpp>
 #include <io/files/overlay.hpp>
 #include <io/files/overlay_painter.hpp>
 
@@ -34,8 +35,9 @@ ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const Show
   if (!images.color.empty()) {
     input.color = seen_color(images.color);
   } else {
-    std::visit([&](const auto& depth) { input.depth = seen(depth, depth_of(depth)); },
-               images.depth);
+    std::visit(
+        [&](const auto& depth) { input.depth = rectified(rectification_, depth, depth_of(depth)); },
+        images.depth);
   }
   draw_overlay(input, overlay_);
   target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
@@ -43,16 +45,7 @@ ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const Show
 }
 
 ImageView<const Rgb8> OverlayPainter::seen_color(ImageView<const Rgb8> raw) {
-  return seen(raw, color_);
-}
-
-template <typename T>
-ImageView<const T> OverlayPainter::seen(ImageView<const T> raw, Image<T>& rectified) {
-  if (rectification_ == nullptr || raw.empty()) return raw;
-  const Intrinsics& pinhole = rectification_->pinhole();
-  if (rectified.empty()) rectified = Image<T>(pinhole.width(), pinhole.height());
-  remap(rectification_->pinhole_to_raw(), raw, T{}, rectified.view());
-  return std::as_const(rectified).view();
+  return rectified(rectification_, raw, color_);
 }
 
 }  // namespace penumbra::io

@@ -16,37 +16,34 @@
 
 namespace penumbra::io {
 
-/// What overlays need to show a frame's targets.
+/// A frame's targets as overlays need them.
 struct ShownTargets {
   std::span<const Target> targets;
   const Robot& robot;
   const Camera& camera;  ///< of the report's images
 };
 
-/// What overlays are drawn over: the camera's images.
+/// The camera's images, which overlays are drawn on.
 struct ShownImages {
   DepthView depth;              ///< may be empty
-  ImageView<const Rgb8> color;  ///< empty: depth is shown in its place
+  ImageView<const Rgb8> color;  ///< empty: depth is shown instead
 };
 
-/// Draws the augmented view of a frame: its labels and targets over the colour image, or over depth
-/// where there is none.
+/// Draws the augmented view of a frame: labels and targets over the colour image, or over depth.
 class OverlayPainter {
  public:
-  /// `rectification` brings recorded images to the report's; null where they fit, else it must
-  /// outlive this.
+  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
+  /// already. It must outlive this.
   explicit OverlayPainter(const Rectification* rectification) : rectification_(rectification) {}
 
-  /// Valid until the next call.
+  /// The result is valid until the next call.
   ImageView<const Rgb8> draw(const FrameReport& report, const ShownImages& images,
                              const ShownTargets& targets);
 
-  /// The camera's colour image as the report's images are; valid until the next call.
+  /// Returns the colour image in the geometry of the report's images; valid until the next call.
   ImageView<const Rgb8> seen_color(ImageView<const Rgb8> raw);
 
  private:
-  template <typename T>
-  ImageView<const T> seen(ImageView<const T> raw, Image<T>& rectified);
   Image<std::uint16_t>& depth_of(const ImageView<const std::uint16_t>&) { return millimetres_; }
   Image<float>& depth_of(const ImageView<const float>&) { return metres_; }
 

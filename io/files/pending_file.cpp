@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <system_error>
 
+#include <penumbra/base/error.hpp>
+
 #include <io/files/pending_file.hpp>
 
 namespace penumbra::io {
@@ -8,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // Linux follows no more either
+constexpr int most_links = 40;  // as in Linux
 
-/// Where a chain of links ends, whether or not anything is there.
+/// Returns the end of a chain of links, which need not exist.
 fs::path behind_links(fs::path file) {
   std::error_code error;
   for (int i = 0; i < most_links && fs::is_symlink(file, error); ++i)
@@ -18,19 +20,12 @@ fs::path behind_links(fs::path file) {
   return file;
 }
 
-/// Whether `file` is there and no regular file that has the name `found`: a pipe, a device, or what
-/// was removed while it is open, behind a link of the kernel's (/proc/self/fd/1), which says none.
+/// Returns whether `file` exists and is not the regular file `found`: a pipe, a device, or a
+/// removed file that is open (/proc/self/fd/1).
 bool is_without_name(const fs::path& file, const fs::path& found) {
   std::error_code error;
   if (!fs::exists(file, error)) return false;
   return !fs::is_regular_file(file, error) || !fs::equivalent(file, found, error);
-}
-
-std::optional<fs::file_time_type> time_of(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
-  const fs::file_time_type time = fs::last_write_time(file, error);
-  return error ? std::nullopt : std::optional(time);
 }
 
 }  // namespace
@@ -39,19 +34,6 @@ void check_is_no_folder(const std::string& option, const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
     throw InputError(option + ": " + file.string() + " is a folder; the name of a file is wanted");
-}
-
-FormerFiles::FormerFiles(const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) files_.push_back({file, time_of(file)});
-}
-
-std::string FormerFiles::state() const {
-  std::string text;
-  for (const File& file : files_)
-    if (const auto now = time_of(file.path))
-      text += "; " + file.path.string() +
-              (now == file.time ? " is left as it was" : " is new and whole");
-  return text;
 }
 
 fs::path PendingFile::part_of(fs::path file) { return file += ".penumbra.part"; }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
-#include <limits>
+#include <cstring>
 #include <new>
 #include <string>
 #include <vector>
@@ -22,10 +21,11 @@ static_assert(sizeof(Rgb8) == 3, "rows of Rgb8 are PNG's rows of 8-bit RGB");
 
 // Deflate cannot make more than this many bytes of one (RFC 1951: 258 bytes from two bits).
 constexpr std::uint64_t max_expansion = 1032;
+constexpr std::uint64_t max_file_bytes = 1U << 30U;
 constexpr png_alloc_size_t max_chunk_bytes = 1 << 20;  // of a chunk that is not pixels
 
-// Runs `call`, which calls libpng, and answers whether it came to its end. libpng reports a fault
-// by a jump to here: `call` must not hold anything that needs a destructor.
+// Runs `call`, which calls libpng, and returns whether it succeeded. libpng reports a fault by a
+// jump to here: `call` must not own anything that needs a destructor.
 template <typename F>
 bool guarded(png_structp png, const F& call) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT: libpng's only way
@@ -46,36 +46,19 @@ struct PngFault {
 // libpng warns of what does not touch the pixels.
 void on_warning(png_structp, png_const_charp) {}
 
-// A file in memory, read as one on the disk is.
-class InputMemory {
- public:
-  explicit InputMemory(std::span<const std::byte> bytes) : rest_(bytes), size_(bytes.size()) {}
-
-  [[nodiscard]] std::uint64_t size() const { return size_; }
-
-  std::size_t read(void* to, std::size_t count) {
-    const std::size_t done = std::min(count, rest_.size());
-    std::copy_n(rest_.begin(), done, static_cast<std::byte*>(to));
-    rest_ = rest_.subspan(done);
-    return done;
-  }
-
- private:
-  std::span<const std::byte> rest_;
-  std::uint64_t size_;
-};
-
-template <typename Input>
 void read_bytes(png_structp png, png_bytep to, std::size_t count) {
-  if (static_cast<Input*>(png_get_io_ptr(png))->read(to, count) != count)
-    png_error(png, "ends too early");
+  auto* rest = static_cast<std::span<const std::byte>*>(png_get_io_ptr(png));
+  if (count > rest->size()) png_error(png, "ends too early");
+  std::memcpy(to, rest->data(), count);
+  *rest = rest->subspan(count);
 }
 
 class PngDecoder {
  public:
-  template <typename Input>
-  explicit PngDecoder(Input& input)
-      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault_, on_error, on_warning)),
+  explicit PngDecoder(std::span<const std::byte> file)
+      : size_(file.size()),
+        rest_(file),
+        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault_, on_error, on_warning)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     if (info_ == nullptr) {
       png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -83,18 +66,18 @@ class PngDecoder {
     }
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_chunk_malloc_max(png_, max_chunk_bytes);
-    png_set_read_fn(png_, &input, read_bytes<Input>);
+    png_set_read_fn(png_, &rest_, read_bytes);
   }
   PngDecoder(const PngDecoder&) = delete;
   PngDecoder& operator=(const PngDecoder&) = delete;
   ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
-  // Each answers what is wrong, or nothing.
+  // Each returns what is wrong, or nothing.
   std::string read_header() {
     return guarded(png_, [this] { png_read_info(png_, info_); }) ? "" : damaged();
   }
 
-  std::string check_size(std::uint64_t file_size, std::optional<ImageSize> wanted) const {
+  std::string check_size(std::optional<ImageSize> wanted) const {
     const std::uint64_t width = png_get_image_width(png_, info_);
     const std::uint64_t height = png_get_image_height(png_, info_);
     const std::string pixels =
@@ -102,8 +85,8 @@ class PngDecoder {
     if (width > Intrinsics::max_size || height > Intrinsics::max_size)
       return pixels + "; at most " + std::to_string(Intrinsics::max_size) + " each are possible";
     if (wanted && size() != *wanted) return wrong_size(size(), *wanted);
-    if (png_get_rowbytes(png_, info_) * height > max_expansion * file_size)
-      return pixels + ", more than a file of " + std::to_string(file_size) + " bytes can hold";
+    if (png_get_rowbytes(png_, info_) * height > max_expansion * size_)
+      return pixels + ", more than a file of " + std::to_string(size_) + " bytes can hold";
     return {};
   }
 
@@ -119,7 +102,7 @@ class PngDecoder {
            std::to_string(bits) + "-bit grey is wanted";
   }
 
-  // Reads all rows to `rows`, which have `stride` bytes each, and what stands behind them.
+  // Reads the rest of the file. Rows have `stride` bytes each.
   std::string read_rows(png_bytep rows, std::size_t stride, bool as_rgb) {
     const bool done = guarded(png_, [&] {
       if (as_rgb) {
@@ -169,45 +152,12 @@ class PngDecoder {
     return "is a damaged PNG: " + said;
   }
 
+  std::uint64_t size_;
+  std::span<const std::byte> rest_;
   PngFault fault_;
   png_structp png_;
   png_infop info_;
 };
-
-// Answers what is wrong, or nothing.
-template <typename T, typename Input>
-std::string decode_image(Input& input, Image<T>& image, std::optional<ImageSize> wanted) {
-  constexpr bool as_rgb = std::is_same_v<T, Rgb8>;
-  PngDecoder decoder(input);
-  std::string fault = decoder.read_header();
-  if (fault.empty() && !as_rgb) fault = decoder.check_grey(8 * static_cast<int>(sizeof(T)));
-  if (fault.empty()) fault = decoder.check_size(input.size(), wanted);
-  if (!fault.empty()) return fault;
-
-  const ImageSize size = decoder.size();
-  if (image.width() != size.width || image.height() != size.height)
-    image = Image<T>(size.width, size.height);
-  return decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
-                           static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
-}
-
-template <typename T>
-FileResult read_image(const std::filesystem::path& file, Image<T>& image,
-                      std::optional<ImageSize> wanted) {
-  InputFile input;
-  if (FileResult opened = input.open(file); !opened.ok()) return opened;
-  const std::string fault = decode_image(input, image, wanted);
-  return fault.empty() ? FileResult{} : FileResult::bad(file, fault);
-}
-
-template <typename T>
-std::optional<std::string> read_image(std::span<const std::byte> bytes, Image<T>& image,
-                                      std::optional<ImageSize> wanted) {
-  InputMemory input(bytes);
-  std::string fault = decode_image(input, image, wanted);
-  if (fault.empty()) return std::nullopt;
-  return fault;
-}
 
 void append_bytes(png_structp png, png_bytep from, std::size_t count) {
   auto* bytes = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
@@ -217,8 +167,8 @@ void append_bytes(png_structp png, png_bytep from, std::size_t count) {
 
 void flush_nothing(png_structp) {}
 
-// How rows are stored: on label and link images, flat as they are, any filter costs more than it
-// saves; on photographs differences of neighbours halve the work of deflate.
+// How rows are stored. On flat label and link images any filter costs more than it saves; on
+// photographs differences of neighbours halve the work of deflate.
 struct Encoding {
   int color_type;
   int bits;
@@ -226,7 +176,7 @@ struct Encoding {
   std::span<const Rgb8> palette = {};
 };
 
-// Puts the file into `bytes`, in place of what is there. Answers what is wrong, or nothing.
+// Replaces the content of `bytes` by a file. Returns what is wrong, or nothing.
 template <typename T>
 std::string encode_image(ImageView<const T> image, const Encoding& encoding,
                          std::vector<std::byte>& bytes) {
@@ -266,27 +216,50 @@ void write_image(const std::filesystem::path& file, ImageView<const T> image,
   std::vector<std::byte> bytes;
   if (const std::string fault = encode_image(image, encoding, bytes); !fault.empty())
     throw InputError(file.string() + ": " + fault);
-  OutputFile output(file);
-  output.write(bytes.data(), bytes.size());
-  output.close();
+  write_file(file, bytes.data(), bytes.size());
 }
 
 }  // namespace
 
-FileResult read_png(const std::filesystem::path& file, Image<std::uint16_t>& image,
-                    std::optional<ImageSize> wanted) {
-  return read_image(file, image, wanted);
+template <typename T>
+std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<T>& image,
+                                      std::optional<ImageSize> wanted) {
+  constexpr bool as_rgb = std::is_same_v<T, Rgb8>;
+  PngDecoder decoder(bytes);
+  std::string fault = decoder.read_header();
+  if (fault.empty() && !as_rgb) fault = decoder.check_grey(8 * static_cast<int>(sizeof(T)));
+  if (fault.empty()) fault = decoder.check_size(wanted);
+  if (!fault.empty()) return fault;
+
+  const ImageSize size = decoder.size();
+  if (image.width() != size.width || image.height() != size.height)
+    image = Image<T>(size.width, size.height);
+  fault = decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
+                            static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
+  return fault.empty() ? std::nullopt : std::optional(fault);
 }
 
-FileResult read_png(const std::filesystem::path& file, Image<std::uint8_t>& image,
+template <typename T>
+FileResult read_png(const std::filesystem::path& file, Image<T>& image,
                     std::optional<ImageSize> wanted) {
-  return read_image(file, image, wanted);
+  InputFile input;
+  if (FileResult opened = input.open(file); !opened.ok()) return opened;
+  if (input.size() > max_file_bytes) return FileResult::bad(file, "is no image: larger than 1 GB");
+  std::vector<std::byte> bytes(input.size());
+  bytes.resize(input.read(bytes.data(), bytes.size()));
+  const auto fault = decode_png(bytes, image, wanted);
+  return fault ? FileResult::bad(file, *fault) : FileResult{};
 }
 
-FileResult read_png(const std::filesystem::path& file, Image<Rgb8>& image,
-                    std::optional<ImageSize> wanted) {
-  return read_image(file, image, wanted);
-}
+template std::optional<std::string> decode_png(std::span<const std::byte>, Image<std::uint16_t>&,
+                                               std::optional<ImageSize>);
+template std::optional<std::string> decode_png(std::span<const std::byte>, Image<Rgb8>&,
+                                               std::optional<ImageSize>);
+template FileResult read_png(const std::filesystem::path&, Image<std::uint8_t>&,
+                             std::optional<ImageSize>);
+template FileResult read_png(const std::filesystem::path&, Image<std::uint16_t>&,
+                             std::optional<ImageSize>);
+template FileResult read_png(const std::filesystem::path&, Image<Rgb8>&, std::optional<ImageSize>);
 
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image) {
   write_image(file, image, {PNG_COLOR_TYPE_GRAY, 8, PNG_FILTER_NONE});
@@ -303,16 +276,6 @@ void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t>
 
 void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image) {
   write_image(file, image, colour_encoding);
-}
-
-std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<std::uint16_t>& image,
-                                      std::optional<ImageSize> wanted) {
-  return read_image(bytes, image, wanted);
-}
-
-std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<Rgb8>& image,
-                                      std::optional<ImageSize> wanted) {
-  return read_image(bytes, image, wanted);
 }
 
 void encode_png(ImageView<const Rgb8> image, std::vector<std::byte>& bytes) {

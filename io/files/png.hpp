@@ -21,39 +21,33 @@ struct Rgb8 {
   bool operator==(const Rgb8&) const = default;
 };
 
-/// Reads a PNG file into `image`, whose buffer is kept where the size stays. Any fault of the file
-/// (missing, truncated at any byte, damaged, another pixel format or, where given, another size) is
-/// answered, never thrown; `image` is then unspecified. Allocates no more than the file can hold.
+/// Reads a PNG file. Reuses the buffer of `image` if the size stays the same. Returns a fault of
+/// the file (missing, truncated, damaged, another pixel format or than the wanted size); `image` is
+/// then unspecified. Never throws. Allocates no more than the file can hold.
 ///
-/// uint16: 16-bit grey only; uint8: 8-bit grey, or the values of an 8-bit palette. Depths and
-/// labels must not be converted, so other depths, colour, alpha and transparency are faults.
-[[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<std::uint16_t>& image,
-                                  std::optional<ImageSize> wanted = {});
-[[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<std::uint8_t>& image,
-                                  std::optional<ImageSize> wanted = {});
-
-/// Colour: every pixel format is brought to 8-bit RGB; alpha is dropped.
-[[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<Rgb8>& image,
+/// T: uint16 for 16-bit grey, uint8 for 8-bit grey or the indices of an 8-bit palette. Depths and
+/// labels must not be converted, so other depths, colour, alpha and transparency are faults. Rgb8
+/// for any pixel format, converted to 8-bit RGB; alpha is dropped.
+template <typename T>
+[[nodiscard]] FileResult read_png(const std::filesystem::path& file, Image<T>& image,
                                   std::optional<ImageSize> wanted = {});
 
-/// Writes 8-bit grey, 16-bit grey or 8-bit RGB, quickly rather than small. The image must not be
-/// empty. Throws InputError that names a file that cannot be written.
+/// The same for a file in memory. Returns what is wrong, or nothing.
+template <typename T>
+[[nodiscard]] std::optional<std::string> decode_png(std::span<const std::byte> bytes,
+                                                    Image<T>& image,
+                                                    std::optional<ImageSize> wanted = {});
+
+/// Writes 8-bit grey, 16-bit grey or 8-bit RGB, fast rather than small. The image must not be
+/// empty. Throws InputError that names the file if it cannot be written.
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image);
 void write_png(const std::filesystem::path& file, ImageView<const std::uint16_t> image);
-/// The same with colours for the values, each of which is an index into `palette`.
+/// Writes indices into `palette`.
 void write_png(const std::filesystem::path& file, ImageView<const std::uint8_t> image,
                std::span<const Rgb8> palette);
 void write_png(const std::filesystem::path& file, ImageView<const Rgb8> image);
 
-/// The same of files in memory. Answers what is wrong, or nothing.
-[[nodiscard]] std::optional<std::string> decode_png(std::span<const std::byte> bytes,
-                                                    Image<std::uint16_t>& image,
-                                                    std::optional<ImageSize> wanted = {});
-[[nodiscard]] std::optional<std::string> decode_png(std::span<const std::byte> bytes,
-                                                    Image<Rgb8>& image,
-                                                    std::optional<ImageSize> wanted = {});
-
-/// Puts the file in place of what `bytes` holds.
+/// Replaces the content of `bytes` by a PNG file.
 void encode_png(ImageView<const Rgb8> image, std::vector<std::byte>& bytes);
 
 }  // namespace penumbra::io

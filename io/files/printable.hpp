@@ -6,11 +6,11 @@
 
 namespace penumbra::io {
 
-/// Whether a character ends a line or steers a terminal.
+/// Returns whether a character ends a line or controls a terminal.
 [[nodiscard]] constexpr bool is_control(char c) { return (c >= 0 && c < ' ') || c == 127; }
 
-/// A foreign text for a message of one line: question marks for what is no visible ASCII, cut after
-/// 80 characters.
+/// Returns a foreign text for a message of one line: question marks for everything but visible
+/// ASCII, cut after 80 characters.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   constexpr std::size_t longest = 80;
   std::string shown(text.substr(0, longest));
@@ -19,8 +19,7 @@ namespace penumbra::io {
   return text.size() > longest ? shown + "..." : shown;
 }
 
-/// A text for a table or a note: question marks for what ends a line or steers a terminal, C1 in
-/// UTF-8 too; names of any language and long paths stay.
+/// Returns a text for a table or a note: question marks for control characters, C1 in UTF-8 too.
 [[nodiscard]] inline std::string without_controls(std::string_view text) {
   std::string shown(text);
   for (std::size_t i = 0; i < shown.size(); ++i) {

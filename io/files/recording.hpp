@@ -17,15 +17,15 @@
 
 namespace penumbra::io {
 
-/// What verdicts make of the label "beyond".
+/// The meaning of the label "beyond" for verdicts.
 enum class BeyondMeans { occluded, visible };
 
-/// The camera of a recording. What is not set was not written there.
+/// The camera of a recording. Optional values are those that the file gives.
 struct RecordingCamera {
   std::filesystem::path info;  ///< the camera_info file
   Camera camera;               ///< `range` holds camera.range where that is written
   bool rectified = false;
-  std::string parent;                       ///< the link that the camera sits on
+  std::string parent;                       ///< the link that carries the camera
   Eigen::Isometry3d T_parent_camera;        ///< pose of the optical frame in the parent link
   std::optional<DepthRange> range = {};     ///< metres
   std::optional<Tolerance> tolerance = {};  ///< of LabelRule
@@ -35,7 +35,7 @@ struct RecordingCamera {
   std::optional<BeyondMeans> beyond = {};
 };
 
-/// Where the frames' files are.
+/// The files of the frames.
 struct RecordingFrames {
   std::filesystem::path joints;
   FramePattern depth;
@@ -56,8 +56,7 @@ struct Recording {
   /// values, a pose that is not rigid, and for what is not supported yet.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
 
-  /// The defaults of a pipeline with what the recording says: where the camera sits, and its
-  /// label rule.
+  /// Returns a pipeline's defaults with the recording's camera pose and label rule.
   [[nodiscard]] PipelineConfig pipeline_config() const;
 };
 

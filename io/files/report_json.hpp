@@ -21,21 +21,21 @@
 
 namespace penumbra::io {
 
-/// What was taken of a bag.
+/// The topics and settings that were used for a bag.
 struct UsedBag {
   struct Topic {
     std::string role, name, type;
-    std::string why;  ///< it was taken, in words
+    std::string why;  ///< the reason for the choice
   };
   std::vector<Topic> topics;
   std::string poses;                      ///< "joints", "tf", "both"
-  std::string camera_frame, camera_link;  ///< where the camera sits
-  std::string camera_by;                  ///< who says so: "tf"
+  std::string camera_frame, camera_link;  ///< place of the camera
+  std::string camera_by;                  ///< source of that place: "tf"
   double time_offset = 0.0;               ///< seconds
   bool first_publisher = false;           ///< publishers of one joint are not compared
 };
 
-/// By which choices results were made.
+/// The settings of a run.
 struct UsedSettings {
   LabelRule rule;
   bool paper_labels = false;
@@ -47,7 +47,7 @@ struct UsedSettings {
   std::optional<UsedBag> bag = {};
 };
 
-/// What a report says before its frames.
+/// The head of a report.
 struct ReportHead {
   std::string input;
   RendererInfo renderer;
@@ -57,11 +57,11 @@ struct ReportHead {
   std::span<const std::string> notes;          ///< before the frames: Robot::notes()
 };
 
-/// How every report begins.
+/// The first bytes of every report.
 inline constexpr std::string_view report_json_start = "{\"penumbra\": ";
 
-/// Writes report.json (DESIGN section 4) frame by frame; what does not apply is null. It is
-/// a PendingFile. Members throw InputError where the file cannot be written.
+/// Writes report.json (docs/recording.md) frame by frame as a PendingFile. Values that do not apply
+/// are null. Members throw InputError if the file cannot be written.
 class ReportWriter {
  public:
   ReportWriter(const std::filesystem::path& file, const ReportHead& head);
@@ -71,7 +71,7 @@ class ReportWriter {
 
   void add(const FrameReport& report);
 
-  /// `notes`: what the frames as a whole gave rise to; follow the head's.
+  /// `notes`: follow the head's.
   void finish(const Statistics& statistics, std::span<const std::string> notes = {});
 
  private:
@@ -79,30 +79,15 @@ class ReportWriter {
   std::unique_ptr<State> state_;
 };
 
-/// The parts of a report's text: start, frames with "," between them, end.
+/// Return the parts of a report's text: start, frames with "," between them, end.
 [[nodiscard]] std::string report_start(const ReportHead& head);
 [[nodiscard]] std::string report_frame(const FrameReport& report);
 /// `notes`: all of them.
 [[nodiscard]] std::string report_end(const Statistics& statistics,
                                      std::span<const std::string> missing_links,
                                      std::span<const std::string> notes);
-/// Of a report whose frames are not all there yet: its summary is null.
+/// Returns the end of a report without a summary, while frames are still added.
 [[nodiscard]] std::string unfinished_report_end();
-
-/// What `render --json` prints.
-struct RenderResult {
-  std::size_t triangles = 0;
-  std::size_t robot_pixels = 0;
-  std::size_t uncovered_pixels = 0;  ///< PixelCounts::uncovered
-  RendererInfo renderer;
-  std::span<const std::string> variables;      ///< names of the joint positions
-  std::span<const double> positions;           ///< in their order, rad and m
-  std::span<const std::string> missing_links;  ///< as in ReportHead
-  std::span<const std::string> notes;          ///< likewise
-  Statistics statistics;                       ///< timings of the repeats
-};
-
-[[nodiscard]] std::string render_json(const RenderResult& result);
 
 /// What `inspect --json` prints: every link, every joint, where packages were found.
 [[nodiscard]] std::string robot_json(const Robot& robot);

@@ -13,8 +13,8 @@
 
 namespace penumbra::io {
 
-/// Takes the results of a run. Members throw InputError where writing fails; what is not finished
-/// is removed with this.
+/// Takes the results of a run. Members throw InputError if writing fails. Unfinished results are
+/// removed with this.
 class RunOutput {
  public:
   RunOutput() = default;
@@ -22,13 +22,13 @@ class RunOutput {
   RunOutput& operator=(const RunOutput&) = delete;
   virtual ~RunOutput() = default;
 
-  /// To be called once, before frames.
+  /// Called once, before frames.
   virtual void begin(const ReportHead& head) = 0;
   virtual void save(const FrameReport& report, const FrameData& frame,
                     const ShownTargets& targets) = 0;
   virtual void finish(const Statistics& statistics, std::span<const std::string> notes) = 0;
 
-  /// What could not be written, a line each.
+  /// Returns what could not be written, a line each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 

@@ -13,7 +13,7 @@ namespace penumbra::io {
 namespace {
 
 bool is_beyond(const Joint& joint, std::span<const double> positions) {
-  // A <limit> without lower and upper has 0 for both, as the format says, and means no range.
+  // A <limit> without lower and upper has 0 for both by the format, and means no range.
   if (!joint.variable || !joint.lower || !joint.upper || *joint.lower == *joint.upper) return false;
   const double slack = joint.type == JointType::prismatic ? SequenceNotes::prismatic_slack
                                                           : SequenceNotes::revolute_slack;
@@ -24,8 +24,6 @@ bool is_beyond(const Joint& joint, std::span<const double> positions) {
 std::string counted(std::size_t n, const std::string& thing) {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
-
-constexpr const char* doubted_depth = "is depth in millimetres (16-bit PNG) or metres (float32)";
 
 std::string percent_of(std::size_t part, std::size_t whole) {
   std::array<char, 32> text{};
@@ -51,23 +49,20 @@ void SequenceNotes::add(const FrameReport& report, std::span<const double> posit
   if (report.pixels.robot) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
-    add_pixels(report);
+    if (source_.has_sensor && (has_depth(report.status) || report.nothing_measured)) {
+      robot_pixels_ += *report.pixels.robot;
+      measured_ += *report.pixels.robot - report.pixels.unknown;
+      front_ += report.pixels.front;
+      beyond_ += report.pixels.beyond;
+    }
   }
   for (const std::size_t link : report.near_links) ++frames_near_[link];
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
   add_targets(report);
   add_stamp(report);
-  add_positions(positions);
-}
-
-void SequenceNotes::add_pixels(const FrameReport& report) {
-  if (!source_.has_sensor) return;
-  if (!has_depth(report.status) && !report.nothing_measured) return;
-  const PixelCounts& pixels = report.pixels;
-  robot_pixels_ += *pixels.robot;
-  measured_ += *pixels.robot - pixels.unknown;
-  front_ += pixels.front;
-  beyond_ += pixels.beyond;
+  if (positions.size() != robot_.variables().size()) return;
+  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
+    if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
 }
 
 void SequenceNotes::add_stamp(const FrameReport& report) {
@@ -81,23 +76,17 @@ void SequenceNotes::add_stamp(const FrameReport& report) {
   last_stamp_ = report.stamp;
 }
 
-/// Before add_stamp().
+/// Called before add_stamp().
 void SequenceNotes::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
   if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
-  const bool is_waiting =
-      std::any_of(report.targets.begin(), report.targets.end(),
-                  [](const TargetReport& target) { return target.wants_stamp; });
-  if (is_waiting) ++not_handled_;
-}
-
-void SequenceNotes::add_positions(std::span<const double> positions) {
-  if (positions.size() != robot_.variables().size()) return;
-  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
-    if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
+  if (std::any_of(report.targets.begin(), report.targets.end(),
+                  [](const TargetReport& target) { return target.wants_stamp; }))
+    ++not_handled_;
 }
 
 std::vector<std::string> SequenceNotes::lines() const {
+  static_assert(DepthRenderer::near_plane == 0.01, "the 1 cm below");
   std::vector<std::string> lines;
   if (posed_frames_ > 0 && !robot_seen_)
     lines.push_back(std::string("the robot is ") +
@@ -105,66 +94,51 @@ std::vector<std::string> SequenceNotes::lines() const {
                     ": is the camera's pose that of the camera in its parent link's frame (not "
                     "the inverse), in metres?");
   if (std::string line = depth_line(); !line.empty()) lines.push_back(std::move(line));
-  if (source_.image == ImageSpace::raw && uncovered_ > 0) lines.push_back(uncovered_line());
+  if (source_.image == ImageSpace::raw && uncovered_ > 0)
+    lines.push_back("the lens model does not reach " + counted(uncovered_, "pixel") +
+                    " of the image: unknown in labels, but 0 as without robot in virtual depth and "
+                    "link images; are the distortion coefficients right?");
   for (std::size_t i = 0; i < frames_near_.size(); ++i)
-    if (frames_near_[i] > 0) lines.push_back(near_line(i));
-  if (late_stamps_ > 0) lines.push_back(stamp_line());
-  if (longest_period_ > 0 && longest_period_ < shortest_period) lines.push_back(period_line());
+    if (frames_near_[i] > 0)
+      lines.push_back("part of link '" + robot_.links()[i] +
+                      "' lies within 1 cm of the camera and is not drawn in " +
+                      counted(frames_near_[i], "frame") +
+                      ": what it hides is labelled as if it were not there");
+  if (late_stamps_ > 0)
+    lines.push_back(counted(late_stamps_, "stamp") +
+                    " not after the frame's before, first in frame " +
+                    std::to_string(first_late_->index) + " (" + std::to_string(first_late_->stamp) +
+                    " ns after " + std::to_string(first_late_->before) +
+                    " ns): are frames doubled or out of order?");
+  if (longest_period_ > 0 && longest_period_ < shortest_period)
+    lines.push_back("stamps rise by " + std::to_string(longest_period_) +
+                    " ns at most from frame to frame: are stamps in nanoseconds?");
   if (forgotten_ > 0)
     lines.push_back("stamps went back by more than a second in " + counted(forgotten_, "frame") +
-                    " with targets: what was known of them until then was forgotten");
+                    " with targets: earlier verdicts and tracks were forgotten");
   if (not_handled_ > 0)
     lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +
-                    " without a stamp: none is handled there");
-  if (std::string line = limit_line(); !line.empty()) lines.push_back(std::move(line));
+                    " without a stamp: they are not handled there");
+  std::string joints;
+  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
+    if (frames_beyond_[i] > 0)
+      joints += (joints.empty() ? "joint '" : ", joint '") + robot_.joints()[i].name +
+                "' beyond its limits in " + counted(frames_beyond_[i], "frame");
+  if (!joints.empty()) lines.push_back(joints + ": are the positions in radians and metres?");
   return lines;
 }
 
 std::string SequenceNotes::depth_line() const {
+  constexpr const char* doubt = "is depth in millimetres (16-bit PNG) or metres (float32)";
   if (robot_pixels_ == 0) return {};
   if (!exceeds(measured_, nearly_none, robot_pixels_))
     return "depth is measured on " + percent_of(measured_, robot_pixels_) +
-           " of the robot's pixels: " + doubted_depth +
+           " of the robot's pixels: " + doubt +
            ", of the camera that is named, and within its range?";
   if (!exceeds(front_ + beyond_, most, measured_)) return {};
   return "of the robot's pixels with a measured depth " + percent_of(front_, measured_) +
-         " are front and " + percent_of(beyond_, measured_) + " beyond: " + doubted_depth +
+         " are front and " + percent_of(beyond_, measured_) + " beyond: " + doubt +
          ", and the camera's pose right?";
-}
-
-std::string SequenceNotes::uncovered_line() const {
-  return "the lens model does not reach " + counted(uncovered_, "pixel") +
-         " of the image: unknown in labels, but 0 as without robot in virtual depth and link "
-         "images; are the distortion coefficients right?";
-}
-
-std::string SequenceNotes::near_line(std::size_t link) const {
-  static_assert(DepthRenderer::near_plane == 0.01, "the line's 1 cm");
-  return "part of link '" + robot_.links()[link] + "' lies within 1 cm of the camera and is not " +
-         "drawn in " + counted(frames_near_[link], "frame") +
-         ": what it hides is labelled as if it were not there";
-}
-
-std::string SequenceNotes::stamp_line() const {
-  return counted(late_stamps_, "stamp") + " not after the frame's before, first in frame " +
-         std::to_string(first_late_->index) + " (" + std::to_string(first_late_->stamp) +
-         " ns after " + std::to_string(first_late_->before) +
-         " ns): are frames doubled or out of order?";
-}
-
-std::string SequenceNotes::period_line() const {
-  return "stamps rise by " + std::to_string(longest_period_) +
-         " ns at most from frame to frame: are stamps in nanoseconds?";
-}
-
-std::string SequenceNotes::limit_line() const {
-  std::string line;
-  for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
-    if (frames_beyond_[i] > 0)
-      line += (line.empty() ? "joint '" : ", joint '") + robot_.joints()[i].name +
-              "' beyond its limits in " + counted(frames_beyond_[i], "frame");
-  if (!line.empty()) line += ": are the positions in radians and metres?";
-  return line;
 }
 
 }  // namespace penumbra::io

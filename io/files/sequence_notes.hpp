@@ -14,27 +14,26 @@
 
 namespace penumbra::io {
 
-/// What is doubtful of a sequence of frames though each of them may be ok.
+/// Finds likely mistakes in a sequence of frames, each of which may be ok.
 class SequenceNotes {
  public:
-  /// How far a joint may be past a limit, rad or m: limits are written with two decimals, and arms
-  /// overshoot.
+  /// Tolerance of joint limits, rad or m: limits are written with two decimals, and arms overshoot.
   static constexpr double revolute_slack = 0.01;
   static constexpr double prismatic_slack = 0.001;
 
-  /// Share of the robot's measured pixels that are front or beyond above which the pose or the
-  /// depth is doubted, and share of its pixels with a measurement below which the depth is.
+  /// A larger fraction of front or beyond in the robot's measured pixels makes pose and depth
+  /// doubtful; a smaller fraction of measured pixels makes the depth doubtful.
   static constexpr double most = 0.5;
   static constexpr double nearly_none = 0.05;
 
-  /// Stamps that are all less apart, nanoseconds, are of another unit: no depth camera gives 1000
+  /// If all stamps are closer, nanoseconds, they have another unit: no depth camera gives 1000
   /// images a second.
   static constexpr std::uint64_t shortest_period = 1'000'000;
 
-  /// What the frames are of.
+  /// The source of the frames.
   struct Source {
     ImageSpace image = ImageSpace::raw;
-    bool has_sensor = true;  ///< false: depth images are no sensor's, pixels' labels tell nothing
+    bool has_sensor = true;  ///< false: no sensor measured the depth images
   };
 
   /// `robot` must outlive this.
@@ -44,11 +43,7 @@ class SequenceNotes {
   /// `positions`: those of the frame, in the order of Robot::variables(); empty if not known.
   void add(const FrameReport& report, std::span<const double> positions);
 
-  /// A line each: a robot that is in no frame whose pose is known, robot pixels that are nearly all
-  /// without measurement or mostly front or beyond, raw images that the lens model does not reach
-  /// everywhere, parts of links before the near plane, stamps that do not rise from frame to frame
-  /// or by less than a camera's, targets that were forgotten as stamps went back or not handled
-  /// without stamps, joints beyond their limits.
+  /// Returns a line for each likely mistake.
   [[nodiscard]] std::vector<std::string> lines() const;
 
  private:
@@ -58,16 +53,9 @@ class SequenceNotes {
     std::int64_t stamp = 0, before = 0;  // nanoseconds
   };
 
-  void add_pixels(const FrameReport& report);
   void add_stamp(const FrameReport& report);
-  void add_positions(std::span<const double> positions);
   void add_targets(const FrameReport& report);
   [[nodiscard]] std::string depth_line() const;
-  [[nodiscard]] std::string uncovered_line() const;
-  [[nodiscard]] std::string near_line(std::size_t link) const;
-  [[nodiscard]] std::string stamp_line() const;
-  [[nodiscard]] std::string period_line() const;
-  [[nodiscard]] std::string limit_line() const;
 
   const Robot& robot_;
   Source source_;

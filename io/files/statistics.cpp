@@ -8,43 +8,10 @@
 namespace penumbra::io {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::string_view take_word(std::string_view& text) {
-  const std::size_t end = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return word;
-}
-
-/// A file's name, or a place before what is said of it: "depth/12.png:", "joints.csv:7:".
-bool is_place(std::string_view word) {
-  return word.find('/') != std::string_view::npos || word.ends_with(':');
-}
-
-bool is_same_without_digits(std::string_view a, std::string_view b) {
-  const auto skip = [](std::string_view text, std::size_t i) {
-    while (i < text.size() && is_digit(text[i])) ++i;
-    return i;
-  };
-  for (std::size_t i = 0, j = 0;; ++i, ++j) {
-    i = skip(a, i);
-    j = skip(b, j);
-    if (i == a.size() || j == b.size()) return i == a.size() && j == b.size();
-    if (a[i] != b[j]) return false;
-  }
-}
-
-/// Whether two messages say the same, of other files, lines or frames perhaps.
-bool is_same_reason(std::string_view a, std::string_view b) {
-  for (std::string_view before; !a.empty() && !b.empty();) {
-    const std::string_view word = take_word(a);
-    const std::string_view other = take_word(b);
-    const bool may_differ = before == "frame" || (is_place(word) && is_place(other));
-    if (word != other && !(may_differ && is_same_without_digits(word, other))) return false;
-    before = word;
-  }
-  return a.empty() && b.empty();
+/// Returns a message without the numbers of its files, lines and frames.
+std::string reason_of(std::string message) {
+  std::erase_if(message, [](char c) { return c >= '0' && c <= '9'; });
+  return message;
 }
 
 }  // namespace
@@ -78,7 +45,7 @@ void Statistics::add(const FrameReport& report) {
     add_target(report.targets[i], i, report.index);
 }
 
-/// `place`: among the frame's targets; most often they come in the same order.
+/// `place`: index among the frame's targets, which usually come in the same order.
 void Statistics::add_target(const TargetReport& target, std::size_t place, std::size_t frame) {
   if (place >= targets_.size() || targets_[place].name != target.name) {
     const auto [known, is_new] =
@@ -107,7 +74,7 @@ void Statistics::add_fault(const FrameReport& report) {
 
   std::vector<Reason>& reasons = fault->reasons;
   const auto reason = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& known) {
-    return is_same_reason(known.message, report.message);
+    return reason_of(known.message) == reason_of(report.message);
   });
   if (reason != reasons.end())
     ++reason->frames;

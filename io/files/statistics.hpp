@@ -13,16 +13,16 @@
 
 namespace penumbra::io {
 
-/// Order statistics of samples: p99 is the smallest sample that no less than 99 % do not exceed,
-/// the median of an even number is the mean of the middle two.
+/// Order statistics of samples. p99: the smallest sample that at least 99 % do not exceed; median
+/// of an even number: the mean of the middle two.
 struct Quantiles {
   double min = 0.0, median = 0.0, p99 = 0.0, max = 0.0;
 };
 
-/// Nothing without samples.
+/// Returns nothing without samples.
 [[nodiscard]] std::optional<Quantiles> quantiles(std::vector<double> samples);
 
-/// A stage's name and where its time stands in a report.
+/// A stage's name and its member in a report.
 struct Stage {
   std::string_view name;
   std::optional<double> StageTimes::*time;
@@ -31,31 +31,30 @@ inline constexpr std::array stages = {
     Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
     Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
 
-/// What was said of frames, and of how many. Messages that differ in the numbers of files, lines
-/// and frames alone are one reason.
+/// A message of frames, and their number. Messages that differ only in digits are one reason.
 struct Reason {
   std::string message;  ///< the first frame's
   std::size_t frames = 0;
   std::size_t first = 0;  ///< index of its first frame
 };
 
-/// How often a status other than ok came, and why.
+/// A status other than ok: how often it occurred, and why.
 struct Fault {
   static constexpr std::size_t max_reasons = 16;  ///< messages may differ in every frame
 
   FrameStatus status = FrameStatus::ok;
   std::size_t frames = 0;
-  std::vector<Reason> reasons;    ///< the first distinct ones, in the order they came
+  std::vector<Reason> reasons;    ///< the first ones, in order
   std::size_t other_reasons = 0;  ///< frames of further ones
 };
 
-/// What was said of one target.
+/// The sums of one target.
 struct TargetStatistics {
   std::string name;
   std::array<std::size_t, 5> verdicts{};  ///< frames by Verdict
   std::array<std::size_t, 4> handled{};   ///< frames by Source; all 0 if it is not handled
   std::array<std::size_t, 5> outcomes{};  ///< estimates by Outcome
-  std::string reason;                     ///< why it was unknown, where it first was
+  std::string reason;                     ///< why it was unknown first
   std::size_t first_unknown = 0;          ///< index of that frame
 
   [[nodiscard]] std::size_t frames(Verdict verdict) const {
@@ -63,7 +62,7 @@ struct TargetStatistics {
   }
 };
 
-/// What many frames come to.
+/// Sums over many frames.
 class Statistics {
  public:
   void add(const FrameReport& report);
@@ -71,18 +70,18 @@ class Statistics {
   [[nodiscard]] std::size_t frames() const { return frames_; }
   [[nodiscard]] std::size_t bad_frames() const;
 
-  /// Frames that say something of the robot's pixels: ok, or drawn without a link.
+  /// Returns the number of frames that are ok, or drawn without a link.
   [[nodiscard]] std::size_t usable_frames() const { return usable_frames_; }
 
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
-  /// Sums over the frames; `robot` over those that have it.
+  /// Returns sums over the frames; `robot` over those that have it.
   [[nodiscard]] const PixelCounts& pixels() const { return pixels_; }
 
-  /// In the order in which they came first.
+  /// Returns the targets in the order of their first frames.
   [[nodiscard]] const std::vector<TargetStatistics>& targets() const { return targets_; }
 
-  /// Of one of `stages`, milliseconds; nothing if it never ran.
+  /// Returns milliseconds of one of `stages`; nothing if it never ran.
   [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
 
  private:

@@ -24,9 +24,7 @@ void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh) {
     const std::uint16_t attributes = 0;
     append(&attributes, sizeof attributes);
   }
-  OutputFile out(file);
-  out.write(bytes.data(), bytes.size());
-  out.close();
+  write_file(file, bytes.data(), bytes.size());
 }
 
 }  // namespace penumbra::io

@@ -7,8 +7,8 @@
 
 namespace penumbra::io {
 
-/// Writes a binary STL file. Normals are left 0; readers make their own. Throws InputError that
-/// names a file that cannot be written.
+/// Writes a binary STL file with normals of 0, which readers compute themselves. Throws InputError
+/// that names a file that cannot be written.
 void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace penumbra::io

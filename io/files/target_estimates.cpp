@@ -10,10 +10,10 @@
 namespace penumbra::io {
 namespace {
 
-// More than that is no measure of anything, less is below a double's rounding at 1 m.
+// Larger values mean nothing; smaller ones are below the rounding of a double at 1 m.
 constexpr double least_sigma = 1e-9, largest_sigma = 1e9;
 
-/// Of an estimate with so many sigmas behind its numbers: of position, and of orientation.
+/// Returns the covariance for the sigmas of position and, if given, orientation.
 Matrix6d covariance_of(std::span<const double> sigmas) {
   Matrix6d covariance = Matrix6d::Zero();
   for (std::size_t i = 0; i < sigmas.size(); ++i) {

@@ -12,25 +12,39 @@
 namespace penumbra::io {
 namespace {
 
-void read_number(const YamlNode& node, std::string_view key, double& to) {
-  if (const YamlNode* value = node.find(key)) to = value->number();
-}
-
-void read_count(const YamlNode& node, std::string_view key, std::size_t& to) {
-  const YamlNode* value = node.find(key);
-  if (value == nullptr) return;
-  const std::int64_t count = value->integer();
-  if (count < 0) value->fail("is " + value->text() + "; a number from 0 is wanted");
+void read(const YamlNode& value, double& to) { to = value.number(); }
+void read(const YamlNode& value, std::optional<double>& to) { to = value.number(); }
+void read(const YamlNode& value, bool& to) { to = value.boolean(); }
+void read(const YamlNode& value, std::size_t& to) {
+  const std::int64_t count = value.integer();
+  if (count < 0) value.fail("is " + value.text() + "; a number from 0 is wanted");
   to = static_cast<std::size_t>(count);
 }
 
-void read_flag(const YamlNode& node, std::string_view key, bool& to) {
-  if (const YamlNode* value = node.find(key)) to = value->boolean();
+/// A key and the member that it sets.
+template <typename Config>
+struct Setting {
+  std::string_view key;
+  std::variant<double Config::*, std::optional<double> Config::*, std::size_t Config::*,
+               bool Config::*>
+      member;
+};
+
+/// Reads all settings that are given. Throws for keys that are neither settings nor `others`.
+template <typename Config>
+void read_settings(const YamlNode& node, const std::vector<Setting<Config>>& settings,
+                   std::vector<std::string_view> others, Config& config) {
+  for (const Setting<Config>& setting : settings) {
+    others.push_back(setting.key);
+    if (const YamlNode* value = node.find(setting.key))
+      std::visit([&](auto member) { read(*value, config.*member); }, setting.member);
+  }
+  node.allow_only(others);
 }
 
-template <typename T, std::size_t count>
+template <typename T, std::size_t count, typename To>
 void read_choice(const YamlNode& node, std::string_view key,
-                 const std::array<std::pair<std::string_view, T>, count>& choices, T& to) {
+                 const std::array<std::pair<std::string_view, T>, count>& choices, To& to) {
   const YamlNode* value = node.find(key);
   if (value == nullptr) return;
   std::string known;
@@ -54,23 +68,7 @@ constexpr std::array<std::pair<std::string_view, Motion>, 4> motions{
 constexpr std::array<std::pair<std::string_view, PointMotion>, 2> point_motions{
     {{"hold", PointMotion::hold}, {"constant_velocity", PointMotion::constant_velocity}}};
 
-/// What both trackers have.
-template <typename Config>
-void read_track(const YamlNode& node, Config& config) {
-  read_number(node, "acceleration", config.acceleration);
-  read_number(node, "timeout", config.timeout);
-  read_number(node, "gate", config.gate);
-  read_count(node, "gate_patience", config.gate_patience);
-  read_number(node, "memory", config.memory);
-  read_count(node, "max_estimates", config.max_estimates);
-  read_number(node, "speed_sigma", config.speed_sigma);
-  if (node.find("worst") == nullptr) return;
-  Verdict worst{};
-  read_choice(node, "worst", verdicts, worst);
-  config.worst = worst;
-}
-
-/// Settings that a motion does not use would be without effect.
+/// Refuses settings that a motion does not use.
 void refuse_unused(const YamlNode& node, std::string_view motion,
                    std::initializer_list<std::string_view> unused) {
   for (const std::string_view key : unused)
@@ -105,35 +103,49 @@ void refuse_unused(const YamlNode& node, const PointTrackerConfig& config) {
 }
 
 PoseTrackerConfig read_pose(const YamlNode& node) {
-  node.allow_only({"motion", "direction", "speed", "position_sigma", "orientation_sigma",
-                   "acceleration", "angular_acceleration", "drift", "angular_drift", "speed_sigma",
-                   "angular_speed_sigma", "timeout", "gate", "gate_patience", "memory",
-                   "max_estimates", "worst"});
-  PoseTrackerConfig config;
+  using C = PoseTrackerConfig;
+  C config;
+  read_settings<C>(node,
+                   {{"speed", &C::speed},
+                    {"position_sigma", &C::position_sigma},
+                    {"orientation_sigma", &C::orientation_sigma},
+                    {"acceleration", &C::acceleration},
+                    {"angular_acceleration", &C::angular_acceleration},
+                    {"drift", &C::drift},
+                    {"angular_drift", &C::angular_drift},
+                    {"speed_sigma", &C::speed_sigma},
+                    {"angular_speed_sigma", &C::angular_speed_sigma},
+                    {"timeout", &C::timeout},
+                    {"gate", &C::gate},
+                    {"gate_patience", &C::gate_patience},
+                    {"memory", &C::memory},
+                    {"max_estimates", &C::max_estimates}},
+                   {"motion", "direction", "worst"}, config);
   read_choice(node, "motion", motions, config.motion);
   if (const YamlNode* direction = node.find("direction"))
     config.direction = Eigen::Vector3d(direction->numbers(3).data());
-  if (const YamlNode* speed = node.find("speed")) config.speed = speed->number();
-  read_number(node, "position_sigma", config.position_sigma);
-  read_number(node, "orientation_sigma", config.orientation_sigma);
-  read_number(node, "angular_acceleration", config.angular_acceleration);
-  read_number(node, "drift", config.drift);
-  read_number(node, "angular_drift", config.angular_drift);
-  read_number(node, "angular_speed_sigma", config.angular_speed_sigma);
-  read_track(node, config);
+  read_choice(node, "worst", verdicts, config.worst);
   node.blamed_for([&] { config.check(); });
   refuse_unused(node, config);
   return config;
 }
 
 PointTrackerConfig read_point(const YamlNode& node) {
-  node.allow_only({"motion", "sigma", "acceleration", "speed_sigma", "held_speed", "timeout",
-                   "gate", "gate_patience", "memory", "max_estimates", "worst"});
-  PointTrackerConfig config;
+  using C = PointTrackerConfig;
+  C config;
+  read_settings<C>(node,
+                   {{"sigma", &C::sigma},
+                    {"acceleration", &C::acceleration},
+                    {"speed_sigma", &C::speed_sigma},
+                    {"held_speed", &C::held_speed},
+                    {"timeout", &C::timeout},
+                    {"gate", &C::gate},
+                    {"gate_patience", &C::gate_patience},
+                    {"memory", &C::memory},
+                    {"max_estimates", &C::max_estimates}},
+                   {"motion", "worst"}, config);
   read_choice(node, "motion", point_motions, config.motion);
-  read_number(node, "sigma", config.sigma);
-  read_number(node, "held_speed", config.held_speed);
-  read_track(node, config);
+  read_choice(node, "worst", verdicts, config.worst);
   node.blamed_for([&] { config.check(); });
   refuse_unused(node, config);
   return config;
@@ -142,22 +154,21 @@ PointTrackerConfig read_point(const YamlNode& node) {
 }  // namespace
 
 TargetThresholds read_thresholds(const YamlNode& node, TargetThresholds thresholds) {
-  node.allow_only({"partial_enter", "partial_leave", "hidden_enter", "hidden_leave",
-                   "unknown_limit", "past_limit", "min_measured", "min_inside", "beyond_hides",
-                   "others_hide", "point_min_pixels", "point_min_fraction"});
-  read_number(node, "partial_enter", thresholds.partial_enter);
-  read_number(node, "partial_leave", thresholds.partial_leave);
-  read_number(node, "hidden_enter", thresholds.hidden_enter);
-  read_number(node, "hidden_leave", thresholds.hidden_leave);
-  if (const YamlNode* limit = node.find("unknown_limit"))
-    thresholds.unknown_limit = limit->number();
-  read_number(node, "past_limit", thresholds.past_limit);
-  read_number(node, "min_measured", thresholds.min_measured);
-  read_number(node, "min_inside", thresholds.min_inside);
-  read_flag(node, "beyond_hides", thresholds.beyond_hides);
-  read_flag(node, "others_hide", thresholds.others_hide);
-  read_count(node, "point_min_pixels", thresholds.point_min_pixels);
-  read_number(node, "point_min_fraction", thresholds.point_min_fraction);
+  using T = TargetThresholds;
+  read_settings<T>(node,
+                   {{"partial_enter", &T::partial_enter},
+                    {"partial_leave", &T::partial_leave},
+                    {"hidden_enter", &T::hidden_enter},
+                    {"hidden_leave", &T::hidden_leave},
+                    {"unknown_limit", &T::unknown_limit},
+                    {"past_limit", &T::past_limit},
+                    {"min_measured", &T::min_measured},
+                    {"min_inside", &T::min_inside},
+                    {"beyond_hides", &T::beyond_hides},
+                    {"others_hide", &T::others_hide},
+                    {"point_min_pixels", &T::point_min_pixels},
+                    {"point_min_fraction", &T::point_min_fraction}},
+                   {}, thresholds);
   node.blamed_for([&] { thresholds.check(); });
   return thresholds;
 }

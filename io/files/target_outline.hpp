@@ -15,12 +15,11 @@ namespace penumbra::io {
 
 using PixelPath = std::vector<Eigen::Vector2d>;
 
-/// Where a point in the optical frame is seen; nothing where the camera cannot see it.
+/// Returns the pixel of a point in the optical frame, or nothing if the camera cannot see it.
 [[nodiscard]] std::optional<Eigen::Vector2d> seen_at(const Eigen::Vector3d& p,
                                                      const Camera& camera);
 
-/// Where camera and links are while a frame is drawn, and where they were when a target was seen:
-/// in another frame, if it came late.
+/// Poses of the drawn frame and of the target's frame, which is another one if the target is late.
 struct TargetPoses {
   std::optional<Eigen::Isometry3d> T_root_camera;       ///< of the frame that is drawn
   std::optional<Eigen::Isometry3d> T_root_camera_then;  ///< of the target's
@@ -28,8 +27,8 @@ struct TargetPoses {
   bool is_late = false;
 };
 
-/// Lines to draw of a target: borders of its region, edges of its box, the convex outline of its
-/// mesh. Empty where nothing of it can be drawn.
+/// Returns lines of a target: borders of its region, edges of its box, the convex outline of its
+/// mesh. Empty if it cannot be drawn.
 [[nodiscard]] std::vector<PixelPath> outline_of(const TargetShape& shape, const TargetPoses& poses,
                                                 const Robot& robot, const Camera& camera);
 

@@ -20,7 +20,7 @@ namespace penumbra::io {
 namespace {
 
 constexpr int rows_per_width = 360;  // image rows for which lines grow by a pixel
-constexpr Rgb8 rim{0, 0, 0};         // around lines and names, so that they stand out on any ground
+constexpr Rgb8 rim{0, 0, 0};         // around lines and names, visible on any background
 constexpr Rgb8 marker_colour{255, 255, 255};
 
 /// Draws on an image with lines of a width.
@@ -29,7 +29,7 @@ struct Pen {
   int width;
 
   void dot(const Eigen::Vector2d& p, int size, Rgb8 color) const {
-    // What is far outside has no pixel number that fits an int.
+    // Pixel numbers far outside do not fit an int.
     if (!(std::abs(p.x()) < 1e6 && std::abs(p.y()) < 1e6)) return;
     const int u = static_cast<int>(std::lround(p.x())), v = static_cast<int>(std::lround(p.y()));
     BitmapFont::fill(u - (size - 1) / 2, v - (size - 1) / 2, size, color, out);
@@ -81,18 +81,18 @@ struct Pen {
   }
 };
 
-/// To a millionth; stamps may be as far apart as numbers are.
+/// In double, because stamps may be farther apart than int64 holds.
 double seconds_from(std::int64_t first, std::int64_t second) {
   return 1e-9 * (static_cast<double>(second) - static_cast<double>(first));
 }
 
-/// Seconds by which a target is of an earlier frame; nothing: it is of this one.
+/// Returns the age of a target of an earlier frame, seconds.
 std::optional<double> lateness(const TargetReport& target, const FrameReport& report) {
   if (!target.stamp || !report.stamp || *target.stamp == *report.stamp) return std::nullopt;
   return seconds_from(*target.stamp, *report.stamp);
 }
 
-/// What stands at a target: "crate hidden 97%, 0.20 s ago, predicted"; "crate unknown, at least
+/// The caption of a target: "crate hidden 97%, 0.20 s ago, predicted"; "crate unknown, at least
 /// 57%".
 std::string caption(const TargetReport& target, const std::optional<double>& late) {
   std::string text(target.name);
@@ -118,7 +118,7 @@ std::string caption(const TargetReport& target, const std::optional<double>& lat
 /// Finds places for captions in an image so that none covers another.
 class CaptionPlaces {
  public:
-  /// The nearest free place above or below `at`, inside the image; `at` where there is none.
+  /// Returns the nearest free place above or below `at` inside the image, else `at`.
   Eigen::Vector2i find(const Eigen::Vector2i& at, const Eigen::Vector2i& size, int image_height) {
     Eigen::AlignedBox2i best(at, at + size);
     for (int step = 1; !is_free(best) && step <= 2 * image_height / size.y(); ++step) {

@@ -20,24 +20,24 @@
 
 namespace penumbra::io {
 
-/// The colour that stands for a verdict; told apart by people with any common colour blindness.
+/// Returns the colour of a verdict, distinguishable with any common colour blindness.
 [[nodiscard]] Rgb8 verdict_color(Verdict verdict);
 
-/// Names of targets that are drawn; of more, only the outlines are.
+/// Names of so many targets are drawn; of the others only outlines.
 inline constexpr std::size_t max_target_names = 40;
 
 /// The lines of a target, in pixels.
 struct TargetMark {
-  std::vector<PixelPath> outline;        ///< empty where nothing of it can be drawn
-  std::optional<Eigen::Vector2d> place;  ///< where a handled target is
+  std::vector<PixelPath> outline;        ///< empty if it cannot be drawn
+  std::optional<Eigen::Vector2d> place;  ///< place of a handled target
 };
 
 /// Draws the targets of one frame after another.
 class TargetOverlay {
  public:
-  /// Returns a mark for each of a frame's targets. A 3-D target that came late is where it was at
-  /// its own stamp, seen by the camera as it is now; it has no outline where its frame was not
-  /// drawn. `camera`: of the report's images.
+  /// Returns a mark for each of a frame's targets. A late 3-D target is drawn at its place at its
+  /// own stamp, as the camera sees it now, if the frame of that stamp was drawn. `camera`: of the
+  /// report's images.
   [[nodiscard]] std::vector<TargetMark> marks(std::span<const Target> targets,
                                               const FrameReport& report, const Robot& robot,
                                               const Camera& camera);

@@ -23,14 +23,14 @@ namespace {
 
 using MakeShape = std::function<TargetShape(const FrameValue&)>;
 
-/// What would make a target unknown in every frame is told at once.
+/// Refuses a shape that would make the target unknown in every frame.
 void check(const TargetShape& shape, const Intrinsics& images) {
   check_shape(shape);
   if (const auto* target = std::get_if<RegionTarget>(&shape))
     check_region(target->region, images.width(), images.height());
 }
 
-/// The shape that is made of a frame's numbers. Those of the YAML file itself are tried at once.
+/// Returns shapes made from a frame's numbers. The numbers in the YAML file are checked at once.
 ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const ValueFormat& format,
                       const MakeShape& make) {
   auto values = std::make_shared<FrameValues>(reader.values(node, format));
@@ -59,7 +59,7 @@ std::optional<double> depth_of(const YamlNode& node) {
   return depth == nullptr ? std::nullopt : std::optional(positive(*depth));
 }
 
-/// What all regions have, with the value's own depth if it has one.
+/// Returns a region with the common settings, and the value's own depth if it has one.
 RegionTarget region_target(const RegionTarget& common, const Region& region,
                            const FrameValue& value) {
   RegionTarget target = common;
@@ -101,7 +101,7 @@ ShapeSource read_polygon(const TargetReader& reader, const YamlNode& node) {
                    });
 }
 
-/// {size: [height, width], counts: [...]}: height and width before the counts.
+/// Reads {size: [height, width], counts: [...]}. Returns height, width and the counts.
 std::vector<double> run_lengths_of(const YamlNode& node) {
   node.allow_only({"size", "counts"});
   std::vector<double> numbers = node.at("size").numbers(2);
@@ -162,7 +162,8 @@ ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   }};
 }
 
-/// Semi-axes and angle of a key point: of `radius` or `ellipse`, in pixels, or with _m in metres.
+/// Reads semi-axes and angle of a key point from `radius` or `ellipse`, in pixels, or with _m in
+/// metres.
 void read_ellipse(const YamlNode& node, KeypointTarget& target) {
   constexpr std::array keys{"radius", "ellipse", "radius_m", "ellipse_m"};
   const YamlNode* given = nullptr;
@@ -192,7 +193,7 @@ ShapeSource read_keypoint(const TargetReader& reader, const YamlNode& node) {
   ValueFormat format = fixed_format({"u", "v"}, {"score"});
   if (const YamlNode* score = reader.node.find("min_score")) {
     common.min_score = score->number();
-    format = fixed_format({"u", "v", "score"});  // it would be compared with nothing
+    format = fixed_format({"u", "v", "score"});
   }
   return source_of(reader, node, format, [common](const FrameValue& value) -> TargetShape {
     KeypointTarget target = common;
@@ -230,7 +231,7 @@ ShapeSource read_object_box(const TargetReader& reader, const YamlNode& node) {
   });
 }
 
-/// Farther out, or smaller, float32 depths of it would mean nothing.
+/// Refuses meshes that float32 depths cannot represent.
 void check_extent(const TriangleMesh& mesh, const YamlNode& blamed) {
   constexpr double least = 1e-6;  // metres
   double farthest = 0.0;
@@ -304,16 +305,6 @@ const std::vector<ShapeKind>& kinds() {
 constexpr std::array<std::string_view, 6> common_keys{"name",       "frame_id", "depth_margin",
                                                       "thresholds", "handling", "estimate"};
 
-void check_keys(const YamlNode& node, const ShapeKind& kind) {
-  std::vector<std::string_view> known(common_keys.begin(), common_keys.end());
-  known.push_back(kind.key);
-  known.insert(known.end(), kind.keys.begin(), kind.keys.end());
-  for (const YamlNode& entry : node.entries())
-    if (std::find(known.begin(), known.end(), entry.key()) == known.end())
-      entry.fail("unknown key of a target of kind " + std::string(kind.key) +
-                 near_names(entry.key(), known));
-}
-
 }  // namespace
 
 bool names_pixels(const YamlNode& target) {
@@ -336,10 +327,13 @@ ShapeSource read_shape(const TargetReader& reader) {
     std::string known;
     for (const ShapeKind& kind : kinds())
       known += (known.empty() ? "" : ", ") + std::string(kind.key);
-    reader.node.fail("target '" + reader.name + "' says not where it is; one of the keys " + known +
+    reader.node.fail("target '" + reader.name + "' has no place; one of the keys " + known +
                      " is wanted");
   }
-  check_keys(reader.node, *chosen);
+  std::vector<std::string_view> known(common_keys.begin(), common_keys.end());
+  known.push_back(chosen->key);
+  known.insert(known.end(), chosen->keys.begin(), chosen->keys.end());
+  reader.node.allow_only(known);
   ShapeSource source = chosen->read(reader, reader.node.at(chosen->key));
   source.has_pose = chosen->has_pose;
   return source;

@@ -17,39 +17,39 @@
 
 namespace penumbra::io {
 
-/// What one target of a targets.yaml is read with.
+/// The context of one target of a targets.yaml.
 struct TargetReader {
   const YamlNode& node;
   const std::string& name;
   const TargetsContext& context;
-  const std::filesystem::path& folder;  ///< of the files that are named
+  const std::filesystem::path& folder;  ///< of named files
   ValueTables& tables;
 
-  /// Of a key of this target.
+  /// Reads the values of a key of this target.
   [[nodiscard]] FrameValues values(const YamlNode& at, const ValueFormat& format) const {
     return FrameValues::read(at, format, folder, name, tables);
   }
 };
 
-/// A target's shape by frames. `of_frame` throws InputError, with its place, where a frame has none
-/// or a wrong one; what the shape refers to is valid until its next call.
+/// A target's shape by frame. `of_frame` throws InputError with the place if a frame has no valid
+/// shape. The shape's references are valid until its next call.
 struct ShapeSource {
   struct Given {
     TargetShape shape;
-    std::optional<std::int64_t> stamp = {};  ///< nanoseconds; nothing: the frame's
+    std::optional<std::int64_t> stamp = {};  ///< nanoseconds; none: the frame's
   };
   std::function<Given(std::int64_t index)> of_frame;
   bool may_be_late = false;
-  bool has_pose = false;  ///< of its own: with an orientation
+  bool has_pose = false;  ///< with an orientation
 };
 
-/// Whether the target is given by pixels of an image.
+/// Returns whether the target is given by pixels of an image.
 [[nodiscard]] bool names_pixels(const YamlNode& target);
 
 /// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
 [[nodiscard]] ShapeSource read_shape(const TargetReader& reader);
 
-/// An estimate by frames; std::monostate in frames without one.
+/// An estimate by frame; std::monostate in frames without one.
 struct EstimateSource {
   std::function<TargetEstimate(std::int64_t index)> of_frame;
   bool is_pose = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the numbers of a targets.yaml are read, whatever they are of.
+// Reading the numbers of a targets.yaml.
 #pragma once
 
 #include <string>
@@ -17,25 +17,25 @@
 
 namespace penumbra::io {
 
-/// So many numbers, or those and all of the optional ones.
+/// Numbers for the columns, or for these and all optional columns.
 [[nodiscard]] ValueFormat fixed_format(std::vector<std::string_view> columns,
                                        std::vector<std::string_view> optional_columns = {});
 
 /// x, y, z, qx, qy, qz, qw; and `optional_columns` after them.
 [[nodiscard]] ValueFormat pose_format(std::vector<std::string_view> optional_columns = {});
 
-/// Of the first three numbers; metres.
+/// Returns the first three numbers, metres.
 [[nodiscard]] Eigen::Vector3d position_of(const std::vector<double>& numbers);
-/// Of the first seven. Throws InputError for a quaternion that is not of length 1.
+/// Returns the pose of the first seven. Throws InputError for a quaternion that is not of length 1.
 [[nodiscard]] Eigen::Isometry3d isometry_of(const std::vector<double>& numbers);
 
-/// A number above 0.
+/// Returns a number above 0.
 [[nodiscard]] double positive(const YamlNode& node);
 
-/// The key `link`; without it the camera's frame.
+/// Returns the link of the key `link`; without it the camera's frame.
 [[nodiscard]] LinkFrame link_of(const YamlNode& node, const Robot& robot);
 
-/// Runs `call`; what it throws stands at `place`.
+/// Runs `call` and puts `place` before the message of an InputError that it throws.
 template <typename F>
 auto at_place(const std::string& place, const F& call) {
   try {

@@ -24,7 +24,7 @@ struct TargetSource {
 
 namespace {
 
-/// Pixels are of the image that the file says, else of the camera's as it comes.
+/// Pixels refer to the image that the file names, else to the raw image.
 void check_image(const YamlNode& root, const TargetsContext& context) {
   ImageSpace image = ImageSpace::raw;
   const YamlNode* key = root.find("image");
@@ -44,7 +44,7 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
                     "rectified");
 }
 
-/// Names stand in lines of reports and on terminals.
+/// Names are printed in reports and on terminals.
 void check_name(const YamlNode& node) {
   const std::string& name = node.text();
   if (std::any_of(name.begin(), name.end(), is_control))
@@ -76,7 +76,7 @@ TargetSource source_of(const YamlNode& node, const TargetsContext& context,
   return source;
 }
 
-/// Handling that nothing can ever feed is a mistake, and would only say "lost".
+/// Refuses handling without a source of estimates.
 void check_handling(const YamlNode& node, const TargetSource& source,
                     const TargetHandling& handling) {
   if (source.estimate && std::holds_alternative<std::monostate>(handling))
@@ -112,7 +112,7 @@ Target target_of(const YamlNode& node, const TargetSource& source, const Targets
     node.at("thresholds")
         .at("min_inside")
         .fail(
-            "is not possible here: what of a box3d or a mesh lies outside of the image is not "
+            "is not possible here: the part of a box3d or a mesh outside of the image is not "
             "known");
   return target;
 }
@@ -161,7 +161,7 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
     const auto [known, is_new] = numbers.emplace(source.name, numbers.size());
     if (!is_new)
       node.at("name").fail("'" + source.name + "' is the name of target " +
-                           std::to_string(known->second + 1) + " already; names stand once");
+                           std::to_string(known->second + 1) + " already; use each name once");
     state->targets.push_back(target_of(node, source, context));
     if (source.shape.may_be_late) state->history = context.history;
   }

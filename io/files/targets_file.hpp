@@ -16,14 +16,14 @@
 
 namespace penumbra::io {
 
-/// What targets are read for.
+/// The context of targets.
 struct TargetsContext {
-  const Robot& robot;    ///< whose links may be named
-  ImageSpace image;      ///< of the report
-  Intrinsics images;     ///< of the report's images
-  bool is_bent;          ///< the camera's raw images have lens distortion
-  bool beyond_hides;     ///< of targets that do not say it
-  double history = 0.5;  ///< seconds that frames are kept for late targets, if there are any
+  const Robot& robot;                  ///< its links may be named
+  ImageSpace image;                    ///< of the report
+  Intrinsics images;                   ///< of the report's images
+  bool is_bent;                        ///< the camera's raw images have lens distortion
+  bool beyond_hides;                   ///< default of targets
+  double history = 0.5;                ///< seconds that frames are kept for late targets
   std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
 };
 
@@ -39,14 +39,14 @@ class TargetsFile {
   TargetsFile(TargetsFile&&) noexcept;
   TargetsFile& operator=(TargetsFile&&) noexcept;
 
-  /// The targets of a frame, always all of them in the file's order: one that is not given there,
-  /// or wrongly, has a fault and no shape. Valid until the next call.
+  /// Returns all targets in the file's order. A target without a valid value in this frame has a
+  /// fault and no shape. Valid until the next call.
   [[nodiscard]] std::span<const Target> of_frame(std::int64_t index);
 
   [[nodiscard]] const std::filesystem::path& file() const;
   [[nodiscard]] std::size_t size() const;
 
-  /// PipelineConfig::target_history that they need, seconds.
+  /// Returns the PipelineConfig::target_history that they need, seconds.
   [[nodiscard]] double history() const;
 
  private:

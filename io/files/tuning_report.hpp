@@ -19,12 +19,12 @@ struct WrittenExtra {
   std::string file;  ///< its name in the folder of results
 };
 
-/// What `tune` writes as tune.json. Frames that were kept are named by their index.
+/// Returns tune.json. The frames are named by their index.
 [[nodiscard]] std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frames,
                                       std::span<const WrittenExtra> extras);
 
-/// Draws the frame with the most fringe: its colour, or its depth in grey if `color` is empty, the
-/// robot's outline, what the recommended rule removes in green and what it leaves in red.
+/// Draws the frame with the most fringe: its colour, or its depth in grey if `color` is empty; the
+/// robot's outline; pixels that the recommended rule removes in green, those that it leaves in red.
 [[nodiscard]] Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
                                       ImageView<const Rgb8> color);
 

@@ -33,7 +33,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-// Makes the tree of yaml-cpp's events: they, unlike its nodes, tell doubled keys and aliases.
+// Builds the tree from yaml-cpp's events. Unlike its nodes, they show doubled keys and aliases.
 class YamlBuilder : public YAML::EventHandler {
  public:
   explicit YamlBuilder(const std::filesystem::path& file)
@@ -92,7 +92,7 @@ class YamlBuilder : public YAML::EventHandler {
     key_ = key;
   }
 
-  // Parents stay where they are: a list of children only grows while its last child is closed.
+  // Pointers to parents stay valid: a list of children only grows while its last child is closed.
   YamlNode& add(const YAML::Mark& mark, YamlNode::Kind kind, const std::string& text,
                 bool is_quoted) {
     YamlNode* node = &root_;
@@ -185,10 +185,10 @@ const YamlNode& YamlNode::at(std::string_view key) const {
   fail("key '" + std::string(key) + "' is missing");
 }
 
-void YamlNode::allow_only(std::initializer_list<std::string_view> known) const {
+void YamlNode::allow_only(std::span<const std::string_view> known) const {
   for (const YamlNode& child : entries())
     if (std::find(known.begin(), known.end(), child.key_) == known.end())
-      child.fail("unknown key" + near_names(child.key_, {known.begin(), known.size()}));
+      child.fail("unknown key" + near_names(child.key_, known));
 }
 
 std::span<const YamlNode> YamlNode::entries() const {

@@ -14,19 +14,19 @@
 
 namespace penumbra::io {
 
-/// A value of a YAML file that knows where it stands: everything that throws, throws InputError
-/// with file, line and key ("recording.yaml:12: camera.tolerance: ...").
+/// A value of a YAML file. Members throw InputError with file, line and key
+/// ("recording.yaml:12: camera.tolerance: ...").
 class YamlNode {
  public:
-  /// Returns the file's one document. Doubled keys, aliases, keys that are no plain texts, several
-  /// documents, more than a million lines, commas and brackets and files above
-  /// FileLimit::text are errors.
+  /// Reads a file with one document. Errors are: doubled keys, aliases, keys that are not plain
+  /// texts, several documents, more than a million lines, commas and brackets, and files above
+  /// FileLimit::text.
   [[nodiscard]] static YamlNode read(const std::filesystem::path& file);
 
   /// The same from text; `file` is for messages.
   [[nodiscard]] static YamlNode parse(const std::string& text, const std::filesystem::path& file);
 
-  /// Every document of a text, in order, at least one; one of nothing but its mark (---) is null.
+  /// Returns all documents of a text, at least one. An empty document after its mark (---) is null.
   [[nodiscard]] static std::vector<YamlNode> parse_all(const std::string& text,
                                                        const std::filesystem::path& file);
 
@@ -35,14 +35,17 @@ class YamlNode {
   [[nodiscard]] bool is_map() const { return kind_ == Kind::map; }
   [[nodiscard]] bool is_list() const { return kind_ == Kind::list; }
 
-  /// A map's value of `key`; at() throws if there is none, find() answers null.
+  /// Returns a map's value of `key`. Without one at() throws, and find() returns null.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;
   [[nodiscard]] const YamlNode& at(std::string_view key) const;
 
   /// Throws for a key of this map that is not among `known`.
-  void allow_only(std::initializer_list<std::string_view> known) const;
+  void allow_only(std::span<const std::string_view> known) const;
+  void allow_only(std::initializer_list<std::string_view> known) const {
+    allow_only(std::span(known.begin(), known.size()));
+  }
 
-  /// Values of a map or list, in the file's order.
+  /// Return the values of a map or list, in the file's order.
   [[nodiscard]] std::span<const YamlNode> entries() const;
   [[nodiscard]] std::span<const YamlNode> items() const;
 
@@ -55,10 +58,10 @@ class YamlNode {
   [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
   [[nodiscard]] std::vector<std::string> texts() const;
 
-  /// Throws for this value: `what` says what is wrong and what would be right.
+  /// Throws for this value. `what`: what is wrong, and what would be right.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Runs `call`; an InputError that it throws is told as a fault of this value.
+  /// Runs `call`. An InputError that it throws becomes a fault of this value.
   template <typename F>
   auto blamed_for(const F& call) const {
     try {

@@ -6,7 +6,7 @@
 
 #include <io/assembly/pose_messages.hpp>
 #include <io/files/printable.hpp>
-#include <io/files/renderer_json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/files/statistics.hpp>
 #include <io/live/live_diagnostics.hpp>
 

@@ -9,8 +9,8 @@
 
 namespace penumbra::io {
 
-/// The camera of a message, by the rules of read_camera_info. `source`: the topic, for messages.
-/// Throws InputError that names source and field.
+/// Returns the camera of a message, by the rules of read_camera_info. `source`: the topic. Throws
+/// InputError that names source and field.
 [[nodiscard]] Camera camera_of(const CameraInfoMessage& info, const std::string& source,
                                bool rectified);
 

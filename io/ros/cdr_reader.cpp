@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <utility>
 
 #include <io/ros/cdr_reader.hpp>
 
 namespace penumbra::io {
-namespace {
-
-// OMG DDS-XTypes 1.3, table 60: representation identifiers.
-constexpr std::array<std::string_view, 12> encapsulations = {
-    "CDR_BE",  "CDR_LE",  "PL_CDR_BE", "PL_CDR_LE", "no encapsulation", "no encapsulation",
-    "CDR2_BE", "CDR2_LE", "D_CDR2_BE", "D_CDR2_LE", "PL_CDR2_BE",       "PL_CDR2_LE"};
-
-}  // namespace
-
 CdrReader::CdrReader(std::span<const std::byte> payload) {
   if (payload.size() < header_bytes) {
     fail(std::to_string(payload.size()) + " bytes are no CDR payload");
@@ -22,9 +12,7 @@ CdrReader::CdrReader(std::span<const std::byte> payload) {
   const auto kind =
       std::to_integer<std::size_t>(payload[0]) << 8 | std::to_integer<std::size_t>(payload[1]);
   if (kind > 1) {
-    fail("its encapsulation is " +
-         (kind < encapsulations.size() ? std::string(encapsulations[kind]) : std::to_string(kind)) +
-         "; CDR_LE or CDR_BE is wanted");
+    fail("its encapsulation is " + std::to_string(kind) + "; 0 (CDR_BE) or 1 (CDR_LE) is wanted");
     return;
   }
   swaps_ = (kind == 1) != (std::endian::native == std::endian::little);

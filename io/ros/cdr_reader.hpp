@@ -13,7 +13,7 @@
 
 namespace penumbra::io {
 
-/// The bytes of a number in the other order.
+/// Returns a number with its bytes in reverse order.
 template <typename T>
 [[nodiscard]] T byte_swapped(T value) {
   if constexpr (sizeof(T) == 1) return value;
@@ -28,32 +28,30 @@ template <typename T>
   return value;
 }
 
-/// Reads a payload in CDR as ROS 2 writes it (OMG's XCDR version 1, plain: encapsulations CDR_BE
-/// and CDR_LE; others are faults). Numbers are aligned to their own size, counted from after the
-/// four bytes of encapsulation.
-///
-/// The first fault stays: from it on everything that is read is 0 or empty.
+/// Reads a payload in CDR as ROS 2 writes it (OMG's plain XCDR version 1: encapsulations CDR_BE and
+/// CDR_LE; others are faults). Numbers are aligned to their own size, counted from after the four
+/// bytes of encapsulation. After the first fault every value is 0 or empty.
 class CdrReader {
  public:
   static constexpr std::size_t header_bytes = 4;
 
-  /// Refers to `payload` as long as it lives, and so does what is read.
+  /// `payload` must outlive this and the strings and octets that are read.
   explicit CdrReader(std::span<const std::byte> payload);
 
   [[nodiscard]] bool ok() const { return reason_.empty(); }
 
-  /// One line: where and what; empty if ok.
+  /// Returns one line with place and reason; empty if ok.
   [[nodiscard]] std::string fault() const;
 
-  /// Says, from the inside to the outside, in which field the fault lies.
+  /// Puts a field's name before the fault's path; called from the inside to the outside.
   void locate(const std::string& field);
 
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
 
-  /// The payload's byte behind what was read last.
+  /// Returns the payload's byte after the last value.
   [[nodiscard]] std::size_t at() const { return header_bytes + at_; }
 
-  /// Of the payload's numbers, other than this machine's.
+  /// Whether the payload's byte order differs from this machine's.
   [[nodiscard]] bool swaps() const { return swaps_; }
 
   template <typename T>
@@ -65,7 +63,7 @@ class CdrReader {
     return swaps_ ? byte_swapped(value) : value;
   }
 
-  /// `count` numbers, which need not be aligned in memory.
+  /// Reads `count` numbers.
   template <typename T>
   void read_array(T* to, std::size_t count) {
     const std::byte* from = take_array(count, sizeof(T));
@@ -81,11 +79,11 @@ class CdrReader {
   [[nodiscard]] std::string_view read_string();
   [[nodiscard]] std::span<const std::byte> read_octets(std::size_t count);
 
-  /// The number of elements of a sequence, each of which takes `min_bytes` or more: a number that
-  /// cannot be is a fault.
+  /// Returns the number of elements of a sequence. A number that the rest of the payload cannot
+  /// hold at `min_bytes` each is a fault.
   [[nodiscard]] std::size_t read_count(std::size_t min_bytes);
 
-  /// Sets a fault of what was read last, if there is none yet.
+  /// Sets a fault of the last value, unless there is one already.
   void fail(std::string reason);
 
  private:
@@ -99,7 +97,7 @@ class CdrReader {
     return bytes_.data() + start;
   }
 
-  // Without elements there is no alignment either.
+  // An empty array is not aligned.
   const std::byte* take_array(std::size_t count, std::size_t size) {
     if (count == 0) return nullptr;
     if (count > remaining() / size) {

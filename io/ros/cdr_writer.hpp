@@ -15,10 +15,10 @@
 
 namespace penumbra::io {
 
-/// Writes what CdrReader reads, in the byte order that is asked for.
+/// Writes payloads that CdrReader reads.
 class CdrWriter {
  public:
-  /// Begins a payload in `bytes`, in place of what is there.
+  /// Replaces the content of `bytes` by the start of a payload.
   explicit CdrWriter(std::vector<std::byte>& bytes, std::endian order = std::endian::little)
       : bytes_(bytes), swaps_(order != std::endian::native) {
     bytes_.assign(CdrReader::header_bytes, std::byte{0});
@@ -32,7 +32,7 @@ class CdrWriter {
     append(&value, sizeof(T));
   }
 
-  /// `count` numbers. Without any there is no alignment either.
+  /// Writes `count` numbers. An empty array is not aligned.
   template <typename T>
   void write_array(const T* from, std::size_t count) {
     if (count == 0) return;
@@ -49,7 +49,7 @@ class CdrWriter {
     bytes_.push_back(std::byte{0});
   }
 
-  /// Throws std::length_error for more than CDR can count.
+  /// Throws std::length_error for more than 2^32 - 1.
   void write_count(std::size_t count) {
     if (count > std::numeric_limits<std::uint32_t>::max())
       throw std::length_error("CDR counts up to 2^32 - 1");

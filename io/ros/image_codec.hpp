@@ -14,23 +14,23 @@
 
 namespace penumbra::io {
 
-/// A depth image of a message. `view` refers to the message's payload where it can be used as it
-/// lies, else to one of the buffers; it is empty after a fault.
+/// A depth image of a message. `view` refers to the payload if its pixels can be used in place,
+/// else to one of the buffers. It is empty after a fault.
 struct DecodedDepth {
   DepthView view;
   Image<std::uint16_t> millimetres;
   Image<float> metres;
 };
 
-// Each answers what is wrong with the message's image, one line, or nothing. After a fault the
-// image is unspecified. Buffers are kept where the size stays.
+// Each returns what is wrong with the message's image, one line, or nothing. After a fault the
+// image is unspecified. Buffers are reused while the size stays the same.
 
 /// 16UC1 and mono16 as millimetres, 32FC1 as metres; either byte order, rows of any step.
 [[nodiscard]] std::optional<std::string> decode_depth(const ImageMessage& message,
                                                       DecodedDepth& depth);
 
-/// PNG of 16-bit grey as millimetres, and what the transport "compressedDepth" makes of 16UC1 and
-/// 32FC1: PNG or RVL.
+/// PNG of 16-bit grey as millimetres, and the transport "compressedDepth" of 16UC1 and 32FC1: PNG
+/// or RVL.
 [[nodiscard]] std::optional<std::string> decode_depth(const CompressedImageMessage& message,
                                                       DecodedDepth& depth);
 
@@ -43,13 +43,13 @@ struct DecodedDepth {
 [[nodiscard]] std::optional<std::string> decode_colour(const CompressedImageMessage& message,
                                                        Image<Rgb8>& image);
 
-/// A message of an image whose rows lie without gaps, to which it refers. `encoding`: ROS's name of
-/// the pixels' format.
+/// Returns a message that refers to an image without gaps between its rows. `encoding`: ROS's name
+/// of the pixel format.
 template <typename T>
 [[nodiscard]] ImageMessage image_message(const MessageHeader& header, std::string_view encoding,
                                          ImageView<const T> image);
 
-/// A message of format "png", which refers to `png`, where the image is put.
+/// Encodes the image into `png` and returns a message that refers to it.
 [[nodiscard]] CompressedImageMessage png_message(const MessageHeader& header,
                                                  ImageView<const Rgb8> image,
                                                  std::vector<std::byte>& png);

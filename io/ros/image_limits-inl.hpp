@@ -10,7 +10,7 @@
 
 namespace penumbra::io {
 
-/// What is wrong with a size that a message claims, or nothing.
+/// Returns what is wrong with the size of an image in a message, or nothing.
 [[nodiscard]] inline std::optional<std::string> check_image_size(std::uint64_t width,
                                                                  std::uint64_t height) {
   constexpr auto most = static_cast<std::uint64_t>(Intrinsics::max_size);
@@ -21,7 +21,7 @@ namespace penumbra::io {
          std::to_string(most) + " each and " + std::to_string(most_pixels) + " in all are possible";
 }
 
-/// Keeps the buffer where the size stays.
+/// Reuses the buffer if the size stays the same.
 template <typename T>
 void resize_image(Image<T>& image, int width, int height) {
   if (image.width() != width || image.height() != height) image = Image<T>(width, height);

@@ -13,14 +13,14 @@
 
 namespace penumbra::io {
 
-/// Reads a JPEG file in memory, grey or colour, into `image`, whose buffer is kept where the size
-/// stays. Answers what is wrong (damaged data too, which libjpeg would fill with grey), or nothing;
-/// after a fault the image is unspecified. Allocates no more than the file can hold.
+/// Reads a JPEG file in memory, grey or colour. Reuses the buffer of `image` if the size stays the
+/// same. Returns what is wrong (damaged data too, which libjpeg would fill with grey), or nothing.
+/// After a fault the image is unspecified. Allocates no more than the file can hold.
 [[nodiscard]] std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes,
                                                      Image<Rgb8>& image);
 
-/// Puts the file in place of what `bytes` holds; chroma of half the size, as cameras write it.
-/// `quality`: 1 to 100.
+/// Replaces the content of `bytes` by a JPEG file with chroma of half the size, as cameras write
+/// it. `quality`: 1 to 100.
 void encode_jpeg(ImageView<const Rgb8> image, int quality, std::vector<std::byte>& bytes);
 
 }  // namespace penumbra::io

@@ -6,7 +6,8 @@
 #include <io/files/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/message_decoder.hpp>
-#include <io/ros/wire_types-inl.hpp>
+#include <io/ros/message_definition.hpp>
+#include <io/ros/wire_values-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -31,7 +32,8 @@ void read_value(CdrReader& reader, std::array<T, N>& numbers) {
   reader.read_array(numbers.data(), N);
 }
 
-template <WireMessage M>
+template <typename M>
+requires requires { M::ros_type; }
 void read_value(CdrReader& reader, M& message);
 
 template <typename T>
@@ -40,7 +42,7 @@ void read_value(CdrReader& reader, std::vector<T>& values) {
     values.resize(reader.read_count(sizeof(T)));
     reader.read_array(values.data(), values.size());
   } else {
-    // Grows as it reads: a false count allocates no more than the payload can hold.
+    // Grows while it reads, so that a false count allocates no more than the payload can hold.
     const std::size_t count = reader.read_count(1);
     for (std::size_t i = 0; i < count && reader.ok(); ++i) {
       if (i == values.size()) values.emplace_back();
@@ -50,50 +52,42 @@ void read_value(CdrReader& reader, std::vector<T>& values) {
   }
 }
 
-template <typename M, typename T>
-void read_member(CdrReader& reader, M& message, const Member<M, T>& member) {
-  read_value(reader, message.*member.at);
-}
-
-template <typename W, typename M, typename T>
-void read_member(CdrReader& reader, M& message, const Converted<W, M, T>& member) {
+template <typename W, typename T>
+void read_value(CdrReader& reader, const Converted<W, T>& field) {
   W wire;
   read_value(reader, wire);
-  if (const char* fault = from_wire(wire, message.*member.at); fault != nullptr) reader.fail(fault);
-  if constexpr (std::is_same_v<M, MessageHeader>) message.stamp_at = reader.at() - sizeof(wire);
+  if (const char* fault = from_wire(wire, field.value); fault != nullptr) reader.fail(fault);
 }
 
-template <WireMessage M>
+std::string field_name(std::string_view type, std::size_t i) {
+  const MessageDefinition definition(type, definition_of(type));
+  const std::string& field = definition.types().front().fields.at(i);
+  return field.substr(field.find(' ') + 1);
+}
+
+template <typename M>
+requires requires { M::ros_type; }
 void read_value(CdrReader& reader, M& message) {
-  for_each_member<M>([&](const auto& member) {
+  if constexpr (std::is_same_v<M, MessageHeader>) message.stamp_at = (reader.at() + 3) / 4 * 4;
+  std::size_t field = 0;
+  const auto read_field = [&](auto&& value) {
     if (!reader.ok()) return;
-    read_member(reader, message, member);
-    if (!reader.ok()) reader.locate(std::string(member.name));
-  });
+    read_value(reader, value);
+    if (!reader.ok()) reader.locate(field_name(M::ros_type, field));
+    ++field;
+  };
+  std::apply([&](auto&&... values) { (read_field(values), ...); }, M::layout(message));
 }
 
 }  // namespace
 
 template <typename M>
-std::string layout_difference(const MessageDefinition& definition) {
-  MessageFields expected{.type = std::string(Fields<M>::type)};
-  std::string nested;
-  for_each_member<M>([&](const auto& member) {
-    using Type = decltype(wire_type(member));
-    expected.fields.push_back((Type::text() + " ").append(member.name));
-    if constexpr (WireMessage<typename Type::Value>)
-      if (nested.empty()) nested = layout_difference<typename Type::Value>(definition);
-  });
-  const std::string own = definition.difference(expected);
-  return own.empty() ? nested : own;
-}
-
-template <typename M>
 Decoder<M>::Decoder(std::string_view type, std::string_view definition) {
-  const std::string wanted(Fields<M>::type);
+  const std::string wanted(M::ros_type);
   if (short_type(type) != wanted)
     throw InputError("messages of type '" + printable(type) + "' cannot be read as " + wanted);
-  const std::string difference = layout_difference<M>(MessageDefinition(type, definition));
+  const std::string difference =
+      difference_from_built_in(MessageDefinition(type, definition), wanted);
   if (!difference.empty())
     throw InputError("message definition of '" + wanted + "': " + difference +
                      "; messages are read as ROS 2 Humble defines them");
@@ -108,13 +102,7 @@ std::optional<std::string> Decoder<M>::decode(std::span<const std::byte> payload
     reader.fail(std::to_string(reader.remaining()) +
                 " bytes are left over: the definition is not this message's");
   if (reader.ok()) return std::nullopt;
-  return std::string(Fields<M>::type) + ": " + reader.fault();
-}
-
-template <typename M>
-std::string message_type() {
-  std::string type(Fields<M>::type);
-  return type.replace(type.find('/'), 1, "/msg/");
+  return std::string(M::ros_type) + ": " + reader.fault();
 }
 
 template class Decoder<ImageMessage>;
@@ -130,24 +118,5 @@ template class Decoder<PointCloud2Message>;
 template class Decoder<DiagnosticArrayMessage>;
 template class Decoder<KeypointsMessage>;
 template class Decoder<TargetsMessage>;
-
-template std::string message_type<ImageMessage>();
-template std::string message_type<CompressedImageMessage>();
-template std::string message_type<CameraInfoMessage>();
-template std::string message_type<JointStateMessage>();
-template std::string message_type<TfMessage>();
-template std::string message_type<StringMessage>();
-template std::string message_type<PoseStampedMessage>();
-template std::string message_type<Detection2DArrayMessage>();
-template std::string message_type<Detection3DArrayMessage>();
-template std::string message_type<PointCloud2Message>();
-template std::string message_type<DiagnosticArrayMessage>();
-template std::string message_type<KeypointsMessage>();
-template std::string message_type<TargetsMessage>();
-
-template std::string layout_difference<MessageHeader>(const MessageDefinition&);
-template std::string layout_difference<TfMessage>(const MessageDefinition&);
-template std::string layout_difference<Detection2DArrayMessage>(const MessageDefinition&);
-template std::string layout_difference<Detection3DArrayMessage>(const MessageDefinition&);
 
 }  // namespace penumbra::io

@@ -12,13 +12,12 @@
 
 namespace penumbra::io {
 
-/// Reads messages of one type. `M`: a struct of messages.hpp for a whole message. All its fields
-/// are read in the order of the built-in definition. Safe to be used by several threads at once.
+/// Reads messages of one type. `M`: a struct of messages.hpp for a whole message. Thread-safe.
 template <typename M>
 class Decoder {
  public:
-  /// `type` as a bag names it; `definition`: its ros2msg text. Throws InputError for another type
-  /// than M's, and for a definition whose fields are not those that are read.
+  /// `type`: as a bag names it; `definition`: its ros2msg text. Throws InputError for another type
+  /// than M's, and for a definition whose fields differ from the built-in ones.
   Decoder(std::string_view type, std::string_view definition);
 
   /// For messages of the built-in definition.
@@ -32,13 +31,11 @@ class Decoder {
                                                   M& message) const;
 };
 
-/// Returns the first difference between a definition and the fields that are read of M, or an empty
-/// string.
+/// Returns the type of M in ROS's spelling, "sensor_msgs/msg/Image".
 template <typename M>
-[[nodiscard]] std::string layout_difference(const MessageDefinition& definition);
-
-/// The type that M stands for, "sensor_msgs/msg/Image".
-template <typename M>
-[[nodiscard]] std::string message_type();
+[[nodiscard]] std::string message_type() {
+  std::string type(M::ros_type);
+  return type.replace(type.find('/'), 1, "/msg/");
+}
 
 }  // namespace penumbra::io

@@ -76,6 +76,14 @@ std::string MessageDefinition::difference(const MessageFields& expected) const {
          shown(expected.fields, i);
 }
 
+std::string difference_from_built_in(const MessageDefinition& definition, std::string_view type) {
+  const MessageDefinition built_in(type, definition_of(type));
+  for (const MessageFields& expected : built_in.types())
+    if (std::string difference = definition.difference(expected); !difference.empty())
+      return difference;
+  return {};
+}
+
 std::string short_type(std::string_view type) {
   constexpr std::string_view middle = "/msg/";
   std::string name(type);

@@ -39,6 +39,11 @@ class MessageDefinition {
 /// Returns "sensor_msgs/Image" for "sensor_msgs/msg/Image", and other names unchanged.
 [[nodiscard]] std::string short_type(std::string_view type);
 
+/// Returns the first difference of a definition from the built-in one of `type`, or an empty
+/// string.
+[[nodiscard]] std::string difference_from_built_in(const MessageDefinition& definition,
+                                                   std::string_view type);
+
 /// Returns the built-in text of a type, "sensor_msgs/msg/Image" or "sensor_msgs/Image", as in ROS 2
 /// Humble, or an empty text for an unknown type. All messages that are read or written are built
 /// in.

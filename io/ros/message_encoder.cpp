@@ -3,7 +3,7 @@
 
 #include <io/ros/cdr_writer.hpp>
 #include <io/ros/message_encoder.hpp>
-#include <io/ros/wire_types-inl.hpp>
+#include <io/ros/wire_values-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -26,7 +26,8 @@ void write_value(CdrWriter& writer, const std::array<T, N>& numbers) {
   writer.write_array(numbers.data(), N);
 }
 
-template <WireMessage M>
+template <typename M>
+requires requires { M::ros_type; }
 void write_value(CdrWriter& writer, const M& message);
 
 template <typename T>
@@ -35,21 +36,18 @@ void write_value(CdrWriter& writer, const std::vector<T>& values) {
   for (const T& value : values) write_value(writer, value);
 }
 
-template <typename M, typename T>
-void write_member(CdrWriter& writer, const M& message, const Member<M, T>& member) {
-  write_value(writer, message.*member.at);
-}
-
-template <typename W, typename M, typename T>
-void write_member(CdrWriter& writer, const M& message, const Converted<W, M, T>& member) {
+template <typename W, typename T>
+void write_value(CdrWriter& writer, const Converted<W, T>& field) {
   W wire;
-  to_wire(message.*member.at, wire);
+  to_wire(field.value, wire);
   write_value(writer, wire);
 }
 
-template <WireMessage M>
+template <typename M>
+requires requires { M::ros_type; }
 void write_value(CdrWriter& writer, const M& message) {
-  for_each_member<M>([&](const auto& member) { write_member(writer, message, member); });
+  std::apply([&](const auto&... values) { (write_value(writer, values), ...); },
+             M::layout(message));
 }
 
 }  // namespace

@@ -9,9 +9,8 @@
 
 namespace penumbra::io {
 
-/// Writes a message, by the built-in definition and with its encapsulation, in place of what
-/// `payload` holds. Throws InputError for a stamp that ROS 2 cannot hold, std::length_error for
-/// what CDR cannot count.
+/// Replaces the content of `payload` by a message with its encapsulation. Throws InputError for a
+/// stamp that ROS 2 cannot hold, std::length_error for a sequence that CDR cannot hold.
 template <typename M>
 void encode(const M& message, std::vector<std::byte>& payload,
             std::endian order = std::endian::little);

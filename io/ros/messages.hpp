@@ -7,6 +7,9 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,22 +17,54 @@
 
 namespace penumbra::io {
 
-// ROS 2's messages as plain structs, one for each type that is read or written. Fields are what
-// their .msg files say; units are SI. Stamps are nanoseconds. Spans refer to the payload that a
-// message was decoded from.
+// ROS 2's messages as plain structs, one for each type that is read or written. The .msg files
+// describe the fields; units are SI and stamps are nanoseconds. Spans refer to the payload that a
+// message was decoded from. layout() lists a message's fields in the order of its definition.
 //
-// A rotation whose quaternion is not of unit length (off by 1 % and more of its square, as tf2 has
-// it) is NaN as it is read: such a pose is none.
+// A rotation whose quaternion does not have unit length (its square is off by 1 % or more, as in
+// tf2) is read as NaN.
 
-/// std_msgs/Header. Written stamps must be within 32 bits of seconds.
+// Messages that are converted to one value of ours (wire_values-inl.hpp).
+struct TimeWire;
+struct Vector2Wire;
+struct PointWire;
+struct Vector3Wire;
+struct QuaternionWire;
+struct TransformWire;
+struct PoseWire;
+
+/// A field that is a message `W` on the wire.
+template <typename W, typename T>
+struct Converted {
+  T& value;
+};
+template <typename W, typename T>
+Converted<W, T> as(T& value) {
+  return {value};
+}
+
+/// References to fields, and converted fields.
+template <typename... T>
+std::tuple<T...> fields_of(T&&... fields) {
+  return {std::forward<T>(fields)...};
+}
+
+/// Written stamps must be within 32 bits of seconds.
 struct MessageHeader {
+  static constexpr std::string_view ros_type = "std_msgs/Header";
+  static auto layout(auto& m) { return fields_of(as<TimeWire>(m.stamp), m.frame_id); }
+
   std::int64_t stamp = 0;
   std::string frame_id = {};
   std::size_t stamp_at = 0;  ///< where the stamp lies in the payload that it was decoded from
 };
 
-/// sensor_msgs/Image
 struct ImageMessage {
+  static constexpr std::string_view ros_type = "sensor_msgs/Image";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.height, m.width, m.encoding, m.is_bigendian, m.step, m.data);
+  }
+
   MessageHeader header = {};
   std::uint32_t height = 0;
   std::uint32_t width = 0;
@@ -39,15 +74,22 @@ struct ImageMessage {
   std::span<const std::byte> data = {};
 };
 
-/// sensor_msgs/CompressedImage
 struct CompressedImageMessage {
+  static constexpr std::string_view ros_type = "sensor_msgs/CompressedImage";
+  static auto layout(auto& m) { return fields_of(m.header, m.format, m.data); }
+
   MessageHeader header = {};
   std::string format = {};
   std::span<const std::byte> data = {};
 };
 
-/// sensor_msgs/RegionOfInterest; all 0: the whole image.
+/// All 0: the whole image.
 struct RegionOfInterest {
+  static constexpr std::string_view ros_type = "sensor_msgs/RegionOfInterest";
+  static auto layout(auto& m) {
+    return fields_of(m.x_offset, m.y_offset, m.height, m.width, m.do_rectify);
+  }
+
   std::uint32_t x_offset = 0;
   std::uint32_t y_offset = 0;
   std::uint32_t height = 0;
@@ -55,8 +97,14 @@ struct RegionOfInterest {
   bool do_rectify = false;
 };
 
-/// sensor_msgs/CameraInfo; matrices by rows.
+/// Matrices are row-major.
 struct CameraInfoMessage {
+  static constexpr std::string_view ros_type = "sensor_msgs/CameraInfo";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.height, m.width, m.distortion_model, m.d, m.k, m.r, m.p,
+                     m.binning_x, m.binning_y, m.roi);
+  }
+
   MessageHeader header = {};
   std::uint32_t height = 0;
   std::uint32_t width = 0;
@@ -70,8 +118,13 @@ struct CameraInfoMessage {
   RegionOfInterest roi = {};
 };
 
-/// sensor_msgs/JointState; arrays other than the names may be empty.
+/// Arrays other than the names may be empty.
 struct JointStateMessage {
+  static constexpr std::string_view ros_type = "sensor_msgs/JointState";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.names, m.positions, m.velocities, m.efforts);
+  }
+
   MessageHeader header = {};
   std::vector<std::string> names = {};
   std::vector<double> positions = {};
@@ -79,50 +132,71 @@ struct JointStateMessage {
   std::vector<double> efforts = {};
 };
 
-/// geometry_msgs/TransformStamped
 struct TransformMessage {
+  static constexpr std::string_view ros_type = "geometry_msgs/TransformStamped";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.child_frame_id, as<TransformWire>(m.T_parent_child));
+  }
+
   MessageHeader header = {};  ///< frame_id: the parent
   std::string child_frame_id = {};
   Eigen::Isometry3d T_parent_child = Eigen::Isometry3d::Identity();
 };
 
-/// tf2_msgs/TFMessage
 struct TfMessage {
+  static constexpr std::string_view ros_type = "tf2_msgs/TFMessage";
+  static auto layout(auto& m) { return fields_of(m.transforms); }
+
   std::vector<TransformMessage> transforms = {};
 };
 
-/// std_msgs/String
 struct StringMessage {
+  static constexpr std::string_view ros_type = "std_msgs/String";
+  static auto layout(auto& m) { return fields_of(m.data); }
+
   std::string data = {};
 };
 
-/// geometry_msgs/PoseStamped
 struct PoseStampedMessage {
+  static constexpr std::string_view ros_type = "geometry_msgs/PoseStamped";
+  static auto layout(auto& m) { return fields_of(m.header, as<PoseWire>(m.pose)); }
+
   MessageHeader header = {};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
-/// vision_msgs/ObjectHypothesis
 struct ObjectHypothesis {
+  static constexpr std::string_view ros_type = "vision_msgs/ObjectHypothesis";
+  static auto layout(auto& m) { return fields_of(m.class_id, m.score); }
+
   std::string class_id = {};
   double score = 0;
 };
 
-/// geometry_msgs/PoseWithCovariance
 struct PoseWithCovariance {
+  static constexpr std::string_view ros_type = "geometry_msgs/PoseWithCovariance";
+  static auto layout(auto& m) { return fields_of(as<PoseWire>(m.pose), m.covariance); }
+
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   std::array<double, 36> covariance{};
 };
 
-/// vision_msgs/ObjectHypothesisWithPose
 struct HypothesisMessage {
+  static constexpr std::string_view ros_type = "vision_msgs/ObjectHypothesisWithPose";
+  static auto layout(auto& m) { return fields_of(m.hypothesis, m.pose); }
+
   ObjectHypothesis hypothesis = {};
   PoseWithCovariance pose = {};
 };
 
-/// vision_msgs/BoundingBox2D
 struct BoundingBox2D {
+  static constexpr std::string_view ros_type = "vision_msgs/BoundingBox2D";
+  static auto layout(auto& m) { return fields_of(m.centre, m.size_x, m.size_y); }
+
   struct Centre {
+    static constexpr std::string_view ros_type = "vision_msgs/Pose2D";
+    static auto layout(auto& m) { return fields_of(as<Vector2Wire>(m.position), m.theta); }
+
     Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< pixels
     double theta = 0;                                    ///< radians
   };
@@ -131,42 +205,58 @@ struct BoundingBox2D {
   double size_y = 0;
 };
 
-/// vision_msgs/Detection2D. Read only.
+/// Read only.
 struct Detection2DMessage {
+  static constexpr std::string_view ros_type = "vision_msgs/Detection2D";
+  static auto layout(auto& m) { return fields_of(m.header, m.results, m.bbox, m.id); }
+
   MessageHeader header = {};
   std::vector<HypothesisMessage> results = {};
   BoundingBox2D bbox = {};
   std::string id = {};
 };
 
-/// vision_msgs/Detection2DArray. Read only.
+/// Read only.
 struct Detection2DArrayMessage {
+  static constexpr std::string_view ros_type = "vision_msgs/Detection2DArray";
+  static auto layout(auto& m) { return fields_of(m.header, m.detections); }
+
   MessageHeader header = {};
   std::vector<Detection2DMessage> detections = {};
 };
 
-/// vision_msgs/BoundingBox3D
 struct BoundingBox3D {
+  static constexpr std::string_view ros_type = "vision_msgs/BoundingBox3D";
+  static auto layout(auto& m) { return fields_of(as<PoseWire>(m.centre), as<Vector3Wire>(m.size)); }
+
   Eigen::Isometry3d centre = Eigen::Isometry3d::Identity();
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
-/// vision_msgs/Detection3D. Read only.
+/// Read only.
 struct Detection3DMessage {
+  static constexpr std::string_view ros_type = "vision_msgs/Detection3D";
+  static auto layout(auto& m) { return fields_of(m.header, m.results, m.bbox, m.id); }
+
   MessageHeader header = {};
   std::vector<HypothesisMessage> results = {};
   BoundingBox3D bbox = {};
   std::string id = {};
 };
 
-/// vision_msgs/Detection3DArray. Read only.
+/// Read only.
 struct Detection3DArrayMessage {
+  static constexpr std::string_view ros_type = "vision_msgs/Detection3DArray";
+  static auto layout(auto& m) { return fields_of(m.header, m.detections); }
+
   MessageHeader header = {};
   std::vector<Detection3DMessage> detections = {};
 };
 
-/// sensor_msgs/PointField
 struct PointFieldMessage {
+  static constexpr std::string_view ros_type = "sensor_msgs/PointField";
+  static auto layout(auto& m) { return fields_of(m.name, m.offset, m.datatype, m.count); }
+
   static constexpr std::uint8_t float32 = 7;
 
   std::string name = {};
@@ -175,8 +265,13 @@ struct PointFieldMessage {
   std::uint32_t count = 1;
 };
 
-/// sensor_msgs/PointCloud2
 struct PointCloud2Message {
+  static constexpr std::string_view ros_type = "sensor_msgs/PointCloud2";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.height, m.width, m.fields, m.is_bigendian, m.point_step,
+                     m.row_step, m.data, m.is_dense);
+  }
+
   MessageHeader header = {};
   std::uint32_t height = 0;
   std::uint32_t width = 0;
@@ -188,14 +283,20 @@ struct PointCloud2Message {
   bool is_dense = false;
 };
 
-/// diagnostic_msgs/KeyValue
 struct KeyValueMessage {
+  static constexpr std::string_view ros_type = "diagnostic_msgs/KeyValue";
+  static auto layout(auto& m) { return fields_of(m.key, m.value); }
+
   std::string key = {};
   std::string value = {};
 };
 
-/// diagnostic_msgs/DiagnosticStatus
 struct DiagnosticStatusMessage {
+  static constexpr std::string_view ros_type = "diagnostic_msgs/DiagnosticStatus";
+  static auto layout(auto& m) {
+    return fields_of(m.level, m.name, m.message, m.hardware_id, m.values);
+  }
+
   static constexpr std::uint8_t ok = 0, warn = 1, error = 2, stale = 3;
 
   std::uint8_t level = stale;
@@ -205,14 +306,18 @@ struct DiagnosticStatusMessage {
   std::vector<KeyValueMessage> values = {};
 };
 
-/// diagnostic_msgs/DiagnosticArray
 struct DiagnosticArrayMessage {
+  static constexpr std::string_view ros_type = "diagnostic_msgs/DiagnosticArray";
+  static auto layout(auto& m) { return fields_of(m.header, m.status); }
+
   MessageHeader header = {};
   std::vector<DiagnosticStatusMessage> status = {};
 };
 
-/// penumbra_msgs/Keypoint
 struct KeypointMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/Keypoint";
+  static auto layout(auto& m) { return fields_of(m.name, m.u, m.v, m.score, m.depth); }
+
   std::string name = {};
   double u = 0;
   double v = 0;
@@ -220,28 +325,46 @@ struct KeypointMessage {
   double depth = 0;  ///< metres; 0 or NaN: not known
 };
 
-/// penumbra_msgs/Keypoints
 struct KeypointsMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/Keypoints";
+  static auto layout(auto& m) { return fields_of(m.header, m.keypoints); }
+
   MessageHeader header = {};
   std::vector<KeypointMessage> keypoints = {};
 };
 
-/// geometry_msgs/Pose that may be none, or half of one: NaN.
+/// A pose whose position or orientation may be missing: NaN.
 struct LoosePose {
+  static constexpr std::string_view ros_type = "geometry_msgs/Pose";
+  static auto layout(auto& m) {
+    return fields_of(as<PointWire>(m.position), as<QuaternionWire>(m.orientation));
+  }
+
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Eigen::Vector3d position = Eigen::Vector3d::Constant(none);
   Eigen::Vector4d orientation = Eigen::Vector4d::Constant(none);  ///< quaternion x, y, z, w
 };
 
-/// penumbra_msgs/Blame
 struct BlameMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/Blame";
+  static auto layout(auto& m) { return fields_of(m.link, m.fraction); }
+
   std::string link = {};
   double fraction = 0;
 };
 
-/// penumbra_msgs/Target, whose file says what the fields mean. As it is made: unknown.
+/// The .msg file explains the fields.
 struct TargetMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/Target";
+  static auto layout(auto& m) {
+    return fields_of(m.name, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.reason, m.judged,
+                     m.covered, m.inside, m.occluded_fraction, m.front_fraction, m.clear_fraction,
+                     m.unknown_fraction, m.hidden_by_other_fraction, m.measured_fraction,
+                     m.seen_past_fraction, m.blame, as<PointWire>(m.point), m.point_pixels,
+                     m.point_spread, m.source, m.age, m.pose, m.sigma, m.estimate);
+  }
+
   enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view };
   enum SourceValue : std::uint8_t { not_handled, measured, predicted, held, lost };
   enum EstimateValue : std::uint8_t {
@@ -280,8 +403,12 @@ struct TargetMessage {
   std::uint8_t estimate = no_estimate;
 };
 
-/// penumbra_msgs/Targets
 struct TargetsMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/Targets";
+  static auto layout(auto& m) {
+    return fields_of(m.header, m.root_frame, m.status, m.message, m.targets);
+  }
+
   MessageHeader header = {};
   std::string root_frame = {};
   std::string status = {};

@@ -42,15 +42,15 @@ Fault find_of_detections(Payload payload, Headers& headers) {
 
 template <typename M>
 bool is_read_as(const MessageDefinition& definition) {
-  return definition.types().front().type == short_type(message_type<M>()) &&
-         layout_difference<M>(definition).empty();
+  return definition.types().front().type == M::ros_type &&
+         difference_from_built_in(definition, M::ros_type).empty();
 }
 
 bool begins_with_header(const MessageDefinition& definition) {
   const MessageFields& root = definition.types().front();
   const bool begins = root.type == "std_msgs/Header" ||
                       (!root.fields.empty() && root.fields[0].starts_with("std_msgs/Header "));
-  return begins && layout_difference<MessageHeader>(definition).empty();
+  return begins && difference_from_built_in(definition, MessageHeader::ros_type).empty();
 }
 
 std::ptrdiff_t count_headers(const MessageDefinition& definition) {

@@ -21,15 +21,15 @@ class Restamper {
   /// Throws InputError as MessageDefinition does.
   Restamper(std::string_view type, std::string_view definition);
 
-  /// Whether any stamps are changed.
+  /// Returns whether any stamps are changed.
   [[nodiscard]] bool has_headers() const { return find_headers_ != nullptr; }
 
-  /// Whether the type has, or without a definition may have, headers that are not changed.
+  /// Returns whether the type has headers that are not changed, or may have (without a definition).
   [[nodiscard]] bool leaves_headers() const { return leaves_headers_; }
 
-  /// Replaces each stamp, nanoseconds, by the result of `change`. Stamps of 0, which mean no time,
-  /// and results beyond the range of ROS's time leave the old one. Returns what is wrong with the
-  /// payload, which is then unchanged.
+  /// Replaces each stamp, nanoseconds, by the result of `change`. Keeps stamps of 0, which mean no
+  /// time, and stamps whose result is beyond the range of ROS's time. Returns what is wrong with
+  /// the payload, which is then unchanged.
   std::optional<std::string> apply(std::span<std::byte> payload,
                                    const std::function<std::int64_t(std::int64_t)>& change) const;
 

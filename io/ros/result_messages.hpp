@@ -14,26 +14,27 @@
 
 namespace penumbra::io {
 
-/// What is told of a frame on ROS's topics: in the camera's frame, with the image's stamp. A pixel
-/// is trusted if it is clear or front, and none where a link is not drawn: it may stand anywhere.
+/// The messages that ROS topics get of a judged frame: in the camera's frame, with the image's
+/// stamp. A pixel is trusted if it is clear or front. If a link is not drawn, no pixel is trusted,
+/// because the link may be anywhere.
 class ResultMessages {
  public:
-  /// `camera`: of the judged images as they come.
+  /// `camera`: the camera of the judged raw images.
   explicit ResultMessages(const Camera& camera);
 
-  /// Takes a frame; the messages refer to this until the next call.
+  /// Takes a frame. The messages refer to this and are valid until the next call.
   void set(const FrameReport& report);
 
-  /// 32FC1, metres, 0: no robot; nothing where the robot's pose is unknown, or there is no virtual
-  /// depth.
+  /// Returns 32FC1, metres, 0: no robot; nothing if there is no virtual depth, for example because
+  /// the robot's pose is unknown.
   [[nodiscard]] std::optional<ImageMessage> virtual_depth() const;
-  /// 8UC1, values of Label.
+  /// Returns 8UC1, values of Label.
   [[nodiscard]] ImageMessage labels() const;
-  /// mono8: 255 where depth must not be trusted, else 0.
+  /// Returns mono8: 255 where depth must not be trusted, else 0.
   [[nodiscard]] ImageMessage mask() const;
-  /// The depth image without what is not trusted: 0 of 16UC1, NaN of 32FC1.
+  /// Returns the depth image without untrusted pixels: 0 in 16UC1, NaN in 32FC1.
   [[nodiscard]] ImageMessage filtered_depth() const;
-  /// Its points, x y z in metres. None where the lens model does not reach.
+  /// Returns the points of filtered_depth(), x y z in metres, where the lens model is valid.
   [[nodiscard]] PointCloud2Message points();
 
   [[nodiscard]] const MessageHeader& header() const { return header_; }

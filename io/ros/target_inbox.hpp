@@ -17,80 +17,79 @@
 
 namespace penumbra::io {
 
-/// Makes targets of messages. Each keeps the stamp of its image, so that it is judged on the frame
-/// of that stamp however late it comes.
+/// Makes targets from messages. A target keeps the stamp of its image, so that it is judged on the
+/// frame of that stamp even if it comes late.
 ///
-/// Names: the topic, "/" and a detection's id; without ids its best class, numbered from the second
-/// of a message on ("/detections/person", "/detections/person 2"). A pose has its topic's name.
-/// What has no id, or one that is there twice in its message, has no identity: detectors sort by
-/// score, so that such a name goes from object to object.
-///
-/// What is not taken does not pile up: see longest_lag and most_waiting.
+/// A target's name is the topic, "/" and the detection's id, or its best class without an id. Equal
+/// names in a message are numbered from the second on ("/detections/person", "/detections/person
+/// 2"). A pose has its topic's name. A detection without an id, or whose id is used twice in its
+/// message, has no identity: detectors sort by score, so the name goes from object to object.
 class TargetInbox {
  public:
-  /// Targets that lag behind the newest of their topic by more are dropped, nanoseconds: the frame
-  /// of their stamp is no longer kept, nor does it wait for its pose (0.5 s and 0.2 s).
+  /// Targets that are older than the newest of their topic by more are dropped, nanoseconds: the
+  /// frame of their stamp is no longer kept (0.5 s) and does not wait for its pose (0.2 s).
   static constexpr std::int64_t longest_lag = 1'000'000'000;
-  /// With so many waiting, those that were told first are dropped before a message is taken.
+  /// If so many wait, the oldest are dropped before the next message is taken.
   static constexpr std::size_t most_waiting = 1000;
 
-  /// `camera_frame`: of the judged images; `frame_prefix`: before link names in frames. `robot`
-  /// must outlive this.
+  /// `camera_frame`: of the judged images; `frame_prefix`: stands before link names in frames.
+  /// `robot` must outlive this.
   TargetInbox(const Robot& robot, std::string_view camera_frame,
               std::string_view frame_prefix = {});
 
-  /// A detector's boxes: regions of what it sees (Extent::modal).
+  /// Adds a detector's boxes: regions of the visible part (Extent::modal).
   void add(const std::string& topic, const Detection2DArrayMessage& message);
-  /// Boxes in the camera's frame or in that of a link.
+  /// Adds boxes in the frame of the camera or of a link.
   void add(const std::string& topic, const Detection3DArrayMessage& message);
   void add(const std::string& topic, const KeypointsMessage& message);
-  /// A point with a ball of PointTarget::radius around it.
+  /// Adds a point with a ball of PointTarget::radius around it.
   void add(const std::string& topic, const PoseStampedMessage& message);
 
-  /// What was told since the last call; of one name the newest. Valid until the next call.
+  /// Returns the targets received since the last call, the newest of each name. Valid until the
+  /// next call.
   [[nodiscard]] std::span<const Target> take();
 
-  [[nodiscard]] std::size_t waiting() const { return told_.size(); }
-  /// How many were never given, as a newer one of their name came first.
+  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
+  /// Returns how many were never taken because a newer one of their name came first.
   [[nodiscard]] std::size_t replaced() const { return replaced_; }
-  /// How many were never given, as they lagged behind or were too many.
+  /// Returns how many were dropped because they were late or too many.
   [[nodiscard]] std::size_t discarded() const { return discarded_; }
 
  private:
-  /// A target and what it refers to; stays where it is.
-  struct Told {
+  /// A target and the values that it refers to.
+  struct Waiting {
     std::string_view topic;  // newest_'s
     std::string name, image_frame, link_frame, fault;
     std::vector<Eigen::Vector2d> corners;
     Target target;
   };
 
-  /// What a name is made of, without its number.
+  /// A name without its number.
   struct Label {
     std::string text;
     bool is_id = false;
   };
 
-  using List = std::list<Told>;
+  using List = std::list<Waiting>;
 
-  /// To be called before what a message tells is added.
+  /// Drops old targets. To be called before a message's targets are added.
   void make_room(const std::string& topic, std::int64_t stamp);
   List::iterator forget(List::iterator one);
-  Told& told(std::string name, const MessageHeader& header);
-  /// The same for each of a message's detections.
-  std::vector<Told*> told(const std::vector<Label>& labels, const MessageHeader& header);
-  /// Of a 3-D target: the link that its frame is, or the camera.
-  LinkFrame frame_of(Told& told) const;
+  Waiting& add_target(std::string name, const MessageHeader& header);
+  /// Adds a target for each of a message's detections.
+  std::vector<Waiting*> add_targets(const std::vector<Label>& labels, const MessageHeader& header);
+  /// Returns the link of a 3-D target's frame, or the camera.
+  LinkFrame frame_of(Waiting& waiting) const;
   static Label label_of(const std::string& topic, const std::string& id,
                         std::span<const HypothesisMessage> results);
 
   const Robot& robot_;
   std::string camera_frame_, frame_prefix_;
   std::map<std::string, std::int64_t> newest_;  // stamp of each topic
-  std::string_view topic_;                      // whose message is taken, newest_'s
-  List told_;                                   // since the last call
-  std::unordered_map<std::string_view, List::iterator> by_name_;  // in told_
-  List given_;                                                    // what targets_ refer to
+  std::string_view topic_;                      // of the current message, newest_'s
+  List waiting_;                                // since the last take()
+  std::unordered_map<std::string_view, List::iterator> by_name_;  // in waiting_
+  List taken_;                                                    // that targets_ refer to
   std::vector<Target> targets_;
   std::size_t replaced_ = 0, discarded_ = 0;
 };

@@ -1,53 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+
 #include <io/ros/target_messages.hpp>
 
 namespace penumbra::io {
 namespace {
 
-std::uint8_t verdict_value(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::visible:
-      return TargetMessage::visible;
-    case Verdict::partial:
-      return TargetMessage::partial;
-    case Verdict::hidden:
-      return TargetMessage::hidden;
-    case Verdict::out_of_view:
-      return TargetMessage::out_of_view;
-    case Verdict::unknown:
-      break;
-  }
-  return TargetMessage::unknown;
-}
+// Constants of penumbra_msgs/Target, in the order of our enumerations.
+constexpr std::array<std::uint8_t, 5> verdict_values{TargetMessage::visible, TargetMessage::partial,
+                                                     TargetMessage::hidden, TargetMessage::unknown,
+                                                     TargetMessage::out_of_view};
+constexpr std::array<std::uint8_t, 4> source_values{
+    TargetMessage::measured, TargetMessage::predicted, TargetMessage::held, TargetMessage::lost};
+constexpr std::array<std::uint8_t, 5> estimate_values{
+    TargetMessage::accepted, TargetMessage::refused_verdict, TargetMessage::refused_gate,
+    TargetMessage::refused_late, TargetMessage::refused_invalid};
 
-std::uint8_t source_value(Source source) {
-  switch (source) {
-    case Source::measured:
-      return TargetMessage::measured;
-    case Source::predicted:
-      return TargetMessage::predicted;
-    case Source::held:
-      return TargetMessage::held;
-    case Source::lost:
-      break;
-  }
-  return TargetMessage::lost;
-}
-
-std::uint8_t estimate_value(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::accepted:
-      return TargetMessage::accepted;
-    case Outcome::refused_verdict:
-      return TargetMessage::refused_verdict;
-    case Outcome::refused_gate:
-      return TargetMessage::refused_gate;
-    case Outcome::refused_late:
-      return TargetMessage::refused_late;
-    case Outcome::refused_invalid:
-      break;
-  }
-  return TargetMessage::refused_invalid;
+template <typename Enum, std::size_t count>
+std::uint8_t value_of(Enum value, const std::array<std::uint8_t, count>& values) {
+  return values.at(static_cast<std::size_t>(value));
 }
 
 void put_judgement(const Judgement& judged, std::span<const std::string> links,
@@ -68,7 +39,7 @@ void put_judgement(const Judgement& judged, std::span<const std::string> links,
 }
 
 void put_handled(const HandledTarget& handled, TargetMessage& message) {
-  message.source = source_value(handled.source);
+  message.source = value_of(handled.source, source_values);
   message.age = handled.age;
   message.sigma = handled.sigma;
   if (handled.position) message.pose.position = *handled.position;
@@ -79,7 +50,7 @@ TargetMessage target_message(const TargetReport& target, std::span<const std::st
   TargetMessage message{.name = std::string(target.name)};
   message.has_stamp = target.stamp.has_value();
   message.stamp = target.stamp.value_or(0);
-  message.verdict = verdict_value(target.verdict);
+  message.verdict = value_of(target.verdict, verdict_values);
   message.reason = target.reason;
   if (target.judgement) put_judgement(*target.judgement, links, message);
   if (target.point) {
@@ -90,7 +61,7 @@ TargetMessage target_message(const TargetReport& target, std::span<const std::st
     }
   }
   if (target.handled) put_handled(*target.handled, message);
-  if (target.estimate) message.estimate = estimate_value(*target.estimate);
+  if (target.estimate) message.estimate = value_of(*target.estimate, estimate_values);
   return message;
 }
 

@@ -9,8 +9,8 @@
 
 namespace penumbra::io {
 
-/// What a report says of its targets. `camera_frame`: the optical frame of its images;
-/// `root_frame`: the robot's root link. A report without a stamp has 0.
+/// Returns the message of a report's targets. `camera_frame`: the optical frame of its images;
+/// `root_frame`: the robot's root link. The stamp is 0 for a report without a stamp.
 [[nodiscard]] TargetsMessage targets_message(const FrameReport& report,
                                              std::string_view camera_frame,
                                              std::string_view root_frame);

@@ -5,50 +5,71 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <penumbra/base/error.hpp>
 
+#include <io/ros/messages.hpp>
+
 namespace penumbra::io {
 
-// Messages that stand for one value of ours, and how they are converted.
+// Messages that are converted to one value of ours.
 
 struct TimeWire {
+  static constexpr std::string_view ros_type = "builtin_interfaces/Time";
+  static auto layout(auto& m) { return fields_of(m.sec, m.nanosec); }
+
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;
 };
 
 struct Vector2Wire {
+  static constexpr std::string_view ros_type = "vision_msgs/Point2D";
+  static auto layout(auto& m) { return fields_of(m.x, m.y); }
+
   double x = 0, y = 0;
 };
 
-/// Point and Vector3 have equal fields, but two names.
-template <bool is_point>
-struct TripleWire {
+struct Vector3Wire {
+  static constexpr std::string_view ros_type = "geometry_msgs/Vector3";
+  static auto layout(auto& m) { return fields_of(m.x, m.y, m.z); }
+
   double x = 0, y = 0, z = 0;
 };
-using PointWire = TripleWire<true>;
-using Vector3Wire = TripleWire<false>;
+
+struct PointWire : Vector3Wire {
+  static constexpr std::string_view ros_type = "geometry_msgs/Point";
+};
 
 struct QuaternionWire {
+  static constexpr std::string_view ros_type = "geometry_msgs/Quaternion";
+  static auto layout(auto& m) { return fields_of(m.x, m.y, m.z, m.w); }
+
   double x = 0, y = 0, z = 0, w = 1;
 };
 
 struct TransformWire {
+  static constexpr std::string_view ros_type = "geometry_msgs/Transform";
+  static auto layout(auto& m) { return fields_of(m.translation, m.rotation); }
+
   Vector3Wire translation;
   QuaternionWire rotation;
 };
 
 struct PoseWire {
+  static constexpr std::string_view ros_type = "geometry_msgs/Pose";
+  static auto layout(auto& m) { return fields_of(m.position, m.orientation); }
+
   PointWire position;
   QuaternionWire orientation;
 };
 
 inline constexpr std::int64_t nanoseconds_of_second = 1'000'000'000;
 
-// from_wire answers what is wrong, or nullptr.
+// from_wire returns what is wrong, or nullptr.
 
 [[nodiscard]] inline const char* from_wire(const TimeWire& wire, std::int64_t& stamp) {
   stamp = std::int64_t{wire.sec} * nanoseconds_of_second + wire.nanosec;
@@ -74,15 +95,15 @@ inline void to_wire(std::int64_t stamp, TimeWire& wire) {
   return nullptr;
 }
 
-template <bool is_point>
-[[nodiscard]] const char* from_wire(const TripleWire<is_point>& wire, Eigen::Vector3d& vector) {
+[[nodiscard]] inline const char* from_wire(const Vector3Wire& wire, Eigen::Vector3d& vector) {
   vector = {wire.x, wire.y, wire.z};
   return nullptr;
 }
 
-template <bool is_point>
-void to_wire(const Eigen::Vector3d& vector, TripleWire<is_point>& wire) {
-  wire = {vector.x(), vector.y(), vector.z()};
+inline void to_wire(const Eigen::Vector3d& vector, Vector3Wire& wire) {
+  wire.x = vector.x();
+  wire.y = vector.y();
+  wire.z = vector.z();
 }
 
 [[nodiscard]] inline const char* from_wire(const QuaternionWire& wire, Eigen::Vector4d& vector) {
@@ -94,9 +115,7 @@ inline void to_wire(const Eigen::Vector4d& vector, QuaternionWire& wire) {
   wire = {vector[0], vector[1], vector[2], vector[3]};
 }
 
-template <bool is_point>
-[[nodiscard]] Eigen::Isometry3d isometry_of(const TripleWire<is_point>& at,
-                                            const QuaternionWire& q) {
+[[nodiscard]] inline Eigen::Isometry3d isometry_of(const Vector3Wire& at, const QuaternionWire& q) {
   constexpr double most_off_unit = 0.01;  // tf2's, of the squared length
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -108,8 +127,7 @@ template <bool is_point>
   return pose;
 }
 
-template <bool is_point>
-void isometry_to(const Eigen::Isometry3d& pose, TripleWire<is_point>& at, QuaternionWire& q) {
+inline void isometry_to(const Eigen::Isometry3d& pose, Vector3Wire& at, QuaternionWire& q) {
   to_wire(Eigen::Vector3d(pose.translation()), at);
   const Eigen::Quaterniond rotation(pose.linear());
   const double sign = rotation.w() < 0 ? -1 : 1;

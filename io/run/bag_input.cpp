@@ -16,11 +16,11 @@
 namespace penumbra::io {
 namespace {
 
-void tell_topics(const BagTopics& topics, bool with_color, const LineSink& tell) {
+void print_topics(const BagTopics& topics, bool with_color, const LineSink& print) {
   for (const TopicUse& use : topics.all())
-    tell(use.role + ": " + printable(use.name) + " (" + use.type + "), " + use.why);
-  if (with_color && !topics.color) tell("color: no images are called color; overlays show depth");
-  tell("poses: from " + std::string(to_string(topics.poses)));
+    print(use.role + ": " + printable(use.name) + " (" + use.type + "), " + use.why);
+  if (with_color && !topics.color) print("color: no images are called color; overlays show depth");
+  print("poses: from " + std::string(to_string(topics.poses)));
 }
 
 Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
@@ -56,7 +56,7 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
     return mount.has_value();
   });
   if (mount) return *mount;
-  // Beside the robot, below a frame that both hang from.
+  // The camera is not on the robot, but both are below one frame.
   const std::string frame = mounted_frame(wanted, frame_of_images);
   if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
     refuse_mount(options, reader.scene(), frame);
@@ -93,9 +93,9 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 
 }  // namespace
 
-RunInput open_bag_input(const InputOptions& options, const LineSink& tell) {
+RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, options.with_color);
-  tell_topics(reader.topics(), options.with_color, tell);
+  print_topics(reader.topics(), options.with_color, print);
   reader.read_robot_and_camera();
   JudgedCameras cameras = cameras_of(options, reader.topics(), reader.scene());
   RobotOptions robot_options;
@@ -103,8 +103,8 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& tell) {
   options.apply_to(robot_options);
   Robot robot = load_robot(options, reader, robot_options);
   const CameraMount mount = mount_in_bag(options, reader, robot, cameras.judged.frame_id);
-  tell("camera: frame '" + printable(cameras.judged.frame_id) + "' on link '" + mount.parent +
-       "', by " + mount.source);
+  print("camera: frame '" + printable(cameras.judged.frame_id) + "' on link '" + mount.parent +
+        "', by " + mount.source);
   if (cameras.depth)
     reader.read_until([&](const BagScene& scene) {
       return scene.frames.connects(cameras.judged.frame_id, cameras.depth->frame_id);

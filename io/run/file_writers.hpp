@@ -12,7 +12,7 @@
 
 namespace penumbra::io {
 
-/// Runs jobs that write files on threads of its own. At most twice as many jobs as threads wait, so
+/// Runs jobs that write files on its own threads. At most twice as many jobs as threads wait, so
 /// that memory stays bounded. After a job has failed no other one begins.
 class FileWriters {
  public:
@@ -22,27 +22,21 @@ class FileWriters {
   FileWriters(const FileWriters&) = delete;
   FileWriters& operator=(const FileWriters&) = delete;
 
-  /// Queues a job, and waits while the queue is full. Of the jobs that failed, throws what the
-  /// first one in the queue's order threw.
+  /// Queues a job, and waits while the queue is full. Throws what a job threw.
   void add(std::function<void()> job);
 
   /// Waits until all jobs are done. Throws as add().
   void finish();
 
  private:
-  struct Job {
-    std::size_t number = 0;
-    std::function<void()> run;
-  };
   void work();
-  void rethrow_fault(std::unique_lock<std::mutex>& lock);
 
   const std::size_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;
-  std::size_t added_ = 0, running_ = 0, failed_ = 0;  // failed_: number of the job of fault_
-  std::exception_ptr fault_;
+  std::deque<std::function<void()>> jobs_;
+  std::size_t running_ = 0;
+  std::exception_ptr fault_;  // of the first job that failed
   bool ends_ = false;
   std::vector<std::thread> threads_;
 };

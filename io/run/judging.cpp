@@ -19,7 +19,7 @@ Camera camera_of_report(ImageSpace image, const Camera& camera) {
           .frame_id = camera.frame_id};
 }
 
-/// The targets that the options name, else the input's own; nothing: there are none.
+/// Opens the targets of the options, else of the input, if there are any.
 std::optional<TargetsFile> open_targets(const JudgingOptions& options, const RunInput& input,
                                         const Camera& camera) {
   const auto& file = options.targets ? options.targets : input.targets;
@@ -49,9 +49,9 @@ void append(std::vector<std::string>& lines, std::vector<std::string> more) {
 
 }  // namespace
 
-Judging::Judging(const JudgingOptions& options, const LineSink& tell)
+Judging::Judging(const JudgingOptions& options, const LineSink& print)
     : options_(options),
-      input_(open_input(options.input, tell)),
+      input_(open_input(options.input, print)),
       camera_(camera_of_report(options.image, input_.camera)),
       targets_(open_targets(options, input_, camera_)),
       pipeline_(

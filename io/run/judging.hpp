@@ -19,7 +19,7 @@
 
 namespace penumbra::io {
 
-/// Choices of the label rule in place of the recording's.
+/// Settings of the label rule that replace the recording's.
 struct RuleOptions {
   std::optional<Tolerance> tolerance;
   std::optional<int> front_min_width;  ///< pixels
@@ -31,7 +31,7 @@ struct RuleOptions {
   [[nodiscard]] LabelRule applied_to(const LabelRule& recorded) const;
 };
 
-/// An input, and how its frames are judged.
+/// An input and the settings for judging its frames.
 struct JudgingOptions {
   InputOptions input;
   Backend backend = Backend::cpu;
@@ -55,18 +55,18 @@ struct RunResult {
 /// An input with its pipeline, judged frame by frame.
 class Judging {
  public:
-  /// Opens the input; `tell` gets what of a bag is used. `options` must outlive this. Throws
+  /// Opens the input; `print` gets the used topics of a bag. `options` must outlive this. Throws
   /// InputError that names the file.
-  Judging(const JudgingOptions& options, const LineSink& tell);
+  Judging(const JudgingOptions& options, const LineSink& print);
 
   [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
   [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
   [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
   [[nodiscard]] ReportHead head() const;  ///< refers to this
 
-  /// Judges the frames into `output`, which has begun, and finishes it. Asks `go_on` after each
-  /// frame, and stops where it says no. Throws InputError where the first usable frame shows a
-  /// fault of the input, and what `output` throws.
+  /// Judges the frames into `output`, which has begun, and finishes it. Calls `go_on` after each
+  /// frame and stops if it returns false. Throws InputError if the first usable frame shows a fault
+  /// of the input, and what `output` throws.
   [[nodiscard]] RunResult run(RunOutput& output, const std::function<bool()>& go_on);
 
  private:

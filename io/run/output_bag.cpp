@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view topics_start = "/penumbra/";
 
-/// Why what is there may not be replaced; empty: it is a bag of results.
+/// Returns why a file may not be replaced; empty if it is a bag of results.
 std::string why_kept(const std::filesystem::path& file) {
   try {
     const mcap::Reader reader(file);
@@ -69,7 +69,7 @@ std::vector<std::string> OutputBag::notes() const {
   std::vector<std::string> lines;
   if (!missing_link_.empty())
     lines.push_back(file_.string() + ": its mask trusts nothing, and it holds no points: link '" +
-                    missing_link_ + "' is not drawn and may stand anywhere");
+                    missing_link_ + "' is not drawn and may be anywhere");
   return lines;
 }
 

@@ -17,12 +17,12 @@
 
 namespace penumbra::io {
 
-/// A bag of results: topics /penumbra/..., each message with its image's stamp, by which it is
-/// recorded, too. Frames without a stamp have no place in it.
+/// A bag of results: topics /penumbra/..., each message with its image's stamp, which is also its
+/// log time. Frames without a stamp are refused.
 class OutputBag final : public RunOutput, private ResultSink {
  public:
   /// `camera`: of the judged images; `root`: the robot's root link. `file` itself is not touched
-  /// before finish(). Throws InputError where nothing can be written beside it.
+  /// before finish(). Throws InputError if its folder cannot be written.
   OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
 
   void begin(const ReportHead&) override {}
@@ -47,11 +47,10 @@ class OutputBag final : public RunOutput, private ResultSink {
   std::string missing_link_;
 };
 
-/// Whether `file` may take a bag of results: it is no folder, and what is there is empty or
-/// such a bag. Throws InputError where not; touches nothing.
+/// Throws InputError unless `file` is missing, empty or a bag of results.
 void check_former_bag(const std::filesystem::path& file);
 
-/// Whether results go into a bag of that name.
+/// Returns whether this is the name of a bag.
 [[nodiscard]] bool is_output_bag(const std::filesystem::path& output);
 
 }  // namespace penumbra::io

@@ -48,14 +48,7 @@ std::size_t writers_of(const OutputOptions& options) {
   return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most_writers);
 }
 
-template <typename T>
-Image<T> copy_of(ImageView<const T> from) {
-  Image<T> image(from.width, from.height);
-  for (int v = 0; v < from.height; ++v) std::copy_n(from.row(v), from.width, image.view().row(v));
-  return image;
-}
-
-/// As 16-bit PNGs hold it; 0: no measurement, or one past 65 m.
+/// Converts depth for 16-bit PNGs; 0: no measurement, or one beyond 65 m.
 Image<std::uint16_t> millimetres_of(const DepthImage& image) {
   if (const auto* millimetres = std::get_if<Image<std::uint16_t>>(&image)) return *millimetres;
   const auto& metres = std::get<Image<float>>(image);
@@ -68,7 +61,7 @@ Image<std::uint16_t> millimetres_of(const DepthImage& image) {
   return converted;
 }
 
-/// Returns `folder`, which is made if it is not there.
+/// Makes a folder unless it exists, and returns it.
 const fs::path& make_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) refuse(folder, "it is a file");
@@ -88,15 +81,14 @@ bool starts_with(const fs::path& file, std::string_view start) {
 bool is_report(const fs::path& file) { return starts_with(file, report_json_start); }
 bool is_page(const fs::path& file) { return starts_with(file, report_page_start); }
 
-/// Whether an earlier run wrote here. Of one that was killed, the report's part
-/// is there.
+/// Returns whether an earlier run wrote here. A killed run leaves the report's part.
 bool is_of_a_run(const fs::path& folder) {
   const fs::path report = folder / "report.json";
   std::error_code error;
   return is_report(report) || fs::exists(PendingFile::part_of(report), error);
 }
 
-/// Whether there is more than empty folders, as a run that failed leaves them.
+/// Returns whether there is more than the empty folders of a failed run.
 bool holds_files(const fs::path& folder) {
   std::error_code error, ignored;
   fs::recursive_directory_iterator entry(folder, error);
@@ -105,7 +97,7 @@ bool holds_files(const fs::path& folder) {
   return static_cast<bool>(error);
 }
 
-/// Whether a run gives files such a name: a frame's number.
+/// Returns whether this is a file name of a run: a frame's number.
 bool is_frame_number(const std::string& stem) {
   return stem.size() >= frame_digits &&
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -135,7 +127,7 @@ void remove_former(const fs::path& file) {
                      "); choose another folder with -o");
 }
 
-/// The report goes last: as long as images are there it says whose they are.
+/// Removes the report last: it shows that the images belong to a run.
 void remove_former_run(const fs::path& folder) {
   if (!is_of_a_run(folder)) return;
   for (const ImageKind& kind : image_kinds)
@@ -200,9 +192,7 @@ void OutputFolder::write_page() const {
   const std::string text =
       report_page(read_whole_file(report_file(), most_report_page_bytes), key_frames_.json());
   PendingFile pending(page);
-  OutputFile file(pending.part());
-  file.write(text.data(), text.size());
-  file.close();
+  write_file(pending.part(), text.data(), text.size());
   pending.finish();
 }
 

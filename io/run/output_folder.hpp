@@ -18,39 +18,39 @@
 
 namespace penumbra::io {
 
-/// Which images `run` writes next to the report.
+/// The images that `run` writes next to the report.
 struct Saves {
   bool vdi = false, labels = false, links = false, overlay = false, filtered = false,
        points = false;
   bool operator==(const Saves&) const = default;
 };
 
-/// Where results go, and which.
+/// The place of the results, and their kinds.
 struct OutputOptions {
   std::filesystem::path path;  ///< a folder, or a bag: *.mcap
-  // Of folders:
+  // For folders:
   Saves saves;
-  std::string points_frame;  ///< link that points are given in; empty: the optical frame
-  bool report_page = false;  ///< write report.html, too
-  bool force = false;        ///< into a folder that holds other files, too
-  int threads = 0;           ///< that write images; 0: one per core
+  std::string points_frame;  ///< link of the points' frame; empty: the optical frame
+  bool report_page = false;  ///< also write report.html
+  bool force = false;        ///< also into a folder with other files
+  int threads = 0;           ///< for writing images; 0: one per core
 };
 
 /// Digits of a frame's index in file names, at least.
 inline constexpr std::size_t frame_digits = 6;
 
-/// Throws InputError unless the output folder is missing, empty, holds the
-/// report of an earlier run, or the user forces it. Touches nothing.
+/// Throws InputError unless the output folder is missing, empty, holds the report of an earlier
+/// run, or the user forces it.
 void check_output_folder(const OutputOptions& options);
 
-/// Where `run` writes. Files are named by the frame's index: vdi/000000.npy,
+/// The output folder of `run`. Files are named by the frame's index: vdi/000000.npy,
 /// labels/000000.png.
 class OutputFolder final : public RunOutput {
  public:
-  /// Makes the folder and those of the images to save, and removes an earlier
-  /// run's report, page and images. `rectification` brings recorded images to
-  /// the report's; null where they fit, else it must outlive this. Throws
-  /// InputError if the folder cannot be used or another run writes to it.
+  /// Makes the folder and the folders of the images, and removes an earlier run's report, page and
+  /// images. `rectification` converts recorded images to the geometry of the report's; null if they
+  /// have it already. It must outlive this. Throws InputError if the folder cannot be used or
+  /// another run writes to it.
   OutputFolder(const OutputOptions& options, const Rectification* rectification);
 
   /// Removes this run's images, unless it was finished.
@@ -60,9 +60,8 @@ class OutputFolder final : public RunOutput {
 
   void begin(const ReportHead& head) override;
 
-  /// Writes the frame's images on other threads. Where the robot's pose is
-  /// unknown there is no VDI and no link image, and all labels are unknown.
-  /// Throws InputError where writing these or earlier images fails.
+  /// Writes the frame's images on other threads. Without the robot's pose there is no VDI and no
+  /// link image, and all labels are unknown. Throws InputError if writing images fails.
   void save(const FrameReport& report, const FrameData& frame,
             const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;

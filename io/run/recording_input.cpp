@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -9,8 +10,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
+#include <io/files/frame_reader.hpp>
 #include <io/files/names.hpp>
-#include <io/files/recording_source.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -38,7 +39,7 @@ void check_is_recording(const std::filesystem::path& input) {
                      "*.mcap, *.db3)");
 }
 
-/// Which of the reader's frames are wanted; the range must lie inside the recording.
+/// Returns the positions of the wanted frames. The range must lie inside the recording.
 std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReader& reader) {
   std::int64_t least = reader.index(0);
   std::int64_t most = reader.index(0);
@@ -67,6 +68,35 @@ void check_parent(const Recording& recording, const Robot& robot) {
                    "' is no link of the robot" + near_names(parent, known));
 }
 
+/// Some frames of a recording folder.
+class RecordingSource final : public FrameSource {
+ public:
+  RecordingSource(const FrameReader& reader, const std::vector<std::size_t>& selected,
+                  const InputOptions& options)
+      : reader_(reader), selected_(selected), with_color_(options.with_color), fps_(options.fps) {}
+
+  /// Throws InputError if the recording has stamps of its own and --fps is given.
+  bool next(FrameData& data, Frame& frame) override {
+    if (next_ == selected_.size()) return false;
+    reader_.read(selected_[next_++], with_color_, data);
+    if (fps_ && data.stamp)
+      throw InputError("frame " + std::to_string(data.index) +
+                       " has a stamp of its own: leave --fps out");
+    if (fps_) data.stamp = std::llround(1e9 * static_cast<double>(data.index) / *fps_);
+    frame = frame_of(data);
+    return true;
+  }
+  [[nodiscard]] std::optional<std::size_t> size() const override { return selected_.size(); }
+  [[nodiscard]] std::vector<std::string> notes() const override { return {}; }
+
+ private:
+  FrameReader reader_;
+  std::vector<std::size_t> selected_;
+  std::size_t next_ = 0;
+  bool with_color_;
+  std::optional<double> fps_;
+};
+
 RunInput open_recording_input(const InputOptions& options) {
   check_is_recording(options.path);
   Recording recording = Recording::open(options.path);
@@ -87,9 +117,8 @@ RunInput open_recording_input(const InputOptions& options) {
           .targets = recording.targets,
           .bag = {},
           .frames = [reader = std::move(reader), selected = std::move(selected),
-                     with_color = options.with_color,
-                     fps = options.fps](const Robot&) -> std::unique_ptr<FrameSource> {
-            return std::make_unique<RecordingSource>(reader, selected, with_color, fps);
+                     options](const Robot&) -> std::unique_ptr<FrameSource> {
+            return std::make_unique<RecordingSource>(reader, selected, options);
           }};
 }
 
@@ -102,11 +131,11 @@ void InputOptions::apply_to(RobotOptions& robot) const {
   robot.extra.insert(robot.extra.end(), extra.begin(), extra.end());
 }
 
-RunInput open_input(const InputOptions& options, const LineSink& tell) {
+RunInput open_input(const InputOptions& options, const LineSink& print) {
   if (!is_bag(options.path)) return open_recording_input(options);
   if (options.fps)
     throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
-  return open_bag_input(options, tell);
+  return open_bag_input(options, print);
 }
 
 }  // namespace penumbra::io

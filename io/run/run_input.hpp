@@ -20,15 +20,15 @@
 
 namespace penumbra::io {
 
-/// Frames first <= index < end; a bound that is not set is the input's own.
+/// Frames first <= index < end; bounds are optional.
 struct FrameRange {
   std::optional<std::int64_t> first, end;
 };
 
-/// A recording folder or a bag, and what of it is used.
+/// A recording folder or a bag, and how it is read.
 struct InputOptions {
   std::filesystem::path path;
-  bool with_color = false;            ///< read colour images: pictures are drawn
+  bool with_color = false;            ///< read colour images
   std::optional<Geometry> geometry;   ///< in place of the recording's
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
   bool allow_missing_meshes = false;  ///< likewise
@@ -36,9 +36,9 @@ struct InputOptions {
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
   BagOptions bag;
-  std::string bag_option;  ///< the name of one of these that was given; empty: none was
+  std::string bag_option;  ///< name of a bag's option that was given; empty: none
 
-  /// Adds these choices of what is drawn to the input's own.
+  /// Adds these settings to the input's own.
   void apply_to(RobotOptions& robot) const;
 };
 
@@ -58,17 +58,17 @@ struct RunInput {
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
 };
 
-/// Takes a line for people.
+/// Takes a line of text.
 using LineSink = std::function<void(const std::string&)>;
 
-/// Opens a recording folder or a bag; `tell` gets what of a bag is used. Throws InputError that
+/// Opens a recording folder or a bag; `print` gets the used topics of a bag. Throws InputError that
 /// names the file.
-[[nodiscard]] RunInput open_input(const InputOptions& options, const LineSink& tell);
+[[nodiscard]] RunInput open_input(const InputOptions& options, const LineSink& print);
 
 /// The same for a bag.
-[[nodiscard]] RunInput open_bag_input(const InputOptions& options, const LineSink& tell);
+[[nodiscard]] RunInput open_bag_input(const InputOptions& options, const LineSink& print);
 
-/// How late a detector's targets may come by topics, seconds.
+/// The largest delay of a detector's targets in topics, seconds.
 inline constexpr double topic_target_history = 0.5;
 
 }  // namespace penumbra::io

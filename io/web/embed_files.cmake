@@ -36,7 +36,7 @@ endif()
 file(WRITE ${OUTPUT} "// Made by embed_files.cmake.
 #include <cstddef>
 
-#include <io/web/page_files-inl.hpp>
+#include <io/web/page_files.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -3,27 +3,16 @@
 #include <cstring>
 #include <utility>
 
+#include <io/files/image_size.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/frame_store.hpp>
-#include <io/web/metres-inl.hpp>
 #include <io/web/scene.hpp>
 
 namespace penumbra::io {
 namespace {
 
 constexpr int jpeg_quality = 90;
-
-/// Returns the image in the geometry of the report's images.
-template <typename T>
-ImageView<const T> rectified(const Rectification* rectification, ImageView<const T> raw,
-                             Image<T>& image) {
-  if (rectification == nullptr || raw.empty()) return raw;
-  const Intrinsics& pinhole = rectification->pinhole();
-  if (image.empty()) image = Image<T>(pinhole.width(), pinhole.height());
-  remap(rectification->pinhole_to_raw(), raw, T{}, image.view());
-  return std::as_const(image).view();
-}
 
 double tenth(double pixels) { return std::round(10.0 * pixels) / 10.0; }
 

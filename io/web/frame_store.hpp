@@ -10,13 +10,13 @@
 #include <penumbra/pipeline/frame.hpp>
 
 #include <io/files/run_output.hpp>
-#include <io/web/frame_archive.hpp>
+#include <io/web/packet.hpp>
 #include <io/web/spool_file.hpp>
 
 namespace penumbra::io {
 
 /// Keeps frames as they are judged: the report in memory, the images compressed in a temporary
-/// file, so that recordings may be longer than the memory, and bags be looked at in any order.
+/// file, so that recordings may be longer than the memory, and bags can be shown in any order.
 class FrameStore final : public FrameArchive, public RunOutput {
  public:
   /// `rectification` converts recorded images to the geometry of the report's; null if they have it

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include <io/files/png.hpp>
 
 namespace penumbra::io {
+
+/// Encodes bytes by RFC 4648, with padding.
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
 /// The frames that a report shows: the first, the last, and those where a verdict or the frame's
 /// status changes. If there are more than most_frames, those closest to their predecessors are left

@@ -4,10 +4,10 @@
 #include <span>
 #include <utility>
 
+#include <io/files/image_size.hpp>
 #include <io/files/report_json.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/live_frame.hpp>
-#include <io/web/metres-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -32,13 +32,6 @@ std::optional<PartBytes> part_of(ImageView<const T> image, const char* type) {
   for (int v = 0; v < image.height; ++v)
     bytes.append(reinterpret_cast<const char*>(image.row(v)), row);
   return PartBytes{type, image.width, image.height, shared_bytes(std::move(bytes))};
-}
-
-template <typename T>
-Image<T> copy_of(ImageView<const T> image) {
-  Image<T> copy(image.width, image.height);
-  for (int v = 0; v < image.height; ++v) std::copy_n(image.row(v), image.width, copy.view().row(v));
-  return copy;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <io/files/png.hpp>
 #include <io/ros/jpeg.hpp>
 #include <io/web/packet.hpp>
-#include <io/web/server_id.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -59,6 +59,26 @@ class PacketFrame {
   [[nodiscard]] virtual std::shared_ptr<const Image<Rgb8>> color_pixels() const;
 };
 
+/// An archive of judged frames, which may still grow. Any thread may read the frames meanwhile.
+class FrameArchive {
+ public:
+  FrameArchive() = default;
+  FrameArchive(const FrameArchive&) = delete;
+  FrameArchive& operator=(const FrameArchive&) = delete;
+  virtual ~FrameArchive() = default;
+
+  /// Returns the number of frames so far.
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual bool is_complete() const = 0;
+  /// Returns report.json so far, with the frames from index `from` on.
+  [[nodiscard]] virtual SharedBytes report(std::size_t from) const = 0;
+  /// Returns frame i in the report's order, or null if it does not exist (yet). This must outlive
+  /// the frame.
+  [[nodiscard]] virtual std::unique_ptr<PacketFrame> frame(std::size_t i) const = 0;
+  /// Returns what cannot be shown and the command that provides it, one sentence each.
+  [[nodiscard]] virtual std::vector<std::string> missing() const = 0;
+};
+
 /// Makes point clouds of depth images. Thread-safe.
 class CloudMaker {
  public:
@@ -73,6 +93,15 @@ class CloudMaker {
   int width_, height_;
   std::vector<float> rays_;  // x and y at z = 1 for each pixel; NaN: no ray
 };
+
+/// Converts a depth image to metres.
+template <typename T>
+void fill_metres(ImageView<const T> from, Image<float>& to) {
+  if (to.width() != from.width || to.height() != from.height)
+    to = Image<float>(from.width, from.height);
+  for (int v = 0; v < from.height; ++v)
+    for (int u = 0; u < from.width; ++u) to(u, v) = metres_of(from(u, v));
+}
 
 /// Returns a frame's packet: the length of the JSON, the JSON, the parts. `cloud` may be null.
 /// `more` is added to the JSON: empty, or ", " and members.

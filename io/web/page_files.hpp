@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <algorithm>
+#include <span>
 #include <string_view>
 
 namespace penumbra::io {
@@ -13,7 +14,15 @@ struct PageFile {
   std::string_view bytes;
 };
 
+/// Returns all files of web/dist; embed_files.cmake generates it.
+[[nodiscard]] std::span<const PageFile> page_files();
+
 /// Returns the file with this path, or null.
-[[nodiscard]] const PageFile* find_page_file(std::string_view path);
+[[nodiscard]] inline const PageFile* find_page_file(std::string_view path) {
+  const std::span<const PageFile> files = page_files();
+  const auto found = std::find_if(files.begin(), files.end(),
+                                  [&](const PageFile& file) { return file.path == path; });
+  return found == files.end() ? nullptr : &*found;
+}
 
 }  // namespace penumbra::io

@@ -19,6 +19,13 @@ namespace {
 constexpr std::size_t name_digits = 6;
 constexpr std::array saved_kinds{Part::overlay, Part::labels, Part::links, Part::vdi};
 
+void read_frames(const Json& frames, RunReport& report) {
+  for (const Json& frame : frames) {
+    report.indices.push_back(frame.at("index"));
+    report.frames.push_back(json_text(frame));
+  }
+}
+
 /// Throws InputError for a file that is outside of the folder through a link.
 void check_is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
@@ -62,6 +69,27 @@ std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part
 }
 
 }  // namespace
+
+RunReport RunReport::read(const std::filesystem::path& file) {
+  RunReport report;
+  try {
+    Json json = Json::parse(read_whole_file(file, FileLimit::data));
+    report.input = json.at("input");
+    if (json.at("settings").at("image") == "rectified") report.image = ImageSpace::rectified;
+    for (const Json& link : json.at("links")) report.links.push_back(link);
+    read_frames(json.at("frames"), report);
+    report.end = "\n],\n\"summary\": " + json_text(json.at("summary")) + "}\n";
+    json.erase("frames");
+    json.erase("summary");
+    report.start = json_text(json);
+    report.start.pop_back();
+    report.start += ",\n\"frames\": [";
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string() + ": is not a report of penumbra run (" + error.what() +
+                     "); a folder that run wrote with -o is wanted");
+  }
+  return report;
+}
 
 /// The saved images of a frame.
 class RunFolder::SavedFrame final : public PacketFrame {

@@ -8,7 +8,7 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/web/frame_archive.hpp>
+#include <io/web/packet.hpp>
 
 namespace penumbra::io {
 

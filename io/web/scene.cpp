@@ -6,7 +6,7 @@
 
 #include <io/files/json-inl.hpp>
 #include <io/web/scene.hpp>
-#include <io/web/server_id.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

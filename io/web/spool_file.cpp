@@ -28,10 +28,8 @@ std::filesystem::path temporary_folder() {
 }
 
 int open_unnamed(const std::filesystem::path& folder) {
-  int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return descriptor;
   std::string name = (folder / "penumbra-view-XXXXXX").string();
-  descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor >= 0) ::unlink(name.c_str());
   return descriptor;
 }

@@ -37,9 +37,6 @@ class SpoolFile {
   /// Reads a content. Any thread may call this. Throws std::runtime_error if the disk fails.
   [[nodiscard]] std::string read(const SpoolPlace& place) const;
 
-  [[nodiscard]] std::uint64_t size() const { return end_; }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-
  private:
   std::filesystem::path folder_;
   int descriptor_ = -1;

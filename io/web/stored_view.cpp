@@ -7,8 +7,8 @@
 #include <io/files/json-inl.hpp>
 #include <io/files/numbers.hpp>
 #include <io/web/page_files.hpp>
-#include <io/web/server_id.hpp>
 #include <io/web/stored_view.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/web/frame_archive.hpp>
+#include <io/web/packet.hpp>
 #include <io/web/scene.hpp>
 
 namespace penumbra::io {

@@ -10,8 +10,8 @@
 #include <sys/random.h>
 
 #include <io/files/numbers.hpp>
-#include <io/web/server_id.hpp>
 #include <io/web/web_guard.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <io/web/web_request.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <io/files/json-inl.hpp>
-#include <io/web/web_request.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

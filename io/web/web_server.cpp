@@ -13,8 +13,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/web/web_channel-inl.hpp>
-#include <io/web/web_request.hpp>
 #include <io/web/web_server.hpp>
+#include <io/web/web_types.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -34,6 +34,14 @@ struct WebAnswer {
 /// Returns the answer {"error": "one line"}.
 [[nodiscard]] WebAnswer web_error(int status, std::string_view line);
 
+/// Parses path and query of a request's target ("/api/x?with=a%2Cb"). Returns nothing if it is
+/// invalid: no '/' at its start, '%' without two digits, or control characters, also encoded ones.
+[[nodiscard]] std::optional<WebRequest> parse_target(std::string_view target);
+
+/// Returns an identifier of this process. A page uses it to detect that its data comes from another
+/// server on the same port.
+[[nodiscard]] const std::string& server_id();
+
 /// A WebSocket client. Any thread calls its members, one at a time.
 class WebChannel {
  public:

@@ -189,7 +189,7 @@ TEST_F(BadInputTest, Options) {
                           {{"--frames", "1:4"}, "0 to 2"},
                           {{"--frames", "2:2"}, "--frames"},
                           {{"--frames", "all"}, "--frames"},
-                          {{"--speed"}, "(penumbra run --help tells the options)"},
+                          {{"--speed"}, "(penumbra run --help lists the options)"},
                           {{"another"}, "another"}};
   for (const auto& [options, named] : lines) expect_refused(run(options), {named});
 }

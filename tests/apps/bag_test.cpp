@@ -56,18 +56,6 @@ TEST_F(BagTest, ShowsColorInOverlays) {
   EXPECT_NE(read_file(out() / "overlay" / "000002.png"), with_color);
 }
 
-TEST_F(BagTest, TakesSomeFrames) {
-  ASSERT_EQ(run({"--frames", "1:2"}).status, 0);
-  const Json json = report();
-  ASSERT_EQ(json["frames"].size(), 1U);
-  EXPECT_EQ(json["frames"][0]["index"], 1);
-  expect_recorded_labels(1, 2);
-
-  const Outcome outcome = run({"--frames", "1:4"});
-  EXPECT_EQ(outcome.status, 2);
-  expect_has(outcome.err, {"0 to 2"});
-}
-
 TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
   // What a camera says that stamps 0.4 s too early.
   bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw",

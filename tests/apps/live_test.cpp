@@ -88,7 +88,7 @@ TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
   const Outcome outcome = penumbra({"live", "--duration", "0.3", "--summary", summary},
                                    {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  expect_has(outcome.err, {"live.json is left as it was"});
+  expect_has(outcome.err, {"no camera was found"});
   EXPECT_EQ(read_file(summary), "former");
 }
 

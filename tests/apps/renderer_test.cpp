@@ -31,11 +31,6 @@ TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
   EXPECT_FALSE(fs::exists(path("vdi.npy")));
 }
 
-TEST_F(RendererTest, ADeviceThatIsNotThereIsRefused) {
-  if (!working_device()) GTEST_SKIP() << "no OpenGL device works here";
-  expect_refused(run({"--renderer", "gl", "--gl-device", "99"}), {"99"});
-}
-
 TEST_F(RendererTest, OpenGlIsNamedInTheReport) {
   const auto device = working_device();
   if (!device) GTEST_SKIP() << "no OpenGL device works here";

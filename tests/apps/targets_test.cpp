@@ -228,19 +228,5 @@ TEST_F(RunTargetsTest, LateStampsMayGoBack) {
   EXPECT_NE(target(json, 11, "part")["reason"].get<std::string>().find("stamp"), std::string::npos);
 }
 
-TEST_F(RunTargetsTest, TenThousandAreJudged) {
-  std::string text = "targets:\n";
-  for (int i = 0; i < 10000; ++i)
-    text += "- {name: target number " + std::to_string(i) + ", keypoint: [" +
-            std::to_string(i % 640) + ", " + std::to_string(i / 21) +
-            "], radius: 3, expected_depth: 1.5, depth_margin: 0.05, thresholds: {partial_enter: "
-            "0.1}}\n";
-  const Outcome outcome = run({"--targets", targets(text), "--frames", "0:2"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(report()["frames"][1]["targets"].size(), 10000U);
-  EXPECT_LT(count_lines(outcome.out), 40U) << "a line for the first of them";
-  expect_has(outcome.out, {"and 9980 more targets"});
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -113,15 +113,6 @@ TEST(CameraInfo, FrameIdMayStandOnTopOrBeEmpty) {
   EXPECT_EQ(parse("frame_id: ''\n" + no_header).frame_id, "");
 }
 
-TEST(CameraInfo, OtherLenses) {
-  std::string text = with(info_text, "plumb_bob", "equidistant");
-  text = with(text, "- 0.0\n", "");
-  EXPECT_EQ(parse(text).distortion.model(), DistortionModel::equidistant);
-  text = with(info_text, "- 0.0\n", "- 0.0\n- 0.1\n- 0.1\n- 0.1\n");
-  EXPECT_EQ(parse(with(text, "plumb_bob", "rational_polynomial")).distortion.model(),
-            DistortionModel::rational_polynomial);
-}
-
 // The window is cut from the full image and then binned: pixel (u, v) of what comes is the block
 // from (x_offset + u * binning_x, y_offset + v * binning_y) on, and its ray is the block's middle.
 TEST(CameraInfo, AppliesWindowThenBinning) {

@@ -36,25 +36,6 @@ TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
   EXPECT_EQ(read("frame,shoulder,elbow\n0,1,2\n")[0].stamp, std::nullopt);
 }
 
-TEST_F(JointFile, ABadCellSpoilsItsRowOnly) {
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {"0,0,1,2", ""},          {"1,1,,2", ":3: frame 1: column 'shoulder'"},
-      {"2,2,abc,2", "'abc'"},   {"3,3,1,nan", ":5: frame 3: column 'elbow'"},
-      {"4,4,1", "3 cells"},     {"5,5,1,2,3", "5 cells"},
-      {"6,1.5e9,1,2", "stamp"}, {"7,,1,2", "stamp"},
-      {"8,8,1e999,2", "1e999"}, {"9,9,1,2", ""}};
-  std::string text = "frame,stamp,shoulder,elbow\n";
-  for (const auto& [row, fault] : cases) text += row + "\n";
-  const auto rows = read(text);
-  ASSERT_EQ(rows.size(), cases.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string& wanted = cases[i].second;
-    EXPECT_HAS(rows[i].fault, wanted);
-    EXPECT_EQ(rows[i].fault.empty(), wanted.empty());
-    EXPECT_EQ(rows[i].positions.size(), wanted.empty() ? 2U : 0U);
-  }
-}
-
 TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
   const std::string header = "frame,shoulder,elbow\n";
   test::expect_refused(

@@ -85,7 +85,7 @@ TEST_F(Npy, NamesWhatItDoesNotRead) {
       {npy(4, good_header, bytes_of(six)), "version 4.0"},
       {npy(2, std::string(70000, ' '), ""), "70000"},
       {"frame,joint1\n0,1", "NumPy"},
-      {npy(1, good_header, bytes_of(six) + "x"), "behind"}};
+      {npy(1, good_header, bytes_of(six) + "x"), "after"}};
   for (const auto& [bytes, named] : cases) {
     const FileResult result = read(bytes);
     EXPECT_EQ(result.status, FileStatus::bad);

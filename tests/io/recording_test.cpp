@@ -202,25 +202,6 @@ TEST_F(RecordingFolder, ReadsFrames) {
   EXPECT_EQ(frame.color_message, "");
 }
 
-TEST_F(RecordingFolder, ReadsFramesFromSeveralThreads) {
-  const FrameReader frames = reader();
-  const auto work = [&](std::size_t first) {
-    FrameData frame;
-    for (std::size_t round = 0; round < 20; ++round) {
-      const std::size_t i = (first + round) % 2;
-      frames.read(i, true, frame);
-      EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
-      EXPECT_EQ(frame.positions, i == 0 ? (std::vector{0.1, 0.2}) : (std::vector{0.3, 0.4}));
-      const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth_view());
-      EXPECT_EQ(view(7, 5), depth(i == 0 ? 5 : 7)(7, 5));
-      EXPECT_EQ(frame.color(2, 2), (Rgb8{1, 2, 3}));
-    }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < 4; ++i) threads.emplace_back(work, i);
-  for (std::thread& thread : threads) thread.join();
-}
-
 TEST_F(RecordingFolder, ReadsDepthInMetres) {
   Image<float> metres(width, height, 1.25F);
   write_npy(file("z_05.npy"), std::as_const(metres).view());
@@ -232,35 +213,6 @@ TEST_F(RecordingFolder, ReadsDepthInMetres) {
   EXPECT_EQ(std::get<ImageView<const float>>(frame.depth_view())(7, 5), 1.25F);
   frames.read(1, false, frame);
   EXPECT_EQ(frame.status, FrameStatus::missing_depth);
-}
-
-TEST_F(RecordingFolder, TellsFaultsOfAFrameInItsStatus) {
-  FrameData frame;
-  const auto expect = [&](FrameStatus status, const std::string& named) {
-    reader().read(0, false, frame);
-    EXPECT_EQ(frame.status, status);
-    EXPECT_HAS(frame.message, named);
-  };
-  const std::string depth_file = file("depth_5.png").string();
-  write_png(depth_file, Image<std::uint16_t>(height, width, 1).view());
-  expect(FrameStatus::bad_depth, depth_file + ": has 6 x 8 pixels");
-  EXPECT_TRUE(std::visit([](const auto& view) { return view.empty(); }, frame.depth_view()));
-  write_png(depth_file, Image<std::uint8_t>(width, height, 1).view());
-  expect(FrameStatus::bad_depth, depth_file + ": is 8-bit grey");
-  std::filesystem::remove(depth_file);
-  expect(FrameStatus::missing_depth, depth_file);
-  folder_.write("joints.csv", "frame,shoulder,elbow\n5,,2\n");
-  expect(FrameStatus::missing_joints, "joints.csv:2: frame 5: column 'shoulder'");
-  EXPECT_HAS(frame.message, depth_file);
-  EXPECT_TRUE(frame.positions.empty());
-  write_png(depth_file, depth(5).view());
-  expect(FrameStatus::missing_joints, "joints.csv:2");
-  folder_.write("joints.csv", "frame,shoulder,elbow\n5,1,2\n");
-  write_png(file("color_5.png"), Image<Rgb8>(3, 3).view());
-  reader().read(0, true, frame);
-  EXPECT_EQ(frame.status, FrameStatus::ok);
-  EXPECT_HAS(frame.color_message, "color_5.png: has 3 x 3 pixels");
-  EXPECT_TRUE(frame.color.empty());
 }
 
 TEST_F(RecordingFolder, SurvivesDamage) {

@@ -11,7 +11,7 @@
 
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/image_codec.hpp>
-#include <io/ros/rvl.hpp>
+#include <io/ros/compressed_depth-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -274,7 +274,7 @@ TEST(RosImage, CompressedDepthFaults) {
              "no parameters");
   auto longer = good;
   longer.resize(good.size() + 4);
-  EXPECT_HAS(fault("16UC1; compressedDepth rvl", longer), "go on after the last pixel");
+  EXPECT_HAS(fault("16UC1; compressedDepth rvl", longer), "after the last pixel");
   auto huge = good;
   huge[15] = std::byte{1};  // the width
   EXPECT_HAS(fault("16UC1; compressedDepth rvl", huge), "has 16777218 x 2 pixels");

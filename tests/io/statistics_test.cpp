@@ -36,7 +36,7 @@ TEST(Statistics, CountsFaultsByKind) {
     report = {};
     report.index = index;
     report.status = FrameStatus::missing_joints;
-    report.message = "reason " + std::to_string(index);
+    report.message = (index == 5 ? "reason a " : "reason b ") + std::to_string(index);
     report.pixels.unknown = 100;
     statistics.add(report);
   }
@@ -47,7 +47,7 @@ TEST(Statistics, CountsFaultsByKind) {
   EXPECT_EQ(statistics.faults()[0].frames, 2U);
   ASSERT_EQ(statistics.faults()[0].reasons.size(), 2U);
   EXPECT_EQ(statistics.faults()[0].reasons[0].first, 5U);
-  EXPECT_EQ(statistics.faults()[0].reasons[0].message, "reason 5");
+  EXPECT_EQ(statistics.faults()[0].reasons[0].message, "reason a 5");
   EXPECT_EQ(statistics.pixels().robot, 10U);
   EXPECT_EQ(statistics.pixels().unknown, 200U);
   EXPECT_EQ(statistics.timing(1)->max, 0.5);

@@ -58,14 +58,6 @@ TEST(Yaml, ErrorsNameFileLineAndKey) {
   expect("2: a.b: ", [&] { return a.at("b").at("c"); });
 }
 
-TEST(Yaml, ReadsEveryDocument) {
-  const auto documents = YamlNode::parse_all("a: 1\n---\nb: 2\n---\n", "f.yaml");
-  ASSERT_EQ(documents.size(), 3U);
-  EXPECT_EQ(documents[0].at("a").integer(), 1);
-  EXPECT_TRUE(documents[2].is_null());
-  EXPECT_HAS(refusal([&] { return documents[1].at("b").boolean(); }), "f.yaml:3: b: ");
-}
-
 TEST(Yaml, RefusesWhatItCannotBeSureOf) {
   test::expect_refused({{"a: 1\nb: 2\na: 3\n", "f.yaml:3: key 'a' is there already, in line 1"},
                         {"a: &x 1\nb: *x\n", "f.yaml:2: aliases"},

@@ -11,7 +11,6 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/files/base64.hpp>
 #include <io/web/key_frames.hpp>
 #include <io/web/report_page.hpp>
 
