@@ -83,7 +83,8 @@ void check_options(const Urdf& urdf, const RobotOptions& options) {
   for (const ExtraMesh& extra : options.extra) {
     const auto is_its = [&](const UrdfLink& link) { return link.name == extra.link; };
     if (std::none_of(urdf.links.begin(), urdf.links.end(), is_its))
-      throw InputError(urdf.file + ": extra: the robot has no link " + in_quotes(extra.link));
+      throw InputError(urdf.file + ": extra: " + in_quotes(extra.link) +
+                       " is no link of the robot");
   }
 }
 
