@@ -32,8 +32,8 @@ namespace penumbra::io {
 /// A number above 0.
 [[nodiscard]] double positive(const YamlNode& node);
 
-/// The key `link`; without it the camera's frame.
-[[nodiscard]] LinkFrame link_of(const YamlNode& node, const Robot& robot);
+/// Returns the frame of the key `link`; without it the camera's.
+[[nodiscard]] ReferenceFrame link_of(const YamlNode& node, const Robot& robot);
 
 /// Runs `call`; what it throws stands at `place`.
 template <typename F>

@@ -46,7 +46,7 @@ TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
 
 TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
   by_name_.erase(one->name);
-  return told_.erase(one);
+  return received_.erase(one);
 }
 
 void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
@@ -54,30 +54,30 @@ void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
   topic_ = found->first;
   std::int64_t& newest = found->second;
   if (stamp > 0) newest = stamp < newest - longest_lag ? stamp : std::max(newest, stamp);
-  const auto lags = [&](const Told& one) {
+  const auto lags = [&](const Received& one) {
     return one.topic == topic_ && one.target.stamp > 0 && *one.target.stamp < newest - longest_lag;
   };
-  for (auto one = told_.begin(); one != told_.end();) {
-    const bool drops = told_.size() >= most_waiting || lags(*one);
+  for (auto one = received_.begin(); one != received_.end();) {
+    const bool drops = received_.size() >= most_waiting || lags(*one);
     discarded_ += drops ? 1 : 0;
     one = drops ? forget(one) : std::next(one);
   }
 }
 
-TargetInbox::Told& TargetInbox::told(std::string name, const MessageHeader& header) {
+TargetInbox::Received& TargetInbox::receive(std::string name, const MessageHeader& header) {
   if (const auto other = by_name_.find(name); other != by_name_.end()) {
     forget(other->second);
     ++replaced_;
   }
-  Told& told = told_.emplace_back();
-  told.topic = topic_;
-  told.name = std::move(name);
-  by_name_.emplace(told.name, std::prev(told_.end()));
-  told.image_frame = without_slash(header.frame_id);
-  told.target.stamp = header.stamp;
-  if (header.stamp <= 0) told.fault = "its message has no stamp";
-  if (told.image_frame.empty()) told.fault = "its message does not name its frame";
-  return told;
+  Received& received = received_.emplace_back();
+  received.topic = topic_;
+  received.name = std::move(name);
+  by_name_.emplace(received.name, std::prev(received_.end()));
+  received.image_frame = without_slash(header.frame_id);
+  received.target.stamp = header.stamp;
+  if (header.stamp <= 0) received.fault = "its message has no stamp";
+  if (received.image_frame.empty()) received.fault = "its message does not name its frame";
+  return received;
 }
 
 TargetInbox::Label TargetInbox::label_of(const std::string& topic, const std::string& id,
@@ -88,18 +88,18 @@ TargetInbox::Label TargetInbox::label_of(const std::string& topic, const std::st
   return label;
 }
 
-std::vector<TargetInbox::Told*> TargetInbox::told(const std::vector<Label>& labels,
-                                                  const MessageHeader& header) {
+std::vector<TargetInbox::Received*> TargetInbox::receive(const std::vector<Label>& labels,
+                                                         const MessageHeader& header) {
   std::unordered_map<std::string_view, std::size_t> uses;
   for (const Label& label : labels) ++uses[label.text];
   std::unordered_set<std::string> taken;
   std::unordered_map<std::string_view, int> last;
-  std::vector<Told*> all;
+  std::vector<Received*> all;
   for (const Label& label : labels) {
     std::string name = label.text;
     for (int& i = last.try_emplace(label.text, 1).first->second; !taken.insert(name).second;)
       name = label.text + " " + std::to_string(++i);
-    all.push_back(&told(name, header));
+    all.push_back(&receive(name, header));
     all.back()->target.has_identity = label.is_id && uses[label.text] == 1 && name == label.text;
   }
   return all;
@@ -110,7 +110,7 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
   std::vector<Label> labels;
   for (const Detection2DMessage& detection : message.detections)
     labels.push_back(label_of(topic, detection.id, detection.results));
-  const std::vector<Told*> all = told(labels, message.header);
+  const std::vector<Received*> all = receive(labels, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     auto& shape = all[i]->target.shape.emplace<RegionTarget>();
     shape.region = region_of(message.detections[i].bbox, all[i]->corners);
@@ -123,10 +123,10 @@ void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& m
   std::vector<Label> labels;
   for (const Detection3DMessage& detection : message.detections)
     labels.push_back(label_of(topic, detection.id, detection.results));
-  const std::vector<Told*> all = told(labels, message.header);
+  const std::vector<Received*> all = receive(labels, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BoundingBox3D& box = message.detections[i].bbox;
-    const LinkFrame frame = frame_of(*all[i]);
+    const ReferenceFrame frame = frame_of(*all[i]);
     all[i]->target.shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
   }
 }
@@ -136,7 +136,7 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
   std::vector<Label> labels;
   for (const KeypointMessage& keypoint : message.keypoints)
     labels.push_back(label_of(topic, keypoint.name, {}));
-  const std::vector<Told*> all = told(labels, message.header);
+  const std::vector<Received*> all = receive(labels, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const KeypointMessage& keypoint = message.keypoints[i];
     KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};
@@ -147,35 +147,35 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
 
 void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
   make_room(topic, message.header.stamp);
-  Told& one = told(topic, message.header);
-  const LinkFrame frame = frame_of(one);
+  Received& one = receive(topic, message.header);
+  const ReferenceFrame frame = frame_of(one);
   one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
 }
 
-LinkFrame TargetInbox::frame_of(Told& told) const {
-  told.link_frame = std::exchange(told.image_frame, {});
-  if (told.link_frame.empty() || told.link_frame == without_slash(camera_frame_))
-    return std::nullopt;
-  const std::string frame = told.link_frame;
-  if (frame.starts_with(frame_prefix_)) told.link_frame.erase(0, frame_prefix_.size());
-  if (!frame.starts_with(frame_prefix_) || !robot_.find_link(told.link_frame))
-    told.fault =
+ReferenceFrame TargetInbox::frame_of(Received& received) const {
+  received.link_frame = std::exchange(received.image_frame, {});
+  if (received.link_frame.empty() || received.link_frame == without_slash(camera_frame_)) return {};
+  const std::string frame = received.link_frame;
+  if (frame.starts_with(frame_prefix_)) received.link_frame.erase(0, frame_prefix_.size());
+  if (!frame.starts_with(frame_prefix_) || !robot_.find_link(received.link_frame))
+    received.fault =
         "its frame '" + printable(frame) + "' is neither the camera's nor a link of the robot";
-  return told.link_frame;
+  return ReferenceFrame::of_link(received.link_frame);
 }
 
 std::span<const Target> TargetInbox::take() {
   by_name_.clear();
-  given_ = std::exchange(told_, {});
+  given_ = std::exchange(received_, {});
   targets_.clear();
-  for (Told& told : given_) {
-    told.target.name = told.name;
+  for (Received& received : given_) {
+    received.target.name = received.name;
     // Of pixels alone; the camera's name is compared as it stands.
-    if (!told.image_frame.empty())
-      told.target.frame_id =
-          told.image_frame == without_slash(camera_frame_) ? camera_frame_ : told.image_frame;
-    told.target.fault = told.fault;
-    targets_.push_back(told.target);
+    if (!received.image_frame.empty())
+      received.target.frame_id = received.image_frame == without_slash(camera_frame_)
+                                     ? camera_frame_
+                                     : received.image_frame;
+    received.target.fault = received.fault;
+    targets_.push_back(received.target);
   }
   return targets_;
 }

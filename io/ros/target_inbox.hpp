@@ -31,7 +31,7 @@ class TargetInbox {
   /// Targets that lag behind the newest of their topic by more are dropped, nanoseconds: the frame
   /// of their stamp is no longer kept, nor does it wait for its pose (0.5 s and 0.2 s).
   static constexpr std::int64_t longest_lag = 1'000'000'000;
-  /// With so many waiting, those that were told first are dropped before a message is taken.
+  /// With so many waiting, the oldest are dropped before a message is added.
   static constexpr std::size_t most_waiting = 1000;
 
   /// `camera_frame`: of the judged images; `frame_prefix`: before link names in frames. `robot`
@@ -47,18 +47,18 @@ class TargetInbox {
   /// A point with a ball of PointTarget::radius around it.
   void add(const std::string& topic, const PoseStampedMessage& message);
 
-  /// What was told since the last call; of one name the newest. Valid until the next call.
+  /// Returns the newest target of each name since the last call. Valid until the next call.
   [[nodiscard]] std::span<const Target> take();
 
-  [[nodiscard]] std::size_t waiting() const { return told_.size(); }
+  [[nodiscard]] std::size_t waiting() const { return received_.size(); }
   /// How many were never given, as a newer one of their name came first.
   [[nodiscard]] std::size_t replaced() const { return replaced_; }
   /// How many were never given, as they lagged behind or were too many.
   [[nodiscard]] std::size_t discarded() const { return discarded_; }
 
  private:
-  /// A target and what it refers to; stays where it is.
-  struct Told {
+  /// A target and the data that it refers to; its address is stable.
+  struct Received {
     std::string_view topic;  // newest_'s
     std::string name, image_frame, link_frame, fault;
     std::vector<Eigen::Vector2d> corners;
@@ -71,16 +71,16 @@ class TargetInbox {
     bool is_id = false;
   };
 
-  using List = std::list<Told>;
+  using List = std::list<Received>;
 
-  /// To be called before what a message tells is added.
+  /// Drops outdated targets; called before those of a message are added.
   void make_room(const std::string& topic, std::int64_t stamp);
   List::iterator forget(List::iterator one);
-  Told& told(std::string name, const MessageHeader& header);
-  /// The same for each of a message's detections.
-  std::vector<Told*> told(const std::vector<Label>& labels, const MessageHeader& header);
-  /// Of a 3-D target: the link that its frame is, or the camera.
-  LinkFrame frame_of(Told& told) const;
+  Received& receive(std::string name, const MessageHeader& header);
+  /// Adds a target for each of a message's detections.
+  std::vector<Received*> receive(const std::vector<Label>& labels, const MessageHeader& header);
+  /// Returns the reference frame of a 3-D target.
+  ReferenceFrame frame_of(Received& received) const;
   static Label label_of(const std::string& topic, const std::string& id,
                         std::span<const HypothesisMessage> results);
 
@@ -88,8 +88,8 @@ class TargetInbox {
   std::string camera_frame_, frame_prefix_;
   std::map<std::string, std::int64_t> newest_;  // stamp of each topic
   std::string_view topic_;                      // whose message is taken, newest_'s
-  List told_;                                   // since the last call
-  std::unordered_map<std::string_view, List::iterator> by_name_;  // in told_
+  List received_;                               // since the last call
+  std::unordered_map<std::string_view, List::iterator> by_name_;  // in received_
   List given_;                                                    // what targets_ refer to
   std::vector<Target> targets_;
   std::size_t replaced_ = 0, discarded_ = 0;
