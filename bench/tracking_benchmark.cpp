@@ -3,8 +3,7 @@
 // question where the target is.
 #include <benchmark/benchmark.h>
 
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::bench {
 namespace {

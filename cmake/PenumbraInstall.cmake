@@ -19,7 +19,7 @@ set(public_headers
   camera/registration.hpp
   render/depth_renderer.hpp
   labels/labels.hpp targets/target.hpp targets/target_judge.hpp
-  tracking/point_tracker.hpp tracking/pose_tracker.hpp tracking/track.hpp
+  tracking/trackers.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp
   pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp)
 foreach(header IN LISTS public_headers)

@@ -16,9 +16,7 @@
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/time/joint_buffer.hpp>
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
-#include <penumbra/tracking/track.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 #include <io/files/recording.hpp>
 

@@ -48,7 +48,8 @@ Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   frame.source_status = source_status;
   frame.source_message = source_message;
   frame.index = index;
-  frame.doubts = {doubted_links, doubt};
+  frame.uncertain_links = uncertain_links;
+  frame.uncertain_reason = uncertain_reason;
   return frame;
 }
 
@@ -77,10 +78,10 @@ void bind_frame(py::module_& m) {
       Field{"source_message", &F::source_message, "One line that says so."},
       Field{"index", &F::index, "In its source."},
       Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
-      Field{"doubted_links", &F::doubted_links,
-            "Indices of links that are not drawn and whose place is not known: targets and "
-            "estimates in them are not judged."},
-      Field{"doubt", &F::doubt, "One line that says why."});
+      Field{"doubted_links", &F::uncertain_links,
+            "Indices of links without geometry whose pose is not known: targets and estimates in "
+            "them are not judged."},
+      Field{"doubt", &F::uncertain_reason, "One line that says why."});
   bind_repr(frame, {"index", "stamp", "source_status"});
 }
 

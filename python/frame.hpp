@@ -31,8 +31,8 @@ struct OwnedFrame {
   std::string source_message;
   std::optional<std::size_t> index;
   std::optional<std::int64_t> joint_age;  ///< of Numbers, nanoseconds
-  std::vector<std::size_t> doubted_links;
-  std::string doubt;
+  std::vector<std::size_t> uncertain_links;
+  std::string uncertain_reason;
 
   /// What a view refers to beside the frame.
   struct Parts {

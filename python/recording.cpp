@@ -62,8 +62,8 @@ RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
                    .source_message = std::string(frame.source_message),
                    .index = frame.index,
                    .joint_age = frame.joints.age,
-                   .doubted_links = {frame.doubts.links.begin(), frame.doubts.links.end()},
-                   .doubt = std::string(frame.doubts.why)};
+                   .uncertain_links = {frame.uncertain_links.begin(), frame.uncertain_links.end()},
+                   .uncertain_reason = std::string(frame.uncertain_reason)};
   if (!frame.T_root_link.empty())
     owned.T_root_link.emplace(frame.T_root_link.begin(), frame.T_root_link.end());
   return {std::move(data), std::move(owned)};

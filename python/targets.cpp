@@ -6,9 +6,9 @@
 namespace penumbra::python {
 namespace {
 
-LinkFrame frame_of(const FrameName& name) {
-  if (!name) return std::nullopt;
-  return *name;
+ReferenceFrame frame_of(const FrameName& name) {
+  if (!name) return {};
+  return name->empty() ? ReferenceFrame::root() : ReferenceFrame::of_link(*name);
 }
 
 TargetShape shape_of(const OwnedShape& shape) {

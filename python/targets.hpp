@@ -47,7 +47,7 @@ using OwnedRegion = std::variant<PixelBox, Polygon, Mask, RunLengths, PixelEllip
 /// Refers to `region`.
 [[nodiscard]] Region region_of(const OwnedRegion& region);
 
-/// LinkFrame with its name.
+/// ReferenceFrame: null is the camera, an empty name the root.
 using FrameName = std::optional<std::string>;
 
 struct OwnedRegionTarget {

@@ -2,8 +2,7 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::python {
 namespace {

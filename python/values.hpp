@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 #include <pybind11/numpy.h>
 
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::python {
 

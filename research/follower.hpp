@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 #include <research/seed_run.hpp>
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 #include <research/cell.hpp>
 #include <research/detectors.hpp>

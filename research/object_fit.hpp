@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 #include <research/cell.hpp>
 

@@ -13,7 +13,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/targets/target.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 #include <io/files/png.hpp>
 

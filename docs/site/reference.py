@@ -23,7 +23,7 @@ HEADERS = {
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/target.hpp",
                             "targets/target_judge.hpp"],
-    "Tracking": ["tracking/track.hpp", "tracking/pose_tracker.hpp", "tracking/point_tracker.hpp"],
+    "Tracking": ["tracking/trackers.hpp"],
     "Images, meshes, errors": ["base/image.hpp", "base/virtual_depth.hpp", "mesh/triangle_mesh.hpp",
                                "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }

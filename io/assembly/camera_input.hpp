@@ -54,18 +54,17 @@ struct CameraInputOptions {
 
 /// The reason why an image was not judged.
 enum class FrameDrop {
-  superseded,  ///< this and the next five are those of DropReason
+  superseded,  ///< this and the next four are those of DropReason
   late,
   overflow,
   clock_jump,
   no_stamp,
-  no_pose,
   unreadable,     ///< the message cannot be decoded
   not_ready,      ///< no robot or no camera_info was known yet
   changed,        ///< robot, camera_info or mount changed while it waited, or it was taken before
   no_camera_info  ///< its own camera_info is missing, other images have one
 };
-inline constexpr std::size_t frame_drops = 10;
+inline constexpr std::size_t frame_drops = 9;
 [[nodiscard]] std::string_view to_string(FrameDrop reason);
 
 /// Counts depth images by result: received = judged + failed + dropped + waiting + in_work.

@@ -26,7 +26,7 @@ Matrix6d covariance_of(std::span<const double> sigmas) {
   return covariance;
 }
 
-TargetEstimate estimate_of(const FrameValue& value, bool is_pose, const LinkFrame& link) {
+TargetEstimate estimate_of(const FrameValue& value, bool is_pose, const ReferenceFrame& link) {
   TargetEstimate estimate{.stamp = value.stamp, .frame = link};
   if (is_pose)
     estimate.value = isometry_of(value.numbers);
@@ -45,7 +45,7 @@ EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
   const YamlNode* pose = node.find("pose");
   if ((pose == nullptr) == (node.find("point") == nullptr))
     node.fail("one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z] is wanted");
-  const LinkFrame link = link_of(node, reader.context.robot);
+  const ReferenceFrame link = link_of(node, reader.context.robot);
   const bool is_pose = pose != nullptr;
   const auto values = std::make_shared<FrameValues>(
       is_pose ? reader.values(*pose, pose_format({"position_sigma", "orientation_sigma"}))

@@ -132,12 +132,14 @@ struct Outliner {
   std::vector<PixelPath> operator()(const BoxTarget& target) const;
   std::vector<PixelPath> operator()(const MeshTarget& target) const;
 
-  [[nodiscard]] std::optional<Eigen::Isometry3d> T_camera(const LinkFrame& frame) const {
-    if (!frame && !poses.is_late) return Eigen::Isometry3d::Identity();
+  [[nodiscard]] std::optional<Eigen::Isometry3d> T_camera(const ReferenceFrame& frame) const {
+    const bool is_camera = frame.kind == ReferenceFrame::Kind::camera;
+    if (is_camera && !poses.is_late) return Eigen::Isometry3d::Identity();
     if (!poses.T_root_camera || !poses.T_root_camera_then) return std::nullopt;
     const Eigen::Isometry3d T_camera_root = poses.T_root_camera->inverse();
-    if (!frame) return T_camera_root * *poses.T_root_camera_then;
-    const auto link = frame->empty() ? std::optional<std::size_t>(0) : robot.find_link(*frame);
+    if (is_camera) return T_camera_root * *poses.T_root_camera_then;
+    if (frame.kind == ReferenceFrame::Kind::root) return T_camera_root;
+    const auto link = robot.find_link(frame.link);
     if (!link) return std::nullopt;
     return T_camera_root * poses.T_root_link_then[*link];
   }

@@ -32,8 +32,8 @@ namespace penumbra::io {
 /// Returns a number above 0.
 [[nodiscard]] double positive(const YamlNode& node);
 
-/// Returns the link of the key `link`; without it the camera's frame.
-[[nodiscard]] LinkFrame link_of(const YamlNode& node, const Robot& robot);
+/// Returns the frame of the key `link`; without it the camera's.
+[[nodiscard]] ReferenceFrame link_of(const YamlNode& node, const Robot& robot);
 
 /// Runs `call` and puts `place` before the message of an InputError that it throws.
 template <typename F>

@@ -52,10 +52,11 @@ double positive(const YamlNode& node) {
   node.fail("is " + node.text() + "; a number above 0 is wanted");
 }
 
-LinkFrame link_of(const YamlNode& node, const Robot& robot) {
+ReferenceFrame link_of(const YamlNode& node, const Robot& robot) {
   const YamlNode* link = node.find("link");
-  if (link == nullptr) return std::nullopt;
-  if (const auto index = robot.find_link(link->text())) return robot.links()[*index];
+  if (link == nullptr) return {};
+  if (const auto index = robot.find_link(link->text()))
+    return ReferenceFrame::of_link(robot.links()[*index]);
   const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
   link->fail("'" + link->text() + "' is no link of the robot" + near_names(link->text(), known));
 }

@@ -126,7 +126,7 @@ void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& m
   const std::vector<Waiting*> all = add_targets(labels, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BoundingBox3D& box = message.detections[i].bbox;
-    const LinkFrame frame = frame_of(*all[i]);
+    const ReferenceFrame frame = frame_of(*all[i]);
     all[i]->target.shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
   }
 }
@@ -148,20 +148,20 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
 void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
   make_room(topic, message.header.stamp);
   Waiting& one = add_target(topic, message.header);
-  const LinkFrame frame = frame_of(one);
+  const ReferenceFrame frame = frame_of(one);
   one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
 }
 
-LinkFrame TargetInbox::frame_of(Waiting& waiting) const {
+ReferenceFrame TargetInbox::frame_of(Waiting& waiting) const {
   waiting.link_frame = std::exchange(waiting.image_frame, {});
   if (waiting.link_frame.empty() || waiting.link_frame == without_slash(camera_frame_))
-    return std::nullopt;
+    return {};
   const std::string frame = waiting.link_frame;
   if (frame.starts_with(frame_prefix_)) waiting.link_frame.erase(0, frame_prefix_.size());
   if (!frame.starts_with(frame_prefix_) || !robot_.find_link(waiting.link_frame))
     waiting.fault =
         "its frame '" + printable(frame) + "' is neither the camera's nor a link of the robot";
-  return waiting.link_frame;
+  return ReferenceFrame::of_link(waiting.link_frame);
 }
 
 std::span<const Target> TargetInbox::take() {

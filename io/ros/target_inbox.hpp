@@ -79,7 +79,7 @@ class TargetInbox {
   /// Adds a target for each of a message's detections.
   std::vector<Waiting*> add_targets(const std::vector<Label>& labels, const MessageHeader& header);
   /// Returns the link of a 3-D target's frame, or the camera.
-  LinkFrame frame_of(Waiting& waiting) const;
+  ReferenceFrame frame_of(Waiting& waiting) const;
   static Label label_of(const std::string& topic, const std::string& id,
                         std::span<const HypothesisMessage> results);
 

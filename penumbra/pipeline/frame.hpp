@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,20 +18,20 @@
 
 namespace penumbra {
 
-/// Whether a frame can be relied on, and if not, why. The first that applies, in the order of
-/// `missing_joints`, `stale_joints`, `missing_transform`, `stale_transform`, `poses_disagree`,
-/// `missing_depth`, `bad_depth`, `missing_link`.
+/// Whether a frame is reliable and, if not, why. Of several faults the status is the first in this
+/// order: `missing_joints`, `stale_joints`, `missing_transform`, `stale_transform`,
+/// `poses_disagree`, `missing_depth`, `bad_depth`, `missing_link`.
 enum class FrameStatus {
   ok,
   missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
-  stale_joints,       ///< a joint was not seen near the stamp: the robot's pose is unknown
-  missing_link,       ///< drawn without a link whose mesh could not be read
+  stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
+  missing_link,       ///< rendered without a link whose mesh could not be read
   missing_depth,      ///< no depth image: every robot pixel is unknown
-  bad_depth,          ///< a depth image that cannot be used, or that holds no measurement within
-                      ///< the sensor's range: every robot pixel is unknown
-  missing_transform,  ///< the camera's pose, or a link's in TF, is unknown or impossible: inside of
-                      ///< a link, no rigid transform
-  stale_transform,    ///< a transform was not seen near the stamp: the robot's pose is unknown
+  bad_depth,          ///< an unusable depth image, or one without any measurement within the
+                      ///< sensor's range: every robot pixel is unknown
+  missing_transform,  ///< the pose of the camera, or of a link in TF, is unknown or impossible: not
+                      ///< rigid, or the camera is inside a link
+  stale_transform,    ///< a transform has no state near the stamp: the robot's pose is unknown
   poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
                       ///< the robot's pose is unknown
 };
@@ -40,119 +39,111 @@ enum class FrameStatus {
 /// The status's name in report.json.
 [[nodiscard]] std::string_view to_string(FrameStatus status);
 
-/// Whether the robot's pose in the camera is known in a frame of this status.
+/// Returns whether the robot's pose is known in a frame of this status.
 [[nodiscard]] bool has_pose(FrameStatus status);
 
-/// Whether the depth image of a frame of this status can be compared.
+/// Returns whether the depth image of a frame of this status can be compared.
 [[nodiscard]] constexpr bool has_depth(FrameStatus status) {
   return status == FrameStatus::ok || status == FrameStatus::missing_link;
 }
 
-/// Where the joints are at the instant of the depth image. Refers to the caller's memory.
+/// The joint positions at the stamp of the depth image. Refers to the caller's memory.
 struct JointInput {
   std::span<const double> positions;  ///< order of Robot::variables(), rad and m
   JointStatus status = JointStatus::missing;
-  std::optional<std::int64_t> age;  ///< nanoseconds; nothing where the positions have no stamp
-  std::span<const JointGap> gaps;   ///< what is missing or stale, where it is known
-  std::span<const JointDispute> disputes;  ///< what is disputed, where it is known
+  std::optional<std::int64_t> age;         ///< nanoseconds; null if the positions have no stamp
+  std::span<const JointGap> gaps;          ///< missing or stale variables, for the message
+  std::span<const JointDispute> disputes;  ///< disputed variables, for the message
 
   JointInput() = default;
   JointInput(std::span<const double> all)  // NOLINT(google-explicit-constructor)
       : positions(all), status(JointStatus::ok) {}
   JointInput(const std::vector<double>& all)  // NOLINT(google-explicit-constructor)
       : JointInput(std::span<const double>(all)) {}
-  JointInput(std::vector<double>&&) = delete;  ///< it would not live as long as a Frame
+  JointInput(std::vector<double>&&) = delete;  ///< a temporary would dangle
   JointInput(const JointAnswer& answer);       // NOLINT(google-explicit-constructor)
 };
 
-/// Links whose place in a frame is not known though the robot's is: nothing is drawn of them, and
-/// the camera is not on them. Targets and estimates that are given in them are not judged. Refers
-/// to the caller's memory.
-struct LinkDoubts {
-  std::span<const std::size_t> links;  ///< indices into Robot::links(); process() throws for others
-  std::string_view why;                ///< one line
-
-  [[nodiscard]] bool holds(std::size_t link) const {
-    return std::find(links.begin(), links.end(), link) != links.end();
-  }
-};
-
-/// What goes into Pipeline::process. Refers to the caller's memory, needed during the call only.
+/// The input of Pipeline::process. Refers to the caller's memory, which must live during the call.
 struct Frame {
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
   DepthView depth = {};                    ///< of the camera's size; empty: missing_depth
   JointInput joints = {};
-  /// Poses of the links, one for each, that are known otherwise than by joints (from TF): `joints`
-  /// then says their age alone. Empty: by joints. The root's is the identity.
+  /// Poses of all links from another source than joints (TF); the root's is the identity. Empty:
+  /// poses follow from `joints`. Otherwise only the age of `joints` is used.
   std::span<const Eigen::Isometry3d> T_root_link = {};
-  /// The camera's pose in its parent link in this frame; nothing: the configuration's.
+  /// The camera's pose in its parent link in this frame; null: the configuration's.
   std::optional<Eigen::Isometry3d> T_parent_camera = {};
   std::span<const Target> targets = {};
-  LinkDoubts doubts = {};
 
-  /// What the frame's source knows to be wrong with it, and one line that says so. What the
-  /// pipeline finds on its own is added.
+  /// Links whose pose is unknown although the robot's is known: they have no geometry, and the
+  /// camera is not mounted on them. Targets and estimates given in them are not judged. Indices
+  /// into Robot::links(); process() throws for other values.
+  std::span<const std::size_t> uncertain_links = {};
+  std::string_view uncertain_reason = {};  ///< one line
+
+  /// A fault that the frame's source reports, and one line about it. The pipeline adds its own.
   FrameStatus source_status = FrameStatus::ok;
   std::string_view source_message = {};
-  std::optional<std::size_t> index = {};  ///< in its source; nothing: the pipeline counts its calls
+  std::optional<std::size_t> index = {};  ///< in its source; null: the number of the call
 };
 
-/// How many pixels of the label image have each label. Where the robot's pose is known,
+/// Numbers of pixels by label. If the robot's pose is known,
 /// robot = front + occluded + unknown + beyond.
 struct PixelCounts {
-  std::optional<std::size_t> robot;  ///< VDI > 0; nothing where the robot's pose is unknown
+  std::optional<std::size_t> robot;  ///< virtual depth > 0; null if the robot's pose is unknown
   std::size_t front = 0;
   std::size_t occluded = 0;
-  std::size_t unknown = 0;  ///< robot without measurement; every covered pixel without a pose
+  std::size_t unknown = 0;  ///< robot without measurement; without a pose all covered pixels
   std::size_t beyond = 0;
-  std::size_t fringe = 0;  ///< beside the robot: depth not to be trusted
+  std::size_t fringe = 0;  ///< next to the robot, with unreliable depth
 
-  /// Pixels of the raw image that the lens model does not reach, or of the rectified one that the
-  /// camera did not see and that show no robot: labelled unknown, counted here alone.
+  /// Pixels outside the lens model (raw image) or outside the camera's view and without robot
+  /// (rectified image). They are labelled unknown but counted only here.
   std::size_t uncovered = 0;
 };
 
-/// Wall time of the stages, milliseconds; nothing for a stage that did not run.
+/// Wall time of the stages, milliseconds; null for a stage that did not run.
 struct StageTimes {
   std::optional<double> kinematics;
-  std::optional<double> render;  ///< and mapping to the raw image
+  std::optional<double> render;  ///< includes mapping to the raw image
   std::optional<double> classify;
-  std::optional<double> targets;  ///< and keeping the frame for late ones
+  std::optional<double> targets;  ///< includes storing the frame for late targets
 };
 
-/// What the pipeline says of one frame. Views are valid until the next call of the pipeline.
+/// The pipeline's result for one frame. Views are valid until its next call.
 struct FrameReport {
   std::size_t index = 0;
   std::optional<std::int64_t> stamp;      ///< nanoseconds
   std::optional<std::int64_t> joint_age;  ///< nanoseconds
   FrameStatus status = FrameStatus::ok;
-  std::string message;            ///< one line for every status but ok
+  std::string message;            ///< one line; empty if the status is ok
   bool nothing_measured = false;  ///< no pixel of the depth image is within the sensor's range
   PixelCounts pixels;
   StageTimes timing;
 
-  /// Where the camera and each link were; nothing and empty where the robot's pose is unknown.
+  /// Poses of the camera and of each link; null and empty if the robot's pose is unknown.
   std::optional<Eigen::Isometry3d> T_root_camera;
   std::span<const Eigen::Isometry3d> T_root_link;
 
-  /// Indices of the links of which a part lies nearer than DepthRenderer::near_plane on the image's
-  /// rays: it is not drawn, and what it hides is labelled as if it were not there.
+  /// Links with a part in view that is nearer than DepthRenderer::near_plane. That part is not
+  /// rendered, so pixels behind it are labelled as if it did not exist.
   std::span<const std::size_t> near_links;
 
-  /// Of this frame; all views empty where the robot's pose is unknown.
+  /// All views are empty if the robot's pose is unknown.
   VirtualDepthView virtual_depth;
 
-  /// The frame's depth as it was compared: in the image of the labels; empty where there is none.
-  /// Refers to the frame's own image where that is the same, and is valid as long.
+  /// The frame's depth in the geometry of the label image; empty if there is none. It may refer to
+  /// the frame's own image, and is valid as long as that.
   DepthView depth;
 
-  /// Label values; all `unknown` where the robot's pose is unknown.
+  /// Label values; all `unknown` if the robot's pose is unknown.
   ImageView<const std::uint8_t> labels;
 
-  std::span<const TargetReport> targets;  ///< one for each of the frame's, in their order
+  std::span<const TargetReport> targets;  ///< in the order of the frame's targets
 
-  std::span<const std::string> links;          ///< names: links[i] stands as i + 1 in link images
-  std::span<const std::string> missing_links;  ///< links drawn without (all of) their geometry
+  std::span<const std::string> links;  ///< names; links[i] has the value i + 1 in link images
+  std::span<const std::string> missing_links;  ///< links rendered without all of their geometry
 };
 
 }  // namespace penumbra

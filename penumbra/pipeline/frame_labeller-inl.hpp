@@ -25,27 +25,25 @@
 
 namespace penumbra {
 
-/// Draws the robot and labels the depth image by it, in the image that the configuration asks for.
-/// Holds its buffers.
+/// Renders the robot and labels the depth image, in the configured image space.
 class FrameLabeller {
  public:
   /// Robot and rectification (null without lens distortion) must outlive this.
   FrameLabeller(const Robot& robot, const Camera& camera, const Rectification* rectification,
                 const PipelineConfig& config);
 
-  /// Renders and labels what the poses say; without depth that can be used every robot pixel is
-  /// unknown. Adds how long its stages took. The result is valid until the next call, or as long as
-  /// the depth and the poses at most.
-  LabelledFrame label(const DepthView& depth, const PoseResult& poses, StageTimes& timing);
+  /// Renders the robot and labels the depth image. Without usable depth every robot pixel is
+  /// unknown. The result refers to `depth` and `poses`, and is valid until the next call.
+  LabelledFrame label(const DepthView& depth, const PoseResult& poses);
 
   [[nodiscard]] const DepthRenderer& renderer() const { return *renderer_; }
   [[nodiscard]] const LabelRule& rule() const { return classifier_.rule(); }
   [[nodiscard]] const std::optional<UncoveredPixels>& uncovered() const { return uncovered_; }
 
-  /// Whether it brings the depth image to the pinhole image.
+  /// Returns whether depth images are rectified.
   [[nodiscard]] bool rectifies() const { return rectified_depth_.has_value(); }
 
-  /// Pinhole projection that the robot is drawn by; and that of the labels' image.
+  /// The pinhole projection for rendering, and the projection of the label image.
   [[nodiscard]] const Intrinsics& render_intrinsics() const { return render_intrinsics_; }
   [[nodiscard]] const Intrinsics& intrinsics() const { return intrinsics_; }
 
@@ -63,13 +61,13 @@ class FrameLabeller {
   std::optional<UncoveredPixels> uncovered_;       // with distortion
   Classifier classifier_;
   Eigen::Vector2i depth_size_;  // of the camera's images, pixels
-  labelling::Rule measured_;    // tells what is a measurement
+  labelling::Rule measured_;    // defines a measurement
   std::string message_;
-  std::vector<std::uint16_t> no_depth_row_;  // stand for every row of an image (stride 0)
+  std::vector<std::uint16_t> no_depth_row_;  // all rows of an image (stride 0)
   std::vector<std::uint8_t> unknown_row_;
 };
 
-/// The configuration's, its range cut to the camera's.
+/// Returns the configured rule with its range cut to the camera's.
 [[nodiscard]] LabelRule rule_of(const Camera& camera, const PipelineConfig& config);
 
 }  // namespace penumbra

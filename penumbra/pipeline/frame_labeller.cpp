@@ -9,7 +9,6 @@
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/pose_stage-inl.hpp>
-#include <penumbra/pipeline/stage_timer-inl.hpp>
 #include <penumbra/targets/extent_tally-inl.hpp>
 
 namespace penumbra {
@@ -20,7 +19,7 @@ bool holds_measurement(ImageView<const T> depth, const labelling::Rule& rule) {
   const Measured measured(depth, rule);
   for (int v = 0; v < depth.height; ++v) {
     const auto row = measured.row(v);
-    std::int32_t count = 0;  // whole rows, without branches: so the compiler takes vectors
+    std::int32_t count = 0;  // whole rows without branches, so that the loop is vectorised
     for (int u = 0; u < depth.width; ++u) count += row.is_measured(u) ? 1 : 0;
     if (count > 0) return true;
   }
@@ -66,10 +65,9 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
   }
 }
 
-LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& poses,
-                                   StageTimes& timing) {
+LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& poses) {
   LabelledFrame frame{
-      .poses = poses, .status = poses.status, .message = poses.message, .depth = depth};
+      .poses = &poses, .status = poses.status, .message = poses.message, .depth = depth};
   LabelledImages& images = frame.images;
   images.is_blind = true;
   if (!poses.known()) {
@@ -80,18 +78,20 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   if (has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
   images.is_blind = !has_depth(frame.status);
   {
-    const StageTimer timer(timing.render);
+    const StageTimer timer(frame.render_ms);
     images.virtual_depth = draw(poses.T_camera_link);
   }
-  const StageTimer timer(timing.classify);
-  if (!images.is_blind)
-    images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
-  images.labels = classify(images.virtual_depth, images.measured);
+  {
+    const StageTimer timer(frame.classify_ms);
+    if (!images.is_blind)
+      images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
+    images.labels = classify(images.virtual_depth, images.measured);
+  }
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;
 }
 
-/// Looks for faults of the depth image.
+/// Checks the depth image.
 FrameStatus FrameLabeller::check(LabelledFrame& frame) {
   const auto fault = [&](FrameStatus status, std::string_view part) {
     message_ = frame.message;
@@ -105,7 +105,7 @@ FrameStatus FrameLabeller::check(LabelledFrame& frame) {
   if (empty) return fault(FrameStatus::missing_depth, "no depth image");
   if (depth_size_ != Eigen::Vector2i(width, height))
     return fault(FrameStatus::bad_depth, "depth image is " + std::to_string(width) + "x" +
-                                             std::to_string(height) + ", the camera's images are " +
+                                             std::to_string(height) + ", expected " +
                                              std::to_string(depth_size_.x()) + "x" +
                                              std::to_string(depth_size_.y()));
   frame.nothing_measured = !std::visit(

@@ -26,8 +26,6 @@ std::string_view to_string(DropReason reason) {
       return "clock_jump";
     case DropReason::no_stamp:
       return "no_stamp";
-    case DropReason::no_pose:
-      return "no_pose";
   }
   return "";
 }
@@ -44,7 +42,8 @@ Frame QueuedFrame::frame() const {
     frame.T_root_link = pose.T_root_link;
   frame.joints.age = pose.age;
   frame.T_parent_camera = pose.T_parent_camera;
-  frame.doubts = {pose.doubted_links, pose.doubt};
+  frame.uncertain_links = pose.uncertain_links;
+  frame.uncertain_reason = pose.uncertain_reason;
   return frame;
 }
 
@@ -100,7 +99,7 @@ void FrameQueue::drop(const Waiting& frame, DropReason reason) {
 bool FrameQueue::next(std::int64_t now, QueuedFrame& frame) {
   follow(now);
   const bool found =
-      options_.policy == DropPolicy::every ? next_of_every(frame) : next_newest(frame);
+      options_.policy == DropPolicy::every ? next_in_order(frame) : next_newest(frame);
   if (!found) return false;
   ++counts_.given_out;
   if (!has_pose(frame.pose.status)) ++counts_.without_pose;
@@ -108,28 +107,18 @@ bool FrameQueue::next(std::int64_t now, QueuedFrame& frame) {
   return true;
 }
 
-bool FrameQueue::next_of_every(QueuedFrame& out) {
-  while (!waiting_.empty() && decide(waiting_.front(), out)) {
-    const Waiting frame = waiting_.front();
-    waiting_.erase(waiting_.begin());
-    if (has_pose(out.pose.status) || !options_.drop_without_pose) return true;
-    drop(frame, DropReason::no_pose);
-  }
-  return false;
+bool FrameQueue::next_in_order(QueuedFrame& out) {
+  if (waiting_.empty() || !decide(waiting_.front(), out)) return false;
+  waiting_.erase(waiting_.begin());
+  return true;
 }
 
 bool FrameQueue::next_newest(QueuedFrame& out) {
-  for (std::size_t i = waiting_.size(); i-- > 0;) {
-    if (!decide(waiting_[i], out)) continue;
-    const auto place = waiting_.begin() + static_cast<std::ptrdiff_t>(i);
-    if (!has_pose(out.pose.status) && options_.drop_without_pose) {
-      drop(*place, DropReason::no_pose);
-      waiting_.erase(place);
-      continue;
-    }
-    for (auto before = waiting_.begin(); before != place; ++before)
+  for (auto frame = waiting_.end(); frame != waiting_.begin();) {
+    if (!decide(*--frame, out)) continue;
+    for (auto before = waiting_.begin(); before != frame; ++before)
       drop(*before, DropReason::superseded);
-    waiting_.erase(waiting_.begin(), place + 1);
+    waiting_.erase(waiting_.begin(), frame + 1);
     return true;
   }
   return false;

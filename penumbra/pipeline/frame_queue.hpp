@@ -16,33 +16,30 @@
 
 namespace penumbra {
 
-/// Which frames are given out.
+/// Which frames are returned.
 enum class DropPolicy {
-  newest,  ///< the newest by stamp that can be; those before it are dropped. For live images
-  every    ///< all of them, in the order they came. For bags
+  newest,  ///< the newest by stamp with a pose; earlier ones are dropped. For live images
+  every    ///< all, in the order of arrival. For bags
 };
 
-/// Why a frame was dropped.
+/// The reason why a frame was dropped.
 enum class DropReason {
-  superseded,  ///< a newer one was given out in its place (newest)
-  late,        ///< it came when one of its stamp or after had been given out (newest)
-  overflow,  ///< max_frames waited already; of `newest` the oldest goes, of `every` the one to come
-  clock_jump,  ///< the clock jumped back, and it was from before
-  no_stamp,    ///< its stamp is 0 or before: when it was taken is not known
-  no_pose      ///< the robot's pose did not come in time (drop_without_pose)
+  superseded,  ///< a newer one was returned instead (newest)
+  late,        ///< it came after one of its stamp or later was returned (newest)
+  overflow,    ///< max_frames were waiting; drops the oldest (newest) or the new one (every)
+  clock_jump,  ///< it is from before the clock jumped back
+  no_stamp     ///< its stamp is 0 or negative
 };
-inline constexpr std::size_t drop_reasons = 6;
+inline constexpr std::size_t drop_reasons = 5;
 [[nodiscard]] std::string_view to_string(DropReason reason);
 
 struct FrameQueueOptions {
   DropPolicy policy = DropPolicy::newest;
-  /// The camera's: seconds added to an image's stamp before poses are looked up; negative where
-  /// images are stamped later than they are taken.
+  /// Seconds added to an image's stamp before poses are looked up; negative if images are stamped
+  /// later than they are taken.
   double time_offset = 0.0;
-  double max_wait = 0.2;  ///< seconds on the caller's clock that an image waits for its pose
-  std::size_t max_frames =
-      32;  ///< that wait at a time; the first of so many waits no longer (every)
-  bool drop_without_pose = false;  ///< else frames come out with the status that says why
+  double max_wait = 0.2;        ///< seconds on the caller's clock that an image waits for its pose
+  std::size_t max_frames = 32;  ///< waiting at once; with `every`, the first waits no longer then
   PoseOptions poses = {};
 };
 
@@ -52,19 +49,19 @@ struct DroppedFrame {
   DropReason reason = DropReason::superseded;
 };
 
-/// A frame whose pose is known, or was waited for in vain.
+/// A frame with its pose, or with the status after max_wait.
 struct QueuedFrame {
   std::uint64_t key = 0;        ///< as pushed
   std::int64_t stamp = 0;       ///< the image's own, nanoseconds
-  std::int64_t pose_stamp = 0;  ///< with time_offset: what `pose` is of
+  std::int64_t pose_stamp = 0;  ///< with time_offset: the stamp of `pose`
   std::int64_t waited = 0;      ///< nanoseconds on the caller's clock
   PoseAnswer pose;              ///< ok, or a status without a pose
 
-  /// All of the pipeline's input but depth and targets. Refers to this.
+  /// Returns the pipeline's input without depth and targets. Refers to this.
   [[nodiscard]] Frame frame() const;
 };
 
-/// What became of the frames: pushed = given_out + dropped + waiting.
+/// Counts frames by result: pushed = given_out + dropped + waiting.
 struct FrameCounts {
   std::size_t pushed = 0;
   std::size_t given_out = 0;
@@ -77,36 +74,35 @@ struct FrameCounts {
   }
 };
 
-/// Depth images wait here for the joint states or transforms around their stamps, which may come
-/// before or after them. Nothing is extrapolated, no state is the latest: a frame comes out once
-/// its pose is known, or with the status that says why not when max_wait is over.
+/// Holds depth images until the joint states or transforms around their stamps have arrived. Never
+/// extrapolates: a frame is returned with its pose, or after max_wait with the status.
 ///
-/// Images stay with the caller, who gives each a key and gets it back once: from next(), or in a
-/// DroppedFrame. Times `now` are nanoseconds of any clock of the caller's (log times of a bag, a
-/// steady clock); if it goes back, waits start again. One instance serves one thread at a time; so
-/// do all that share a history, together.
+/// The caller keeps the images and gives each a key, which comes back once: from next(), or in a
+/// DroppedFrame. Times `now` are nanoseconds of any clock (log times of a bag, a steady clock); if
+/// it goes back, waits start again. One instance serves one thread at a time, as do all users of
+/// one history together.
 class FrameQueue {
  public:
   using OnDrop = std::function<void(const DroppedFrame&)>;  ///< must not call the queue
 
-  /// Throws InputError for what PoseLookup refuses, times that are not finite, negative or above
-  /// 1e9 s (time_offset: beyond +-1e9 s) and max_frames 0. `robot` and `history` must outlive this.
+  /// Throws InputError as PoseLookup does, and for times that are not finite, negative (except
+  /// time_offset) or above 1e9 s, and max_frames 0. `robot` and `history` must outlive this.
   FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options = {},
              OnDrop on_drop = {});
 
-  /// Takes a frame. One that is stamped a clock's jump before the newest makes the history forget
-  /// its states and drops those that wait.
+  /// Adds a frame. A stamp that is a clock jump before the newest clears the history and drops all
+  /// waiting frames.
   void push(std::uint64_t key, std::int64_t stamp, std::int64_t now);
 
-  /// The next frame to be processed; false if there is none yet. Call it until then, after each
-  /// push, after states were added to the history, and at wake_at().
-  /// Allocates nothing for a frame that is ok, once `frame` has been used.
+  /// Returns the next frame to process, or false if there is none yet. Call it until false after
+  /// each push, after adding states to the history, and at wake_at(). Allocates nothing for a frame
+  /// that is ok, once `frame` has been used.
   bool next(std::int64_t now, QueuedFrame& frame);
 
-  /// Nothing more will be added to the history: no frame waits any longer.
+  /// Tells the queue that the history is complete: no frame waits any longer.
   void finish() { finished_ = true; }
 
-  /// When next() has something even if nothing is added; nothing if no frame waits.
+  /// Returns when next() has a frame even without new states; null if no frame waits.
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
 
   [[nodiscard]] FrameCounts counts() const;
@@ -116,12 +112,12 @@ class FrameQueue {
     std::uint64_t key;
     std::int64_t stamp;
     std::int64_t arrived;    // on the caller's clock
-    std::uint64_t revision;  // of the history that did not have its pose; none at first
+    std::uint64_t revision;  // of the history when its pose was last looked up
   };
 
   void follow(std::int64_t now);
   void drop(const Waiting& frame, DropReason reason);
-  bool next_of_every(QueuedFrame& out);
+  bool next_in_order(QueuedFrame& out);
   bool next_newest(QueuedFrame& out);
   bool decide(Waiting& frame, QueuedFrame& out);
   [[nodiscard]] bool is_over(const Waiting& frame) const;
@@ -132,11 +128,11 @@ class FrameQueue {
   std::int64_t max_wait_;     // nanoseconds
   PoseLookup lookup_;
   OnDrop on_drop_;
-  std::vector<Waiting> waiting_;  // as they came, or (newest) by stamp
+  std::vector<Waiting> waiting_;  // in order of arrival, or (newest) by stamp
   std::uint64_t epoch_;
   std::int64_t now_ = 0;
-  std::optional<std::int64_t> newest_;     // stamp pushed in this epoch
-  std::optional<std::int64_t> given_out_;  // newest stamp given out in this epoch
+  std::optional<std::int64_t> newest_;     // pushed stamp of this epoch
+  std::optional<std::int64_t> given_out_;  // newest returned stamp of this epoch
   bool finished_ = false;
   FrameCounts counts_;
 };

@@ -13,13 +13,13 @@
 
 namespace penumbra {
 
-/// For every pixel of one image the pixel of another that is seen there. Columns and rows are kept
-/// apart, so that a map serves images of any stride.
+/// Maps each pixel of one image to a pixel of another. Stores columns and rows, so that images may
+/// have any stride.
 class PixelMap {
  public:
   explicit PixelMap(ImageView<const std::int32_t> indices, int source_width);
 
-  /// Brings pixels u0 <= u < u1, v0 <= v < v1 of `out` from `in`; 0 where nothing is seen.
+  /// Writes pixels u0 <= u < u1, v0 <= v < v1 of `out` from `in`; 0 for pixels without a source.
   template <typename T>
   void gather(ImageView<const T> in, int u0, int u1, int v0, int v1, ImageView<T> out) const {
     for (int v = v0; v < v1; ++v) {
@@ -41,12 +41,12 @@ class PixelMap {
   Image<Source> sources_;
 };
 
-/// The raw, distorted image of what was rendered in the pinhole image.
+/// Maps rendered pinhole images to the raw, distorted image.
 class RawImages {
  public:
   explicit RawImages(const Rectification& rectification);
 
-  /// The virtual depth image seen in the raw image; valid until the next call.
+  /// Returns the raw virtual depth image; valid until the next call.
   VirtualDepthView virtual_depth(const VirtualDepthView& pinhole);
 
  private:
@@ -57,37 +57,39 @@ class RawImages {
   TileMask touched_;
 };
 
-/// The pixels of an image that a map to or from the raw image leaves out. No robot can be drawn
-/// there in the raw image; in the pinhole image the camera sees nothing there.
+/// The pixels of an image without a counterpart in the other image space. In the raw image no robot
+/// can be rendered there; in the pinhole image the camera sees nothing there.
 class UncoveredPixels {
  public:
   explicit UncoveredPixels(ImageView<const std::int32_t> map);
 
-  /// The labels with every uncovered pixel unknown; counts leave those out that were clear. Its
-  /// tiles are those of such pixels too. Valid until the next call.
+  /// Returns the labels with every uncovered pixel unknown; its tiles include those of uncovered
+  /// pixels, its counts exclude uncovered pixels that were clear. Valid until the next call.
   LabelView mark(const LabelView& labels);
 
   [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] std::size_t marked() const { return marked_; }  ///< of them clear in the last image
+  [[nodiscard]] std::size_t marked() const {
+    return marked_;
+  }  ///< those that were clear in the last image
 
-  /// Not 0 where a pixel is uncovered.
+  /// Not 0 for uncovered pixels.
   [[nodiscard]] ImageView<const std::uint8_t> mask() const { return mask_.view(); }
 
  private:
-  Image<std::uint8_t> mask_;  // Label::unknown where not covered, else Label::clear
+  Image<std::uint8_t> mask_;
   Image<std::uint8_t> labels_;
-  TileMask uncovered_;  // tiles of mask_ that hold such pixels
-  TileMask touched_;    // tiles of labels_ that hold other than mask_
-  TileMask shown_;      // both
+  TileMask tiles_;  // with uncovered pixels
+  TileMask shown_;  // and those of the labels
   std::size_t count_ = 0, marked_ = 0;
 };
 
-/// A raw depth image brought to the pinhole image.
+/// Rectifies raw depth images.
 class RectifiedDepth {
  public:
   explicit RectifiedDepth(const Rectification& rectification);
 
-  /// The whole image: the labels' clean-up looks past the robot's tiles. Valid until the next call.
+  /// Returns the whole rectified image, which the clean-up of labels needs. Valid until the next
+  /// call.
   DepthView rectify(const DepthView& raw);
 
  private:
@@ -95,7 +97,7 @@ class RectifiedDepth {
   DepthView rectify_into(Image<T>& image, ImageView<const T> raw);
 
   PixelMap map_;
-  Image<std::uint16_t> millimetres_;  // each is made when the first depth image of its kind comes
+  Image<std::uint16_t> millimetres_;  // allocated with the first depth image of its type
   Image<float> metres_;
 };
 

@@ -48,52 +48,40 @@ VirtualDepthView RawImages::virtual_depth(const VirtualDepthView& pinhole) {
 }
 
 UncoveredPixels::UncoveredPixels(ImageView<const std::int32_t> map)
-    : mask_(map.width, map.height),
-      uncovered_(map.width, map.height),
-      touched_(map.width, map.height),
-      shown_(map.width, map.height) {
+    : mask_(map.width, map.height), tiles_(map.width, map.height), shown_(map.width, map.height) {
   for (int v = 0; v < map.height; ++v) {
     for (int u = 0; u < map.width; ++u) {
       if (map(u, v) != Rectification::no_pixel) continue;
-      mask_(u, v) = static_cast<std::uint8_t>(Label::unknown);
-      uncovered_.mark(u, v, u, v);
+      mask_(u, v) = 1;
+      tiles_.mark(u, v, u, v);
       ++count_;
     }
   }
   marked_ = count_;
-  labels_ = mask_;
 }
 
 LabelView UncoveredPixels::mark(const LabelView& labels) {
   if (count_ == 0) return labels;
-  touched_.for_each_span([&](int u0, int u1, int v0, int v1) {
+  if (labels_.empty()) labels_ = Image<std::uint8_t>(mask_.width(), mask_.height());
+  for (int v = 0; v < mask_.height(); ++v)
+    std::copy_n(labels.labels.row(v), mask_.width(), &labels_(0, v));
+  std::size_t robot = 0, fringe = 0;  // the other uncovered pixels are clear
+  tiles_.for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v)
-      std::copy(&mask_(u0, v), &mask_(u0, v) + (u1 - u0), &labels_(u0, v));
-  });
-  marked_ = count_;
-  std::size_t of_fringe = 0;
-  labels.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    // No robot is drawn in an uncovered pixel: its label is clear, fringe, or unknown.
-    for (int v = v0; v < v1; ++v) {
-      const std::uint8_t* const from = labels.labels.row(v);
-      const std::uint8_t* const mask = &mask_(0, v);
-      std::uint8_t* const to = &labels_(0, v);
-      std::uint32_t robot = 0, fringe = 0;
       for (int u = u0; u < u1; ++u) {
-        to[u] = mask[u] != 0 ? mask[u] : from[u];
-        robot += (mask[u] != 0) & (from[u] == static_cast<std::uint8_t>(Label::unknown));
-        fringe += (mask[u] != 0) & (from[u] == static_cast<std::uint8_t>(Label::fringe));
+        if (mask_(u, v) == 0) continue;
+        std::uint8_t& label = labels_(u, v);
+        robot += label == static_cast<std::uint8_t>(Label::unknown);
+        fringe += label == static_cast<std::uint8_t>(Label::fringe);
+        label = static_cast<std::uint8_t>(Label::unknown);
       }
-      marked_ -= robot;
-      of_fringe += fringe;
-    }
   });
-  touched_.rows.assign(labels.touched->rows.begin(), labels.touched->rows.end());
+  marked_ = count_ - robot;
   for (std::size_t j = 0; j < shown_.rows.size(); ++j)
-    shown_.rows[j] = touched_.rows[j] | uncovered_.rows[j];
+    shown_.rows[j] = labels.touched->rows[j] | tiles_.rows[j];
   LabelView covered{labels_.view(), labels.pixels, &shown_};
-  covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_ - of_fringe;
-  covered.pixels[static_cast<std::size_t>(Label::fringe)] -= of_fringe;
+  covered.pixels[static_cast<std::size_t>(Label::clear)] -= marked_ - fringe;
+  covered.pixels[static_cast<std::size_t>(Label::fringe)] -= fringe;
   return covered;
 }
 

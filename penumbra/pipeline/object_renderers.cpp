@@ -12,12 +12,11 @@ namespace penumbra {
 namespace {
 
 void check_mesh(const TriangleMesh* mesh) {
-  if (mesh == nullptr || mesh->triangles.empty())
-    throw InputError("mesh has no triangles; one with some is wanted");
+  if (mesh == nullptr || mesh->triangles.empty()) throw InputError("mesh has no triangles");
   const bool is_finite =
       std::all_of(mesh->vertices.begin(), mesh->vertices.end(),
                   [](const Eigen::Vector3f& vertex) { return vertex.allFinite(); });
-  if (!is_finite) throw InputError("mesh has a vertex that is not finite; metres are wanted");
+  if (!is_finite) throw InputError("mesh has a vertex that is not finite; expected metres");
   for (const auto& triangle : mesh->triangles)
     for (const std::uint32_t corner : triangle)
       if (corner >= mesh->vertices.size())
@@ -32,7 +31,7 @@ struct PixelRectangle {
   [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
 };
 
-/// Those that may show a box; all of them where it reaches before the near plane.
+/// Returns the pixels that may show a box; all of them if it crosses the near plane.
 PixelRectangle pixels_of(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box,
                          const Intrinsics& camera) {
   const Eigen::AlignedBox3d box(-0.5 * size, 0.5 * size);
@@ -54,14 +53,14 @@ PixelRectangle pixels_of(const Eigen::Vector3d& size, const Eigen::Isometry3d& T
           inside(std::floor(seen.max().y()) + 1, height)};
 }
 
-/// Meets a box with rays from the camera's centre (Kay and Kajiya 1986, slabs). In the box's frame.
+/// Intersects rays from the camera's centre with a box, in its frame (slabs: Kay and Kajiya 1986).
 class BoxRays {
  public:
   BoxRays(const Eigen::Vector3d& half, const Eigen::Vector3d& camera)
       : lower_((-half - camera).cast<float>()), upper_((half - camera).cast<float>()) {}
 
-  /// Depths of `count` pixels of a row, whose rays of depth 1 begin at `first` and go on by `step`;
-  /// 0: the box is not met. What lies before the near plane is cut away.
+  /// Writes the depths of `count` pixels of a row; their rays of depth 1 are first + i * step. 0:
+  /// no intersection. Clips at the near plane.
   void draw(const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count,
             float* out) const {
     constexpr auto nearest = static_cast<float>(DepthRenderer::near_plane);
@@ -85,7 +84,6 @@ class BoxRays {
 
 }  // namespace
 
-/// A renderer and what it draws.
 struct ObjectRenderers::Kept {
   std::shared_ptr<const TriangleMesh> mesh;
   std::unique_ptr<DepthRenderer> renderer;
@@ -146,7 +144,7 @@ VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>
   return render(kept, T_camera_mesh);
 }
 
-/// A new place, or that which was not used for longest.
+/// Returns a new entry, or the least recently used one.
 ObjectRenderers::Kept& ObjectRenderers::place() {
   if (kept_.size() < max_kept) return *kept_.emplace_back(std::make_unique<Kept>());
   return **std::min_element(kept_.begin(), kept_.end(),

@@ -10,7 +10,6 @@
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/pose_stage-inl.hpp>
-#include <penumbra/pipeline/stage_timer-inl.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/render/near_plane_check.hpp>
 
@@ -24,13 +23,13 @@ std::vector<std::string> missing_links_of(const Robot& robot) {
   return links;
 }
 
-/// A robot of which nothing is drawn would make every pixel look clear.
-Robot drawn(Robot robot) {
+/// Refuses a robot without geometry, which would make every pixel look clear.
+Robot checked(Robot robot) {
   for (const LinkReport& link : robot.report())
     if (link.drawn || link.missing) return robot;
   throw InputError("robot '" + robot.name() +
-                   "': no link is drawn; it needs geometry of the chosen kind that ignore_links "
-                   "and only_links leave");
+                   "': no link is rendered; it needs geometry of the chosen kind that "
+                   "ignore_links and only_links do not remove");
 }
 
 Camera checked(const Camera& camera) {
@@ -47,13 +46,6 @@ const Rectification* pointer_to(const std::optional<Rectification>& rectificatio
   return rectification ? &*rectification : nullptr;
 }
 
-Camera pinhole(const Camera& camera, const Intrinsics& intrinsics) {
-  return {.intrinsics = intrinsics,
-          .distortion = {},
-          .range = camera.range,
-          .frame_id = camera.frame_id};
-}
-
 PixelCounts counts_of(const LabelledFrame& frame) {
   const auto count = [&](Label label) {
     return frame.images.labels.pixels[static_cast<std::size_t>(label)];
@@ -65,7 +57,7 @@ PixelCounts counts_of(const LabelledFrame& frame) {
                      .beyond = count(Label::beyond),
                      .fringe = count(Label::fringe),
                      .uncovered = frame.uncovered};
-  if (frame.poses.known())
+  if (frame.poses->known())
     pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
   return pixels;
 }
@@ -75,34 +67,29 @@ PixelCounts counts_of(const LabelledFrame& frame) {
 struct Pipeline::State {
   State(Robot robot_, const Camera& camera_, const PipelineConfig& config);
 
-  [[nodiscard]] TargetStage::Setup target_setup(const PipelineConfig& config);
-  void write_report(const Frame& frame, const LabelledFrame& labelled);
+  const FrameReport& report_of(const Frame& frame, const LabelledFrame& labelled);
 
   Robot robot;
   Camera camera;
-  std::optional<Rectification> rectification;  // nothing without lens distortion
+  std::optional<Rectification> rectification;  // null without lens distortion
   std::vector<std::string> missing_links;
   PoseStage poses;
   FrameLabeller labeller;
-  std::optional<FrameLabeller> late_labeller;  // where targets may come late
   NearPlaneCheck near_plane;
-  Camera judged_camera;  // of the report's images
   TargetStage targets;
   std::size_t calls = 0;
   FrameReport report;
 };
 
 Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig& config)
-    : robot(drawn(std::move(robot_))),
+    : robot(checked(std::move(robot_))),
       camera(checked(camera_)),
       rectification(rectification_of(camera)),
       missing_links(missing_links_of(robot)),
       poses(robot, config, missing_links),
       labeller(robot, camera, pointer_to(rectification), config),
       near_plane(labeller.render_intrinsics(), bodies_of(robot)),
-      judged_camera(config.image == ImageSpace::raw ? camera
-                                                    : pinhole(camera, labeller.intrinsics())),
-      targets(target_setup(config)) {
+      targets(robot, camera, pointer_to(rectification), labeller, config) {
   report.links = robot.links();
   report.missing_links = missing_links;
 }
@@ -127,29 +114,18 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
-  StageTimes timing;
-  PoseResult poses;
-  {
-    const StageTimer timer(timing.kinematics);
-    poses = s.poses.pose_of(frame);
-  }
-  const LabelledFrame labelled = s.labeller.label(frame.depth, poses, timing);
-  {
-    const StageTimer timer(timing.targets);
-    s.report.targets = s.targets.process(frame.targets, labelled);
-  }
-  if (frame.targets.empty()) timing.targets.reset();
-  s.report.timing = timing;
-  s.write_report(frame, labelled);
-  return s.report;
+  const PoseResult& poses = s.poses.pose_of(frame);
+  const LabelledFrame labelled = s.labeller.label(frame.depth, poses);
+  s.targets.judge(frame.targets, labelled);
+  s.targets.track(frame.targets, labelled);
+  return s.report_of(frame, labelled);
 }
 
 void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }
 void Pipeline::forget_targets() { state_->targets.forget_all(); }
 
-/// All but the targets and the timing.
-void Pipeline::State::write_report(const Frame& frame, const LabelledFrame& labelled) {
-  const PoseResult& where = labelled.poses;
+const FrameReport& Pipeline::State::report_of(const Frame& frame, const LabelledFrame& labelled) {
+  const PoseResult& at = *labelled.poses;
   report.index = frame.index.value_or(calls);
   ++calls;
   report.stamp = frame.stamp;
@@ -158,32 +134,24 @@ void Pipeline::State::write_report(const Frame& frame, const LabelledFrame& labe
   report.message = labelled.message;
   report.nothing_measured = labelled.nothing_measured;
   report.pixels = counts_of(labelled);
+  report.timing.kinematics = at.kinematics_ms;
+  report.timing.render = labelled.render_ms;
+  report.timing.classify = labelled.classify_ms;
+  report.timing.targets.reset();
+  if (!frame.targets.empty()) report.timing.targets = targets.elapsed_ms();
   report.T_root_camera.reset();
-  if (where.known()) report.T_root_camera = where.T_root_camera;
-  report.T_root_link = where.T_root_link;
+  report.T_root_link = {};
   report.near_links = {};
-  if (where.known()) report.near_links = near_plane.find(where.T_camera_link);
+  if (at.known()) {
+    report.T_root_camera = at.T_root_camera;
+    report.T_root_link = at.T_root_link;
+    report.near_links = near_plane.find(at.T_camera_link);
+  }
   report.virtual_depth = labelled.images.virtual_depth;
   report.depth = labelled.images.measured;
   report.labels = labelled.images.labels.labels;
-}
-
-TargetStage::Setup Pipeline::State::target_setup(const PipelineConfig& config) {
-  const bool is_reference = config.backend == Backend::reference;
-  const bool is_raw = config.image == ImageSpace::raw;
-  const auto& uncovered = labeller.uncovered();
-  if (config.target_history > 0.0)
-    late_labeller.emplace(robot, camera, pointer_to(rectification), config);
-  return {.robot = robot,
-          .camera = judged_camera,
-          .rule = rule_of(camera, config),
-          .backend = is_reference ? Backend::reference : Backend::cpu,
-          .renderer = {.threads = 1, .isa = config.renderer.isa},
-          .render_intrinsics = labeller.render_intrinsics(),
-          .rectification = is_raw ? pointer_to(rectification) : nullptr,
-          .unseen = uncovered && !is_raw ? uncovered->mask() : ImageView<const std::uint8_t>{},
-          .history = config.target_history,
-          .late_labeller = late_labeller ? &*late_labeller : nullptr};
+  report.targets = targets.reports();
+  return report;
 }
 
 }  // namespace penumbra

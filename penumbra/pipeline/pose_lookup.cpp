@@ -11,10 +11,13 @@
 namespace penumbra {
 namespace {
 
+/// Metres by which a rotation counts as an arc.
+constexpr double arc_radius = 0.5;
+
 double distance_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   const double turn =
       Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
-  return std::max((a.translation() - b.translation()).norm(), Disagreement::lever * turn);
+  return std::max((a.translation() - b.translation()).norm(), arc_radius * turn);
 }
 
 FrameStatus status_of(TransformStatus transform) {
@@ -31,10 +34,14 @@ FrameStatus status_of(TransformStatus transform) {
   return FrameStatus::missing_transform;
 }
 
-/// Values of a joint of its own, one after another.
+/// Returns the number of a joint's variables, which are consecutive.
 std::size_t variables_of(JointType type) {
   if (type == JointType::planar) return 3;
   return type == JointType::floating ? 7 : 1;
+}
+
+bool holds(const std::vector<std::size_t>& indices, std::size_t index) {
+  return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
 std::string disagreement_text(const std::string& link, double distance, double agreement) {
@@ -68,36 +75,23 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
   if (!(options_.agreement >= 0.0))
     throw InputError("agreement of joint states and TF is " + std::to_string(options_.agreement) +
                      " m; expected 0 or more");
-  for (const std::string& link : robot.links()) frames_.push_back(options_.frame_prefix + link);
-  note_movers();
-}
-
-/// Whether a variable that moves the link is meant.
-template <typename F>
-bool PoseLookup::any_variable_above(std::size_t link, const F& is_meant) const {
-  for (std::size_t at = link; at > 0;) {
-    const Joint& joint = robot_.joints()[at - 1];  // whose child it is
-    for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
-      if (is_meant(*joint.variable + i)) return true;
-    at = joint.parent;
+  moves_needed_.resize(robot.variables().size());
+  for (std::size_t link = 0; link < robot.links().size(); ++link) {
+    frames_.push_back(options_.frame_prefix + robot.links()[link]);
+    auto& movers = movers_.emplace_back();
+    if (link > 0) {
+      const Joint& joint = robot.joints()[link - 1];  // parents come before children
+      movers = movers_[joint.parent];
+      for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
+        movers.push_back(*joint.variable + i);
+    }
+    is_needed_.push_back(robot.report()[link].drawn || link == camera_parent_);
+    if (!is_needed_[link]) continue;
+    for (const std::size_t variable : movers) moves_needed_[variable] = true;
   }
-  return false;
-}
-
-void PoseLookup::note_movers() {
-  moves_.resize(robot_.variables().size());
-  counts_.resize(frames_.size());
-  for (std::size_t link = 0; link < frames_.size(); ++link) {
-    counts_[link] = robot_.report()[link].drawn || link == camera_parent_;
-    if (!counts_[link]) continue;
-    static_cast<void>(any_variable_above(link, [this](std::size_t variable) {
-      moves_[variable] = true;
-      return false;
-    }));
-  }
-  carries_ = counts_;
-  for (std::size_t link = frames_.size() - 1; link > 0; --link)  // parents stand before children
-    if (carries_[link]) carries_[robot_.joints()[link - 1].parent] = true;
+  leads_to_needed_ = is_needed_;
+  for (std::size_t link = frames_.size() - 1; link > 0; --link)
+    if (leads_to_needed_[link]) leads_to_needed_[robot.joints()[link - 1].parent] = true;
 }
 
 void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) {
@@ -105,9 +99,8 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& 
   answer.message.clear();
   answer.age = 0;
   answer.T_parent_camera.reset();
-  answer.disagreement.reset();
-  answer.doubted_links.clear();
-  answer.doubt.clear();
+  answer.uncertain_links.clear();
+  answer.uncertain_reason.clear();
   const bool by_joints = options_.source != PoseSource::transforms;
   const bool by_transforms = options_.source != PoseSource::joints;
   answer.by_joints = by_joints;
@@ -127,28 +120,31 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
   if (answer.status != FrameStatus::ok) answer.message = describe(robot_, answer.joints);
 }
 
+/// Keeps the unknown joints that move a needed link. Without any, the answer is ok and the links
+/// that the others move are uncertain.
 void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
   JointStatus& status = answer.joints.status;
   auto& gaps = answer.joints.gaps;
   auto& disputes = answer.joints.disputes;
-  const auto idle = std::not_fn([this](const auto& unknown) { return moves_[unknown.variable]; });
-  if (!std::all_of(gaps.begin(), gaps.end(), idle) ||
-      !std::all_of(disputes.begin(), disputes.end(), idle)) {
-    std::erase_if(gaps, idle);
-    std::erase_if(disputes, idle);
+  const auto is_needed = [this](const auto& unknown) { return moves_needed_[unknown.variable]; };
+  if (std::any_of(gaps.begin(), gaps.end(), is_needed) ||
+      std::any_of(disputes.begin(), disputes.end(), is_needed)) {
+    std::erase_if(gaps, std::not_fn(is_needed));
+    std::erase_if(disputes, std::not_fn(is_needed));
     status = gaps.empty() ? JointStatus::disputed : JointStatus::stale;
     for (const JointGap& gap : gaps)
       if (gap.why == JointStatus::missing) status = JointStatus::missing;
     return;
   }
-  answer.doubt = describe(robot_, answer.joints);
-  const auto is_unknown = [&](std::size_t variable) {
-    const auto is_meant = [variable](const auto& unknown) { return unknown.variable == variable; };
-    return std::any_of(gaps.begin(), gaps.end(), is_meant) ||
-           std::any_of(disputes.begin(), disputes.end(), is_meant);
-  };
-  for (std::size_t link = 0; link < frames_.size(); ++link)
-    if (any_variable_above(link, is_unknown)) answer.doubted_links.push_back(link);
+  answer.uncertain_reason = describe(robot_, answer.joints);
+  for (std::size_t link = 0; link < frames_.size(); ++link) {
+    const auto moves_link = [&](const auto& unknown) {
+      return holds(movers_[link], unknown.variable);
+    };
+    if (std::any_of(gaps.begin(), gaps.end(), moves_link) ||
+        std::any_of(disputes.begin(), disputes.end(), moves_link))
+      answer.uncertain_links.push_back(link);
+  }
   for (const JointGap& gap : gaps) answer.joints.positions[gap.variable] = rest_[gap.variable];
   status = JointStatus::ok;
   gaps.clear();
@@ -159,23 +155,21 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
                             PoseAnswer& answer) {
   answer.T_root_link.resize(frames_.size());
   answer.T_root_link[0].setIdentity();
-  const auto is_doubted = [&](std::size_t link) {
-    return std::count(answer.doubted_links.begin(), answer.doubted_links.end(), link) > 0;
-  };
+  auto& uncertain = answer.uncertain_links;
   for (const Joint& joint : robot_.joints()) {
     const bool is_given = joint.type != JointType::fixed || transforms.knows(frames_[joint.child]);
     const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
                                                       frames_[joint.child], answer);
-    if (!is_found && carries_[joint.child]) return;
+    if (!is_found && leads_to_needed_[joint.child]) return;
     answer.T_root_link[joint.child] =
         answer.T_root_link[joint.parent] *
         (is_given && is_found ? transform_.T_target_source : joint.origin);
     if (!is_found) {
       answer.status = FrameStatus::ok;
-      answer.doubt = std::exchange(answer.message, {});
+      answer.uncertain_reason = std::exchange(answer.message, {});
     }
-    if ((!is_found || is_doubted(joint.parent)) && !is_doubted(joint.child))
-      answer.doubted_links.push_back(joint.child);
+    if ((!is_found || holds(uncertain, joint.parent)) && !holds(uncertain, joint.child))
+      uncertain.push_back(joint.child);
   }
 }
 
@@ -198,23 +192,26 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
 
 void PoseLookup::compare(PoseAnswer& answer) {
   robot_.forward_kinematics(answer.joints.positions, T_root_link_);
-  Disagreement& most = answer.disagreement.emplace();
-  Disagreement most_doubted;
+  struct Disagreement {
+    std::size_t link = 0;
+    double distance = 0.0;
+  };
+  Disagreement needed, other;
   for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
     const double distance = distance_between(T_root_link_[i], answer.T_root_link[i]);
-    Disagreement& among = counts_[i] ? most : most_doubted;
-    if (distance > among.distance) among = {i, distance};
-    if (!counts_[i] && distance > options_.agreement) answer.doubted_links.push_back(i);
+    Disagreement& most = is_needed_[i] ? needed : other;
+    if (distance > most.distance) most = {i, distance};
+    if (!is_needed_[i] && distance > options_.agreement) answer.uncertain_links.push_back(i);
   }
-  if (most.distance <= options_.agreement) {
-    if (most_doubted.distance <= options_.agreement) return;
-    answer.doubt += (answer.doubt.empty() ? "" : "; ") +
-                    disagreement_text(robot_.links()[most_doubted.link], most_doubted.distance,
-                                      options_.agreement);
-    return;
+  const auto text = [&](const Disagreement& most) {
+    return disagreement_text(robot_.links()[most.link], most.distance, options_.agreement);
+  };
+  if (needed.distance > options_.agreement) {
+    answer.status = FrameStatus::poses_disagree;
+    answer.message = text(needed);
+  } else if (other.distance > options_.agreement) {
+    add_part(answer.uncertain_reason, text(other));
   }
-  answer.status = FrameStatus::poses_disagree;
-  answer.message = disagreement_text(robot_.links()[most.link], most.distance, options_.agreement);
 }
 
 }  // namespace penumbra

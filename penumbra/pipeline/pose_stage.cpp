@@ -11,10 +11,10 @@
 namespace penumbra {
 namespace {
 
-/// What Robot::forward_kinematics takes, rad and m.
+/// Limit of Robot::forward_kinematics, rad and m.
 constexpr double largest_position = 1e9;
 
-/// A quaternion's length may be off 1 by rounding in a file, not by a wrong value.
+/// Allows for the rounding of quaternions in files.
 constexpr double quaternion_error = 0.01;
 
 bool is_rotation(std::span<const double> q) {
@@ -66,7 +66,7 @@ std::size_t find_camera_parent(const Robot& robot, const std::string& name) {
   if (const auto link = robot.find_link(name)) return *link;
   std::string known;
   for (const std::string& link : robot.links()) known += (known.empty() ? "" : ", ") + link;
-  throw InputError("camera parent '" + name + "' is no link of robot '" + robot.name() +
+  throw InputError("camera parent '" + name + "' is not a link of robot '" + robot.name() +
                    "'; its links: " + known);
 }
 
@@ -74,46 +74,50 @@ PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
                      std::span<const std::string> missing_links)
     : robot_(robot),
       parent_(find_camera_parent(robot, config.camera_parent)),
-      camera_inside_(bodies_of(robot)),
-      T_root_link_(robot.links().size()),
-      T_camera_link_(robot.links().size()) {
+      camera_inside_(bodies_of(robot)) {
+  result_.T_root_link.resize(robot.links().size());
+  result_.T_camera_link.resize(robot.links().size());
   if (!is_rigid(config.T_parent_camera))
     throw InputError(
-        "camera pose is no rigid transform: a rotation (orthonormal, determinant 1) and a finite "
-        "translation in metres are needed");
+        "camera pose is not a rigid transform: expected a rotation (orthonormal, determinant 1) "
+        "and "
+        "a finite translation in metres");
   if (config.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_distance)
-    throw InputError("camera pose is more than 1000 km from its parent link; metres are wanted");
+    throw InputError("camera pose is more than 1000 km from its parent link; expected metres");
   T_camera_parent_ = config.T_parent_camera.inverse();
   for (const std::string& link : missing_links)
     missing_links_ += (missing_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
 }
 
-PoseResult PoseStage::pose_of(const Frame& frame) {
-  check_doubts(frame.doubts);
-  message_.clear();
-  FrameStatus status = frame.source_status;
+const PoseResult& PoseStage::pose_of(const Frame& frame) {
+  const StageTimer timer(result_.kinematics_ms);
+  check_uncertain(frame.uncertain_links);
+  result_.stamp = frame.stamp;
+  result_.message.clear();
+  result_.uncertain_links.assign(frame.uncertain_links.begin(), frame.uncertain_links.end());
+  result_.uncertain_reason = frame.uncertain_reason;
+  FrameStatus& status = result_.status;
+  status = frame.source_status;
   if (status != FrameStatus::ok)
-    message_ = frame.source_message.empty() ? to_string(status) : frame.source_message;
+    result_.message = frame.source_message.empty() ? to_string(status) : frame.source_message;
   if (has_pose(status)) status = worse(status, check_poses(frame));
   if (!missing_links_.empty())
     status = worse(status, fault(FrameStatus::missing_link, missing_links_));
   if (has_pose(status)) status = worse(status, place_links(frame));
-  if (!has_pose(status)) return {.stamp = frame.stamp, .status = status, .message = message_};
-  return {frame.stamp,    status,         message_,    T_root_link_,
-          T_camera_link_, T_root_camera_, frame.doubts};
+  return result_;
 }
 
-/// No frame's fault: whoever made it counts other links.
-void PoseStage::check_doubts(const LinkDoubts& doubts) const {
+/// Throws because an index out of range is an error of the caller, not a fault of the frame.
+void PoseStage::check_uncertain(std::span<const std::size_t> links) const {
   const std::size_t count = robot_.links().size();
-  for (const std::size_t link : doubts.links)
+  for (const std::size_t link : links)
     if (link >= count)
-      throw InputError("doubted link " + std::to_string(link) + " is none of robot '" +
+      throw InputError("uncertain link " + std::to_string(link) + " is not a link of robot '" +
                        robot_.name() + "': expected an index below " + std::to_string(count));
 }
 
 FrameStatus PoseStage::fault(FrameStatus status, std::string_view message) {
-  add_part(message_, message);
+  add_part(result_.message, message);
   return status;
 }
 
@@ -122,7 +126,7 @@ FrameStatus PoseStage::check_poses(const Frame& frame) {
       frame.T_root_link.empty() ? check_joints(frame.joints) : check_links(frame.T_root_link);
   if (!frame.T_parent_camera || is_rigid(*frame.T_parent_camera)) return links;
   return worse(links,
-               fault(FrameStatus::missing_transform, "the camera's pose is no rigid transform"));
+               fault(FrameStatus::missing_transform, "the camera's pose is not a rigid transform"));
 }
 
 FrameStatus PoseStage::check_links(std::span<const Eigen::Isometry3d> T_root_link) {
@@ -136,8 +140,8 @@ FrameStatus PoseStage::check_links(std::span<const Eigen::Isometry3d> T_root_lin
     const bool at_root = i > 0 || T_root_link[0].isApprox(Eigen::Isometry3d::Identity(), rounding);
     if (is_rigid(T_root_link[i]) && at_root) continue;
     return fault(FrameStatus::missing_transform,
-                 "pose of link '" + links[i] + "' is no rigid transform" +
-                     (i > 0 ? "" : ", or not the identity though it is the root"));
+                 "pose of link '" + links[i] + "' is not a rigid transform" +
+                     (i > 0 ? "" : ", or not the identity although it is the root"));
   }
   return FrameStatus::ok;
 }
@@ -159,34 +163,35 @@ FrameStatus PoseStage::check_joints(const JointInput& joints) {
     if (joint.type != JointType::floating) continue;
     if (is_rotation(joints.positions.subspan(*joint.variable + 3, 4))) continue;
     return fault(FrameStatus::missing_joints,
-                 "quaternion of joint '" + joint.name + "' has not the length 1");
+                 "quaternion of joint '" + joint.name + "' does not have length 1");
   }
   return FrameStatus::ok;
 }
 
-/// By poses or joints that check_poses() found ok.
 FrameStatus PoseStage::place_links(const Frame& frame) {
+  auto& T_root_link = result_.T_root_link;
+  auto& T_camera_link = result_.T_camera_link;
   if (frame.T_root_link.empty())
-    robot_.forward_kinematics(frame.joints.positions, T_root_link_);
+    robot_.forward_kinematics(frame.joints.positions, T_root_link);
   else
-    std::copy(frame.T_root_link.begin(), frame.T_root_link.end(), T_root_link_.begin());
+    std::copy(frame.T_root_link.begin(), frame.T_root_link.end(), T_root_link.begin());
   const Eigen::Isometry3d T_camera_parent =
       frame.T_parent_camera ? frame.T_parent_camera->inverse() : T_camera_parent_;
-  const Eigen::Isometry3d T_camera_root = T_camera_parent * T_root_link_[parent_].inverse();
-  T_root_camera_ = T_camera_root.inverse();
-  for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
-    T_camera_link_[i] = T_camera_root * T_root_link_[i];
-    if (T_camera_link_[i].translation().cwiseAbs().maxCoeff() <= max_distance &&
-        T_camera_link_[i].matrix().allFinite())
+  const Eigen::Isometry3d T_camera_root = T_camera_parent * T_root_link[parent_].inverse();
+  result_.T_root_camera = T_camera_root.inverse();
+  for (std::size_t i = 0; i < T_root_link.size(); ++i) {
+    T_camera_link[i] = T_camera_root * T_root_link[i];
+    if (T_camera_link[i].translation().cwiseAbs().maxCoeff() <= max_distance &&
+        T_camera_link[i].matrix().allFinite())
       continue;
     const bool by_joints = frame.T_root_link.empty() && !frame.T_parent_camera;
     return fault(by_joints ? FrameStatus::missing_joints : FrameStatus::missing_transform,
                  (by_joints ? "joint positions put link '" : "poses put link '") +
                      robot_.links()[i] + "' more than 1000 km from the camera");
   }
-  if (const auto link = camera_inside_.find(T_camera_link_))
+  if (const auto link = camera_inside_.find(T_camera_link))
     return fault(FrameStatus::missing_transform,
-                 "the camera's centre lies inside of link '" + robot_.links()[*link] +
+                 "the camera's centre lies inside link '" + robot_.links()[*link] +
                      "': correct the camera's pose, or name the link in ignore_links if it is the "
                      "camera's own housing");
   return FrameStatus::ok;

@@ -1,67 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/stamps.hpp>
-#include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/labelled_frame-inl.hpp>
 
 namespace penumbra {
 
-/// The last frames: their poses, and for a span of time their depth, so that they can be labelled
-/// again. Keeps its buffers.
-class RecentFrames {
+/// Stamps remembered per target, and frames remembered by their poses.
+inline constexpr std::size_t remembered_stamps = 128;
+
+/// The values of the last `remembered_stamps` stamps. Values keep their buffers.
+template <typename T>
+class RecentValues {
  public:
-  static constexpr std::size_t max_frames = 128;
+  explicit RecentValues(const T& initial = {}) : entries_(remembered_stamps, {{}, initial}) {}
+
+  /// Returns the value of a stamp; a new stamp takes over the oldest entry.
+  T& at(std::int64_t stamp) {
+    auto entry = entry_of(stamp);
+    if (entry == entries_.end()) {
+      next_ = (next_ + 1) % entries_.size();
+      entry = entries_.begin() + static_cast<std::ptrdiff_t>(next_);
+    }
+    entry->stamp = stamp;
+    return entry->value;
+  }
+  /// Returns the value of exactly that stamp, or null.
+  [[nodiscard]] const T* find(std::int64_t stamp) {
+    const auto entry = entry_of(stamp);
+    return entry == entries_.end() ? nullptr : &entry->value;
+  }
+  void clear() {
+    for (Entry& entry : entries_) entry.stamp.reset();
+  }
+
+ private:
+  struct Entry {
+    std::optional<std::int64_t> stamp;
+    T value;
+  };
+
+  auto entry_of(std::int64_t stamp) {
+    return std::find_if(entries_.begin(), entries_.end(),
+                        [&](const Entry& entry) { return entry.stamp == stamp; });
+  }
+
+  std::vector<Entry> entries_;
+  std::size_t next_ = 0;  // the entry that was written last
+};
+
+/// The depth images of the last span of time, so that frames can be labelled again.
+class RecentDepth {
+ public:
   static constexpr std::size_t max_bytes = std::size_t{1} << 30;  // 580 images of 1280x720, 16 bit
 
-  /// `links`: of the robot. `span`: nanoseconds that depth is kept for; 0: none is.
-  RecentFrames(std::size_t links, std::int64_t span);
+  /// `span`: nanoseconds; 0 stores nothing.
+  explicit RecentDepth(std::int64_t span) : span_(span) {}
 
-  /// In place of a frame of the same stamp. A frame without stamp is not kept.
-  void keep(const LabelledFrame& frame);
+  /// Copies an image; replaces one of the same stamp.
+  void keep(std::int64_t stamp, const DepthView& depth);
 
-  /// The poses, or the depth image, of the frame of exactly that stamp; nothing if it is not kept.
-  /// Valid until the next keep().
-  [[nodiscard]] std::optional<PoseResult> poses_at(std::int64_t stamp) const;
-  [[nodiscard]] std::optional<DepthView> depth_at(std::int64_t stamp) const;
+  /// Returns the image of exactly that stamp. Valid until the next keep().
+  [[nodiscard]] std::optional<DepthView> find(std::int64_t stamp) const;
 
-  [[nodiscard]] bool keeps_depth() const { return span_ > 0; }
+  [[nodiscard]] bool is_enabled() const { return span_ > 0; }
   void clear();
 
  private:
   struct Kept {
     std::optional<std::int64_t> stamp;
-    FrameStatus status = FrameStatus::ok;
-    std::string message;
-    std::vector<Eigen::Isometry3d> T_root_link, T_camera_link;
-    Eigen::Isometry3d T_root_camera;
-    std::vector<std::size_t> doubted_links;
-    std::string why_doubted;
-  };
-  struct KeptDepth {
-    std::optional<std::int64_t> stamp;
-    DepthView view;  // of one of the two; empty where the frame had none
+    DepthView view;  // of one of the two images; empty if the frame had no depth
     Image<std::uint16_t> millimetres;
     Image<float> metres;
   };
 
-  [[nodiscard]] Kept& place_for(std::int64_t stamp);
-  [[nodiscard]] KeptDepth& depth_place_for(std::int64_t stamp, std::size_t bytes);
+  [[nodiscard]] Kept& place_for(std::int64_t stamp, std::size_t bytes);
 
   std::int64_t span_;
-  std::vector<Kept> frames_;
-  std::size_t next_ = 0;          // of frames_ to be replaced
-  std::deque<KeptDepth> depths_;  // views of theirs stay valid as their number grows
+  std::deque<Kept> kept_;  // a deque keeps views valid as it grows
 };
 
 }  // namespace penumbra

@@ -15,19 +15,23 @@
 #include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
-#include <penumbra/tracking/track.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra {
 
-/// Nothing of a target lies farther, or is larger: float32 depths beyond would mean nothing.
-/// Metres.
+/// Largest distance and size of a target, metres. Float32 depths are too coarse beyond.
 inline constexpr double max_target_distance = 1e6;
 
-/// The frame of a position or pose: nothing is the camera's optical frame, an empty name the
-/// robot's root link, else the link of that name.
-using LinkFrame = std::optional<std::string_view>;
+/// The frame in which a position or pose is given; by default the camera's optical frame.
+struct ReferenceFrame {
+  enum class Kind { camera, root, link };
+
+  static constexpr ReferenceFrame root() { return {Kind::root, {}}; }
+  static constexpr ReferenceFrame of_link(std::string_view name) { return {Kind::link, name}; }
+
+  Kind kind = Kind::camera;
+  std::string_view link = {};  ///< name, for Kind::link
+};
 
 /// Pixels of the report's images (PipelineConfig::image).
 struct RegionTarget {
@@ -36,116 +40,116 @@ struct RegionTarget {
   std::optional<double> expected_depth = {};  ///< metres, > 0
 };
 
-/// A key point of a network; an ellipse around it is judged.
+/// A network's key point; judged as an ellipse around it.
 struct KeypointTarget {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< of the report's images
-  double score = 1.0;                               ///< the network's; below min_score: unknown
+  double score = 1.0;                               ///< of the network; below min_score: unknown
   double min_score = 0.0;
   Eigen::Vector2d semi_axes = Eigen::Vector2d(5, 5);  ///< pixels, or metres if in_metres; > 0
   double angle = 0.0;  ///< radians from +u to +v: of the first semi-axis
-  /// Lengths are metres at the expected depth; without that at the depth measured at the pixel.
-  /// Where that is not labelled clear or front, it may be the robot's: the verdict is unknown.
+  /// True: lengths are metres at the expected depth or, without it, at the depth measured at the
+  /// pixel. That pixel must be labelled clear or front, else the verdict is unknown.
   bool in_metres = false;
   std::optional<double> expected_depth = {};  ///< metres, > 0
 };
 
-/// A ball around a point. Judged as the ellipse that is its outline, at the point's depth.
+/// A sphere around a point; judged as its elliptical outline at the point's depth.
 struct PointTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
   double radius = 0.02;                                ///< metres, > 0
-  LinkFrame frame = {};
+  ReferenceFrame frame = {};
 };
 
-/// A box, rendered alone, so that each pixel's expected depth is known.
+/// A box; it is rendered alone, which gives each pixel's expected depth.
 struct BoxTarget {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its centre, axes along its edges
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();          ///< whole edges, metres, > 0
-  LinkFrame frame = {};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the centre; axes along the edges
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();          ///< full edge lengths, metres, > 0
+  ReferenceFrame frame = {};
 };
 
-/// A mesh, rendered alone. Give the same pointer again for the same mesh: what was made ready for
-/// rendering is kept by it.
+/// A mesh; it is rendered alone. Pass the same pointer for the same mesh: the prepared renderer is
+/// cached by pointer.
 struct MeshTarget {
   std::shared_ptr<const TriangleMesh> mesh;  ///< in the object's frame
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  LinkFrame frame = {};
+  ReferenceFrame frame = {};
 };
 
-/// std::monostate: not found in this frame. Its verdict is unknown; handling goes on.
+/// std::monostate: not found in this frame; the verdict is unknown and handling continues.
 using TargetShape =
     std::variant<std::monostate, RegionTarget, KeypointTarget, PointTarget, BoxTarget, MeshTarget>;
 
-/// What the perception system says of a target's whereabouts.
+/// A pose or position of a target from the perception system.
 struct TargetEstimate {
-  /// std::monostate: it found none in this frame, and nothing else stands for it.
+  /// std::monostate: not found in this frame, and the shape's own pose is not used either.
   std::variant<Eigen::Isometry3d, Eigen::Vector3d, std::monostate> value =
       Eigen::Isometry3d::Identity();
-  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; nothing: the target's
-  LinkFrame frame = {};                    ///< at that stamp
-  /// Of position and rotation vector along the axes of `frame`; a point takes the first 3 x 3.
+  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; null: the target's
+  ReferenceFrame frame = {};               ///< at that stamp
+  /// Of position and rotation vector along the axes of `frame`; a point uses the first 3 x 3.
   std::optional<Matrix6d> covariance = {};
 };
 
-/// How a target is carried on while it is hidden: not, as a pose, or as a point.
+/// How a target is followed while hidden: not at all, as a pose, or as a point.
 using TargetHandling = std::variant<std::monostate, PoseTrackerConfig, PointTrackerConfig>;
 
-/// What is to be judged in a frame. Refers to the caller's memory, needed during the call only.
-/// Whatever is wrong with a target makes its verdict unknown and is said in the report's reason.
+/// A target to judge in a frame. Refers to the caller's memory, which must live during the call.
+/// Any fault of a target makes its verdict unknown and is the report's reason.
 struct Target {
-  std::string_view name;  ///< not empty; once per frame: by it verdicts and tracks are remembered
-  /// False: the name may be another object's in the next frame, as one made of a detection's place
-  /// in its message. It is judged as if for the first time in each frame, and cannot be handled.
+  std::string_view name;  ///< not empty, unique in a frame; verdicts and tracks are stored by it
+  /// False: the name may belong to another object in the next frame (for example, the index of a
+  /// detection). Each frame judges the target as new, and it cannot be handled.
   bool has_identity = true;
   TargetShape shape = {};
-  std::string_view frame_id = {};  ///< of its image; if given, the camera's: others are refused
-  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; nothing: the frame's
-  /// Metres by which its surface may lie before or behind its expected depth: half its thickness,
-  /// its pose's uncertainty. A PointTarget's radius is added.
+  std::string_view frame_id = {};          ///< of its image; empty, or the camera's
+  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; null: the frame's
+  /// Metres between its surface and its expected depth at most: half its thickness plus its pose's
+  /// uncertainty. A PointTarget's radius is added.
   double depth_margin = 0.0;
   TargetThresholds thresholds = {};
-  /// Taken when the name comes first; Pipeline::forget_target lets it be taken again.
+  /// Read at the first frame with this name, and again after Pipeline::forget_target.
   TargetHandling handling = {};
-  /// Nothing: a 3-D target's own pose or position and, for handling as a point, the point measured
-  /// within a region or at a key point.
+  /// Null: the pose or position of a 3-D shape or, for handling as a point, the point measured in
+  /// the region or at the key point.
   std::optional<TargetEstimate> estimate = {};
-  std::string_view fault = {};  ///< what its source knows to be wrong with it; empty: nothing
+  std::string_view fault = {};  ///< a fault that its source reports; empty: none
 };
 
-/// Whether a shape is rendered alone.
+/// Returns whether a shape is rendered alone.
 [[nodiscard]] bool is_rendered(const TargetShape& shape);
 
-/// Throw InputError for a shape, a name or settings that can be right in no frame: what the
-/// pipeline would say of it in each. Pixels of a region are checked with the image they are of.
+/// Throw InputError for a shape, name or settings that are invalid in every frame. The pixels of a
+/// region are checked only together with an image.
 void check_shape(const TargetShape& shape);
 void check_target(const Target& target);
 
-/// Throws InputError for a pose that is none, or more than max_target_distance away, or in the
-/// camera: given in its frame, and nearer to it than DepthRenderer::near_plane.
+/// Throws InputError for a pose that is not rigid or more than max_target_distance away, and for
+/// one in the camera's frame that is nearer than DepthRenderer::near_plane.
 void check_estimate(const TargetEstimate& estimate);
 
-/// Where a handled target is at the frame's stamp, in the root link's frame.
+/// A handled target at the frame's stamp, in the root link's frame.
 struct HandledTarget {
   Source source = Source::lost;
   double age = 0;  ///< seconds since the last accepted estimate; infinite before the first
-  std::optional<Eigen::Vector3d> position;        ///< metres; nothing if lost
-  std::optional<Eigen::Quaterniond> orientation;  ///< nothing if lost, or handled as a point
-  double sigma = 0;  ///< metres: along the position's most uncertain direction
+  std::optional<Eigen::Vector3d> position;        ///< metres; null if lost
+  std::optional<Eigen::Quaterniond> orientation;  ///< null if lost, or handled as a point
+  double sigma = 0;  ///< metres, along the position's most uncertain direction
 };
 
-/// What is said of a target. Views are valid until the pipeline's next call.
+/// The result for one target. Views are valid until the pipeline's next call.
 struct TargetReport {
   std::string_view name;
-  std::optional<std::int64_t> stamp;  ///< of the frame that it was judged on, nanoseconds
+  std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
   Verdict verdict = Verdict::unknown;
-  std::string_view reason;  ///< one line, for verdict unknown; else empty
+  std::string_view reason;  ///< one line if the verdict is unknown, else empty
 
-  /// Nothing where no pixels were judged. All but `point` are as the judge says them.
+  /// Null if no pixels were judged. The judge's values except `point`.
   std::optional<Judgement> judgement;
-  std::optional<Eigen::Vector3d> point;  ///< of trusted depths only; root link's frame, metres
+  std::optional<Eigen::Vector3d> point;  ///< from trusted depths only; root link's frame, metres
 
-  std::optional<HandledTarget> handled;  ///< nothing without handling, or without stamps
-  std::optional<Outcome> estimate;       ///< nothing where there was none
-  bool wants_stamp = false;              ///< it would be handled, had the frame a stamp
+  std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
+  std::optional<Outcome> estimate;       ///< null without an estimate
+  bool wants_stamp = false;              ///< not handled because the frame has no stamp
 };
 
 }  // namespace penumbra

@@ -3,104 +3,92 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
-#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/recent_frames-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
-#include <penumbra/pipeline/target_record-inl.hpp>
+#include <penumbra/pipeline/target_track-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
+#include <penumbra/targets/target_visibility-inl.hpp>
 
 namespace penumbra {
 
-/// Judges a frame's targets and follows those that are handled.
+/// Judges a frame's targets and follows those with handling.
 class TargetStage {
  public:
-  /// A target that was not given in so many calls is forgotten.
+  /// A target is forgotten after so many calls without it.
   static constexpr std::size_t forgotten_after = 300;
 
-  struct Setup {
-    const Robot& robot;
-    const Camera& camera;  ///< of the images that are judged
-    LabelRule rule;
-    Backend backend = Backend::cpu;  ///< of objects that are rendered alone
-    RendererOptions renderer;
-    Intrinsics render_intrinsics;
-    const Rectification* rectification = nullptr;  ///< as ObjectRenderers takes it
-    ImageView<const std::uint8_t> unseen = {};     ///< as TargetJudge takes it
-    double history = 0;                            ///< seconds that frames are kept
-    FrameLabeller* late_labeller = nullptr;        ///< not null if history > 0
-  };
+  /// `labeller`: made with the same arguments. Robot and rectification (null without lens
+  /// distortion) must outlive this. Throws InputError for a target_history out of range.
+  TargetStage(const Robot& robot, const Camera& camera, const Rectification* rectification,
+              const FrameLabeller& labeller, const PipelineConfig& config);
 
-  explicit TargetStage(const Setup& setup);
+  /// Judges the targets on the frame, or late ones on an earlier frame. Stores the frame.
+  void judge(std::span<const Target> targets, const LabelledFrame& frame);
 
-  /// Judges the targets; the reports are valid until the next call. Keeps the frame for late ones.
-  std::span<const TargetReport> process(std::span<const Target> targets,
-                                        const LabelledFrame& frame);
+  /// Feeds the estimates of the targets just judged to their trackers.
+  void track(std::span<const Target> targets, const LabelledFrame& frame);
+
+  /// The results for these targets; valid until the next judge().
+  [[nodiscard]] std::span<const TargetReport> reports() const { return reports_; }
+  /// The wall time of judge() and track() for them, milliseconds.
+  [[nodiscard]] double elapsed_ms() const { return judge_ms_.value_or(0) + track_ms_.value_or(0); }
 
   void forget(std::string_view name);
   void forget_all();
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view name) const {
-      return std::hash<std::string_view>()(name);
-    }
-  };
-  using Memories = std::unordered_map<std::string, TargetRecord, Hash, std::equal_to<>>;
-
-  /// What a report refers to.
-  struct Slot {
-    Memories::value_type* known = nullptr;
-    const LabelledFrame* seen = nullptr;  ///< that the target was judged on, in order
+  /// What is remembered of a target from frame to frame, and what its report refers to.
+  struct Record {
+    std::size_t call = 0;                    ///< the last call with it
+    std::size_t times = 0;                   ///< its occurrences in that call
+    bool is_new = true;                      ///< its handling has not been read
+    std::optional<std::int64_t> last_stamp;  ///< the last stamp that was judged
+    std::optional<TargetTrack> track;
+    const PoseResult* judged_poses = nullptr;   ///< of the frame it was judged on, if in order
+    std::optional<Eigen::Vector2d> good_pixel;  ///< of the track when last visible
     std::vector<Blame> blame;
     std::string reason;
   };
+  using Records = MapByTarget<Record>;
 
   void begin(std::span<const Target> targets, const LabelledFrame& frame);
-  Memories::value_type& known(std::string_view name);
-  void forget_unused(std::size_t given);
-
-  void judge(const Target& target, const LabelledFrame& frame, Slot& slot, TargetReport& report);
+  Records::value_type& record_of(const Target& target);
+  void judge(const Target& target, const LabelledFrame& frame, Records::value_type& known,
+             TargetReport& report);
+  void check(const Target& target, Record& record) const;
   const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
   const LabelledFrame& late_frame(std::int64_t stamp);
-  void check(const Target& target, TargetRecord& memory) const;
-  static void doubt(const LabelledFrame& frame, Slot& slot, TargetReport& report);
-  Judgement judge_on(const LabelledFrame& frame, const Target& target, Slot& slot);
-  void expect_motion(const LabelledFrame& frame, const TargetRecord& memory,
-                     TargetView& view) const;
-  [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const LabelledFrame& frame,
-                                                           const TargetRecord& memory) const;
-
-  void handle(const Target& target, const LabelledFrame& frame, const Slot& slot,
-              TargetReport& report) const;
-  Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetRecord& memory) const;
+  Judgement judge_on(const LabelledFrame& frame, const Target& target, Records::value_type& known);
+  static void lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report);
+  [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const PoseResult& poses,
+                                                           const Record& record) const;
+  void track(const Target& target, std::int64_t stamp, Record& record, TargetReport& report);
+  Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetTrack& track);
 
   const Robot& robot_;
-  const Camera& camera_;
+  Camera camera_;  // of the judged images
   TargetJudge judge_;
   ObjectRenderers renderers_;
   TargetViews views_;
-  RecentFrames recent_frames_;
-  FrameLabeller* late_labeller_;
-  LabelledFrame late_;  // the late frame that was labelled last in this call
-  Memories memories_;
-  std::deque<std::string> without_identity_;  // names in memories_ of the last call
+  RecentValues<PoseResult> recent_poses_;
+  RecentDepth recent_depth_;
+  std::optional<FrameLabeller> late_labeller_;  // if target_history > 0
+  std::optional<LabelledFrame> late_;           // the last late frame labelled in this call
+  Records records_;
   std::size_t calls_ = 0;
   std::optional<std::int64_t> newest_stamp_;
-  const LabelledFrame* judged_ = nullptr;  // that the judge's begin() was called with
-  std::deque<Slot> slots_;                 // grows only
-  std::vector<TargetReport> reports_;      // likewise
+  const LabelledFrame* judged_ = nullptr;    // the frame of the judge's begin()
+  std::vector<Records::value_type*> given_;  // of this call's targets
+  std::vector<TargetReport> reports_;
+  std::optional<double> judge_ms_, track_ms_;
 };
 
 }  // namespace penumbra

@@ -23,25 +23,25 @@
 
 namespace penumbra {
 
-/// T_root_frame in a frame whose poses are known. Throws InputError for a link that is none, or
-/// that is doubted.
-[[nodiscard]] Eigen::Isometry3d pose_of(const LinkFrame& frame, const PoseResult& poses,
+/// Returns T_root_frame; the poses must be known. Throws InputError for an unknown or uncertain
+/// link.
+[[nodiscard]] Eigen::Isometry3d pose_of(const ReferenceFrame& frame, const PoseResult& poses,
                                         const Robot& robot);
 
-/// Renders objects alone: each mesh by a renderer of its own that is kept as long as it is in use,
-/// boxes, whose size may change with every frame, by the rays of their pixels.
+/// Renders objects alone. Each mesh has its own renderer, which is cached; boxes, whose size may
+/// change with every frame, are ray cast.
 class ObjectRenderers {
  public:
-  /// Renderers that are kept; where more are wanted in one frame, they are made again and again.
+  /// Cached renderers; more meshes in one frame are prepared again each time.
   static constexpr std::size_t max_kept = 32;
 
-  /// `rectification`: of raw images with lens distortion; else null. Must outlive this.
+  /// `rectification`: for raw images with lens distortion, else null. Must outlive this.
   ObjectRenderers(const Intrinsics& intrinsics, Backend backend, const RendererOptions& options,
                   const Rectification* rectification);
   ~ObjectRenderers();
 
-  /// Depth of a box or mesh; valid until the next call. Throws InputError for a mesh that cannot be
-  /// drawn.
+  /// Returns the depth of a box or mesh; valid until the next call. Throws InputError for an
+  /// invalid mesh.
   VirtualDepthView box(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box);
   VirtualDepthView mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                         const Eigen::Isometry3d& T_camera_mesh);
@@ -65,19 +65,19 @@ class ObjectRenderers {
   std::size_t uses_ = 0;
 };
 
-/// Brings targets' shapes to the image.
+/// Projects targets' shapes into the image.
 class TargetViews {
  public:
-  /// `camera`: of the images that are judged, `rule`: that of their labels, `rectification`: of raw
-  /// images with lens distortion; else null. All but the rule must outlive this.
+  /// `camera` and `rule`: of the judged images. `rectification`: for raw images with lens
+  /// distortion, else null. Robot, camera and renderers must outlive this.
   TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
               const LabelRule& rule, const Rectification* rectification);
 
-  /// The target's region and expected depth; nothing where its shape lies outside of the camera's
-  /// view. Valid until the next call. Throws InputError for a shape that is none.
+  /// Returns the target's region and expected depth; null if its shape is outside the view. Valid
+  /// until the next call. Throws InputError for an invalid shape.
   [[nodiscard]] std::optional<TargetView> view(const Target& target, const LabelledFrame& frame);
 
-  /// Where a point in the optical frame is seen, pixels; nothing where the camera cannot see it.
+  /// Returns the pixel of a point in the optical frame; null if the camera cannot see it.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const;
 
  private:
@@ -91,8 +91,8 @@ class TargetViews {
   const Camera& camera_;
   ObjectRenderers& renderers_;
   labelling::Rule rule_;
-  /// Of a cone about the optical axis: rays beyond it are of the raw image, but not of the pinhole
-  /// image by which it is drawn. Nothing where the pinhole image covers the raw one.
+  /// Half angle of the cone about the optical axis that the pinhole image covers; rays outside it
+  /// cannot be rendered. Null if the pinhole image covers the whole raw image.
   std::optional<double> drawn_half_angle_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include <Eigen/SVD>
@@ -13,13 +12,7 @@
 namespace penumbra {
 namespace {
 
-std::string printed_score(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-/// 0 where nothing is measured.
+/// Returns the depth at a pixel; 0 without a measurement.
 double metres_at(const DepthView& depth, const labelling::Rule& rule,
                  const Eigen::Vector2d& pixel) {
   return std::visit(
@@ -32,18 +25,18 @@ double metres_at(const DepthView& depth, const labelling::Rule& rule,
       depth);
 }
 
-/// Whether what is measured at a pixel can be of a target there. Beside the image nothing is.
+/// Returns whether the depth at a pixel is trusted; pixels outside the image have none.
 bool shows_target(const ImageView<const std::uint8_t>& labels, const Eigen::Vector2d& pixel) {
   const double u = std::round(pixel.x()), v = std::round(pixel.y());
   if (!(u >= 0.0 && v >= 0.0 && u < labels.width && v < labels.height)) return true;
   return is_trusted(static_cast<Label>(labels(static_cast<int>(u), static_cast<int>(v))));
 }
 
-/// Of the angle that a pinhole image covers: the outermost rays of pixels that it does cover.
+/// Fraction of the covered angle by which the outermost covered pixels may fall short.
 constexpr double outermost_rays = 1e-3;
 
 constexpr const char* uncovered =
-    "reaches beyond what the lens model or the pinhole image covers: cannot be drawn there";
+    "reaches outside the lens model or the pinhole image, where it cannot be rendered";
 
 std::optional<double> drawn_half_angle(const Camera& camera, const Rectification& rectification) {
   const auto drawn = rectification.raw_to_pinhole();
@@ -68,15 +61,18 @@ bool shows_anything(const VirtualDepthView& view) {
 
 }  // namespace
 
-Eigen::Isometry3d pose_of(const LinkFrame& frame, const PoseResult& poses, const Robot& robot) {
-  if (!frame) return poses.T_root_camera;
-  if (frame->empty()) return Eigen::Isometry3d::Identity();
-  const auto link = robot.find_link(*frame);
-  if (link && poses.doubts.holds(*link))
-    throw InputError("where link '" + std::string(*frame) +
-                     "' is that it is given in is not known: " + std::string(poses.doubts.why));
-  if (link) return poses.T_root_link[*link];
-  throw InputError("'" + std::string(*frame) + "' is no link of robot '" + robot.name() + "'");
+Eigen::Isometry3d pose_of(const ReferenceFrame& frame, const PoseResult& poses,
+                          const Robot& robot) {
+  if (frame.kind == ReferenceFrame::Kind::camera) return poses.T_root_camera;
+  if (frame.kind == ReferenceFrame::Kind::root) return Eigen::Isometry3d::Identity();
+  const auto link = robot.find_link(frame.link);
+  if (!link)
+    throw InputError("'" + std::string(frame.link) + "' is not a link of robot '" + robot.name() +
+                     "'");
+  if (poses.is_uncertain(*link))
+    throw InputError("the pose of its link '" + std::string(frame.link) +
+                     "' is not known: " + poses.uncertain_reason);
+  return poses.T_root_link[*link];
 }
 
 TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
@@ -85,7 +81,7 @@ TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRendere
   if (rectification != nullptr) drawn_half_angle_ = drawn_half_angle(camera, *rectification);
 }
 
-/// Makes a view of each kind of shape.
+/// Makes the view of each kind of shape; returns false if it is outside the camera's view.
 struct TargetViews::Builder {
   TargetViews& views;
   const LabelledFrame& frame;
@@ -102,8 +98,7 @@ struct TargetViews::Builder {
 
   bool operator()(const KeypointTarget& target) {
     if (!(target.score >= target.min_score))  // also NaN
-      throw InputError("score " + printed_score(target.score) + " is below " +
-                       printed_score(target.min_score));
+      region_fault("score ", target.score, " is below ", target.min_score);
     view.expected_depth = target.expected_depth;
     view.point_pixel = target.pixel;
     PixelEllipse ellipse{target.pixel, target.semi_axes, target.angle};
@@ -112,21 +107,20 @@ struct TargetViews::Builder {
     return true;
   }
 
-  /// In the direction in which the lens stretches most.
+  /// Returns the scale along the direction of the lens's largest stretch.
   [[nodiscard]] double most_pixels_per_metre(const KeypointTarget& target) const {
     if (!target.expected_depth && !shows_target(frame.images.labels.labels, target.pixel))
       throw InputError(
-          "radius in metres, but at the pixel the robot is measured, or may be; give an expected "
+          "its size is in metres, but the depth at its pixel may be the robot's; give an expected "
           "depth");
     const double depth =
         target.expected_depth.value_or(metres_at(frame.images.measured, views.rule_, target.pixel));
     if (!(depth > 0.0))
-      throw InputError(
-          "radius in metres, but no depth is measured at the pixel; give an expected depth");
+      throw InputError("its size is in metres, but its pixel has no depth; give an expected depth");
     const Camera& camera = views.camera_;
     const auto ray = camera.distortion.undistort(
         camera.intrinsics.ray(target.pixel.x(), target.pixel.y()).head<2>());
-    if (!ray) throw InputError("radius in metres, but the lens model does not reach its pixel");
+    if (!ray) throw InputError("its size is in metres, but its pixel is outside the lens model");
     const Eigen::JacobiSVD<Eigen::Matrix2d> svd(views.pixels_per_metre(*ray, depth));
     return svd.singularValues()[0];
   }
@@ -168,15 +162,15 @@ struct TargetViews::Builder {
     return shows_anything(object);
   }
 
-  /// For an object that holds no pixel's centre: the pixel next to its middle, if that is of the
-  /// image and the object is no larger.
+  /// Uses the pixel nearest to the centre for an object that covers no pixel's centre, if that
+  /// pixel is in the image and the object is not larger than it.
   bool nearest_pixel(const Eigen::Vector3d& middle, double radius) {
     const auto pixel = views.project(middle);
     if (!pixel || !is_inside(*pixel)) return false;
     const PixelEllipse ellipse = views.ellipse_of(middle, radius);
     if (ellipse.semi_axes.maxCoeff() > 1.0)
       throw InputError(
-          "no pixel shows it, though its middle lies in the image: too thin, or hollow");
+          "it covers no pixel although its centre is in the image: too thin, or hollow");
     view.region = ellipse;
     view.expected_depth = middle.z();
     view.depth_margin += radius;
@@ -190,9 +184,9 @@ struct TargetViews::Builder {
            pixel.y() < size.height() - 0.5;
   }
 
-  [[nodiscard]] Eigen::Isometry3d T_camera(const LinkFrame& of) const {
-    if (!of) return Eigen::Isometry3d::Identity();
-    return frame.poses.T_root_camera.inverse() * pose_of(of, frame.poses, views.robot_);
+  [[nodiscard]] Eigen::Isometry3d T_camera(const ReferenceFrame& of) const {
+    if (of.kind == ReferenceFrame::Kind::camera) return Eigen::Isometry3d::Identity();
+    return frame.poses->T_root_camera.inverse() * pose_of(of, *frame.poses, views.robot_);
   }
 };
 
@@ -205,7 +199,7 @@ std::optional<TargetView> TargetViews::view(const Target& target, const Labelled
   return builder.view;
 }
 
-/// Throws InputError where a ball may be seen beyond the cone that is drawn.
+/// Throws InputError if a sphere may reach outside the rendered cone.
 void TargetViews::check_is_drawn(const Eigen::Vector3d& middle, double radius) const {
   if (!drawn_half_angle_) return;
   const double depth_in_cone = middle.z() * std::sin(*drawn_half_angle_) -
@@ -221,15 +215,15 @@ std::optional<Eigen::Vector2d> TargetViews::project(const Eigen::Vector3d& p) co
   return camera_.intrinsics.project({bent.x(), bent.y(), 1.0});
 }
 
-/// Derivative of a point's pixel by its place, parallel to the image plane.
+/// Returns the derivative of a point's pixel by its position parallel to the image plane.
 Eigen::Matrix2d TargetViews::pixels_per_metre(const Eigen::Vector2d& ray, double depth) const {
   const Intrinsics& k = camera_.intrinsics;
   return Eigen::Vector2d(k.fx(), k.fy()).asDiagonal() * camera_.distortion.derivative(ray) / depth;
 }
 
-/// The outline of a ball. On the plane z = 1 it is the ellipse in which the cone around the ball
-/// cuts the plane (Eberly, "Perspective projection of a sphere"); a lens bends it as it does its
-/// centre.
+/// Returns the outline of a sphere. On the plane z = 1 it is the ellipse where the cone around the
+/// sphere intersects the plane (Eberly, "Perspective projection of a sphere"). Lens distortion is
+/// linearised at its centre.
 PixelEllipse TargetViews::ellipse_of(const Eigen::Vector3d& p, double radius) const {
   if (p.z() <= radius) throw InputError("it reaches the plane of the camera's lens");
   const double depth_squared = p.z() * p.z() - radius * radius;

@@ -18,10 +18,10 @@ namespace penumbra {
 /// A depth image that owns its pixels: millimetres or metres, as DepthView.
 using DepthImage = std::variant<Image<std::uint16_t>, Image<float>>;
 
-/// Copies the report's depth without the robot. Pixels are 0 (uint16) or NaN (float32) unless their
-/// label is clear or front; all of them where a link is missing, or the frame has no depth or pose.
-/// `out` gets the size of the report's labels and the type of its depth; without depth it keeps its
-/// type.
+/// Copies the report's depth without the robot. Pixels that are not labelled clear or front become
+/// 0 (uint16) or NaN (float32), and so do all pixels of a frame with a missing link or without
+/// depth or pose. `out` gets the size of the labels and the type of the depth; without depth it
+/// keeps its type.
 void without_robot(const FrameReport& report, DepthImage& out);
 
 /// Points, metres, in the order of their pixels.
@@ -30,23 +30,23 @@ struct PointCloud {
   std::vector<std::uint32_t> pixels;  ///< of each point: v * width + u
 };
 
-/// Makes points of one camera's depth images. Allocates nothing once a cloud is large enough.
+/// Converts one camera's depth images to points. Allocates nothing once a cloud is large enough.
 class CloudMaker {
  public:
-  /// `camera`: of the images; of the reports, where it is made for them.
+  /// `camera`: of the images; for images of reports, with Pipeline::intrinsics().
   explicit CloudMaker(const Camera& camera);
 
-  /// A point for each measurement that the lens model reaches, in the frame that `T_frame_camera`
-  /// leads to: by default the camera's optical frame. The image must have the camera's size.
+  /// Writes a point for each measurement inside the lens model, in the frame of `T_frame_camera`;
+  /// by default the camera's optical frame. The image must have the camera's size.
   void make(const DepthImage& depth, PointCloud& cloud,
             const Eigen::Isometry3d& T_frame_camera = Eigen::Isometry3d::Identity()) const;
 
  private:
-  Image<float> rays_x_, rays_y_;  // x / z and y / z of a pixel's ray; NaN: none
+  Image<float> rays_x_, rays_y_;  // x / z and y / z of a pixel's ray; NaN outside the lens model
 };
 
-/// Pose T_link_camera of the optical frame in a link's frame, metres; nothing where the report has
-/// no pose. Throws InputError for a name that is no link.
+/// Returns the pose T_link_camera of the optical frame in a link's frame, metres; null if the
+/// report has no pose. Throws InputError for an unknown link.
 [[nodiscard]] std::optional<Eigen::Isometry3d> camera_in_link(const FrameReport& report,
                                                               std::string_view link);
 

@@ -6,7 +6,7 @@
 
 #include <penumbra/mesh/surface_patches-inl.hpp>
 #include <penumbra/render/clusters.hpp>
-#include <penumbra/render/shells.hpp>
+#include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra {
 namespace {
@@ -34,14 +34,14 @@ bool has_neighbourhoods(const TriangleMesh& mesh, const std::vector<std::uint32_
 ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     for (const PreparedMesh& mesh : bodies[body].meshes) {
-      for (const ShellTriangles& shell : shells_of(mesh)) {
-        add_shell(mesh, shell.indices,
+      for (const TriangleGroup& group : groups_of(mesh)) {
+        add_group(mesh, group.indices,
                   {.body = body,
-                   .solid = shell.solid,
+                   .solid = group.solid,
                    .first_hole = static_cast<std::uint32_t>(holes.size()),
-                   .hole_count = static_cast<std::uint32_t>(shell.holes.size()),
-                   .bounds = shell.bounds});
-        holes.insert(holes.end(), shell.holes.begin(), shell.holes.end());
+                   .hole_count = static_cast<std::uint32_t>(group.holes.size()),
+                   .bounds = group.bounds});
+        holes.insert(holes.end(), group.holes.begin(), group.holes.end());
       }
     }
   }
@@ -49,8 +49,8 @@ ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius}) values->resize(padded);
 }
 
-void ClusteredScene::add_shell(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
-                               Shell shell) {
+void ClusteredScene::add_group(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
+                               ClusterGroup group) {
   const float* positions = mesh.vertices.front().data();
   const std::size_t bound = meshopt_buildMeshletsBound(indices.size(), max_vertices, max_triangles);
   std::vector<meshopt_Meshlet> meshlets(bound);
@@ -65,8 +65,8 @@ void ClusteredScene::add_shell(const TriangleMesh& mesh, const std::vector<std::
           : meshopt_buildMeshletsScan(meshlets.data(), vertices.data(), local.data(),
                                       indices.data(), indices.size(), mesh.vertices.size(),
                                       max_vertices, max_triangles));
-  shell.first_cluster = static_cast<std::uint32_t>(clusters.size());
-  shell.cluster_count = static_cast<std::uint32_t>(meshlets.size());
+  group.first_cluster = static_cast<std::uint32_t>(clusters.size());
+  group.cluster_count = static_cast<std::uint32_t>(meshlets.size());
   for (const meshopt_Meshlet& meshlet : meshlets) {
     clusters.push_back({static_cast<std::uint32_t>(x.size()), meshlet.vertex_count,
                         static_cast<std::uint32_t>(corners.size()), meshlet.triangle_count});
@@ -93,7 +93,7 @@ void ClusteredScene::add_shell(const TriangleMesh& mesh, const std::vector<std::
     pad_vertices();
     pad_triangles();
   }
-  shells.push_back(shell);
+  groups.push_back(group);
 }
 
 void ClusteredScene::add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,

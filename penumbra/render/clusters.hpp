@@ -22,7 +22,7 @@ struct Cluster {
 };
 
 /// Clusters that share one answer to "may back faces be skipped?".
-struct Shell {
+struct ClusterGroup {
   std::uint32_t body = 0;
   /// Bounds bodies and is wound outwards: from outside, back faces are only seen through the holes.
   bool solid = false;
@@ -43,7 +43,7 @@ struct ClusteredScene {
 
   explicit ClusteredScene(std::span<const Body> bodies);
 
-  std::vector<Shell> shells;  ///< by body
+  std::vector<ClusterGroup> groups;  ///< by body
   std::vector<Cluster> clusters;
   std::vector<Ball> holes;  ///< in the bodies' frames
 
@@ -59,7 +59,8 @@ struct ClusteredScene {
   std::vector<std::uint32_t> corners;
 
  private:
-  void add_shell(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices, Shell shell);
+  void add_group(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
+                 ClusterGroup group);
   void add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
                     const unsigned char* local);
   void pad_vertices();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts how the pixels of an extent are seen in a frame, and gathers their depths.
+// Counts the pixels of an extent by state and collects their depths.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@
 
 namespace penumbra {
 
-/// What TargetJudge says of a pixel.
+/// The states of TargetJudge.
 enum class PixelState : std::uint8_t { clear, front, occluded, unknown, other };
 inline constexpr std::size_t state_count = 5;
 
-/// Measured depths nearer than `near` are of something that hides the target, robot pixels nearer
-/// than that hide it too, those farther than `far` do not. Metres.
+/// Measurements and robot nearer than `near` hide the target; those farther than `far` are behind
+/// it. Metres.
 struct DepthLimits {
   float near, far;
 };
 
-/// From a depth to its limits.
+/// Computes the limits of a depth.
 struct LimitRule {
   LimitRule(const labelling::Rule& rule, double depth_margin)
       : a(rule.a), b(rule.b), c(rule.c), margin(static_cast<float>(depth_margin)) {}
@@ -56,7 +56,8 @@ class Measured {
       const float d = metres(u);
       return is_measurement(d) ? d : 0.0f;
     }
-    /// Whether there is a measurement before a depth; without branches, for loops of vectors.
+    /// Returns whether a measurement is nearer than a limit. Without branches, so that loops
+    /// vectorise.
     [[nodiscard]] bool is_before(int u, float limit) const {
       const float d = metres(u);
       return is_measurement(d) & (d < limit);
@@ -88,20 +89,20 @@ class Measured {
   labelling::MeasuredRange range_;
 };
 
-/// A frame as targets are judged on it.
+/// A frame to judge targets on.
 struct TalliedFrame {
-  /// `has_outside`: what was not drawn is outside of what the camera saw (rectified images); else
-  /// the robot may lie there.
+  /// `has_outside`: pixels that cannot be rendered are outside the camera's view (rectified
+  /// images); else the robot may be there.
   TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule, bool has_outside);
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const {
     return std::visit([](const auto& depth) { return !depth.empty(); }, images.measured);
   }
-  /// Whether some of the robot may lie in the pixels [u0, u1] x [v0, v1], which may reach past the
-  /// image. It may wherever the lens model does not reach.
+  /// Returns whether the robot may lie in the pixels [u0, u1] x [v0, v1], clipped to the image. It
+  /// may lie anywhere outside the lens model.
   [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
-  /// Whether some of it does, or may where it cannot be drawn: in pixels of the image.
+  /// The same for pixels [u0, u1] of a row in the image, exactly.
   [[nodiscard]] bool robot_lies_in(int u0, int u1, int v) const;
 
   LabelledImages images;
@@ -110,19 +111,19 @@ struct TalliedFrame {
   bool is_outside_undrawn;
 };
 
-/// How many pixels of an extent are hidden by each link.
+/// Counts the pixels that each link hides.
 class LinkCounts {
  public:
   explicit LinkCounts(std::size_t links) : counts_(links) { touched_.reserve(links); }
 
   void clear();
-  /// `value`: of a link image; 0 and what is no link is left out.
+  /// `value`: of a link image; 0 and values that are not a link are ignored.
   void add(std::size_t value, std::size_t pixels) {
     if (value == 0 || value > counts_.size()) return;
     if (counts_[value - 1] == 0) touched_.push_back(value - 1);
     counts_[value - 1] += pixels;
   }
-  /// Writes the links of which there are some, with their share of `pixels`, largest first.
+  /// Writes the links with pixels, as fractions of `pixels`, largest first.
   std::span<const Blame> write(std::size_t pixels, std::vector<Blame>& blame) const;
 
  private:
@@ -130,7 +131,7 @@ class LinkCounts {
   std::vector<std::size_t> touched_;
 };
 
-/// Pixels by how they are seen.
+/// Numbers of pixels by state.
 struct StateCounts {
   [[nodiscard]] std::size_t& operator[](PixelState state) {
     return counts[static_cast<std::size_t>(state)];
@@ -142,14 +143,14 @@ struct StateCounts {
   std::array<std::size_t, state_count> counts{};
 };
 
-/// About how many pixels of an extent are asked for their depth: the median of 1,000 depths is off
-/// by 4 % of their spread.
+/// The approximate number of depths that are sampled. The median of 1,000 depths is off by 4 % of
+/// their spread.
 inline constexpr std::size_t max_depth_samples = 1000;
 
-/// What the pixels of an extent show, counted.
+/// The counts and depths of an extent.
 struct ExtentTally {
   explicit ExtentTally(std::size_t link_count) : links(link_count) {
-    depths.reserve(2 * max_depth_samples);  // whatever the extent's outline
+    depths.reserve(2 * max_depth_samples);  // enough for any outline
   }
 
   void clear() {
@@ -160,17 +161,17 @@ struct ExtentTally {
   }
 
   StateCounts pixels;
-  std::size_t measured = 0;   ///< of the clear and front ones: measured at all
-  std::size_t past = 0;       ///< of these: past the expected depth
-  LinkCounts links;           ///< those that hide
-  std::vector<float> depths;  ///< metres: trusted ones, of one pixel in `step`
+  std::size_t measured = 0;   ///< clear or front, and measured
+  std::size_t past = 0;       ///< of these, behind the expected depth
+  LinkCounts links;           ///< that hide
+  std::vector<float> depths;  ///< metres; trusted depths of one pixel in `step`
   int step = 1;
 };
 
 /// A target's expected depth, checked.
 struct ExpectedDepth {
   std::optional<float> constant;                ///< metres
-  std::optional<ImageView<const float>> image;  ///< of every pixel of the extent
+  std::optional<ImageView<const float>> image;  ///< for every pixel of the extent
   double margin = 0;                            ///< metres
 
   [[nodiscard]] bool known() const { return constant || image; }
@@ -178,9 +179,9 @@ struct ExpectedDepth {
 
 class RobotSurroundings;
 
-/// Counts the pixels of an extent on a frame whose pose is known. `robot`, if not null: also
-/// gathers measured depths that are labelled clear or front, lie within the limits of the expected
-/// depth and cannot be of the robot.
+/// Counts the pixels of an extent; the frame's pose must be known. If `robot` is not null, also
+/// collects depths that are labelled clear or front, lie within the limits of the expected depth
+/// and cannot be the robot's.
 void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
                   ExtentTally& tally);

@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-/// Fringe hides nothing, and its depth measures nothing.
+/// Fringe hides nothing, and its depth is not a measurement.
 bool is_fringe(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::fringe); }
 
 bool is_seen(PixelState state) { return state == PixelState::clear || state == PixelState::front; }
@@ -30,8 +30,7 @@ PixelState state_without_depth(std::uint8_t label, bool beyond_hides) {
   return PixelState::unknown;
 }
 
-/// The table of docs/targets.md. `d`: 0 without a measurement; `z`: of the robot, 0 where
-/// it is not on the ray.
+/// The table of docs/targets.md. `d`: 0 without a measurement; `z`: the robot's, 0 without robot.
 PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits target,
                           bool beyond_hides) {
   const auto label = static_cast<Label>(value);
@@ -39,14 +38,14 @@ PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits targ
   if (is_fringe(value)) return PixelState::clear;
   if (label == Label::clear || (label == Label::beyond && !beyond_hides))
     return before ? PixelState::other : PixelState::clear;
-  if (!(z > 0.0f)) return PixelState::unknown;  // where the lens model does not reach
+  if (!(z > 0.0f)) return PixelState::unknown;  // outside the lens model
   if (z < target.near) return PixelState::occluded;
   if (before) return label == Label::front ? PixelState::other : PixelState::occluded;
   if (label == Label::front) return PixelState::front;
   return z > target.far ? PixelState::clear : PixelState::unknown;
 }
 
-/// Calls f(u0, u1, touched) for the parts of a span inside and outside of some tiles.
+/// Calls f(u0, u1, touched) for the parts of a span inside and outside the tiles.
 template <typename F>
 void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
   if (tiles == nullptr) return f(span.u0, span.u1, true);
@@ -74,8 +73,8 @@ constexpr double golden_ratio = 0.6180339887498949;
 
 int next_multiple(int number, int step) { return (number + step - 1) / step * step; }
 
-/// Counts pixels and gathers depths. `limits_of(v)` gives, by u, the limits of a row's pixels and
-/// `depths_of(v)` what is measured there.
+/// Counts pixels and collects depths. `limits_of(v)` returns the limits of a row's pixels by u,
+/// `depths_of(v)` their measurements.
 template <typename Limits, typename Depths>
 class ExtentReader {
  public:
@@ -99,15 +98,15 @@ class ExtentReader {
     });
   }
 
-  /// Gathers depths of about one pixel in `step`, in a lattice that no width of a span lines up
-  /// with. `robot`: null where none is near.
+  /// Samples one pixel in `step`, shifted from row to row so that no span width aliases with it.
+  /// `robot`: null if it is not near.
   void sample(const RowSpan& span, int step, RobotSurroundings* robot) {
     const auto limits = limits_of_(span.v);
     const auto depths = depths_of_(span.v);
     const std::uint8_t* const labels = images_.labels.labels.row(span.v);
     const int shift = static_cast<int>(golden_ratio * step * span.v) % step;
     RobotSurroundings::Depths of_robot;
-    int cell = -1;  // that of_robot is of
+    int cell = -1;  // of of_robot
     for (int u = next_multiple(span.u0 + shift, step) - shift; u < span.u1; u += step) {
       const float d = depths[u];
       const DepthLimits within = limits(u);
@@ -128,11 +127,11 @@ class ExtentReader {
     std::size_t pixels = 0;
   };
 
-  /// Counts pixels of one state, except where something is measured before the target.
+  /// Counts pixels of one state, except those with a measurement in front of the target.
   void count_seen(PixelState state, int v, int u0, int u1) {
     const auto limits = limits_of_(v);
     const auto depths = depths_of_(v);
-    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth: for vectors
+    std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth, to vectorise
     for (int u = u0; u < u1; ++u) all += depths.is_measured(u) ? 1 : 0;
     for (int u = u0; u < u1 && has_depth_; ++u) {
       nearer += depths.is_before(u, limits(u).near) ? 1 : 0;
@@ -145,7 +144,7 @@ class ExtentReader {
     tally_.pixels[state] += static_cast<std::size_t>(u1 - u0) - before;
   }
 
-  /// By labels alone, run by run.
+  /// Counts by labels alone, run by run.
   void count_labels(int v, int u0, int u1) {
     const std::uint8_t* const labels = images_.labels.labels.row(v);
     for (int u = u0; u < u1;) {
@@ -179,7 +178,7 @@ class ExtentReader {
     const bool has_links = !images_.virtual_depth.links.empty();
     const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
     std::size_t measured = 0, past = 0;
-    Run run;  // of pixels state alike: counting them one by one in memory costs more
+    Run run;  // of equal pixels: faster than counting them one by one in memory
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
       const PixelState state =
@@ -212,8 +211,7 @@ class ExtentReader {
   ExtentTally& tally_;
 };
 
-/// Calls f(limits_of): limits_of(v)(u) are those of a pixel, without bounds where no depth is
-/// expected.
+/// Calls f(limits_of): limits_of(v)(u) are a pixel's limits, unbounded without an expected depth.
 template <typename F>
 void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expected, F&& f) {
   const LimitRule rule(label_rule, expected.margin);
@@ -236,7 +234,7 @@ struct NoDepths {
   [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
 };
 
-/// Calls f(depths_of): depths_of(v) gives, by u, what is measured in a row.
+/// Calls f(depths_of): depths_of(v) are the measurements of a row by u.
 template <typename F>
 void with_depths(const TalliedFrame& frame, F&& f) {
   if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
@@ -298,7 +296,7 @@ std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>&
 
 namespace {
 
-/// Returns null if no robot is so near to the spans that it matters to their depths.
+/// Returns null if the robot is too far from the spans to affect their depths.
 RobotSurroundings* robot_near(const TalliedFrame& frame, std::span<const RowSpan> spans,
                               RobotSurroundings& robot) {
   const SpanBox box = box_of_spans(spans);

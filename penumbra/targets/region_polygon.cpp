@@ -9,12 +9,12 @@
 namespace penumbra {
 namespace {
 
-/// Above and below the image a polygon's area is the mean length of at most so many rows.
+/// Number of rows that are sampled for a polygon's area above and below the image.
 constexpr double max_outside_rows = 256;
 
 }  // namespace
 
-/// Fills edges_, which hold no level ones: they cross no row.
+/// Fills edges_ without horizontal edges, which cross no row.
 void RegionSpans::add_edges(std::span<const Eigen::Vector2d> corners) {
   edges_.clear();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -30,9 +30,8 @@ void RegionSpans::add_edges(std::span<const Eigen::Vector2d> corners) {
             [](const Edge& a, const Edge& b) { return a.top.y() < b.top.y(); });
 }
 
-/// Adds the pixels of row v around which the outline winds. The row stands for `rows` rows. Where
-/// an edge runs through a centre, the pixel belongs to the polygon to its right, so that polygons
-/// that share an edge share no pixel.
+/// Adds the pixels of row v inside the outline; the row represents `rows` rows. A pixel centre on
+/// an edge belongs to the polygon to its right, so that polygons with a common edge share no pixel.
 void RegionSpans::add_crossings(double v, double rows) {
   std::sort(crossings_.begin(), crossings_.end(),
             [](const Crossing& a, const Crossing& b) { return a.u < b.u; });
@@ -75,15 +74,14 @@ void RegionSpans::take(const PixelPolygon& polygon) {
                  " at the most; give a mask instead");
   add_edges(corners);
   Eigen::AlignedBox2d box;
-  double area =
-      0;  // twice the sum of the triangles over the first corner: not less than the polygon
+  double area = 0;  // twice the sum of a triangle fan's areas: an upper bound of the polygon's
   for (std::size_t i = 0; i < corners.size(); ++i) {
     box.extend(corners[i]);
     const Eigen::Vector2d a = corners[i] - corners[0];
     const Eigen::Vector2d b = corners[(i + 1) % corners.size()] - corners[0];
     area += std::abs(a.x() * b.y() - a.y() * b.x());
   }
-  constexpr double least = 1e-12;  // of the box around it: what rounding leaves of a line
+  constexpr double least = 1e-12;  // of the bounding box: the rounding error of a line
   if (!(area > least * box.volume()))
     region_fault("polygon of ", corners.size(), " corners has no area");
   const double first = std::ceil(box.min().y()), last = std::floor(box.max().y());

@@ -16,7 +16,7 @@
 
 namespace penumbra {
 
-/// Throws InputError: the user's region or target is at fault.
+/// Throws InputError for an invalid region or target.
 template <typename... Parts>
 [[noreturn]] void region_fault(const Parts&... parts) {
   std::ostringstream message;
@@ -24,7 +24,7 @@ template <typename... Parts>
   throw InputError(message.str());
 }
 
-/// Some of the pixels [u0, u1) of row v.
+/// The pixels [u0, u1) of row v.
 struct RowSpan {
   int v, u0, u1;
 };
@@ -32,51 +32,49 @@ struct RowSpan {
 /// Returns the index of the first of `count` bytes that is not 0, or `count` if all are 0.
 [[nodiscard]] int first_set(const std::uint8_t* p, int count);
 
-/// Pixels u0..u1 of rows v0..v1, all included.
+/// Pixels u0..u1 of rows v0..v1, inclusive.
 struct SpanBox {
   int u0, u1, v0, v1;
 };
 
-/// Returns the box around one or more spans.
+/// Returns the bounding box of one or more spans.
 [[nodiscard]] SpanBox box_of_spans(std::span<const RowSpan> spans);
 
-/// The pixels of an image that show what the camera saw.
+/// The pixels of an image that the camera saw.
 class SeenPixels {
  public:
-  /// `unseen` is not 0 where the image shows nothing; empty: the camera saw every pixel.
+  /// `unseen`: not 0 for pixels that it did not see; empty: it saw every pixel.
   explicit SeenPixels(ImageView<const std::uint8_t> unseen);
 
   [[nodiscard]] bool all() const { return seen_.empty(); }
   [[nodiscard]] const std::uint8_t* row(int v) const { return seen_.view().row(v); }
-  /// Whether the camera saw all pixels of a span, which may lie outside the image of the given
-  /// size.
+  /// Returns whether the camera saw all pixels of a span. The span may lie outside the image.
   [[nodiscard]] bool hold(const RowSpan& span, int width, int height) const;
 
  private:
   Image<std::uint8_t> seen_;  // 1: seen; empty: all are
 };
 
-/// The pixels of a region inside an image, and how many it has with those outside. Pixels inside
-/// are listed as spans; the others are only counted, by the region's area. Allocates nothing for
-/// regions no larger than former ones.
+/// The pixels of a region: those inside the image as spans, those outside as a count by area.
+/// Allocates nothing for regions no larger than earlier ones.
 class RegionSpans {
  public:
   RegionSpans(int width, int height);
 
-  /// Takes a region. Throws InputError, which says what is wrong with it.
+  /// Sets the region. Throws InputError if it is invalid.
   void fill(const Region& region);
 
-  /// Takes spans of the image, moved by whole pixels.
+  /// Sets spans of the image, moved by whole pixels.
   void fill_moved(std::span<const RowSpan> spans, const Eigen::Vector2d& by);
 
-  /// Drops the pixels that the camera did not see: they count as outside the image.
+  /// Moves pixels that the camera did not see to those outside the image.
   void keep(const SeenPixels& seen);
 
   [[nodiscard]] std::span<const RowSpan> spans() const { return spans_; }
   [[nodiscard]] std::size_t inside() const { return inside_; }
-  /// Returns the pixels inside and outside of the image: at least those that were inside.
+  /// Returns the number of pixels inside and outside the image.
   [[nodiscard]] std::size_t covered() const;
-  /// Returns the mean of the pixels inside, of which there must be some.
+  /// Returns the centroid of the pixels inside; there must be one.
   [[nodiscard]] Eigen::Vector2d middle() const;
 
  private:
@@ -111,9 +109,9 @@ class RegionSpans {
   int width_, height_;
   std::vector<RowSpan> spans_, kept_;
   std::size_t inside_ = 0;
-  double covered_ = 0;              // in all, as far as the region's kind tells; at least 0
-  std::vector<int> begins_, ends_;  // of each row's last span, while a run-length mask is read
-  std::vector<Edge> edges_;         // of a polygon, by their tops
+  double covered_ = 0;              // inside and outside
+  std::vector<int> begins_, ends_;  // last span of each row while a run-length mask is read
+  std::vector<Edge> edges_;         // of a polygon, sorted by top
   std::vector<std::size_t> active_;
   std::vector<Crossing> crossings_;
 };

@@ -100,8 +100,7 @@ void RegionSpans::add_span(int v, int u0, int u1) {
   inside_ += static_cast<std::size_t>(u1 - u0);
 }
 
-/// Adds those of the pixels first <= u < end of row v that lie inside the image: whole numbers of
-/// any size.
+/// Adds the pixels first <= u < end of row v inside the image; the arguments are whole numbers.
 void RegionSpans::add_row(double v, double first, double end) {
   const double u0 = std::max(first, 0.0), u1 = std::min(end, static_cast<double>(width_));
   if (v >= 0 && v < height_ && u0 < u1)
@@ -119,7 +118,7 @@ void RegionSpans::add_bytes(const std::uint8_t* row, int v, int u0, int u1) {
   }
 }
 
-/// Adds the pixel next to a point, for a region that holds no pixel's centre.
+/// Adds the pixel nearest to a point, for a region that contains no pixel centre.
 void RegionSpans::add_nearest(const Eigen::Vector2d& point) {
   const double u = std::round(point.x());
   add_row(std::round(point.y()), u, u + 1);
@@ -142,8 +141,7 @@ void RegionSpans::take(const PixelBox& box) {
   if (covered_ == 0) add_nearest({box.u + 0.5 * box.width, box.v + 0.5 * box.height});
 }
 
-/// At the height dv below its middle an ellipse reaches from shear * dv - half to shear * dv +
-/// half.
+/// At the height dv below its centre an ellipse spans shear * dv - half to shear * dv + half.
 void RegionSpans::take(const PixelEllipse& ellipse) {
   const Eigen::Vector2d& centre = ellipse.centre;
   const Eigen::Vector2d& axes = ellipse.semi_axes;
@@ -186,7 +184,7 @@ void RegionSpans::take(const PixelMask& mask) {
 
 /// Adds the pixels v0..v1 - 1 of column u, after those of the columns to its left.
 void RegionSpans::add_column(int u, int v0, int v1) {
-  std::int32_t ended = 0;  // rows whose last span ends before u; as wide as u: for vectors
+  std::int32_t ended = 0;  // rows whose last span ends before u; as wide as u, to vectorise
   for (int v = v0; v < v1; ++v) ended += ends_[static_cast<std::size_t>(v)] != u ? 1 : 0;
   for (int v = v0; v < v1 && ended > 0; ++v) {
     const auto row = static_cast<std::size_t>(v);
@@ -211,7 +209,7 @@ void RegionSpans::take(const RunLengthMask& mask) {
   std::uint64_t at = 0;  // pixels before the run
   for (std::size_t i = 0; i < mask.counts.size(); ++i) {
     const std::uint64_t end = at + mask.counts[i];
-    while (i % 2 == 1 && at < end) {  // cut at the ends of columns
+    while (i % 2 == 1 && at < end) {  // split at the ends of columns
       const std::uint64_t u = at / height, cut = std::min(end, (u + 1) * height);
       add_column(static_cast<int>(u), static_cast<int>(at - u * height),
                  static_cast<int>(cut - u * height));

@@ -15,9 +15,9 @@
 
 namespace penumbra {
 
-// Regions: which pixels a target covers. They may lie outside the image, in part or whole. A box or
-// polygon that holds no pixel's centre covers the pixel next to its middle, and so does an ellipse
-// that holds none of the image.
+// Regions: the pixels of a target, also outside the image. A box or polygon that contains no pixel
+// centre covers the pixel nearest to its own centre; so does an ellipse without a pixel centre in
+// the image.
 
 /// Largest coordinate or length of a region, pixels.
 inline constexpr double max_coordinate = 1e9;
@@ -27,21 +27,21 @@ struct PixelBox {
   double u = 0, v = 0, width = 0, height = 0;
 };
 
-/// The pixels whose centres the outline winds around, once or more, in either direction (non-zero
-/// winding). The outline may touch and cross itself. A centre on the outline counts where the
-/// inside lies to its right or, on a level edge, below.
+/// The pixels whose centres lie inside the outline by the non-zero winding rule. The outline may
+/// touch and cross itself. A centre on the outline counts if the inside is to its right or, on a
+/// horizontal edge, below it.
 struct PixelPolygon {
   static constexpr std::size_t max_corners = 10000;
   std::span<const Eigen::Vector2d> corners;
 };
 
-/// The pixels that are not 0 in an image of the label image's size.
+/// The non-zero pixels of an image of the label image's size.
 struct PixelMask {
   ImageView<const std::uint8_t> mask;
 };
 
-/// COCO's run-length mask: columns from top to bottom, from left to right; runs of pixels outside
-/// and inside by turns, the first of them outside.
+/// COCO's run-length mask, column by column from the left, each from the top: alternating runs of
+/// pixels outside and inside, starting outside.
 struct RunLengthMask {
   int width = 0, height = 0;  ///< of the label image
   std::span<const std::uint32_t> counts;
@@ -51,59 +51,56 @@ struct RunLengthMask {
 struct PixelEllipse {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d semi_axes = Eigen::Vector2d::Ones();  ///< pixels, > 0
-  double angle = 0;  ///< radians from +u to +v: of the first semi-axis
+  double angle = 0;  ///< radians from +u to +v, of the first semi-axis
 };
 
-/// An object that was rendered alone: where its depth is > 0, which is also its expected depth,
-/// metres. It covers nothing outside of the image. Always the full extent.
+/// An object that was rendered alone: the pixels with depth > 0, metres, which is also the expected
+/// depth. Nothing outside the image; always amodal.
 struct RenderedRegion {
   static constexpr float max_depth = 1e6f;  ///< metres
 
   ImageView<const float> depth;       ///< of the label image's size
-  const TileMask* touched = nullptr;  ///< outside of these tiles depth is 0; null: look at all
+  const TileMask* touched = nullptr;  ///< depth is 0 outside these tiles; null: all are read
 };
 
 using Region =
     std::variant<PixelBox, PixelPolygon, PixelMask, RunLengthMask, PixelEllipse, RenderedRegion>;
 
-/// Throws InputError, which says what is wrong, for a region that is none in an image of that size:
-/// whatever a target of it would be unknown for.
+/// Throws InputError for a region that is invalid in an image of that size.
 void check_region(const Region& region, int width, int height);
 
-/// What a region covers of its target.
+/// The part of a target that a region covers.
 enum class Extent {
-  amodal,  ///< all of it, hidden parts too
-  modal    ///< what a detector still sees; compared with the whole target as it was seen before
+  amodal,  ///< all of it, including hidden parts
+  modal    ///< the visible part; compared with the whole target as seen before
 };
 
-/// From which share of its pixels on a target counts as hidden, and when again as seen. Shares are
-/// of the pixels inside the image.
+/// The thresholds of verdicts, as fractions of the pixels inside the image.
 struct TargetThresholds {
   double partial_enter =
-      0.05;  ///< hidden share above which `visible` becomes `partial` (the paper)
-  double partial_leave = 0.04;          ///< hidden share up to which it becomes `visible` again
-  double hidden_enter = 0.90;           ///< hidden share above which it becomes `hidden`
-  double hidden_leave = 0.80;           ///< hidden share up to which it becomes `partial` again
-  std::optional<double> unknown_limit;  ///< unknown share above which it becomes `unknown`, unless
-                                        ///< the verdict is the same were all of it hidden; nothing:
-                                        ///< partial_enter
-  /// Share of what is measured of it (of its clear and front pixels) from which on it becomes
-  /// `unknown` where the sensor looks past its expected depth: it is not there, or transparent.
-  /// 1: however much.
+      0.05;  ///< hidden fraction above which `visible` becomes `partial` (the paper)
+  double partial_leave = 0.04;          ///< hidden fraction up to which it becomes `visible` again
+  double hidden_enter = 0.90;           ///< hidden fraction above which it becomes `hidden`
+  double hidden_leave = 0.80;           ///< hidden fraction up to which it becomes `partial` again
+  std::optional<double> unknown_limit;  ///< unknown fraction above which it becomes `unknown`,
+                                        ///< unless the verdict would be the same if all of that
+                                        ///< were hidden; null: partial_enter
+  /// It becomes `unknown` if the sensor measures behind its expected depth in this fraction of its
+  /// measured clear and front pixels: it is not there, or transparent. 1 disables the rule.
   double past_limit = 0.5;
-  /// Least share of what is seen of it (clear and front) that must be measured: nothing says that
-  /// it is where nothing is measured. Below, a target with an expected depth is `unknown`; of one
-  /// without, no estimate is taken. 0: it may be as dark or transparent as it will.
+  /// The fraction of its clear and front pixels that must be measured. Below it, a target with an
+  /// expected depth is `unknown`, and estimates of one without are refused. 0 disables the rule,
+  /// for dark or transparent objects.
   double min_measured = 0.2;
-  double min_inside = 0.0;   ///< at most this share of the extent in the image: out_of_view;
-                             ///< of rendered regions, 3-D boxes and meshes 0 alone
-  bool beyond_hides = true;  ///< `beyond` counts as occluded; else it counts as clear
-  bool others_hide = true;   ///< what is hidden by others than the robot counts in verdicts
-  std::size_t point_min_pixels = 5;  ///< trusted depths that a point needs
-  double point_min_fraction = 0.2;   ///< and their share of the pixels inside the image
+  double min_inside = 0.0;           ///< out_of_view if at most this fraction of the extent is in
+                                     ///< the image; 0 for rendered regions, 3-D boxes and meshes
+  bool beyond_hides = true;          ///< `beyond` counts as occluded; else it counts as clear
+  bool others_hide = true;           ///< occlusion by other objects counts in verdicts
+  std::size_t point_min_pixels = 5;  ///< trusted depths needed for a point
+  double point_min_fraction = 0.2;   ///< and their fraction of the pixels inside the image
 
-  /// Throws InputError, with the values it got, unless all shares are in 0..1, each leave <= its
-  /// enter and each of partial <= that of hidden.
+  /// Throws InputError with the invalid value unless all fractions are in 0..1, each `leave` is at
+  /// most its `enter`, and each `partial` is at most its `hidden`.
   void check() const;
 };
 

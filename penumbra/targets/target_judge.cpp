@@ -57,7 +57,7 @@ ExpectedDepth expected_of(const TargetView& target) {
   return expected;
 }
 
-/// Whether more than half of the unknown pixels lie where the lens model does not reach.
+/// Returns whether more than half of the unknown pixels lie outside the lens model.
 bool is_uncovered(const TalliedFrame& frame, std::span<const RowSpan> extent, std::size_t unknown) {
   if (frame.images.virtual_depth.depth.empty()) return false;
   std::size_t uncovered = 0;
@@ -113,7 +113,7 @@ struct TargetJudge::State {
   RobotSurroundings robot;
   ExtentObserver observer;
   std::vector<Blame> blame;
-  TargetMemories memories;
+  MapByTarget<TargetMemory> memories;
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,

@@ -18,32 +18,31 @@
 
 namespace penumbra {
 
-/// One frame's images, all of one size, as targets are judged on them. They are looked at until
-/// the next frame's are given.
+/// One frame's images, all of one size. They must stay valid until the next frame's are passed.
 struct LabelledImages {
   LabelView labels;
-  VirtualDepthView virtual_depth;  ///< empty where the robot's pose is unknown: all is unknown
-  DepthView measured;              ///< empty: no points, and nothing is hidden by others
-  bool is_blind = false;  ///< the sensor saw nothing: what the robot does not hide is unknown
+  VirtualDepthView virtual_depth;  ///< empty if the robot's pose is unknown: all is unknown
+  DepthView measured;              ///< empty: no points, and nothing is hidden by other objects
+  bool is_blind = false;           ///< no usable depth: whatever the robot does not hide is unknown
 };
 
-/// A target as it is judged in one frame.
+/// A target in one frame, in pixels.
 struct TargetView {
-  std::string_view name;  ///< what hysteresis and the last whole extent are remembered by
+  std::string_view name;  ///< identifies the target's hysteresis and last full extent
   Region region;
   Extent extent = Extent::amodal;
-  /// Metres, ze below; of the whole region. A rendered region has its own. Without it, no pixel is
-  /// known to be hidden by others than the robot. With it, what the robot hides is known without
-  /// measurement, and robot behind the target hides nothing.
+  /// Metres, ze below, for the whole region; a rendered region has its own. With it, robot pixels
+  /// behind the target hide nothing, other objects can hide it, and what the robot hides is known
+  /// without a measurement.
   std::optional<double> expected_depth;
-  /// Metres by which the target's surface may lie before or behind its expected depth: half its
-  /// thickness, its pose's uncertainty.
+  /// Metres between the target's surface and its expected depth at most: half its thickness plus
+  /// its pose's uncertainty.
   double depth_margin = 0;
-  bool wants_point = true;  ///< a point costs more than all the rest
-  /// Where the point lies in the image; nothing: the middle of the covered pixels.
+  bool wants_point = true;  ///< false saves time
+  /// The point's pixel; null: the centroid of the covered pixels.
   std::optional<Eigen::Vector2d> point_pixel;
-  /// How far the target has moved in the image, pixels, since it was last judged visible, where
-  /// that is known. Used for modal extents.
+  /// The target's motion in the image since it was last visible, pixels, if known. For modal
+  /// extents.
   std::optional<Eigen::Vector2d> motion;
   TargetThresholds thresholds;
 };
@@ -54,39 +53,38 @@ struct Blame {
   double fraction = 0;   ///< of the pixels inside the image
 };
 
-/// What is said of a target. Fractions are of the pixels inside the image and add up to 1, together
-/// with hidden_by_other; where no pixel is inside they are 0.
+/// The result for one target. Fractions are of the pixels inside the image; occluded, front,
+/// unknown, clear and hidden_by_other add up to 1, or to 0 if no pixel is inside.
 struct Judgement {
   Verdict verdict = Verdict::unknown;
-  std::size_t covered = 0;  ///< pixels of the extent, those outside the image too
+  std::size_t covered = 0;  ///< pixels of the extent, including those outside the image
   std::size_t inside = 0;   ///< pixels of it inside the image
-  double occluded = 0;      ///< hidden by the robot, `beyond` too where that hides
+  double occluded = 0;      ///< hidden by the robot, including `beyond` if that hides
   double front = 0;
   double unknown = 0;
   double clear = 0;
-  /// By something that is not the robot; nothing where no expected depth or no image is there.
+  /// Hidden by another object; null without an expected depth or a depth image.
   std::optional<double> hidden_by_other;
-  /// Share of pixels, clear or front ones, where the sensor measures anything; nothing where no
-  /// image is there, or no pose.
+  /// Clear or front, with a measurement; null without a depth image or pose.
   std::optional<double> measured;
-  /// Share of pixels, clear or front ones, where the sensor measures past the expected depth: the
-  /// target is not seen there. Nothing as hidden_by_other.
+  /// Clear or front, with a measurement behind the expected depth, so that the target is not there.
+  /// Null as hidden_by_other.
   std::optional<double> seen_past;
   std::span<const Blame> blame;          ///< largest first; valid until the judge's next call
-  std::optional<Eigen::Vector3d> point;  ///< optical frame, metres: of trusted depths only
-  std::size_t point_pixels = 0;          ///< trusted pixels, as far as they were asked
+  std::optional<Eigen::Vector3d> point;  ///< optical frame, metres; from trusted depths only
+  std::size_t point_pixels = 0;          ///< trusted pixels, estimated if only some were sampled
   double point_spread = 0;               ///< metres: 1.4826 * median absolute deviation
-  std::string_view reason;               ///< one line, a constant, for verdict unknown; else empty
+  std::string_view reason;  ///< one constant line if the verdict is unknown, else empty
 };
 
-/// Judges targets on labelled images. Holds what verdicts remember, by the targets' names, until
+/// Judges targets on labelled images. Remembers hysteresis and extents by the targets' names until
 /// forget(). Allocates nothing per target once its name, and extents of its size, were seen.
 ///
-/// How a pixel of a target is seen. Without an expected depth its label says it: clear, front,
-/// occluded, unknown; beyond is occluded, or clear where beyond_hides is false. With the expected
-/// depth ze, m = depth_margin + e(ze), virtual depth dV and measured depth d:
+/// The state of a pixel. Without an expected depth it follows from the label: clear, front,
+/// occluded, unknown; beyond counts as occluded, or as clear if beyond_hides is false. With the
+/// expected depth ze, m = depth_margin + e(ze), virtual depth dV and measured depth d:
 ///
-/// | label | robot before: dV < ze - m | robot about there | robot behind: dV > ze + m |
+/// | label | robot in front: dV < ze - m | robot at that depth | robot behind: dV > ze + m |
 /// |---|---|---|---|
 /// | clear | | clear; other if d < ze - m | |
 /// | front | occluded | front; other if d < ze - m | front; other if d < ze - m |
@@ -94,62 +92,60 @@ struct Judgement {
 /// | beyond | occluded | unknown | clear |
 /// | unknown | occluded | unknown | clear |
 ///
-/// "other": hidden by something that is not the robot. beyond is as clear where beyond_hides is
-/// false. Robot about as far as the target is not told from it, neither by the model nor by the
-/// sensor: it may hide the target, or be what was taken for it.
+/// "other": hidden by another object. beyond counts as clear if beyond_hides is false. A robot at
+/// the target's depth cannot be told apart from it by model or sensor, so such pixels are unknown.
 ///
-/// hidden = occluded, with hidden_by_other where others_hide. The verdict is unknown without the
-/// robot's pose, and where unknown exceeds its limit and the verdict would be another were all
-/// unknown pixels hidden; instead of visible, where no more is seen (clear and front) than unknown,
-/// and of visible and partial, where none is seen or, with an expected depth, less than
-/// min_measured of what is seen is measured, or past_limit or more of what is measured is past the
-/// expected depth, d > ze + m. It is out_of_view whatever else is known.
-/// Hysteresis goes on from the last verdict that was neither.
+/// The verdict. hidden = occluded, plus hidden_by_other if others_hide. The first rule that
+/// applies:
+/// - out_of_view: no more than min_inside of the extent lies in the image.
+/// - unknown: the robot's pose is unknown; or the unknown fraction exceeds its limit, and the
+///   verdict would be different if all unknown pixels were hidden.
+/// - hidden, partial or visible by the thresholds, with hysteresis from the last such verdict. But
+///   visible becomes unknown if no more is seen (clear or front) than unknown. Visible and partial
+///   become unknown if nothing is seen or, with an expected depth, if less than min_measured of
+///   what is seen is measured, or at least past_limit of what is measured is behind the target
+///   (d > ze + m).
 ///
-/// A modal extent is compared with the whole target as it was seen before. The judge remembers the
-/// last extent and the average size of about 100 frames in which the robot did not touch the
-/// target. A larger extent replaces the size at once; one that is smaller by more than
-/// partial_enter is not the whole target and never does. With expected depths the size scales by
-/// 1 / depth^2.
-/// - The target stands still, or moves by `motion`, and nothing of it is seen outside of where the
-///   last whole extent is then: that extent is judged as well, and the worse counts.
-/// - What is missing of its size counts as unknown where the robot may hide it: the robot is near
-///   the last whole extent, or as near to the mask as what is missing can reach. unknown_limit
-///   passes over none of it.
-/// - Its size is not known, and the verdict unknown unless what is seen to be hidden decides it:
-///   if it was first seen next to the robot; if it was seen at the image's border only (or at that
-///   of what the camera saw), and the robot is as near as the target may be large; if it touches
-///   the robot without expected depths, and is at another place than expected or larger, as it may
-///   have come nearer. Pixels that a lens's pinhole image does not cover count as robot here.
+/// A modal extent is compared with the whole target as seen before. The judge remembers the last
+/// extent and the mean size over about 100 frames in which the robot did not touch the target. A
+/// larger extent replaces the size at once; one that is smaller by more than partial_enter is
+/// ignored. With expected depths the size scales by 1 / depth^2.
+/// - If the target stands still, or moves by `motion`, and lies within the last full extent, then
+///   that extent is judged as well and the worse result counts.
+/// - Pixels missing from its size count as unknown if the robot may hide them: it is near the last
+///   full extent, or near enough to the mask. unknown_limit does not apply to them.
+/// - The size is unknown, and so is the verdict unless visible occlusion decides it, if the target
+///   was first seen next to the robot; if it was only seen cut by the image's border and the robot
+///   is near; or if it touches the robot without expected depths and is larger or elsewhere than
+///   expected, so that it may have come nearer. Pixels outside a lens's pinhole image count as
+///   robot here.
 ///
-/// A point is the median of the trusted depths, of an extent of more than 1,000 pixels those of one
-/// pixel in n, so that some 1,000 are asked: measured, labelled clear or front, within m of the
-/// expected depth where there is one; and, within edge_margin (LabelRule's, or its default where
-/// that is more) of robot whose virtual depths there are n to f, not from n - e(n) to f + k e(f);
-/// near pixels that the lens model does not reach, none at all.
-/// Verdicts other than visible and partial have none.
+/// The point is the median of the trusted depths of about 1,000 pixels of the extent. A depth is
+/// trusted if its label is clear or front, it is within m of the expected depth (if any), and it is
+/// not the depth of robot within edge_margin (at least LabelRule's default): for virtual depths
+/// from n to f, not from n - e(n) to f + k e(f). Near pixels outside the lens model none is
+/// trusted. Only the verdicts visible and partial have a point.
 class TargetJudge {
  public:
-  /// For images of a camera as they come (with its distortion) or of its pinhole part.
-  /// Throws InputError as Camera and LabelRule do. `rule`: that of the labels. `links`: how many
-  /// the robot has, for blame. `unseen`: not 0 where the images, rectified ones, show nothing that
-  /// the camera saw; such pixels count as outside of the image. Looked at during the call only.
+  /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.
+  /// `links`: the robot's number of links. `unseen`: not 0 for pixels of rectified images that the
+  /// camera did not see; they count as outside the image. It is read during the call only. Throws
+  /// InputError as Camera and LabelRule do.
   TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
               ImageView<const std::uint8_t> unseen = {});
   ~TargetJudge();
   TargetJudge(TargetJudge&&) noexcept;
   TargetJudge& operator=(TargetJudge&&) noexcept;
 
-  /// Names the frame that is judged next. Throws InputError for images not of the camera's size.
+  /// Sets the frame to judge. Throws InputError for images that do not have the camera's size.
   void begin(const LabelledImages& images);
 
-  /// Judges one target on the frame of begin(), without which it throws std::logic_error. Throws
-  /// InputError, which says what is wrong and not of which target, for a region that is none (not
-  /// finite, of zero area, a mask of another size), for numbers out
-  /// of bounds and for a name that was judged in this frame already.
+  /// Judges one target. Throws InputError, without the target's name, for an invalid region (not
+  /// finite, without area, a mask of another size), numbers out of range and a name that was
+  /// already judged in this frame; and std::logic_error before begin().
   [[nodiscard]] Judgement judge(const TargetView& target);
 
-  /// Forgets what was remembered of a target (a new object under an old name).
+  /// Forgets a target, for a name that now means another object.
   void forget(std::string_view name);
 
  private:

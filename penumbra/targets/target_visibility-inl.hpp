@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen of a target, what is remembered of it, and the verdict that follows.
+// The visibility of a target, its memory, and the verdict.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +21,18 @@
 
 namespace penumbra {
 
-/// What verdicts remember of a target.
+/// The memory of a target's verdicts.
 struct TargetMemory {
   std::uint64_t frame = 0;           ///< in which it was last judged
   Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
-  std::vector<RowSpan> extent;       ///< modal: the last whole one; empty: none
-  Eigen::Vector2d moved{0, 0};       ///< since then, until the last verdict visible
+  std::vector<RowSpan> extent;       ///< modal: the last full extent; empty: none
+  Eigen::Vector2d moved{0, 0};       ///< motion from then until the last verdict visible
   double size = 0;                   ///< modal: pixels of the whole target
-  std::optional<double> depth;       ///< expected, metres, that the size is of
-  bool is_cut = false;               ///< the extent reaches the image's border: there is more of it
+  std::optional<double> depth;       ///< expected depth of the size, metres
+  bool is_cut = false;               ///< the extent reaches the image's border, so there is more
 };
 
-/// Finds a name without making a string of it.
+/// Allows lookup by string_view.
 struct TargetNameHash {
   using is_transparent = void;
   std::size_t operator()(std::string_view name) const {
@@ -40,16 +40,16 @@ struct TargetNameHash {
   }
 };
 
-using TargetMemories =
-    std::unordered_map<std::string, TargetMemory, TargetNameHash, std::equal_to<>>;
+template <typename Value>
+using MapByTarget = std::unordered_map<std::string, Value, TargetNameHash, std::equal_to<>>;
 
-/// Why the size of a modal target is not known.
+/// The reason why the size of a modal target is unknown.
 enum class SizeUnknown { none, first_near_robot, cut, moved };
 
-/// What is visible of an extent.
+/// The visibility of an extent.
 struct Visibility {
   [[nodiscard]] double fraction(PixelState state) const;
-  /// Of the pixels inside, `count` of them.
+  /// Returns `count` as a fraction of the pixels inside.
   [[nodiscard]] double share(std::size_t count) const;
   [[nodiscard]] double hidden(bool others_hide) const {
     return fraction(PixelState::occluded) + (others_hide ? fraction(PixelState::other) : 0.0);
@@ -57,43 +57,43 @@ struct Visibility {
   [[nodiscard]] std::size_t seen() const {
     return pixels[PixelState::clear] + pixels[PixelState::front];
   }
-  /// Whether the sensor looks past where `limit` or more of what is measured is expected.
+  /// Returns whether at least `limit` of the measured pixels are behind the expected depth.
   [[nodiscard]] bool is_passed(double limit) const {
     return past > 0 && limit < 1 &&
            static_cast<double>(past) >= limit * static_cast<double>(measured);
   }
-  /// Whether less than `least` of what is seen is measured.
+  /// Returns whether less than `least` of what is seen is measured.
   [[nodiscard]] bool is_unmeasured(double least) const {
     return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
-  /// Counts up to `count` pixels of a state as unknown instead, and reduces `count` by these.
+  /// Turns up to `count` pixels of a state into unknown, and subtracts them from `count`.
   void mark_unknown(PixelState state, std::size_t& count);
-  void mark_all_unknown();  ///< all that is clear or front
+  void mark_all_unknown();  ///< all clear and front pixels
 
   std::size_t covered = 0, inside = 0;
   StateCounts pixels{};                ///< inside
   std::size_t measured = 0, past = 0;  ///< as in ExtentTally
-  std::size_t unmeasured = 0;          ///< clear or front, but not measured
-  bool is_expected = false;            ///< its depth is
+  std::size_t unmeasured = 0;          ///< clear or front, and not measured
+  bool is_expected = false;            ///< its depth is known
   const LinkCounts* links = nullptr;
   bool has_pose = true;
   SizeUnknown size_unknown = SizeUnknown::none;
-  bool is_missing = false;  ///< some of it is not in its mask, and near the robot
+  bool is_missing = false;  ///< its mask lacks pixels near the robot
 };
 
-/// A target and the frame it is judged on.
+/// A target and its frame.
 struct TargetInFrame {
   const TalliedFrame& frame;
   const TargetView& target;
   const ExpectedDepth& expected;
   RobotSurroundings& robot;
-  bool wants_depths;  ///< of the extent as it is given
+  bool wants_depths;  ///< of the given extent
 
-  /// Robot as near as this, in pixels, may hide more than it seems to.
+  /// Distance in pixels within which the robot may hide more than it seems to.
   [[nodiscard]] int reach() const { return robot.reach(); }
 };
 
-/// Finds what is visible of extents, as they are given and as they are remembered.
+/// Observes given and remembered extents.
 class ExtentObserver {
  public:
   ExtentObserver(int width, int height, std::size_t links, SeenPixels seen_pixels)
@@ -111,13 +111,13 @@ class ExtentObserver {
   }
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
-  /// Of the region that fill() took: valid until the next call.
+  /// Observes the region of fill(). The result is valid until the next call.
   [[nodiscard]] Visibility observe(const TargetInFrame& at, const TargetMemory& memory);
 
-  /// Returns what was counted on the region of the last call, with its depths if they were wanted.
+  /// Returns the counts of the last call, with depths if requested.
   [[nodiscard]] ExtentTally& tally() { return seen_tally_; }
 
-  /// Remembers the modal extent of the last call, which is visible.
+  /// Stores the modal extent of the last call, which was visible.
   void remember(const TargetView& target, TargetMemory& memory) const;
 
  private:
@@ -141,7 +141,7 @@ class ExtentObserver {
   bool touches_robot_ = false;  // the modal extent of the last call
 };
 
-/// The verdict, which `memory.level` follows.
+/// Returns the verdict and updates `memory.level`.
 [[nodiscard]] Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
                              TargetMemory& memory);
 

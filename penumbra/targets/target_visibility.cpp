@@ -7,11 +7,10 @@
 namespace penumbra {
 namespace {
 
-/// Pixels. Networks draw masks at a quarter of the image's size: a mask may end so far from the
-/// border that cuts it, and so far outside of the last one of a target that stands still.
+/// Accuracy of masks, pixels: networks produce them at a quarter of the image's size.
 constexpr int mask_error = 4;
 
-/// Of how many frames the size of a modal target is the average.
+/// Number of frames over which the size of a modal target is averaged.
 constexpr double averaged_frames = 100;
 
 double bad_share(const Visibility& visibility, bool others_hide) {
@@ -33,7 +32,7 @@ Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
 int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
 int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
 
-/// Nothing that was not seen is called visible, and nothing partial of which no pixel was.
+/// Returns whether enough was seen for the verdicts visible and partial.
 bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThresholds& t) {
   if (level == Verdict::hidden) return true;
   const std::size_t least = level == Verdict::visible ? visibility.pixels[PixelState::unknown] : 0;
@@ -46,7 +45,7 @@ SpanBox grown(const SpanBox& box, int du, int dv) {
   return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
 }
 
-/// Whether some of the robot lies in a box, which may reach past the image.
+/// Returns whether the robot lies in a box, which is clipped to the image.
 bool holds_robot(const TalliedFrame& frame, const SpanBox& box) {
   const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
   const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
@@ -61,8 +60,8 @@ bool lies_in(const SpanBox& inner, const SpanBox& outer) {
          inner.v1 <= outer.v1;
 }
 
-/// By which pixels at a target's expected depth count, to be compared with its remembered size; 1
-/// where a depth is not known. Area in the image goes with 1 / depth^2.
+/// Returns the factor from pixels at the expected depth to pixels at the remembered depth; 1 if a
+/// depth is unknown. The area in the image is proportional to 1 / depth^2.
 double area_scale(const TargetMemory& memory, const TargetView& target) {
   if (!memory.depth || !target.expected_depth) return 1.0;
   return (*target.expected_depth * *target.expected_depth) / (*memory.depth * *memory.depth);
@@ -133,7 +132,7 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMe
   }
   Visibility visibility = compare(at, memory, now, box);
   if (memory.is_cut) {
-    // There is more of it than was ever seen, perhaps as much again.
+    // More of it exists than was ever seen: assume as much again.
     const SpanBox last = box_of_spans(memory.extent);
     const int more =
         at.reach() + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
@@ -157,7 +156,7 @@ Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& 
   Visibility moved = now;
   if (lacking <= tolerance && touches_robot_ && !has_depths &&
       (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
-    moved.size_unknown = SizeUnknown::moved;  // it may have come nearer, and be hidden in part
+    moved.size_unknown = SizeUnknown::moved;  // it may have come nearer and be partly hidden
   } else if (is_placed) {
     const Visibility last = observe_last(at, missing);
     const bool is_worse =
@@ -172,8 +171,8 @@ Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& 
   return moved;
 }
 
-/// Puts the last whole extent where it is expected, and says whether what is seen now can be part
-/// of it: it has the same expected depth and nothing is seen outside of it.
+/// Moves the last full extent to its expected place. Returns whether the mask can be part of it: it
+/// has the same expected depth and lies within it.
 bool ExtentObserver::place_last(const TargetInFrame& at, const TargetMemory& memory,
                                 const SpanBox& box) {
   last_.fill_moved(memory.extent,
@@ -185,8 +184,8 @@ bool ExtentObserver::place_last(const TargetInFrame& at, const TargetMemory& mem
          lies_in(box, grown(box_of_spans(last_.spans()), mask_error, mask_error));
 }
 
-/// Whether the robot may hide what is missing in a mask: it lies near the last whole extent, or as
-/// near to the mask as what is missing can reach.
+/// Returns whether the robot may hide the missing pixels: it is near the last full extent, or near
+/// enough to the mask.
 bool ExtentObserver::may_hide_missing(const TargetInFrame& at, const SpanBox& box,
                                       const SpanBox& whole) const {
   const int du = std::max(width_of(whole) - width_of(box), 0);
@@ -246,7 +245,7 @@ Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
   const double hidden = visibility.hidden(thresholds.others_hide);
   const bool has_size = visibility.size_unknown == SizeUnknown::none;
   const double unknown = has_size ? visibility.fraction(PixelState::unknown) : 1 - hidden;
-  // What its mask lacks is not seen: no limit passes over what else is unknown.
+  // Missing pixels are not seen: unknown_limit does not apply then.
   const bool is_uncertain = !has_size || visibility.is_missing;
   const double limit =
       is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which depths may be of the robot, and the median of the others.
+// Depths that cannot be the robot's, and their median.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,23 @@
 
 namespace penumbra {
 
-/// Which measured depths may be of the robot where it stands near: the sensor sees its edges
-/// blurred and, by calibration, out of place. Worked out for each cell of LabelRule::cell pixels
-/// squared that is asked for, once a frame.
+/// Depths near the robot that may be its own: the sensor blurs its edges, and calibration moves
+/// them. Computed on demand for cells of LabelRule::cell pixels squared.
 class RobotSurroundings {
  public:
   RobotSurroundings(int width, int height, const LabelRule& rule);
 
-  /// Forgets the last frame. `frame` is read until the next call.
+  /// Sets the frame, which is read until the next call.
   void begin(const TalliedFrame& frame);
 
-  /// Depths that may be of the robot within edge_margin pixels of a cell; none: from > to.
+  /// Depths that may be the robot's within edge_margin pixels of a cell; none if from > to.
   struct Depths {
     float from = std::numeric_limits<float>::infinity(), to = 0;
     [[nodiscard]] bool hold(float d) const { return from <= d && d <= to; }
   };
   [[nodiscard]] const Depths& around(int cell_u, int cell_v);
 
-  /// Pixels past a region in which the robot matters to it.
+  /// Distance in pixels within which the robot affects a region.
   [[nodiscard]] int reach() const { return (cells_ + 1) * LabelRule::cell; }
 
  private:
@@ -43,7 +42,7 @@ class RobotSurroundings {
 
   [[nodiscard]] const Cell& cell(int cell_u, int cell_v);
 
-  int cells_;  // how many of them the margin reaches
+  int cells_;  // margin in cells
   float beyond_factor_;
   const TalliedFrame* frame_ = nullptr;
   std::uint64_t number_ = 0;
@@ -51,7 +50,7 @@ class RobotSurroundings {
   Image<Around> around_;
 };
 
-/// The median of some depths.
+/// A median with its spread.
 struct RobustDepth {
   double median = 0;  ///< metres
   double spread = 0;  ///< metres: 1.4826 * median absolute deviation

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
 
-/// Of robot that cannot be drawn, as the lens model does not reach there.
+/// Depth of robot outside the lens model, which cannot be rendered.
 constexpr float any_depth = std::numeric_limits<float>::infinity();
 
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
 
-/// The mean of the middle one or two.
+/// Returns the mean of the middle one or two values.
 float median_of(std::span<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -24,31 +24,31 @@ namespace penumbra {
 struct JointBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a joint that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest
-  std::size_t max_states = 100'000;  ///< of each variable; the oldest are dropped beyond
-  bool compare_sources = true;       ///< else what other sources publish is ignored
+  std::size_t max_states = 100'000;  ///< per variable; the oldest are dropped
+  bool compare_sources = true;       ///< false: other sources are ignored
 };
 
 enum class JointStatus { ok, missing, stale, disputed };
 
-/// A variable that has no position at the stamp that was asked for.
+/// A variable without a position at the requested stamp.
 struct JointGap {
   std::size_t variable = 0;                ///< index into Robot::variables()
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
-  std::optional<std::int64_t> last_seen;   ///< stamp of its latest state at or before, nanoseconds
-  std::optional<double> jump;  ///< rad or m between the states next to the stamp, if too much
-  std::string source;          ///< the source that is believed, where there are several
+  std::optional<std::int64_t> last_seen;   ///< stamp of its last state up to the stamp, nanoseconds
+  std::optional<double> jump;  ///< rad or m between the neighbouring states, if too large
+  std::string source;          ///< the believed source, if there are several
 };
 
-/// A variable for which two sources published different values near the stamp asked for.
+/// A variable for which two sources published different values near the requested stamp.
 struct JointDispute {
   std::size_t variable = 0;            ///< index into Robot::variables()
   std::int64_t stamp = 0;              ///< of the values, nanoseconds
-  std::array<std::string, 2> sources;  ///< as given to insert(): the believed one, another one
+  std::array<std::string, 2> sources;  ///< as given to insert(): the believed one and another one
   std::array<double, 2> values{};
 };
 
 struct JointAnswer {
-  /// Missing before stale before disputed, where several occur.
+  /// The first that applies of missing, stale and disputed.
   JointStatus status = JointStatus::missing;
   /// Order of Robot::variables(); valid only if status is ok or disputed.
   std::vector<double> positions;
@@ -63,79 +63,79 @@ struct JointRule {
 
   static constexpr double max_turn = TransformBuffer::max_turn;
 
-  /// What sources may differ by at rest: encoders, backlash, digits. An arc of 5 mm at half a
-  /// metre, which joint states and TF may differ by, too.
+  /// Accepted difference of sources at rest: encoders, backlash, rounding. The arc is 5 mm at half
+  /// a metre, as for joint states and TF.
   static constexpr double turn_noise = 0.01;           ///< radians
   static constexpr double shift_noise = 0.005;         ///< metres
-  static constexpr bool one_value_of_a_stamp = false;  ///< the last one counts
+  static constexpr bool one_value_of_a_stamp = false;  ///< the last value of a stamp counts
 
   Kind kind = Kind::linear;
   double velocity = std::numeric_limits<double>::infinity();  ///< limit, rad/s or m/s
 
-  /// From one value to another; for turning joints by the shorter turn.
+  /// Returns to - from; for turning joints by the shorter way.
   [[nodiscard]] double difference(double from, double to) const;
   [[nodiscard]] double distance(double a, double b) const;
-  [[nodiscard]] double interpolate(double a, double share, double b) const {
-    return a + share * difference(a, b);
+  [[nodiscard]] double interpolate(double a, double fraction, double b) const {
+    return a + fraction * difference(a, b);
   }
   [[nodiscard]] double noise() const;
-  /// The largest distance of two states that are `seconds` apart.
+  /// Returns the largest possible distance of two states `seconds` apart.
   [[nodiscard]] double largest_step(double seconds) const;
 };
 
-/// Likewise of the rotation of a floating joint.
+/// The same for the rotation of a floating joint.
 struct RotationRule {
   static constexpr bool one_value_of_a_stamp = false;
 
   [[nodiscard]] double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) const {
     return a.angularDistance(b);
   }
-  [[nodiscard]] Eigen::Quaterniond interpolate(const Eigen::Quaterniond& a, double share,
+  [[nodiscard]] Eigen::Quaterniond interpolate(const Eigen::Quaterniond& a, double fraction,
                                                const Eigen::Quaterniond& b) const {
-    return a.slerp(share, b);
+    return a.slerp(fraction, b);
   }
   [[nodiscard]] double noise() const { return JointRule::turn_noise; }
 };
 
 /// Merges joint states (complete or partial, in any order of names and time) and interpolates them
-/// to a stamp. Never extrapolates: a stamp that is not between two states of a joint no more than
-/// max_gap apart (or on one) is answered "stale".
+/// at a stamp. Never extrapolates: a joint is stale at a stamp that is neither that of a state nor
+/// between two states at most max_gap apart.
 ///
-/// Values are interpolated linearly, continuous joints and the yaw of planar ones the short way
-/// round. The quaternion of a floating joint is interpolated on the sphere; its parts may come in
-/// several consecutive states of one stamp and source. A joint that jumps is "stale" between the
-/// two states: by more than a right angle, or than the velocity limit of the URDF allows in their
-/// time. Encoders wrap, and values may be wrong.
+/// Values are interpolated linearly; continuous joints and the yaw of planar joints by the shorter
+/// way. The quaternion of a floating joint is interpolated by slerp; its parts may come in several
+/// consecutive states of one stamp and source. A joint is also stale between two states that differ
+/// by more than a right angle or than the URDF's velocity limit allows: an encoder wrapped, or a
+/// value is wrong.
 ///
-/// Where several sources publish a variable, one of them is believed and the others are compared
-/// with it: see SourceTracks. Near a stamp where they disagree the variable is "disputed".
+/// If several sources publish a variable, one is believed and the others are compared with it: see
+/// SourceTracks. The variable is disputed near a stamp where they disagree.
 class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
   explicit JointBuffer(const Robot& robot, JointBufferOptions options = {});
 
-  /// Adds one joint state. Names that are no variable of the robot (mimicking joints, other
-  /// devices) are skipped; names without a position, values that are not finite or lie
-  /// beyond +-1e9, and quaternions whose length is off 1 by more than 1 % are refused and counted.
-  /// A second value of a source for one joint and stamp replaces the first. Returns the number of
-  /// values taken. `source`: a name of the publisher, the same for all of its states.
+  /// Adds one joint state and returns the number of accepted values. Skips names that are not
+  /// variables of the robot (mimic joints, other devices). Refuses and counts names without a
+  /// position, values that are not finite or beyond +-1e9, and quaternions whose length differs
+  /// from 1 by more than 1 %. A second value of one source, joint and stamp replaces the first.
+  /// `source`: a name of the publisher, the same for all its states.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
                      std::span<const double> positions, std::string_view source = {});
 
-  /// Positions at `stamp`. Allocates only until the answer's vectors have their size.
+  /// Writes the positions at `stamp`. Allocates only until the answer's vectors have their size.
   void at(std::int64_t stamp, JointAnswer& answer) const;
 
-  /// Stamp of the newest state up to which every joint is known; nothing before that, and for a
-  /// robot without variables.
+  /// Returns the newest stamp at which every joint is known; null if there is none, and for a robot
+  /// without variables.
   [[nodiscard]] std::optional<std::int64_t> complete_until() const;
 
-  /// Stamp of the newest state of any of the variables named.
+  /// Returns the newest stamp of the named variables.
   [[nodiscard]] std::optional<std::int64_t> newest_of(std::span<const std::string> names) const;
 
-  /// Forgets every state, as after a jump of the clock; the counts stay.
+  /// Removes all states, as after a jump of the clock. Keeps the counts.
   void clear();
 
-  /// Positions of the robot's joints that insert() did not take.
+  /// Returns the number of values that insert() refused.
   [[nodiscard]] std::size_t refused_values() const { return refused_values_; }
 
  private:
@@ -146,7 +146,7 @@ class JointBuffer {
   struct Rotation {
     std::size_t first;  // of its four variables: x, y, z, w
     RotationTrack track;
-    // What is known of the newest one:
+    // The newest state, whose parts may still arrive:
     std::int64_t stamp = 0;
     std::string source = {};
     std::array<bool, 4> known{};

@@ -20,46 +20,46 @@ struct PoseHistoryOptions {
   TransformBufferOptions transforms = {};
 };
 
-/// Joint states and transforms of a robot and its cameras, from all publishers. One serves the
-/// queues of several cameras. Knows no thread.
+/// Joint states and transforms of a robot and its cameras from all publishers. One history serves
+/// the queues of several cameras. Not synchronised between threads.
 ///
-/// A clock that jumps back (a bag played in a loop, a simulation started again) shows as a joint, a
-/// frame or an image whose stamp is more than clock_jump before its own last one. States from
-/// before and after must not mix: all but static transforms is then forgotten, and counted. What
-/// comes late by less takes its place in time.
+/// A clock jumped back (a bag played in a loop, a restarted simulation) if the stamp of a joint,
+/// frame or image is more than least_clock_jump before its own last one. Everything except static
+/// transforms is then removed, so that states from before and after do not mix. States that are
+/// late by less are inserted in order.
 class PoseHistory {
  public:
   /// Throws InputError for options out of range.
   explicit PoseHistory(const Robot& robot, const PoseHistoryOptions& options = {});
 
-  /// As JointBuffer::insert. States without a stamp (0, or before) are refused and counted.
+  /// As JointBuffer::insert. Refuses and counts states with a stamp of 0 or negative.
   std::size_t add_joints(std::int64_t stamp, std::span<const std::string> names,
                          std::span<const double> positions, std::string_view source = {});
 
-  /// As TransformBuffer::insert and insert_static, which count what they refuse.
+  /// As TransformBuffer::insert and insert_static.
   TransformInsert add_transform(std::int64_t stamp, std::string_view parent, std::string_view child,
                                 const Eigen::Isometry3d& T_parent_child,
                                 std::string_view source = {});
   TransformInsert add_static_transform(std::string_view parent, std::string_view child,
                                        const Eigen::Isometry3d& T_parent_child);
 
-  /// For whoever sees other stamps of the same clock: forgets the states if `stamp` lies a jump
-  /// before `newest`, and answers whether it does. `of` names what jumped, for the message.
+  /// Removes the states and returns true if `stamp` is a clock jump before `newest`; for other
+  /// stamps of the same clock. `of`: the name of what jumped, for the message.
   bool note_stamp(std::int64_t stamp, std::int64_t newest, std::string_view of);
 
-  /// Forgets all but static transforms.
+  /// Removes everything except static transforms.
   void clear();
 
   [[nodiscard]] const JointBuffer& joints() const { return joints_; }
   [[nodiscard]] const TransformBuffer& transforms() const { return transforms_; }
 
-  /// Grows whenever something is added or forgotten.
+  /// Grows whenever something is added or removed.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
-  /// Grows whenever the states are forgotten.
+  /// Grows whenever the states are removed.
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
 
   [[nodiscard]] std::size_t clock_jumps() const { return clock_jumps_; }
-  /// One line of the last jump; empty before.
+  /// One line about the last jump; empty if there was none.
   [[nodiscard]] const std::string& last_jump() const { return last_jump_; }
   [[nodiscard]] std::size_t joint_states_without_stamp() const { return no_stamps_; }
 

@@ -18,23 +18,21 @@
 
 namespace penumbra {
 
-/// Nanoseconds that the stamps of one instant may differ by in two programs: scheduling and
-/// transport of a message.
+/// Largest difference of the stamps of one instant in two programs, nanoseconds.
 inline constexpr std::int64_t stamp_jitter = 20'000'000;
 
-/// For messages about a believed source that is silent while others publish.
+/// Part of messages about a believed source that is silent while others publish.
 inline constexpr std::string_view others_unused =
     "; its other publishers are used only if they started after that";
 
-/// The states of one joint or transform over time, kept apart by source (the publisher's name).
+/// The states of one joint or transform over time, separate for each source (publisher's name).
 ///
-/// One source is believed: the first one heard. Once it is silent, one that began after its last
-/// state is believed instead. The states of other sources are only compared with it, at their own
-/// stamps. They agree within the rule's noise plus what the believed value moves in the lag:
-/// stamp_jitter, two periods of the believed source and one of the other. Nothing is inferred about
-/// which of two sources is right.
+/// The first source is believed. Once it is silent, a source that began after its last state is
+/// believed instead. The states of other sources are only compared with the believed source, at
+/// their own stamps. They agree within the rule's noise plus the change of the believed value in
+/// the lag: stamp_jitter plus two periods of the believed source plus one of the other.
 ///
-/// Rule: double distance(Value, Value), Value interpolate(Value, double share, Value),
+/// Rule: double distance(Value, Value), Value interpolate(Value, double fraction, Value),
 /// double noise(), bool one_value_of_a_stamp.
 template <typename Value, typename Rule>
 class SourceTracks {
@@ -44,15 +42,15 @@ class SourceTracks {
   using Bracket = typename Track::Bracket;
   using Name = std::shared_ptr<const std::string>;
 
-  /// Nanoseconds after its last state from which a source is silent: longer than messages are late.
-  /// Never less than max_gap and two periods of the source.
+  /// Nanoseconds after its last state from which a source is silent, or max_gap or two periods of
+  /// the source if that is longer.
   static constexpr std::int64_t silence = 500'000'000;
   /// The period of a source that has published once, nanoseconds.
   static constexpr std::int64_t unknown_period = 1'000'000'000;
-  /// Nanoseconds after a disagreement for which the value stays in question: the two may be equal
+  /// Nanoseconds after a disagreement for which the value stays disputed: two values may be equal
   /// in passing, and messages may be lost.
   static constexpr std::int64_t memory = 800'000'000;
-  /// Sources that are kept; beyond, the one that is silent for longest is dropped.
+  /// Maximum number of sources; then the one that is silent for longest is dropped.
   static constexpr std::size_t most_sources = 32;
 
   struct Source {
@@ -63,14 +61,14 @@ class SourceTracks {
     [[nodiscard]] std::int64_t end() const { return track.states().back().stamp; }
   };
 
-  /// What the believed source and another one published for the same stamp.
+  /// Values of the believed source and another one for the same stamp.
   struct Disagreement {
     std::array<Name, 2> sources;
     std::array<Value, 2> values;
   };
 
-  /// `max_gap`: nanoseconds between two states that may be interpolated. Without `compares` there
-  /// are no disagreements.
+  /// `max_gap`: nanoseconds between two states that may be interpolated. `compares`: false for no
+  /// disagreements.
   explicit SourceTracks(Rule rule, std::int64_t max_gap, bool compares = true)
       : rule_(std::move(rule)), max_gap_(max_gap), compares_(compares) {}
 
@@ -87,14 +85,14 @@ class SourceTracks {
     if (compares_) compare(own, state, is_successor);
   }
 
-  /// As of a StampedTrack, for each source.
+  /// As StampedTrack::prune, for each source.
   void prune(std::int64_t limit, std::size_t max_states) {
     for (Source& source : sources_) source.track.prune(limit, max_states);
     believed_.prune(limit, max_states);
     disagreements_.prune(limit, max_states);
   }
 
-  /// Forgets the sources, too.
+  /// Removes the sources as well.
   void clear() {
     sources_.clear();
     believed_.clear();
@@ -102,17 +100,17 @@ class SourceTracks {
     newest_.reset();
   }
 
-  /// Stamp of the newest state of any source.
+  /// Returns the newest stamp of any source.
   [[nodiscard]] std::optional<std::int64_t> newest() const { return newest_; }
   [[nodiscard]] bool has_several_sources() const { return sources_.size() > 1; }
 
-  /// Returns the source that is believed at a stamp, or null if there is none any more or yet.
+  /// Returns the source that is believed at a stamp, or null if its states were dropped.
   [[nodiscard]] const Source* believed_at(std::int64_t stamp) const {
     const auto until = believed_.up_to(stamp);
     return until.empty() ? nullptr : find(until.back().value);
   }
 
-  /// Returns the believed states to interpolate between at a stamp, or none.
+  /// Returns the believed states around a stamp, or an empty bracket.
   [[nodiscard]] Bracket around(std::int64_t stamp) const {
     const Source* const believed = believed_at(stamp);
     return believed == nullptr ? Bracket{} : believed->track.around(stamp, max_gap_);

@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-/// A value over time: states sorted by stamp, one for each stamp.
+/// A value over time: states sorted by stamp, one per stamp.
 template <typename Value>
 class StampedTrack {
  public:
@@ -21,7 +21,7 @@ class StampedTrack {
     Value value;
   };
 
-  /// Adds a state at its place in time; replaces the one of the same stamp.
+  /// Inserts a state in order; replaces one of the same stamp.
   void put(const State& state) {
     const auto at = place_of(state.stamp);
     if (at != states_.end() && at->stamp == state.stamp)
@@ -30,8 +30,8 @@ class StampedTrack {
       states_.insert(at, state);
   }
 
-  /// Drops what lies before the last state at or before `limit`, then the oldest beyond
-  /// `max_states`. Costs a fixed time per state dropped.
+  /// Drops all states before the last one at or before `limit`, then the oldest beyond
+  /// `max_states`. Amortised constant time per dropped state.
   void prune(std::int64_t limit, std::size_t max_states) {
     while (first_ + 1 < states_.size() && states_[first_ + 1].stamp <= limit) ++first_;
     if (states_.size() - first_ > max_states) first_ = states_.size() - max_states;
@@ -48,7 +48,7 @@ class StampedTrack {
 
   [[nodiscard]] std::span<const State> states() const { return std::span(states_).subspan(first_); }
 
-  /// Two states around a stamp, twice the same if one lies on it.
+  /// The two states around a stamp; equal if a state has the stamp.
   struct Bracket {
     const State* before = nullptr;
     const State* after = nullptr;
@@ -60,8 +60,8 @@ class StampedTrack {
     }
   };
 
-  /// Those next to `stamp`; none if there is none on a side, or they are more than `max_gap`
-  /// nanoseconds apart.
+  /// Returns the states around `stamp`, or an empty bracket if one is missing or they are more than
+  /// `max_gap` nanoseconds apart.
   [[nodiscard]] Bracket around(std::int64_t stamp, std::int64_t max_gap) const {
     const auto all = states();
     const auto before = up_to(stamp);
@@ -72,7 +72,7 @@ class StampedTrack {
     return bracket.gap() <= static_cast<std::uint64_t>(max_gap) ? bracket : Bracket{};
   }
 
-  /// States at or before `stamp`.
+  /// Returns the states at or before `stamp`.
   [[nodiscard]] std::span<const State> up_to(std::int64_t stamp) const {
     const auto all = states();
     const auto end = std::upper_bound(
@@ -81,21 +81,21 @@ class StampedTrack {
     return all.first(static_cast<std::size_t>(end - all.begin()));
   }
 
-  /// The last state before `stamp`, null if there is none.
+  /// Returns the last state before `stamp`, or null.
   [[nodiscard]] const State* last_before(std::int64_t stamp) const {
     const auto before = up_to(stamp);
     if (!before.empty() && before.back().stamp < stamp) return &before.back();
     return before.size() < 2 ? nullptr : &before[before.size() - 2];
   }
 
-  /// The first state after `stamp`, null if there is none.
+  /// Returns the first state after `stamp`, or null.
   [[nodiscard]] const State* first_after(std::int64_t stamp) const {
     const auto all = states();
     const std::size_t next = up_to(stamp).size();
     return next < all.size() ? &all[next] : nullptr;
   }
 
-  /// States from one stamp to another, both included.
+  /// Returns the states from one stamp to another, both inclusive.
   [[nodiscard]] std::span<const State> between(std::int64_t from, std::int64_t to) const {
     const auto until = up_to(to);
     const auto first = std::lower_bound(
@@ -104,7 +104,7 @@ class StampedTrack {
     return until.subspan(static_cast<std::size_t>(first - until.begin()));
   }
 
-  /// The value of a state exactly there.
+  /// Returns the value of the state of exactly that stamp.
   [[nodiscard]] std::optional<Value> value_at(std::int64_t stamp) const {
     const auto before = up_to(stamp);
     if (before.empty() || before.back().stamp != stamp) return std::nullopt;
@@ -122,7 +122,7 @@ class StampedTrack {
   }
 
   std::vector<State> states_;
-  std::size_t first_ = 0;  // states before it are dropped, and erased in bulk later
+  std::size_t first_ = 0;  // states before it are dropped, and erased later in bulk
 };
 
 }  // namespace penumbra

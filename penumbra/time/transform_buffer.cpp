@@ -43,10 +43,10 @@ double TransformBuffer::PoseRule::distance(const Pose& a, const Pose& b) const {
                   lever * a.rotation.angularDistance(b.rotation));
 }
 
-TransformBuffer::Pose TransformBuffer::PoseRule::interpolate(const Pose& a, double share,
+TransformBuffer::Pose TransformBuffer::PoseRule::interpolate(const Pose& a, double fraction,
                                                              const Pose& b) const {
-  return {a.rotation.slerp(share, b.rotation),
-          a.translation + share * (b.translation - a.translation)};
+  return {a.rotation.slerp(fraction, b.rotation),
+          a.translation + fraction * (b.translation - a.translation)};
 }
 
 TransformBuffer::TransformBuffer(const TransformBufferOptions& options)
@@ -135,14 +135,14 @@ std::string TransformBuffer::describe(TransformInsert why, std::string_view pare
     case TransformInsert::no_stamp:
       return which + "it has no stamp";
     case TransformInsert::not_rigid:
-      return which + "it is no rotation and finite translation";
+      return which + "it is not a rotation with a finite translation";
     case TransformInsert::loop:
-      return which + "the parent hangs below the child";
+      return which + "the parent is a descendant of the child";
     case TransformInsert::second_parent:
       return which + "the child has the parent " +
              frame_quoted(frames_[frames_[*find(child)].parent].name) + " already";
     case TransformInsert::static_and_free:
-      return which + "the child was given as " +
+      return which + "the child was published as " +
              (frames_[*find(child)].is_static ? "static" : "moving") + " before";
     case TransformInsert::too_many_frames:
       return which + "there are " + std::to_string(frames_.size()) + " frames already";
@@ -208,8 +208,8 @@ std::string TransformBuffer::no_chain(std::string_view target, std::string_view 
   const FrameNode& other = root_of(target);
   if (&above == &other)
     return which + "more than " + std::to_string(options_.max_depth) + " frames lie between";
-  return which + "the one hangs below " + frame_quoted(above.name) + ", the other below " +
-         frame_quoted(other.name) + ", and nothing connects these";
+  return which + "their roots are " + frame_quoted(above.name) + " and " +
+         frame_quoted(other.name) + ", which are not connected";
 }
 
 void TransformBuffer::at(std::int64_t stamp, std::string_view target, std::string_view source,
@@ -240,11 +240,11 @@ bool TransformBuffer::climb(std::size_t from, std::size_t to, std::int64_t stamp
   for (; from != to; from = frames_[from].parent) {
     Pose step;
     if (!interpolate(frames_[from], stamp, step, answer)) {
-      say_stale(frames_[from], stamp, answer);
+      explain_stale(frames_[from], stamp, answer);
       return false;
     }
     if (frames_[from].states.disagreement_near(stamp) != nullptr) {
-      say_disputed(frames_[from], stamp, answer);
+      explain_disputed(frames_[from], stamp, answer);
       return false;
     }
     T_to_from.translation = step.rotation * T_to_from.translation + step.translation;
@@ -269,14 +269,14 @@ bool TransformBuffer::interpolate(const FrameNode& frame, std::int64_t stamp, Po
   return true;
 }
 
-void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
-                                TransformAnswer& answer) const {
+void TransformBuffer::explain_stale(const FrameNode& frame, std::int64_t stamp,
+                                    TransformAnswer& answer) const {
   answer.message = "transform of frame " + frame_quoted(frame.name) + " in " +
                    frame_quoted(frames_[frame.parent].name) + " is not known at " +
                    stamp_text(stamp) + ": ";
   const auto* const believed = frame.states.believed_at(stamp);
   if (believed == nullptr) {
-    answer.message += "its publisher is not known there any more";
+    answer.message += "its publisher's states were dropped";
     return;
   }
   const auto all = believed->track.states();
@@ -295,8 +295,8 @@ void TransformBuffer::say_stale(const FrameNode& frame, std::int64_t stamp,
     answer.message += ", by " + *believed->name + std::string(others_unused);
 }
 
-void TransformBuffer::say_disputed(const FrameNode& frame, std::int64_t stamp,
-                                   TransformAnswer& answer) const {
+void TransformBuffer::explain_disputed(const FrameNode& frame, std::int64_t stamp,
+                                       TransformAnswer& answer) const {
   const auto& found = *frame.states.disagreement_near(stamp);
   const auto& sources = found.value.sources;
   const auto& values = found.value.values;

@@ -20,21 +20,21 @@ namespace penumbra {
 struct TransformBufferOptions {
   double max_gap = 0.2;   ///< seconds between two states of a frame that may be interpolated
   double history = 10.0;  ///< seconds of states that are kept behind the newest of each frame
-  std::size_t max_states = 100'000;  ///< of each frame; the oldest are dropped beyond
-  std::size_t max_frames = 4096;     ///< frames beyond are refused
-  std::size_t max_depth = 128;       ///< transforms of a chain; longer ones are "missing"
-  bool compare_sources = true;       ///< else what other sources publish is ignored
+  std::size_t max_states = 100'000;  ///< per frame; the oldest are dropped
+  std::size_t max_frames = 4096;     ///< further frames are refused
+  std::size_t max_depth = 128;       ///< transforms of a chain; longer chains are missing
+  bool compare_sources = true;       ///< false: other sources are ignored
 };
 
-/// What became of a transform that was inserted.
+/// The result of inserting a transform.
 enum class TransformInsert {
   taken,
   bad_name,         ///< empty, or longer than max_name_length
-  no_stamp,         ///< a stamp of 0 or before: nothing that was measured has it
-  not_rigid,        ///< not finite, no rotation, or farther than 1e9 m
-  loop,             ///< the parent hangs below the child, or is it
+  no_stamp,         ///< a stamp of 0 or negative
+  not_rigid,        ///< not finite, not a rotation, or farther than 1e9 m
+  loop,             ///< the parent is the child or one of its descendants
   second_parent,    ///< the child has another parent
-  static_and_free,  ///< the child was given as static and as moving
+  static_and_free,  ///< the child was published as static and as moving
   too_many_frames,
 };
 inline constexpr std::size_t transform_inserts = 8;
@@ -45,24 +45,23 @@ struct TransformAnswer {
   TransformStatus status = TransformStatus::missing;
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();  ///< valid only if ok
   std::int64_t age = 0;    ///< nanoseconds from the stamp to the farthest used state
-  bool is_static = false;  ///< made of static transforms alone: the same at every stamp
+  bool is_static = false;  ///< composed of static transforms only
   std::string message;     ///< one line that names the frames; empty if ok
 };
 
-/// Poses of frames in their parents over time, as in TF, and the transform between any two of them
-/// at a stamp. Never extrapolates: a stamp that is not between two states of a moving frame no
-/// more than max_gap apart (or on one) is answered "stale", and so is a turn of more than a right
-/// angle between them, whose direction is not known.
+/// Poses of frames in their parents over time, as in TF, and the transform between any two frames
+/// at a stamp. Never extrapolates: a moving frame is stale at a stamp that is neither that of a
+/// state nor between two states at most max_gap apart, and between two states that differ by more
+/// than a right angle.
 ///
-/// Between two states origins move straight and rotations turn at constant speed the short way.
-/// That is exact for a frame that a joint moves, and what JointBuffer does for a floating joint.
+/// Origins are interpolated linearly, rotations by slerp. That is exact for a frame moved by one
+/// joint at constant speed, and agrees with JointBuffer for a floating joint.
 ///
-/// Where several sources publish a moving frame, one of them is believed and the others are
-/// compared with it: see SourceTracks. Two poses of one source and stamp are compared, too: a bag
-/// does not say who sent them. Near a stamp where they disagree the frame is "disputed".
+/// If several sources publish a moving frame, one is believed and the others are compared with it:
+/// see SourceTracks. Two poses of one source and stamp are compared as well, because a bag does not
+/// store the publisher. The frame is disputed near a stamp where they disagree.
 ///
-/// Frame names lose one leading "/". Each frame has one parent, the first that was given, until
-/// clear().
+/// Frame names lose one leading "/". Each frame keeps its first parent until clear().
 class TransformBuffer {
  public:
   static constexpr std::size_t max_name_length = 256;
@@ -72,40 +71,39 @@ class TransformBuffer {
   /// Throws InputError for times that are negative, not finite or above 1e9 s, and limits of 0.
   explicit TransformBuffer(const TransformBufferOptions& options = {});
 
-  /// Adds one pose of `child`. A second one of the same stamp and source replaces the first. What
-  /// is refused is counted and changes nothing. `source`: a name of the publisher.
+  /// Adds one pose of `child`; replaces one of the same stamp and source. A refused pose is counted
+  /// and changes nothing. `source`: a name of the publisher.
   TransformInsert insert(std::int64_t stamp, std::string_view parent, std::string_view child,
                          const Eigen::Isometry3d& T_parent_child, std::string_view source = {});
 
-  /// Adds a pose that holds at every stamp. A second one replaces the first.
+  /// Adds a pose for all stamps; replaces an earlier one.
   TransformInsert insert_static(std::string_view parent, std::string_view child,
                                 const Eigen::Isometry3d& T_parent_child);
 
-  /// The pose of `source` in `target` at `stamp`. Of several that occur, the first is said on the
-  /// way up from `source`, then from `target`; "missing" before all.
-  /// Allocates nothing for an answer that is ok, once the answer has been used.
+  /// Writes the pose of `source` in `target` at `stamp`. Reports the first fault on the path up
+  /// from `source`, then on the path up from `target`. Allocates nothing for an answer that is ok,
+  /// once the answer has been used.
   void at(std::int64_t stamp, std::string_view target, std::string_view source,
           TransformAnswer& answer) const;
 
-  /// Stamp of the newest state up to which every moving frame between the two is known; the
-  /// largest there is if none moves. Nothing where at() would be "missing".
+  /// Returns the newest stamp at which every moving frame between the two is known, the largest
+  /// possible stamp if none moves, or null if at() would be missing.
   [[nodiscard]] std::optional<std::int64_t> complete_until(std::string_view target,
                                                            std::string_view source) const;
 
-  /// Whether the frame was ever named.
+  /// Returns whether the frame was ever named.
   [[nodiscard]] bool knows(std::string_view frame) const;
 
-  /// Stamp of the newest state of a moving frame.
+  /// Returns the newest stamp of a moving frame.
   [[nodiscard]] std::optional<std::int64_t> newest_of(std::string_view child) const;
 
-  /// Forgets moving frames, as after a jump of the clock. Static ones, which are published once,
-  /// and the counts stay.
+  /// Removes moving frames, as after a jump of the clock. Keeps static frames and the counts.
   void clear();
 
-  /// How many transforms came to this.
+  /// Returns the number of transforms with this result.
   [[nodiscard]] std::size_t count(TransformInsert outcome) const;
-  [[nodiscard]] std::size_t refused() const;  ///< all that were not taken
-  /// One line of the last transform that was refused; empty before.
+  [[nodiscard]] std::size_t refused() const;  ///< all except `taken`
+  /// One line about the last refused transform; empty if there was none.
   [[nodiscard]] const std::string& last_refusal() const { return last_refusal_; }
 
  private:
@@ -116,13 +114,13 @@ class TransformBuffer {
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   };
   struct PoseRule {
-    /// Metres that sources may differ by at rest, as joint states and TF may.
+    /// Accepted difference of sources at rest, metres, as for joint states and TF.
     static constexpr double noise_of_poses = 0.005;
-    static constexpr double lever = 0.5;  ///< metres: a turn counts by its arc there
+    static constexpr double lever = 0.5;  ///< metres by which a rotation counts as an arc
     static constexpr bool one_value_of_a_stamp = true;
 
     [[nodiscard]] double distance(const Pose& a, const Pose& b) const;
-    [[nodiscard]] Pose interpolate(const Pose& a, double share, const Pose& b) const;
+    [[nodiscard]] Pose interpolate(const Pose& a, double fraction, const Pose& b) const;
     [[nodiscard]] double noise() const { return noise_of_poses; }
   };
   using Track = SourceTracks<Pose, PoseRule>;
@@ -133,14 +131,14 @@ class TransformBuffer {
     Pose fixed;    // if static
     Track states;  // if not
   };
-  /// Two frames and the nearest frame that both hang below.
+  /// Two frames and their nearest common ancestor.
   struct Chain {
     std::size_t target = none, source = none, meeting = none;
     std::size_t target_depth = 0, source_depth = 0;  // below the meeting frame
   };
 
   [[nodiscard]] static Pose pose_of(const Eigen::Isometry3d& T);
-  /// Makes a place for a pose; nothing if it is refused.
+  /// Returns the node of a pose, or null if it is refused.
   FrameNode* place(std::optional<std::int64_t> stamp, std::string_view parent,
                    std::string_view child, const Eigen::Isometry3d& T_parent_child,
                    TransformInsert& outcome);
@@ -160,8 +158,8 @@ class TransformBuffer {
              TransformAnswer& answer) const;
   bool interpolate(const FrameNode& frame, std::int64_t stamp, Pose& pose,
                    TransformAnswer& answer) const;
-  void say_stale(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
-  void say_disputed(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
+  void explain_stale(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
+  void explain_disputed(const FrameNode& frame, std::int64_t stamp, TransformAnswer& answer) const;
 
   std::int64_t max_gap_;  // nanoseconds
   std::int64_t history_;  // nanoseconds

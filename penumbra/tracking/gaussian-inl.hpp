@@ -9,7 +9,7 @@
 
 namespace penumbra::detail {
 
-/// Squared Mahalanobis distance r^T S^-1 r; infinite where S is not positive definite.
+/// Returns the squared Mahalanobis distance r^T S^-1 r; infinite if S is not positive definite.
 template <int n>
 [[nodiscard]] double squared_distance(const Eigen::Matrix<double, n, n>& covariance,
                                       const Eigen::Matrix<double, n, 1>& residual) {
@@ -18,15 +18,15 @@ template <int n>
   return factor.matrixL().solve(residual).squaredNorm();
 }
 
-/// A covariance without the asymmetry of rounding.
+/// Returns a covariance without the asymmetry of rounding.
 template <int n>
 [[nodiscard]] Eigen::Matrix<double, n, n> symmetric(const Eigen::Matrix<double, n, n>& matrix) {
   return (matrix + matrix.transpose()) / 2;
 }
 
-/// A Kalman filter's correction by a measurement of the first n of m components: returns what it
-/// adds to the state, and narrows the covariance in Joseph's form, which stays positive
-/// semi-definite for any gain (Bucy and Joseph, "Filtering for Stochastic Processes with
+/// Corrects a Kalman filter by a measurement of the first n of m components. Returns the change of
+/// the state, and updates the covariance in Joseph's form, which stays positive semi-definite for
+/// any gain (Bucy and Joseph, "Filtering for Stochastic Processes with
 /// Applications to Guidance", 1968; Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to
 /// Tracking and Navigation", 2001, section 5.2).
 template <int m, int n>
@@ -43,11 +43,11 @@ template <int m, int n>
   return gain * residual;
 }
 
-/// Sigmas that squares and their sums with seconds cannot take out of double's range.
+/// Range of sigmas whose squares and their products with seconds stay within double's range.
 inline constexpr double least_sigma = 1e-9;
 inline constexpr double greatest_sigma = 1e9;
 
-/// Finite, symmetric and positive definite, as a measurement's covariance must be.
+/// Returns whether a matrix is finite, symmetric and positive definite.
 template <int n>
 [[nodiscard]] bool is_covariance(const Eigen::Matrix<double, n, n>& matrix) {
   constexpr double rounding = 1e-9;  // of the largest entry: what symmetry may be off by

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::detail {
 

@@ -9,9 +9,9 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/tracking/gaussian-inl.hpp>
 #include <penumbra/tracking/pose_filter-inl.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
 #include <penumbra/tracking/track_history-inl.hpp>
 #include <penumbra/tracking/track_rules-inl.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra {
 namespace {

@@ -7,40 +7,37 @@
 #include <optional>
 #include <vector>
 
-#include <penumbra/tracking/track.hpp>
 #include <penumbra/tracking/track_rules-inl.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::detail {
 
-/// Seconds from one stamp to a later one, or to itself; right for any two stamps.
+/// Returns the seconds from one stamp to a later or equal one; exact for any two stamps.
 [[nodiscard]] inline double seconds_between(std::int64_t from, std::int64_t to) {
   return static_cast<double>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from)) /
          1e9;
 }
 
-/// The estimates of the last seconds in the order of their stamps, and what is believed after each.
+/// The estimates of the last seconds sorted by stamp, with the belief after each.
 ///
-/// What is believed is a function of the sorted estimates alone: one that comes late takes its
-/// place, and those after it are taken again, gate and all. So any order of arrival ends alike.
+/// Beliefs depend only on the sorted estimates: a late estimate is inserted and all later ones are
+/// filtered and gated again. The order of arrival does not matter.
 ///
-/// Filter: State begin(Measurement); State predicted(State, double seconds), twice by turns the
-/// same as once by the sum; double distance(State, Measurement), squared Mahalanobis;
-/// void correct(State&, Measurement). State and Measurement can be copied without allocation.
-///
-/// Memory grows to max_estimates and no further. take: O(log n) search, one step of the filter for
-/// the estimate and for each that is later. at: O(log n) search and one prediction.
+/// Filter: State begin(Measurement); State predicted(State, double seconds), additive in seconds;
+/// double distance(State, Measurement), squared Mahalanobis; void correct(State&, Measurement).
+/// State and Measurement can be copied without allocation. Memory grows to max_estimates.
 template <class Filter>
 class TrackHistory {
  public:
   using State = typename Filter::State;
   using Measurement = typename Filter::Measurement;
 
-  /// What is known of a stamp.
+  /// The belief at a stamp.
   struct Recall {
-    State state;            ///< filtered, carried on to the stamp
+    State state;            ///< filtered and predicted to the stamp
     double age = 0;         ///< seconds since the last accepted estimate
-    bool measured = false;  ///< that one is of this very stamp
-    bool lost = false;      ///< it is older than the time-out
+    bool measured = false;  ///< that estimate has exactly this stamp
+    bool lost = false;      ///< that estimate is older than the time-out
   };
 
   TrackHistory(const Filter& filter, const TrackRules& rules) : filter_(filter), rules_(rules) {}
@@ -55,7 +52,7 @@ class TrackHistory {
     return replay(place - forgotten);
   }
 
-  /// Nothing before the first estimate, or before what is remembered.
+  /// Returns null before the first remembered estimate.
   [[nodiscard]] std::optional<Recall> at(std::int64_t stamp) const {
     const std::size_t place = place_of(stamp);
     if (place == 0) return std::nullopt;
@@ -71,12 +68,12 @@ class TrackHistory {
   }
 
  private:
-  /// After an estimate, all as of its stamp.
+  /// The belief after an estimate, at its stamp.
   struct Belief {
     State state;
     std::int64_t accepted = 0;  ///< stamp of the last accepted estimate
-    std::size_t outliers = 0;   ///< in a row until now, consistent with each other
-    State candidate;            ///< the track that they would make
+    std::size_t outliers = 0;   ///< consecutive and consistent with each other
+    State candidate;            ///< the track that follows the outliers
   };
 
   struct Entry {
@@ -93,7 +90,7 @@ class TrackHistory {
     return stamp < newest && seconds_between(stamp, newest) > rules_.memory;
   }
 
-  /// How many entries are of this stamp or earlier.
+  /// Returns the number of entries with this stamp or an earlier one.
   [[nodiscard]] std::size_t place_of(std::int64_t stamp) const {
     const auto end = order_.begin() + static_cast<std::ptrdiff_t>(used_);
     const auto later = [this](std::int64_t s, std::size_t slot) {
@@ -103,14 +100,14 @@ class TrackHistory {
                                     order_.begin());
   }
 
-  /// An estimate is taken up from the entry before it, unless the first of all is still here.
+  /// An estimate needs an entry before it to start from, unless the very first is remembered.
   [[nodiscard]] bool has_room(std::size_t place) const {
     const bool full = used_ == rules_.max_estimates;
     return place > (full ? 1U : 0U) || (!forgot_ && !full);
   }
 
-  /// Drops what no estimate can come before any more, but for the last such entry: later ones
-  /// start from it. Returns how many it dropped.
+  /// Drops entries beyond the memory except the last of them, which later ones start from. Returns
+  /// the number of dropped entries.
   std::size_t forget(std::int64_t stamp) {
     const std::int64_t newest = used_ == 0 ? stamp : std::max(stamp, entry(used_ - 1).stamp);
     std::size_t count = used_ == rules_.max_estimates ? 1 : 0;
@@ -125,7 +122,7 @@ class TrackHistory {
     return count;
   }
 
-  /// Places behind those in use name the entries that are free.
+  /// `order_` beyond `used_` lists free entries.
   void insert(std::size_t place, std::int64_t stamp, const Measurement& measurement) {
     if (used_ == order_.size()) {
       order_.push_back(entries_.size());
@@ -155,13 +152,14 @@ class TrackHistory {
     const double dt = seconds_between(before.stamp, now.stamp);
     now.belief.state = filter_.predicted(before.belief.state, dt);
     now.belief.accepted = before.belief.accepted;
-    if (!inside_gate(now.belief.state, now.measurement)) return doubt(before.belief, dt, now);
-    take_over(now);
+    if (!inside_gate(now.belief.state, now.measurement))
+      return take_outlier(before.belief, dt, now);
+    accept(now);
     return Outcome::accepted;
   }
 
-  /// A track that was lost begins anew: its velocity is too old to be carried on.
-  void take_over(Entry& now) {
+  /// Restarts a lost track, whose velocity is outdated.
+  void accept(Entry& now) {
     Belief& belief = now.belief;
     if (seconds_between(belief.accepted, now.stamp) > rules_.timeout) {
       belief.state = filter_.begin(now.measurement);
@@ -172,8 +170,8 @@ class TrackHistory {
     belief.outliers = 0;
   }
 
-  /// An outlier: the first of a row, or one more of it, or the one that makes a new track.
-  Outcome doubt(const Belief& before, double dt, Entry& now) {
+  /// Counts an outlier; enough consistent ones make a new track.
+  Outcome take_outlier(const Belief& before, double dt, Entry& now) {
     Belief& belief = now.belief;
     const bool in_row = before.outliers > 0 && dt <= rules_.timeout;
     if (in_row) belief.candidate = filter_.predicted(before.candidate, dt);
@@ -191,7 +189,7 @@ class TrackHistory {
     return Outcome::accepted;
   }
 
-  /// False where the distance is no number.
+  /// Returns false for a distance of NaN.
   [[nodiscard]] bool inside_gate(const State& state, const Measurement& measurement) const {
     return filter_.distance(state, measurement) <= rules_.gate;
   }
@@ -201,10 +199,10 @@ class TrackHistory {
   std::vector<Entry> entries_;
   std::vector<std::size_t> order_;  ///< of the entries by stamp
   std::size_t used_ = 0;            ///< entries in use
-  bool forgot_ = false;             ///< the first estimate is no longer among them
+  bool forgot_ = false;             ///< the very first estimate was dropped
 };
 
-/// `held`: the target is taken to stay where it was.
+/// `held`: the target is assumed not to move.
 template <class Recall>
 [[nodiscard]] Source source_of(const Recall& recall, bool held) {
   if (recall.lost) return Source::lost;

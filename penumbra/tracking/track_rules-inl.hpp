@@ -9,7 +9,7 @@
 
 namespace penumbra::detail {
 
-/// What trackers of all kinds have in common.
+/// The rules of all trackers.
 struct TrackRules {
   double timeout = 0;             ///< seconds
   double gate = 0;                ///< squared Mahalanobis distance
@@ -23,20 +23,19 @@ struct TrackRules {
   return worst.value_or(Verdict::visible);
 }
 
-/// The rules of a tracker's configuration, whose fields have the same names.
+/// Returns the rules in a tracker's configuration, whose fields have the same names.
 template <class Config>
 TrackRules rules_of(const Config& config) {
   return {config.timeout, config.gate,          config.gate_patience,
           config.memory,  config.max_estimates, worst_of(config.worst)};
 }
 
-/// Throws InputError, as the functions below do: "NAME: FIELD is VALUE; what would be right".
+/// Throw InputError: "NAME: FIELD is VALUE; what is expected".
 void check_rules(std::string_view config, const TrackRules& rules);
 void require_positive(std::string_view config, std::string_view field, double value);
 void require_not_negative(std::string_view config, std::string_view field, double value);
 
-/// Whether estimates are taken whose target was judged so. Verdicts that say nothing of the target
-/// (unknown, out_of_view) are worse than all.
+/// Returns whether estimates with this verdict are accepted. `unknown` and `out_of_view` never are.
 [[nodiscard]] bool good_enough(Verdict verdict, Verdict worst);
 
 }  // namespace penumbra::detail

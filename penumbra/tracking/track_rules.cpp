@@ -4,6 +4,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/tracking/gaussian-inl.hpp>
 #include <penumbra/tracking/track_rules-inl.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::detail {
 namespace {
@@ -16,7 +17,7 @@ template <class Value>
   throw InputError(message.str());
 }
 
-bool says_something(Verdict verdict) {
+bool is_known_verdict(Verdict verdict) {
   return verdict == Verdict::visible || verdict == Verdict::partial || verdict == Verdict::hidden;
 }
 
@@ -44,14 +45,48 @@ void check_rules(std::string_view config, const TrackRules& rules) {
   if (rules.max_estimates < 2) {
     refuse_field(config, "max_estimates", rules.max_estimates, "it must be at least 2");
   }
-  if (!says_something(rules.worst)) {
+  if (!is_known_verdict(rules.worst)) {
     refuse_field(config, "worst", rules.worst == Verdict::unknown ? "unknown" : "out_of_view",
                  "it must be visible, partial or hidden");
   }
 }
 
 bool good_enough(Verdict verdict, Verdict worst) {
-  return says_something(verdict) && verdict <= worst;
+  return is_known_verdict(verdict) && verdict <= worst;
 }
 
 }  // namespace penumbra::detail
+
+namespace penumbra {
+
+std::string_view to_string(Source source) {
+  switch (source) {
+    case Source::measured:
+      return "measured";
+    case Source::predicted:
+      return "predicted";
+    case Source::held:
+      return "held";
+    case Source::lost:
+      break;
+  }
+  return "lost";
+}
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::accepted:
+      return "accepted";
+    case Outcome::refused_verdict:
+      return "refused_verdict";
+    case Outcome::refused_gate:
+      return "refused_gate";
+    case Outcome::refused_late:
+      return "refused_late";
+    case Outcome::refused_invalid:
+      break;
+  }
+  return "refused_invalid";
+}
+
+}  // namespace penumbra

@@ -11,27 +11,27 @@
 namespace penumbra::tuning {
 namespace {
 
-constexpr int stride = 2;                 // of the pixels that are looked at, both ways
+constexpr int stride = 2;                 // pixels, in both directions
 constexpr double nearby = 0.25;           // metres from the robot, and from the link's own box
-constexpr double attached = 0.08;         // metres from the link's box: one voxel of a piece is
-constexpr int least_views = 3;            // frames that see a voxel occupied
-constexpr double consistent = 0.6;        // of the frames that see a voxel: it is occupied
-constexpr double doubt = 2.0;             // frames by which few sightings count less
+constexpr double attached = 0.08;         // metres from the link's box to a piece
+constexpr int least_views = 3;            // frames in which a voxel is occupied
+constexpr double consistent = 0.6;        // of the frames in which a voxel is visible
+constexpr double prior_frames = 2.0;      // empty frames added to each score
 constexpr double same_surface = 0.5;      // of e(z)
-constexpr std::size_t least_voxels = 20;  // of a piece, not counting what fringe may explain
-constexpr int grow = 3;                   // voxels around these
+constexpr std::size_t least_voxels = 20;  // of a piece, without those that may be fringe
+constexpr int grow = 3;                   // voxels around a piece
 
 using Groups = std::vector<std::vector<std::size_t>>;
-constexpr std::size_t scenery = 0;  // the group of the root, which does not move
+constexpr std::size_t scenery = 0;  // the root's group, which does not move
 constexpr std::size_t unexplained = ~std::size_t{0};
 
-/// A measured point that neither the robot nor the background explains.
+/// A measured point that belongs neither to the robot nor to the background.
 struct Point {
   Eigen::Vector3d camera;  // metres, optical frame
   int u = 0, v = 0;
   std::size_t frame = 0;
-  bool is_certain = false;  // too far from the outline for fringe, or before the robot
-  std::size_t group = 0;    // that it moves with
+  bool is_certain = false;  // not fringe: far from the outline, or in front of the robot
+  std::size_t group = 0;    // moves with the point
   Voxel voxel = 0;          // in that group's frame
 };
 
@@ -64,7 +64,7 @@ void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labe
   }
 }
 
-/// Links that did not move relative to each other, the first of which gives the frame.
+/// Returns groups of links that do not move relative to each other; the first link is the frame.
 Groups rigid_groups(const Scene& scene) {
   Groups groups;
   const auto moves = [&](std::size_t a, std::size_t b) {
@@ -92,7 +92,7 @@ struct NearLink {
   double distance;  // metres from the link's box, or from its origin if it has none
 };
 
-/// The link of the group that is nearest to a voxel of the group's frame.
+/// Returns the link of the group that is nearest to a voxel in the group's frame.
 NearLink nearest_link(const Scene& scene, const std::vector<std::size_t>& group, Voxel voxel) {
   const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_camera_link;
   const Eigen::Vector3d camera = links[group.front()] * centre_of(voxel);
@@ -106,7 +106,7 @@ NearLink nearest_link(const Scene& scene, const std::vector<std::size_t>& group,
   return nearest;
 }
 
-/// Scores voxels in the frame of one group: occupied in how many of the frames that see them.
+/// Scores voxels in the frame of one group by the number of frames in which they are occupied.
 class Grid {
  public:
   Grid(const Scene& scene, const std::vector<std::size_t>& group) : scene_(scene), group_(group) {}
@@ -116,7 +116,7 @@ class Grid {
   }
   void add(const Point& point) { hits_[voxel_of(point)] |= 1U << point.frame; }
 
-  /// To be called once, after all points were added. Scenery counts wherever it is.
+  /// Returns the scores after all points were added. Scenery may be far from the links.
   [[nodiscard]] std::unordered_map<Voxel, double> scores(bool is_scenery) const {
     std::unordered_map<Voxel, double> scores;
     for (const auto& [voxel, hits] : hits_)
@@ -144,7 +144,7 @@ class Grid {
     }
     const int seen = occupied + empty;
     if (occupied < least_views || occupied < consistent * seen) return 0.0;
-    return occupied / (seen + doubt);
+    return occupied / (seen + prior_frames);
   }
 
   [[nodiscard]] float depth_at(const Image<float>& depth, const Eigen::Vector3d& point) const {
@@ -162,7 +162,7 @@ class Grid {
 };
 static_assert(TuningFrames::most <= 32);
 
-/// Each point's score in the frame of each group.
+/// Returns each point's score in the frame of each group.
 std::vector<std::vector<double>> scores_of(const Scene& scene, const Groups& groups,
                                            const std::vector<Point>& points) {
   std::vector<std::vector<double>> scores;
@@ -176,8 +176,8 @@ std::vector<std::vector<double>> scores_of(const Scene& scene, const Groups& gro
   return scores;
 }
 
-/// Gives each point to a group: to the scenery if no link explains it better, else to the link that
-/// explains most of the points that are left; of equal ones to the last, as tools are at the end.
+/// Assigns each point to a group: to the scenery unless a link explains it better, else to the link
+/// that explains most of the remaining points. Of equal links the last wins (a tool is at the end).
 void assign(const Scene& scene, const Groups& groups, std::vector<Point>& points) {
   const auto scores = scores_of(scene, groups, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -203,7 +203,7 @@ void assign(const Scene& scene, const Groups& groups, std::vector<Point>& points
   }
 }
 
-/// The part that the pieces are, in the frame of the group's link that is nearest to them.
+/// Returns the part made of the pieces, in the frame of the nearest link of the group.
 ExtraPart make_part(const Scene& scene, const std::vector<std::size_t>& group,
                     const std::vector<VoxelSet>& pieces) {
   const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_camera_link;
@@ -236,7 +236,7 @@ ExtraSearch find_extras(const Scene& scene, const LabelRule& rule) {
   ExtraSearch search;
   search.pixels.assign(scene.frames.size(),
                        Image<std::uint8_t>(scene.camera.width(), scene.camera.height()));
-  LabelRule used = rule;  // one whose reach is not too small
+  LabelRule used = rule;  // with at least the default reach
   used.fringe_reach = std::max(rule.fringe_reach, LabelRule().fringe_reach);
   Labeller labeller(scene, used);
   std::vector<Point> points;

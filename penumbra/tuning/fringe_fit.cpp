@@ -10,19 +10,19 @@ namespace penumbra::tuning {
 namespace {
 
 constexpr double may_stay =
-    0.0005;  // share of the arm's points, more than the largest reach leaves
+    0.0005;  // fraction of the arm's points left, beyond that of the largest reach
 constexpr int candidates = FringeFit::farthest / FringeFit::step + 1;
 
 struct Candidate {
   int u, v;
 };
 
-/// Pixels past the outline that show the robot's depth, frame by frame, and what they amount to.
+/// Pixels outside the outline that show the robot's depth, per frame and in total.
 struct Fringe {
   std::vector<std::vector<Candidate>> pixels;
   std::array<std::size_t, FringeFit::farthest + 1> by_distance{};
   std::size_t found = 0, checked = 0;
-  std::size_t robot = 0;  // pixels on which the sensor sees it
+  std::size_t robot = 0;  // pixels where the sensor sees it
 };
 
 void add_frame(const Scene& scene, const LabelView& labels, const TuningFrame& frame,
@@ -62,15 +62,15 @@ Fringe find_fringe(const Scene& scene, LabelRule rule, const ExtraSearch& extras
   return fringe;
 }
 
-double distance_of(const Fringe& fringe, double share) {
-  const double wanted = share * static_cast<double>(fringe.found);
+double distance_of(const Fringe& fringe, double quantile) {
+  const double wanted = quantile * static_cast<double>(fringe.found);
   std::size_t sum = 0;
   for (std::size_t i = 0; i < fringe.by_distance.size(); ++i)
     if (static_cast<double>(sum += fringe.by_distance[i]) >= wanted) return static_cast<double>(i);
   return FringeFit::farthest;
 }
 
-/// The share of the arm's points that the rule leaves clear.
+/// Returns the fraction of the arm's points that the rule leaves clear.
 double left_over(const Scene& scene, const LabelRule& rule, const Fringe& fringe) {
   Labeller labeller(scene, rule);
   std::size_t left = 0;
@@ -101,10 +101,11 @@ void show(const Scene& scene, const LabelRule& rule, const Fringe& fringe, Fring
 FringeFit fit_fringe(const Scene& scene, const LabelRule& rule, const ExtraSearch& extras) {
   const Fringe fringe = find_fringe(scene, rule, extras);
   if (fringe.checked < least_pixels)
-    throw InputError("only " + std::to_string(fringe.checked) +
-                     " pixels beside the arm are seen without it in another frame; tune needs " +
-                     std::to_string(least_pixels) +
-                     ": record the arm while it moves farther through free space");
+    throw InputError(
+        "only " + std::to_string(fringe.checked) +
+        " pixels next to the arm are visible without it in another frame; tune needs " +
+        std::to_string(least_pixels) +
+        ": record the arm while it moves farther through free space");
   FringeFit fit;
   fit.checked = fringe.checked;
   fit.found = fringe.found;
@@ -118,7 +119,7 @@ FringeFit fit_fringe(const Scene& scene, const LabelRule& rule, const ExtraSearc
   }
   const double allowed = fit.left_over.back() + may_stay;
   const auto first = std::find_if(fit.left_over.begin(), fit.left_over.end(),
-                                  [allowed](double share) { return share < allowed; });
+                                  [allowed](double fraction) { return fraction < allowed; });
   fit.reach = static_cast<int>(first - fit.left_over.begin()) * FringeFit::step;
   tried.fringe_reach = fit.reach;
   show(scene, tried, fringe, fit);

@@ -7,7 +7,7 @@
 namespace penumbra {
 namespace {
 
-constexpr double still = 1e-3;  // of a pose; links that stand still may touch what they stand on
+constexpr double still = 1e-3;  // of a pose; links that do not move may touch their support
 constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
 constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
 
@@ -25,7 +25,7 @@ void MissingParts::add(const FrameReport& report) {
   measure(report);
 }
 
-/// Looks at every fourth pixel of every fourth row: all of them would take sixteen times as long.
+/// Reads every fourth pixel of every fourth row to save time.
 void MissingParts::measure(const FrameReport& report) {
   constexpr int step = 4;
   const auto label = [&](int u, int v) { return report.labels(step * u, step * v); };

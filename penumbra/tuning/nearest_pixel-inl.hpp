@@ -17,9 +17,9 @@ class NearestPixels {
   struct Pixel {
     std::int16_t u = -1, v = -1;
   };
-  /// In pixels; infinite if none is marked.
+  /// Returns the distance in pixels; infinite if no pixel is marked.
   [[nodiscard]] double distance(int u, int v) const;
-  /// Some pixel must be marked.
+  /// Requires a marked pixel.
   [[nodiscard]] Pixel at(int u, int v) const { return nearest_(u, v); }
 
  private:

@@ -12,16 +12,16 @@
 
 namespace penumbra::tuning {
 
-inline constexpr std::size_t least_pixels = 500;  // of each measurement
+inline constexpr std::size_t least_pixels = 500;  // for each measurement
 
-/// What the stages share.
+/// The input of all stages.
 struct Scene {
   std::span<const TuningFrame> frames;
   const Intrinsics& camera;
   const Robot& robot;
-  Image<float> background;  // metres: each pixel's median without the robot; 0: not known
+  Image<float> background;  // metres: median of each pixel without the robot; 0: unknown
 
-  /// Whether something stands at this depth that is not there without the robot.
+  /// Returns whether the depth is nearer than the background.
   [[nodiscard]] bool is_new(int u, int v, float z, const Tolerance& tolerance) const {
     const float far = background(u, v);
     return far > 0.0f && z > 0.0f && z < far - LabelRule::fringe_drift * tolerance.at(z);
@@ -44,14 +44,14 @@ class Labeller {
   Classifier classifier_;
 };
 
-/// The pixels of a frame on which the sensor sees the robot.
+/// Returns the pixels where the sensor sees the robot.
 [[nodiscard]] NearestPixels seen_robot(const LabelView& labels);
 
 [[nodiscard]] ToleranceFit fit_tolerance(const Scene& scene, const LabelRule& current);
 
 struct ExtraSearch {
   std::vector<ExtraPart> parts;
-  std::vector<Image<std::uint8_t>> pixels;  // of each frame: where a part was seen
+  std::vector<Image<std::uint8_t>> pixels;  // per frame: 1 where a part was seen
 };
 [[nodiscard]] ExtraSearch find_extras(const Scene& scene, const LabelRule& rule);
 

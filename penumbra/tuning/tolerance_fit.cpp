@@ -13,16 +13,16 @@ constexpr double inside = 12.0;             // pixels from any edge of the robot
 constexpr float edge = 0.02f;               // metres: a larger step of virtual depth is an edge
 constexpr double bin_width = 0.1;           // metres of virtual depth
 constexpr std::size_t least_in_bin = 1000;  // pixels, for a quantile of 1 in 1000
-constexpr double outside_share = 0.001;     // of residuals that may lie beyond e(z)
-constexpr double object = 2.0;     // times the current e(z): farther off is another surface
+constexpr double outside_share = 0.001;     // fraction of residuals beyond e(z)
+constexpr double object = 2.0;     // times the current e(z): larger residuals are another surface
 constexpr double least_a = 0.005;  // metres
 constexpr double round_to = 0.001;
 
 struct Residual {
-  float z, nearer;  // metres: virtual depth, and how far the measurement lies before it
+  float z, nearer;  // metres: virtual depth, and virtual minus measured depth
 };
 
-/// Edges of the robot, and objects before it.
+/// Returns edges of the robot and of objects in front of it.
 NearestPixels edges_of(const Image<float>& depth, const LabelView& labels) {
   Image<std::uint8_t> edges(depth.width(), depth.height());
   for (int v = 0; v < depth.height(); ++v)
@@ -60,7 +60,7 @@ float quantile(std::vector<float>& values, double share) {
   return *at;
 }
 
-/// Fits a + c z^2 to each bin's quantile, each bin counting the same.
+/// Fits a + c z^2 to the bins' quantiles with equal weights.
 Tolerance fit_curve(const std::vector<Residual>& residuals) {
   std::map<int, std::vector<float>> bins;
   for (const Residual& residual : residuals)
@@ -84,7 +84,7 @@ Tolerance fit_curve(const std::vector<Residual>& residuals) {
   return fit;
 }
 
-/// Scales the curve so that it holds the wanted share of all residuals.
+/// Scales the curve so that it contains the required fraction of all residuals.
 Tolerance scaled(const Tolerance& curve, const std::vector<Residual>& residuals) {
   std::vector<float> ratios;
   ratios.reserve(residuals.size());
@@ -115,7 +115,7 @@ ToleranceFit fit_tolerance(const Scene& scene, const LabelRule& current) {
   const std::vector<Residual> residuals = residuals_of(scene, current);
   if (residuals.size() < least_pixels)
     throw InputError("only " + std::to_string(residuals.size()) +
-                     " pixels show the robot's surface where the URDF says; tune needs " +
+                     " pixels show the robot's surface at the URDF's depth; tune needs " +
                      std::to_string(least_pixels) + ": check joints, camera pose and depth first");
   ToleranceFit fit;
   fit.pixels = residuals.size();

@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-constexpr double lever = 0.1;           // metres: what a rotation by 1 rad counts
+constexpr double lever = 0.1;           // metres for a rotation of 1 rad
 constexpr double still_camera = 0.002;  // metres
 
 double difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -52,7 +52,7 @@ void TuningFrames::add(const FrameReport& report) {
   if (difference(*T_root_camera_, *report.T_root_camera) > still_camera)
     throw InputError("frame " + std::to_string(report.index) +
                      ": the camera moves relative to the robot's root; tune needs a camera that "
-                     "stands still beside the robot");
+                     "does not move relative to it");
   TuningFrame frame{.index = report.index, .depth = {}, .virtual_depth = {}, .T_camera_link = {}};
   const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
   for (const Eigen::Isometry3d& T_root_link : report.T_root_link)
@@ -90,7 +90,7 @@ bool TuningFrames::differs(const TuningFrame& frame, std::span<const TuningFrame
   });
 }
 
-/// Doubles the motion that is asked between kept frames.
+/// Doubles the motion required between kept frames.
 void TuningFrames::thin() {
   motion_ *= 2.0;
   std::vector<TuningFrame> kept;

@@ -11,21 +11,21 @@
 
 namespace penumbra::tuning {
 
-/// A cube of a grid, by its three numbers in one.
+/// A cell of a grid: its three indices in one number.
 using Voxel = std::uint64_t;
 inline constexpr double voxel_size = 0.01;  // metres
 
 [[nodiscard]] Voxel voxel_at(const Eigen::Vector3d& point);
 [[nodiscard]] Eigen::Vector3d centre_of(Voxel voxel);
 
-/// Voxels, and whether they are certain.
+/// Voxels, with true for certain ones.
 using VoxelSet = std::unordered_map<Voxel, bool>;
 
-/// Connected pieces (of 26 neighbours) of at least `least` certain voxels, each with the voxels
-/// that lie at most `reach` from one of these.
+/// Returns connected pieces (26 neighbours) of at least `least` certain voxels, each with all
+/// voxels within `reach` of them.
 [[nodiscard]] std::vector<VoxelSet> pieces_of(const VoxelSet& voxels, std::size_t least, int reach);
 
-/// Adds the faces between a voxel and an empty one.
+/// Adds the faces between voxels and empty cells.
 void add_boundary(const VoxelSet& voxels, TriangleMesh& mesh);
 
 }  // namespace penumbra::tuning

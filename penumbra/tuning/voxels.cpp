@@ -26,7 +26,7 @@ Numbers numbers_of(Voxel voxel) {
   return numbers;
 }
 
-/// Calls f for every voxel at most `reach` away in each direction, the voxel itself too.
+/// Calls f for every voxel within `reach` in each direction, including the voxel itself.
 template <typename F>
 void for_each_near(Voxel voxel, int reach, F&& f) {
   const Numbers numbers = numbers_of(voxel);
@@ -35,7 +35,7 @@ void for_each_near(Voxel voxel, int reach, F&& f) {
       for (int z = -reach; z <= reach; ++z) f(voxel_of(numbers + Numbers(x, y, z)));
 }
 
-/// The certain voxels that hang together with `first`; takes them out of `left`.
+/// Returns the certain voxels connected with `first`; removes them from `left`.
 std::vector<Voxel> take_piece(Voxel first, VoxelSet& left) {
   std::vector<Voxel> piece{first};
   left.erase(first);
@@ -49,7 +49,7 @@ std::vector<Voxel> take_piece(Voxel first, VoxelSet& left) {
   return piece;
 }
 
-/// The four corners of a voxel's face, counter-clockwise as seen from outside.
+/// Returns the corners of a voxel's face, counter-clockwise seen from outside.
 std::array<Numbers, 4> face_of(const Numbers& voxel, int axis, int side) {
   Numbers u = Numbers::Zero(), v = Numbers::Zero(), corner = voxel;
   u[(axis + 1) % 3] = 1;

@@ -6,7 +6,7 @@
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/time/pose_history.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 struct Arm {
   void wait();

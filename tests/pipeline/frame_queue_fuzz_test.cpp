@@ -81,10 +81,6 @@ class Model {
         continue;
       }
       frames_.erase(key);
-      if (!is_known && options_.drop_without_pose) {
-        drop(key, DropReason::no_pose);
-        continue;
-      }
       if (!every) supersede(keys, key);
       last_ = std::max(last_.value_or(stamp), stamp);
       return Given{key, now - arrived, is_known};
@@ -194,7 +190,6 @@ class Fuzz {
     options.time_offset = 1e-3 * (static_cast<double>(below(60)) - 30.0);
     options.max_wait = 1e-3 * static_cast<double>(below(150));
     options.max_frames = 1 + below(8);
-    options.drop_without_pose = below(3) == 0;
     return options;
   }
 

@@ -75,19 +75,6 @@ TEST_P(EveryPolicy, WaitsForTheStatesAroundTheStamp) {
   EXPECT_EQ(queue_->counts().waiting, 0U);
 }
 
-TEST_P(EveryPolicy, GivesUpInTime) {
-  make({.policy = GetParam(), .max_wait = 0.05});
-  image(1000, 1005);
-  joint(900);
-  EXPECT_EQ(next(1054), -1);
-  ASSERT_EQ(next(1055), 1000);
-  EXPECT_EQ(frame_.pose.status, FrameStatus::stale_joints);
-  EXPECT_NE(frame_.pose.message.find("'slide'"), std::string::npos);
-  EXPECT_EQ(frame_.waited, 50 * ms);
-  EXPECT_EQ(queue_->counts().without_pose, 1U);
-  EXPECT_TRUE(dropped_.empty());
-}
-
 TEST_P(EveryPolicy, DisagreementIsKnownAtOnce) {
   make({.policy = GetParam(), .poses = {.source = PoseSource::both}});
   joint(1000);

@@ -156,13 +156,6 @@ TEST_F(FrameStatusTest, DepthWithoutAnyMeasurement) {
   EXPECT_FALSE(process(frame).nothing_measured) << "there was no image";
 }
 
-TEST_F(FrameStatusTest, FramesAreNumbered) {
-  EXPECT_EQ(process(good()).index, 1U);
-  Frame frame = good();
-  frame.index = 40;
-  EXPECT_EQ(process(frame).index, 40U);
-}
-
 TEST(FrameStatusOfRobot, ALinkWithoutItsMeshIsTold) {
   const std::string more = R"(<link name="lost"><collision><geometry>
       <mesh filename="nowhere.stl"/></geometry></collision></link>

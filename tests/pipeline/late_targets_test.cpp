@@ -35,11 +35,13 @@ TEST_F(LateTargetsTest, SayWhatTargetsInTimeDo) {
   pose.translation() = Eigen::Vector3d(0.5, 0.0, 1.6);
   Image<std::uint8_t> mask(depth_.width(), depth_.height());
   for (int u = 96; u < 112; ++u) mask(u, 50) = mask(u, 51) = 1;
-  std::vector<Target> targets{region("box", PixelBox{98, 46, 22, 9}),
-                              region("mask", PixelMask{mask.view()}),
-                              {.name = "keypoint", .shape = KeypointTarget{.pixel = {104, 56}}},
-                              {.name = "point", .shape = PointTarget{{0.5, 0.0, 1.6}, 0.03, ""}},
-                              {.name = "solid", .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, "base"}}};
+  std::vector<Target> targets{
+      region("box", PixelBox{98, 46, 22, 9}),
+      region("mask", PixelMask{mask.view()}),
+      {.name = "keypoint", .shape = KeypointTarget{.pixel = {104, 56}}},
+      {.name = "point", .shape = PointTarget{{0.5, 0.0, 1.6}, 0.03, ReferenceFrame::root()}},
+      {.name = "solid",
+       .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, ReferenceFrame::of_link("base")}}};
   targets[2].handling = PointTrackerConfig{};
   targets[4].handling = PoseTrackerConfig{};
   constexpr int frames = 12, delay = 2;
@@ -86,17 +88,6 @@ TEST_F(LateTargetsTest, FramesBeyondTheSpanAreGone) {
   const FrameReport& report = frame_at(2000 * ms, 0.0, targets);
   EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
-}
-
-TEST_F(LateTargetsTest, AFrameWithoutDepthStillShowsWhatTheRobotHides) {
-  positions_[0] = -0.3;
-  pipeline_.process({.stamp = 0, .depth = {}, .joints = positions_});
-  Target target = late("target", 0);
-  std::get<RegionTarget>(target.shape).expected_depth = 2.0;
-  const TargetReport& report = frame_at(100 * ms, 0.0, {&target, 1}).targets[0];
-  EXPECT_EQ(report.verdict, Verdict::hidden) << report.reason;
-  target.stamp = 100 * ms;
-  EXPECT_EQ(frame_at(200 * ms, 0.0, {&target, 1}).targets[0].judgement->clear, 1.0);
 }
 
 /// Hysteresis is of the order of stamps: one that goes back neither sees nor changes it.

@@ -125,7 +125,7 @@ FisheyeCounts judge_around_fisheye(double focal) {
                   {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = {&target, 1}})
               .targets[0];
       SCOPED_TRACE(testing::Message() << angle << " about " << about << ": " << pixels);
-      const bool is_undrawn = report.reason.find("cannot be drawn") != std::string_view::npos;
+      const bool is_undrawn = report.reason.find("cannot be rendered") != std::string_view::npos;
       if (pixels > 0 && angle + std::asin(inner) > covered) {
         EXPECT_NE(report.verdict, Verdict::visible);
         EXPECT_NE(report.verdict, Verdict::out_of_view);
@@ -245,7 +245,7 @@ TEST_F(RectifiedTargetsTest, AreInViewWhereTheyAreInTheRawImage) {
         const Target target{.name = "point", .shape = PointTarget{position, 0.002, {}}};
         const TargetReport report = judge(by, target);  // the raw image's corners are not covered
         return report.verdict != Verdict::out_of_view &&
-               report.reason.find("cannot be drawn") == std::string_view::npos;
+               report.reason.find("cannot be rendered") == std::string_view::npos;
       };
       const bool in_raw = is_seen(raw, 1.0);
       if (is_seen(raw, 0.98) != is_seen(raw, 1.02)) continue;  // within two pixels of the edge

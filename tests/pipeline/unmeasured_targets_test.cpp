@@ -22,7 +22,7 @@ TEST_F(TargetsTest, ADepthImageWithoutMeasurementIsNone) {
       {.name = "region",
        .shape = RegionTarget{beside_slab},
        .handling = PoseTrackerConfig{},
-       .estimate = TargetEstimate{.value = pose, .frame = ""}},
+       .estimate = TargetEstimate{.value = pose, .frame = ReferenceFrame::root()}},
       {.name = "behind", .shape = RegionTarget{behind_slab, Extent::amodal, 2.0}}};
   depth_ = Image<float>(depth_.width(), depth_.height(), 0.0F);
   const FrameReport& report = process(1 * ms, targets);
@@ -88,7 +88,7 @@ TEST_F(TargetsWithinARange, NoEstimateIsTakenWhereNothingIsMeasured) {
   Target target{.name = "far",
                 .shape = RegionTarget{beside_slab},
                 .handling = PoseTrackerConfig{},
-                .estimate = TargetEstimate{.value = pose, .frame = ""}};
+                .estimate = TargetEstimate{.value = pose, .frame = ReferenceFrame::root()}};
   const TargetReport far = judge(1 * ms, target);
   EXPECT_EQ(far.verdict, Verdict::visible);
   EXPECT_FALSE(far.point);

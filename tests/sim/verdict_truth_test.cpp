@@ -256,13 +256,15 @@ class Bench {
                                                                   : cuboid(object.solid.size));
       }
       const Eigen::Isometry3d& pose = object.T_base_object;
-      targets.push_back({.name = solid.names[0], .shape = MeshTarget{solid.mesh, pose, ""}});
+      targets.push_back(
+          {.name = solid.names[0], .shape = MeshTarget{solid.mesh, pose, ReferenceFrame::root()}});
       if (is_ball)
         targets.push_back(
-            {.name = solid.names[1], .shape = PointTarget{pose.translation(), radius, ""}});
+            {.name = solid.names[1],
+             .shape = PointTarget{pose.translation(), radius, ReferenceFrame::root()}});
       else
-        targets.push_back(
-            {.name = solid.names[1], .shape = BoxTarget{pose, object.solid.size, ""}});
+        targets.push_back({.name = solid.names[1],
+                           .shape = BoxTarget{pose, object.solid.size, ReferenceFrame::root()}});
     }
     return targets;
   }

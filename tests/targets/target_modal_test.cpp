@@ -143,14 +143,6 @@ TEST_F(ModalTargets, FirstSeenBesideTheRobotAreUnknown) {
   EXPECT_EQ(see(60, 100).verdict, Verdict::visible) << "all of it is seen";
 }
 
-TEST_F(ModalTargets, ThatAMaskShowsFarFromTheRobotStayHiddenHoweverLong) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  for (int i = 0; i < many_frames; ++i)
-    ASSERT_NE(see(20, 45, {}, wide_gap).verdict, Verdict::visible) << i;
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  EXPECT_EQ(see(20, 40).verdict, Verdict::partial) << "the last whole extent is remembered";
-}
-
 /// Masks of 39 to 41 columns are the same size; a target that moves away from the camera is not.
 TEST_F(ModalTargets, KeepTheirAverageSize) {
   depth = behind;
@@ -184,31 +176,6 @@ TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
   EXPECT_NEAR(half.clear, 0.5, share_rounding);
 }
 
-TEST_F(ModalTargets, ThatLeaveTheImageAreOutOfView) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  TargetFrame frame;
-  TargetView target = box_target("cup", {-50, 40, 40, 20}, Extent::modal);
-  judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
-  target.motion = Eigen::Vector2d(-70, 0);
-  judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
-  target.region = PixelBox{-32, 40, 40, 20};
-  target.motion = Eigen::Vector2d(-52, 0);
-  target.thresholds.min_inside = 0.3;
-  judge.begin(frame.images());
-  EXPECT_EQ(judge.judge(target).verdict, Verdict::out_of_view);
-}
-
-/// What is left of the extent in the image, 8 columns, is less than the mask shows.
-TEST_F(ModalTargets, AreUnknownWhereWrongMotionLeadsOutOfTheImage) {
-  EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  EXPECT_EQ(see(20, 33, -52.0, 3).verdict, Verdict::unknown) << "the mask is not at the border";
-  judge.forget("cup");
-  EXPECT_EQ(see(5, 100).verdict, Verdict::visible);
-  EXPECT_EQ(see(0, 15, -37.0, 3).verdict, Verdict::unknown) << "the mask is larger than that";
-}
-
 /// It comes into the image, of which its border shows 10 of 40 columns, and goes behind the robot.
 TEST_F(ModalTargets, OfWhichTheBorderCutsSomeAreNotKnownWhole) {
   for (const double motion : {0.0, 35.0}) {
@@ -236,12 +203,6 @@ TEST_F(ModalTargets, AreCutWhereTheCameraSawNothing) {
     EXPECT_EQ(see(first, 140).verdict, Verdict::visible);
     EXPECT_EQ(see(60, 100).verdict, first == 30 ? Verdict::visible : Verdict::unknown) << first;
   }
-}
-
-/// Nothing near it: the verdict is about the robot's body.
-TEST_F(ModalTargets, ThatTheBorderCutsAreVisibleAwayFromTheRobot) {
-  for (int u = -30; u <= 60; u += 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
-  for (int u = 60; u >= -30; u -= 5) EXPECT_EQ(see(u, 150).verdict, Verdict::visible) << u;
 }
 
 }  // namespace

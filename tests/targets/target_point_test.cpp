@@ -16,26 +16,6 @@ using test::TargetFrame;
 
 constexpr double metres = 1e-6;  // float32 near 2 m
 
-TEST(TargetPoints, AreOnThePlaneThatIsSeen) {
-  TargetFrame frame;
-  frame.see(40, 30, 61, 51, 0.75f);
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(frame.images());
-  TargetView target = box_target("cup", {40, 30, 21, 21});
-  Judgement judgement = judge.judge(target);
-  ASSERT_TRUE(judgement.point);
-  const Eigen::Vector3d truth = 0.75 * TargetFrame::camera().intrinsics.ray(50, 40);
-  EXPECT_LT((*judgement.point - truth).norm(), metres);
-  EXPECT_EQ(judgement.point_pixels, 441u);
-  EXPECT_EQ(judgement.point_spread, 0.0);
-  target.name = "corner";
-  target.point_pixel = {40.5, 30.25};
-  judgement = judge.judge(target);
-  ASSERT_TRUE(judgement.point);
-  const Eigen::Vector3d corner = 0.75 * TargetFrame::camera().intrinsics.ray(40.5, 30.25);
-  EXPECT_LT((*judgement.point - corner).norm(), metres);
-}
-
 TEST(TargetPoints, UndoLensDistortion) {
   TargetFrame frame;
   Camera camera = TargetFrame::camera();
@@ -71,22 +51,6 @@ TEST(TargetPoints, NeedEnoughTrustedPixels) {
   target.thresholds.point_min_pixels = 0;
   target.region = PixelBox{70, 70, 5, 5};
   EXPECT_FALSE(judge.judge(target).point);
-}
-
-TEST(TargetPoints, AreNotOfTheRobotsBody) {
-  // The sensor sees the robot six pixels wider than the model, at its depth and a little beyond.
-  for (const float seen : {1.0f, 0.98f, 1.04f}) {
-    TargetFrame frame;
-    frame.add_robot(60, 0, 100, TargetFrame::height, 1.0f, 1);
-    frame.see(54, 0, 106, TargetFrame::height, seen);
-    TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-    judge.begin(frame.images());
-    TargetView target = box_target("wrist", {54, 40, 6, 6});
-    target.region = PixelEllipse{{56, 40}, {3, 3}, 0};
-    const Judgement judgement = judge.judge(target);
-    EXPECT_EQ(judgement.verdict, Verdict::visible);
-    EXPECT_FALSE(judgement.point) << seen;
-  }
 }
 
 }  // namespace

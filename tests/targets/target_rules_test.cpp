@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How single pixels count, and what verdicts follow, on scenes in closed form.
+// Verdicts on scenes in closed form.
 #include "target_frame.hpp"
-
-#include <array>
 
 #include <gtest/gtest.h>
 
@@ -17,121 +15,6 @@ using test::judge_once;
 using test::middle_box;
 using test::share_rounding;
 using test::TargetFrame;
-
-enum class Count { clear, front, occluded, unknown, other };
-
-Count count_of(const Judgement& judgement) {
-  const std::array<double, 5> shares = {judgement.clear, judgement.front, judgement.occluded,
-                                        judgement.unknown, judgement.hidden_by_other.value_or(0)};
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    if (shares[i] == 1.0) return static_cast<Count>(i);
-  ADD_FAILURE() << "not one kind of pixel";
-  return Count::unknown;
-}
-
-/// How all pixels of a target count before, at or behind a robot at 1 m, or with no robot at all;
-/// e(1 m) = 0.021 m.
-Count count(bool with_robot, float measured, std::optional<double> expected, bool beyond = true) {
-  TargetFrame frame;
-  if (with_robot) frame.add_robot(40, 40, 60, 60, 1.0f, 1);
-  frame.see(40, 40, 60, 60, measured);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = expected;
-  target.thresholds.beyond_hides = beyond;
-  return count_of(judge_once(frame, target));
-}
-
-constexpr double behind_robot = 1.3, at_robot = 1.01, before_robot = 0.8;
-
-TEST(TargetPixels, CountByRobotMeasurementAndExpectedDepth) {
-  using enum Count;
-  struct Case {
-    bool with_robot;
-    float measured;
-    std::optional<double> expected;
-    Count count, beyond_is_seen;  // as by default, and where what is beyond does not hide
-  };
-  for (const Case& each :
-       std::initializer_list<Case>{{false, 2.0f, {}, clear, clear},
-                                   {false, hole, {}, clear, clear},
-                                   {true, 0.8f, {}, front, front},
-                                   {true, 1.0f, {}, occluded, occluded},
-                                   {true, hole, {}, unknown, unknown},
-                                   {true, 1.1f, {}, occluded, clear},
-                                   // A robot before the target hides it, whatever is measured.
-                                   {true, 0.8f, behind_robot, occluded, occluded},
-                                   {true, 1.0f, behind_robot, occluded, occluded},
-                                   {true, hole, behind_robot, occluded, occluded},
-                                   {true, 1.3f, behind_robot, occluded, clear},
-                                   {true, 1.1f, behind_robot, occluded, other},
-                                   // A robot at the target's depth is not told from it.
-                                   {true, 0.98f, at_robot, occluded, occluded},
-                                   {true, 1.0f, at_robot, unknown, unknown},
-                                   {true, hole, at_robot, unknown, unknown},
-                                   {true, 1.1f, at_robot, unknown, clear},
-                                   {true, 0.8f, at_robot, other, other},
-                                   // A robot behind the target hides nothing.
-                                   {true, 0.8f, before_robot, front, front},
-                                   {true, 1.0f, before_robot, clear, clear},
-                                   {true, hole, before_robot, clear, clear},
-                                   {true, 0.6f, before_robot, other, other},
-                                   // Beside the robot other things may hide.
-                                   {false, 0.79f, before_robot, clear, clear},
-                                   {false, 0.7f, before_robot, other, other},
-                                   {false, hole, before_robot, clear, clear}}) {
-    SCOPED_TRACE(testing::Message() << each.with_robot << ", measured " << each.measured
-                                    << ", expected " << each.expected.value_or(0));
-    EXPECT_EQ(count(each.with_robot, each.measured, each.expected), each.count);
-    EXPECT_EQ(count(each.with_robot, each.measured, each.expected, false), each.beyond_is_seen);
-  }
-}
-
-TEST(TargetPixels, AMarginWidensWhereTheTargetMayLie) {
-  TargetFrame frame;
-  frame.add_robot(40, 40, 60, 60, 1.0f, 1);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = behind_robot;
-  target.depth_margin = 0.3;
-  EXPECT_EQ(count_of(judge_once(frame, target)), Count::unknown);
-  frame.see(40, 40, 60, 60, 0.7f);
-  target.expected_depth = before_robot;
-  target.depth_margin = 0.09;
-  EXPECT_EQ(count_of(judge_once(frame, target)), Count::front);
-}
-
-TEST(TargetPixels, UnreachedByTheLensAreUnknown) {
-  TargetFrame frame;
-  LabelledImages images = frame.images();
-  Image<std::uint8_t> labels(TargetFrame::width, TargetFrame::height,
-                             static_cast<std::uint8_t>(Label::unknown));
-  images.labels = {labels.view()};
-  TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
-  judge.begin(images);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = before_robot;
-  EXPECT_EQ(count_of(judge.judge(target)), Count::unknown);
-}
-
-TEST(Judging, AddsUpPixelsAndBlamesLinks) {
-  TargetFrame frame;
-  frame.add_robot(0, 0, 50, 45, 1.0f, 2);    // 10 x 5 of the target
-  frame.add_robot(50, 0, 160, 50, 1.2f, 0);  // 10 x 10
-  frame.add_robot(40, 58, 60, 60, 1.1f, 1, false);
-  frame.see(40, 58, 60, 60, hole);  // 40
-  const Judgement judgement = judge_once(frame, box_target("cup", middle_box));
-  EXPECT_EQ(judgement.covered, 400u);
-  EXPECT_EQ(judgement.inside, 400u);
-  EXPECT_NEAR(judgement.occluded, 0.375, share_rounding);
-  EXPECT_NEAR(judgement.unknown, 0.1, share_rounding);
-  EXPECT_NEAR(judgement.clear, 0.525, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::partial);
-  EXPECT_FALSE(judgement.hidden_by_other);
-  ASSERT_EQ(judgement.blame.size(), 2u);
-  EXPECT_EQ(judgement.blame[0].link, 0u);
-  EXPECT_NEAR(judgement.blame[0].fraction, 0.25, share_rounding);
-  EXPECT_EQ(judgement.blame[1].link, 2u);
-  EXPECT_NEAR(judgement.blame[1].fraction, 0.125, share_rounding);
-}
 
 TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
   TargetFrame frame;

@@ -59,17 +59,6 @@ TEST_F(Buffer, HistoryIsBoundedInTimeButTheLastStateIsRemembered) {
   EXPECT_EQ(at(2000).gaps.size(), 2u);
 }
 
-TEST_F(Buffer, ClearForgetsAClockThatJumped) {
-  insert(1'000'000, {"p", "q"}, {0.0, 0.0});
-  insert(0, {"p", "q"}, {1.0, 1.0});
-  insert(10, {"p", "q"}, {1.0, 1.0});
-  EXPECT_EQ(at(0).status, JointStatus::stale);
-  buffer_.clear();
-  EXPECT_EQ(at(0).status, JointStatus::missing);
-  insert(0, {"p", "q"}, {1.0, 1.0});
-  EXPECT_EQ(at(0).status, JointStatus::ok);
-}
-
 TEST_F(Buffer, ExtremeStampsAreSafe) {
   constexpr auto kMin = std::numeric_limits<std::int64_t>::min();
   constexpr auto kMax = std::numeric_limits<std::int64_t>::max();
@@ -91,21 +80,6 @@ TEST(BufferOptions, AreChecked) {
         JointBufferOptions{.max_gap = std::numeric_limits<double>::quiet_NaN()},
         JointBufferOptions{.max_states = 0}})
     expect_refused([&] { JointBuffer buffer(robot, options); }, {"joint buffer"});
-}
-
-TEST(BufferOptions, NumberOfStatesIsBounded) {
-  const Robot robot = arm();
-  JointBuffer buffer(robot, {.max_gap = 1.0, .history = 100.0, .max_states = 10});
-  const std::vector<std::string> names = {"p", "q"};
-  for (std::int64_t stamp = 0; stamp < 1000; ++stamp) {
-    const std::vector<double> values(2, static_cast<double>(stamp));
-    buffer.insert(stamp, names, values);
-  }
-  JointAnswer answer;
-  buffer.at(990, answer);
-  EXPECT_EQ(answer.status, JointStatus::ok);
-  buffer.at(989, answer);
-  EXPECT_EQ(answer.status, JointStatus::stale);
 }
 
 const std::vector<std::string> kPose = {"p", "q/x", "q/y", "q/z", "q/qx", "q/qy", "q/qz", "q/qw"};

@@ -44,16 +44,6 @@ class Transforms : public testing::Test {
   TransformAnswer answer_;
 };
 
-TEST_F(Transforms, OnlyWhatLiesBetweenCountsForIsStatic) {
-  buffer_.insert_static("/base", "/pole", shift(0, 0, 1));
-  buffer_.insert(1 * kMs, "base", "arm", turn_z(0.7));
-  buffer_.insert_static("arm", "tool", shift(0.3));
-  EXPECT_FALSE(at(1 * kMs, "pole", "tool").is_static);
-  EXPECT_TRUE(at(9 * kMs, "base", "pole").is_static);
-  EXPECT_TRUE(at(9 * kMs, "arm", "tool").is_static);
-  EXPECT_EQ(at(9 * kMs, "tool", "tool").status, TransformStatus::ok);
-}
-
 TEST_F(Transforms, WhatIsMissingIsNamed) {
   buffer_.insert_static("base", "arm", shift(1));
   buffer_.insert_static("world", "camera", shift(1));
@@ -185,16 +175,6 @@ TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
        {"'arm' in 'base'", "500 mm apart", "publisher 1 of /tf and by", "publisher 2 of /tf"})
     EXPECT_TRUE(holds(answer_.message, part));
   EXPECT_EQ(at(305 * kMs, "arm", "tool").status, TransformStatus::ok) << "it is not in this chain";
-}
-
-TEST_F(Transforms, OfTwoThatAgreeTheFirstIsTaken) {
-  for (std::int64_t t = 100; t < 500; t += 10) {
-    const double x = 1e-3 * static_cast<double>(t);
-    buffer_.insert(t * kMs, "base", "arm", shift(x), "a");
-    buffer_.insert((t + 4) * kMs, "base", "arm", shift(x + 0.002), "b");  // 1 m/s, 2 ms behind
-  }
-  ASSERT_EQ(at(305 * kMs, "base", "arm").status, TransformStatus::ok);
-  EXPECT_TRUE(answer_.T_target_source.isApprox(shift(0.305), kTolerance));
 }
 
 TEST_F(Transforms, TwoPosesOfOneStampAreDisputedAsABagDoesNotSayWhose) {

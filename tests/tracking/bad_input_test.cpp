@@ -57,16 +57,6 @@ TEST(TrackerConfig, SaysWhichFieldIsWrong) {
   EXPECT_THROW(PoseTracker({.timeout = -1}), InputError);
 }
 
-TEST(TrackerConfig, OfPointsToo) {
-  using Config = PointTrackerConfig;
-  expect_refused_each<Config>({{"sigma is -1", [](Config& c) { c.sigma = -1; }},
-                               {"held_speed is nan", [](Config& c) { c.held_speed = nan; }},
-                               {"speed_sigma is -2", [](Config& c) { c.speed_sigma = -2; }},
-                               {"acceleration is inf", [](Config& c) { c.acceleration = inf; }},
-                               {"timeout is 0", [](Config& c) { c.timeout = 0; }}});
-  EXPECT_THROW(PointTracker({.sigma = 0}), InputError);
-}
-
 /// What becomes of an estimate that was right before `spoil`.
 Outcome outcome_of(const std::function<void(PoseEstimate&)>& spoil) {
   PoseTracker tracker;
@@ -111,16 +101,6 @@ TEST(BadEstimates, RotationsOfTextFilesAreTaken) {
   const Eigen::Matrix3d kept = tracker.at(0).pose.linear();
   EXPECT_LT((kept.transpose() * kept - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   EXPECT_LT((kept - rounded).norm(), 3e-5);  // nine entries, each rounded by half a digit
-}
-
-TEST(BadEstimates, PointsToo) {
-  const auto outcome = [](const PointEstimate& e) {
-    return PointTracker().update(e, Verdict::visible);
-  };
-  EXPECT_EQ(outcome({0, {0, 0, nan}, {}}), Outcome::refused_invalid);
-  EXPECT_EQ(outcome({0, {0, 0, 0}, Eigen::Matrix3d::Zero()}), Outcome::refused_invalid);
-  EXPECT_EQ(outcome({0, {0, 0, 0}, Eigen::Matrix3d::Constant(1)}), Outcome::refused_invalid);
-  EXPECT_EQ(outcome({0, {0, 0, 0}, {}}), Outcome::accepted);
 }
 
 }  // namespace

@@ -187,26 +187,5 @@ TEST(Return, WhatWasLostBeginsAnew) {
   EXPECT_NEAR(anew.covariance(0, 0), 25e-6, 1e-12);
 }
 
-TEST(PointGate, FollowsTheSameRules) {
-  PointTracker tracker;
-  const auto point = [](double seconds, double x) {
-    return PointEstimate{stamp_at(seconds), {x, 0, 0}, {}};
-  };
-  EXPECT_EQ(tracker.update(point(0, 0), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(tracker.update(point(0.1, 0), Verdict::unknown), Outcome::refused_verdict);
-  EXPECT_EQ(tracker.update(point(0.1, 1), Verdict::visible), Outcome::refused_gate);
-  EXPECT_EQ(tracker.at(stamp_at(0.1)).source, Source::held);
-  EXPECT_EQ(tracker.update(point(0.2, 0.1), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(tracker.at(stamp_at(0.2)).source, Source::measured);
-  EXPECT_EQ(tracker.at(stamp_at(0.2)).position.x(), 0.1);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(tracker.update(point(0.3 + i * 0.01, 2), Verdict::visible), Outcome::refused_gate);
-  }
-  EXPECT_EQ(tracker.update(point(0.4, 2), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(tracker.at(stamp_at(3.5)).source, Source::lost);
-  tracker.reset();
-  EXPECT_TRUE(std::isinf(tracker.at(stamp_at(0.4)).age));
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Late and early estimates: what is known depends on which came, not on when.
-#include "../support/allocations.hpp"
 #include "../support/random.hpp"
 #include "tracks.hpp"
 
@@ -59,49 +58,6 @@ TEST(Order, AnyPermutationEndsAlikeToTheBit) {
     const PoseTracker shuffled = fed(given);
     for (double t = -0.1; t < 6; t += 0.013) {
       expect_same(sorted.at(stamp_at(t)), shuffled.at(stamp_at(t)));
-    }
-  }
-}
-
-TEST(Order, ALongTrackWithLatenciesToo) {
-  auto random = seeded_random(412);
-  std::uniform_real_distribution<double> latency(0, 0.9);
-  std::vector<Given> given;
-  std::vector<std::pair<double, std::size_t>> arrivals;
-  Twisting truth{random_pose(random), {0.1, 0.2, 0}, {0, 0, 0.4}};
-  for (std::size_t i = 0; i < 600; ++i) {
-    const double t = static_cast<double>(i) / 30;
-    Given one;
-    one.estimate.stamp = stamp_at(t);
-    one.estimate.pose = moved(truth.at(t), sigmas(0.005, 0.03).cwiseProduct(normal<6>(random)));
-    given.push_back(one);
-    arrivals.emplace_back(t + latency(random), i);
-  }
-  std::sort(arrivals.begin(), arrivals.end());
-  PoseTracker late;
-  for (const auto& arrival : arrivals) {
-    const Given& one = given[arrival.second];
-    EXPECT_NE(late.update(one.estimate, one.verdict), Outcome::refused_late);
-  }
-  const PoseTracker sorted = fed(given);
-  for (double t = 19; t < 22; t += 0.1) expect_same(sorted.at(stamp_at(t)), late.at(stamp_at(t)));
-}
-
-TEST(Order, PointsToo) {
-  auto random = seeded_random(413);
-  for (const PointMotion motion : {PointMotion::hold, PointMotion::constant_velocity}) {
-    std::vector<PointEstimate> all;
-    all.reserve(25);
-    for (int i = 0; i < 25; ++i) all.push_back({stamp_at(i * 0.04), 0.02 * normal<3>(random), {}});
-    PointTrackerConfig config;
-    config.motion = motion;
-    PointTracker sorted(config), shuffled(config);
-    for (const auto& estimate : all) sorted.update(estimate, Verdict::visible);
-    std::shuffle(all.begin(), all.end(), random);
-    for (const auto& estimate : all) shuffled.update(estimate, Verdict::visible);
-    for (double t = 0; t < 3; t += 0.017) {
-      EXPECT_EQ(sorted.at(stamp_at(t)).position, shuffled.at(stamp_at(t)).position);
-      EXPECT_EQ(sorted.at(stamp_at(t)).covariance, shuffled.at(stamp_at(t)).covariance);
     }
   }
 }
@@ -167,18 +123,6 @@ TEST(Memory, OfAFewEstimatesForgetsTheOldest) {
   EXPECT_EQ(few.at(stamp_at(0.46)).source, Source::lost);
 }
 
-TEST(Clock, JumpBackNeedsAReset) {
-  PoseTracker tracker;
-  tracker.update(at_x(100, 0), Verdict::visible);
-  for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(tracker.update(at_x(0.1 * i, 0), Verdict::visible), Outcome::refused_late);
-  }
-  EXPECT_EQ(tracker.at(stamp_at(1)).source, Source::lost);
-  tracker.reset();
-  EXPECT_EQ(tracker.update(at_x(1, 0), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(tracker.at(stamp_at(1)).source, Source::measured);
-}
-
 TEST(Clock, AllStampsAreAllowed) {
   PoseTracker tracker;
   constexpr auto least = std::numeric_limits<std::int64_t>::min();
@@ -192,26 +136,6 @@ TEST(Clock, AllStampsAreAllowed) {
   estimate.stamp = least;
   EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::refused_late);
   EXPECT_EQ(tracker.at(least).source, Source::lost);
-}
-
-TEST(Memory, NothingIsAllocatedAfterTheFirstSeconds) {
-  auto random = seeded_random(414);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  PoseTracker tracker;
-  PointTracker point;
-  const auto feed = [&](double from, double to) {
-    for (double t = from; t < to; t += 0.02) {
-      const double late = t - 0.9 * uniform(random) * uniform(random);
-      tracker.update(at_x(late, uniform(random) < 0.1 ? 3.0 : 0.001), Verdict::visible);
-      point.update({stamp_at(late), {0, 0, 1}, {}}, Verdict::visible);
-      (void)tracker.at(stamp_at(t));
-      (void)point.at(stamp_at(t));
-    }
-  };
-  feed(0, 10);
-  const std::size_t before = allocations();
-  feed(10, 30);
-  EXPECT_EQ(allocations(), before);
 }
 
 }  // namespace

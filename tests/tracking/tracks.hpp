@@ -8,8 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/tracking/point_tracker.hpp>
-#include <penumbra/tracking/pose_tracker.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::test {
 

@@ -13,7 +13,7 @@
 #include <penumbra/render/cpu/frame.hpp>
 #include <penumbra/render/cpu/kernel.hpp>
 #include <penumbra/render/cpu/workers.hpp>
-#include <penumbra/render/shells.hpp>
+#include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra {
 namespace {
@@ -97,20 +97,20 @@ class CpuRenderer final : public DepthRenderer {
 
   void cull() {
     item_count_ = 0;
-    for (std::uint32_t i = 0; i < scene_.shells.size(); ++i) {
-      const Shell& shell = scene_.shells[i];
-      const BodyFrame& body = frames_[shell.body];
-      for (std::size_t hole = shell.first_hole; hole < shell.first_hole + shell.hole_count;
+    for (std::uint32_t i = 0; i < scene_.groups.size(); ++i) {
+      const ClusterGroup& group = scene_.groups[i];
+      const BodyFrame& body = frames_[group.body];
+      for (std::size_t hole = group.first_hole; hole < group.first_hole + group.hole_count;
            ++hole) {
         holes_[hole] = cpu::bounds_of(scene_.holes[hole], body, intrinsics());
       }
-      item_count_ += kernel_.cull(context(), i, sides_of(shell), &items_[item_count_]);
+      item_count_ += kernel_.cull(context(), i, sides_of(group), &items_[item_count_]);
     }
   }
 
-  [[nodiscard]] Sides sides_of(const Shell& shell) const {
-    const auto& c = frames_[shell.body].centre;
-    return side_rule_.sides(shell.solid, shell.hole_count > 0, shell.bounds, {c[0], c[1], c[2]});
+  [[nodiscard]] Sides sides_of(const ClusterGroup& group) const {
+    const auto& c = frames_[group.body].centre;
+    return side_rule_.sides(group.solid, group.hole_count > 0, group.bounds, {c[0], c[1], c[2]});
   }
 
   /// Lets the team take `count` parts of a stage, a few at a time.

@@ -17,7 +17,7 @@
 #include <penumbra/base/tile_mask.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/clusters.hpp>
-#include <penumbra/render/shells.hpp>
+#include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::cpu {
 
@@ -92,7 +92,7 @@ Bounds bounds_of(const Ball& ball, const BodyFrame& body, const Intrinsics& k);
 /// A cluster to draw.
 struct DrawItem {
   std::uint32_t cluster;
-  std::uint32_t shell;
+  std::uint32_t group;
   std::uint32_t body;
   Sides sides;
   bool clip;  // it may reach past the near plane or the guard band

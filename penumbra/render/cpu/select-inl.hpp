@@ -23,19 +23,19 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-std::size_t Cull(const FrameContext& frame, std::uint32_t shell_index, Sides sides,
+std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sides,
                  DrawItem* items) {
   const ClusteredScene& scene = *frame.scene;
-  const Shell& shell = scene.shells[shell_index];
-  const BodyFrame& body = frame.bodies[shell.body];
+  const ClusterGroup& group = scene.groups[group_index];
+  const BodyFrame& body = frame.bodies[group.body];
   const View& view = *frame.view;
   const Intrinsics& k = view.intrinsics;
   const auto near = hn::Set(df, static_cast<float>(DepthRenderer::near_plane));
   const auto tan_u = hn::Set(df, static_cast<float>(view.guard_u / k.fx()));
   const auto tan_v = hn::Set(df, static_cast<float>(view.guard_v / k.fy()));
   std::size_t count = 0;
-  const std::uint32_t end = shell.first_cluster + shell.cluster_count;
-  for (std::uint32_t i = shell.first_cluster; i < end; i += kStep) {
+  const std::uint32_t end = group.first_cluster + group.cluster_count;
+  for (std::uint32_t i = group.first_cluster; i < end; i += kStep) {
     const auto x0 = hn::LoadU(df, &scene.sphere_x[i]);
     const auto y0 = hn::LoadU(df, &scene.sphere_y[i]);
     const auto z0 = hn::LoadU(df, &scene.sphere_z[i]);
@@ -58,7 +58,7 @@ std::size_t Cull(const FrameContext& frame, std::uint32_t shell_index, Sides sid
     if (end - i < kStep) visible_bits &= (1U << (end - i)) - 1;
     for (; visible_bits != 0; visible_bits &= visible_bits - 1) {
       const int lane = std::countr_zero(visible_bits);
-      items[count++] = {i + static_cast<std::uint32_t>(lane), shell_index, shell.body, sides,
+      items[count++] = {i + static_cast<std::uint32_t>(lane), group_index, group.body, sides,
                         ((tame_bits >> lane) & 1) == 0};
     }
   }
@@ -121,11 +121,11 @@ Bounds Project(const ClusteredScene& scene, const Cluster& cluster, const BodyFr
           hn::GetLane(hn::MaxOfLanes(df, u_max)), hn::GetLane(hn::MaxOfLanes(df, v_max))};
 }
 
-/// Where the backs of a shell's triangles may be seen, if only somewhere: around its holes.
+/// Where the backs of a group's triangles may be seen, if only somewhere: around its holes.
 std::span<const Bounds> Holes(const FrameContext& frame, const DrawItem& item) {
   if (item.sides != Sides::front_and_through_holes) return {};
-  const Shell& shell = frame.scene->shells[item.shell];
-  return {frame.holes + shell.first_hole, shell.hole_count};
+  const ClusterGroup& group = frame.scene->groups[item.group];
+  return {frame.holes + group.first_hole, group.hole_count};
 }
 
 bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {

@@ -50,12 +50,12 @@ void Scene::upload(std::span<const Body> bodies) {
     body_indices.push_back(body);
     for (const PreparedMesh& mesh : bodies[body].meshes) {
       body_bounds_[body].extend(mesh.bounds);
-      for (const ShellTriangles& shell : shells_of(mesh)) {
-        Part part{body, shell.solid, !shell.holes.empty(), shell.bounds, 0, 0, 0};
-        part.index_count = static_cast<std::uint32_t>(shell.indices.size());
+      for (const TriangleGroup& group : groups_of(mesh)) {
+        Part part{body, group.solid, !group.holes.empty(), group.bounds, 0, 0, 0};
+        part.index_count = static_cast<std::uint32_t>(group.indices.size());
         part.first_index = static_cast<std::uint32_t>(indices.size());
         part.first_vertex = static_cast<std::uint32_t>(vertices.size());
-        indices.insert(indices.end(), shell.indices.begin(), shell.indices.end());
+        indices.insert(indices.end(), group.indices.begin(), group.indices.end());
         parts_.push_back(part);
       }
       vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -139,7 +139,7 @@ PixelRectangle Scene::place(std::span<const Eigen::Isometry3d> T_camera_body, st
     if (pixels.empty()) continue;
     all = all.united(pixels);
     const Eigen::Vector3d centre = -(T.linear().transpose() * T.translation());
-    const Sides sides = side_rule_.sides(part.solid, part.pierced, part.bounds, centre);
+    const Sides sides = side_rule_.sides(part.solid, part.has_holes, part.bounds, centre);
     // Through holes backs are seen too: the whole part is drawn from both sides.
     const std::size_t at = sides == Sides::front ? front_count_++ : parts_.size() - ++both_count_;
     const Command command{part.index_count, 1, part.first_index, part.first_vertex, part.body};

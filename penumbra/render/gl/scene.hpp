@@ -12,7 +12,7 @@
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/gl/pixel_rectangle.hpp>
-#include <penumbra/render/shells.hpp>
+#include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::gl {
 
@@ -33,7 +33,7 @@ class Scene {
  private:
   struct Part {
     std::uint32_t body;
-    bool solid, pierced;
+    bool solid, has_holes;
     Eigen::AlignedBox3d bounds;  // in the body's frame
     std::uint32_t index_count, first_index, first_vertex;
   };

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/target_record-inl.hpp>
+#include <penumbra/pipeline/target_track-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -16,14 +16,14 @@ Eigen::Vector3d position_of(const TargetEstimate& estimate) {
   return std::get<Eigen::Isometry3d>(estimate.value).translation();
 }
 
-Matrix6d turned(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
+Matrix6d rotated(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
   Matrix6d both = Matrix6d::Zero();
   both.topLeftCorner<3, 3>() = R;
   both.bottomRightCorner<3, 3>() = R;
   return both * covariance * both.transpose();
 }
 
-/// Of the direction in which the position is least known, metres.
+/// Returns sigma along the most uncertain direction, metres.
 double largest_sigma(const Eigen::Matrix3d& covariance) {
   if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -48,27 +48,6 @@ HandledTarget handled_point(const TrackedPoint& tracked) {
 
 }  // namespace
 
-void VerdictLog::add(const StampedVerdict& verdict) {
-  entries_.reserve(verdicts);
-  const auto same =
-      std::find_if(entries_.begin(), entries_.end(),
-                   [&](const StampedVerdict& known) { return known.stamp == verdict.stamp; });
-  if (same != entries_.end()) {
-    *same = verdict;
-  } else if (entries_.size() < verdicts) {
-    entries_.push_back(verdict);
-  } else {
-    entries_[next_] = verdict;
-    next_ = (next_ + 1) % verdicts;
-  }
-}
-
-std::optional<StampedVerdict> VerdictLog::find(std::int64_t stamp) const {
-  for (const StampedVerdict& known : entries_)
-    if (known.stamp == stamp) return known;
-  return std::nullopt;
-}
-
 TargetTrack::TargetTrack(const TargetHandling& handling) {
   bool stays = false;
   if (const auto* pose = std::get_if<PoseTrackerConfig>(&handling)) {
@@ -78,37 +57,36 @@ TargetTrack::TargetTrack(const TargetHandling& handling) {
     tracker_.emplace<PointTracker>(*point);
     stays = point->motion == PointMotion::hold;
   }
-  if (stays) carried_ = Source::held;
+  if (stays) unmeasured_ = Source::held;
 }
 
-Outcome TargetTrack::update(const TargetEstimate& estimate, const StampedVerdict& verdict,
-                            const Eigen::Isometry3d& T_root_frame) {
-  try {
-    check_estimate(estimate);
-  } catch (const InputError&) {
-    return Outcome::refused_invalid;
-  }
+const RecentVerdict* TargetTrack::reliable_verdict(std::int64_t stamp) {
+  const RecentVerdict* const verdict = verdicts_.find(stamp);
+  return verdict != nullptr && verdict->is_reliable ? verdict : nullptr;
+}
+
+Outcome TargetTrack::update(std::int64_t stamp, const TargetEstimate& estimate,
+                            const RecentVerdict& verdict, const Eigen::Isometry3d& T_root_frame) {
+  check_estimate(estimate);
   std::optional<Matrix6d> covariance;
-  if (estimate.covariance) covariance = turned(*estimate.covariance, T_root_frame.linear());
+  if (estimate.covariance) covariance = rotated(*estimate.covariance, T_root_frame.linear());
   if (auto* points = std::get_if<PointTracker>(&tracker_)) {
-    PointEstimate point{verdict.stamp, T_root_frame * position_of(estimate), {}};
+    PointEstimate point{stamp, T_root_frame * position_of(estimate), {}};
     if (covariance) point.covariance = covariance->topLeftCorner<3, 3>();
     return points->update(point, verdict.verdict);
   }
   const auto* pose = std::get_if<Eigen::Isometry3d>(&estimate.value);
   if (pose == nullptr) return Outcome::refused_invalid;
   return std::get<PoseTracker>(tracker_).update(
-      {verdict.stamp, T_root_frame * *pose, covariance, std::min(verdict.seen, 1.0)},
-      verdict.verdict);
+      {stamp, T_root_frame * *pose, covariance, std::min(verdict.seen, 1.0)}, verdict.verdict);
 }
 
-std::optional<HandledTarget> TargetTrack::at(std::int64_t stamp, bool is_measured) const {
-  std::optional<HandledTarget> handled;
-  if (const auto* poses = std::get_if<PoseTracker>(&tracker_))
-    handled = handled_pose(poses->at(stamp));
-  else if (const auto* points = std::get_if<PointTracker>(&tracker_))
-    handled = handled_point(points->at(stamp));
-  if (handled && !is_measured && handled->source == Source::measured) handled->source = carried_;
+HandledTarget TargetTrack::at(std::int64_t stamp, bool is_measured) const {
+  const auto* const poses = std::get_if<PoseTracker>(&tracker_);
+  HandledTarget handled = poses != nullptr
+                              ? handled_pose(poses->at(stamp))
+                              : handled_point(std::get<PointTracker>(tracker_).at(stamp));
+  if (!is_measured && handled.source == Source::measured) handled.source = unmeasured_;
   return handled;
 }
 

@@ -10,47 +10,47 @@
 namespace penumbra::test {
 namespace {
 
-class DoubtedTargetsTest : public TargetsTest {
+class UncertainLinksTest : public TargetsTest {
  protected:
-  DoubtedTargetsTest() : TargetsTest(0.5) {}
+  UncertainLinksTest() : TargetsTest(0.5) {}
 
-  const FrameReport& frame_at(std::int64_t stamp, bool is_doubted,
+  const FrameReport& frame_at(std::int64_t stamp, bool is_uncertain,
                               std::span<const Target> targets) {
-    const LinkDoubts doubts = {plate_, "two put it elsewhere"};
-    return pipeline_.process({.stamp = stamp,
-                              .depth = depth_.view(),
-                              .joints = positions_,
-                              .targets = targets,
-                              .doubts = is_doubted ? doubts : LinkDoubts{}});
+    Frame frame{.stamp = stamp, .depth = depth_.view(), .joints = positions_, .targets = targets};
+    if (is_uncertain) frame.uncertain_links = plate_;
+    frame.uncertain_reason = "two publishers differ";
+    return pipeline_.process(frame);
   }
   /// Behind the plate, or before it.
-  static Target point(const char* name, const LinkFrame& frame) {
-    return {.name = name, .shape = PointTarget{.position = {0.0, 0.0, 0.3}, .frame = frame}};
+  static Target point(const char* name, std::string_view link) {
+    return {
+        .name = name,
+        .shape = PointTarget{.position = {0.0, 0.0, 0.3}, .frame = ReferenceFrame::of_link(link)}};
   }
-  static void expect_doubted(const TargetReport& report) {
+  static void expect_unknown(const TargetReport& report) {
     EXPECT_EQ(report.verdict, Verdict::unknown);
     EXPECT_FALSE(report.judgement);
-    for (const char* const part : {"link 'plate'", "two put it elsewhere"})
+    for (const char* const part : {"link 'plate'", "two publishers differ"})
       EXPECT_NE(report.reason.find(part), std::string_view::npos) << report.reason;
   }
 
   const std::array<std::size_t, 1> plate_ = {*slab_robot().find_link("plate")};
 };
 
-TEST_F(DoubtedTargetsTest, AreUnknownInThatLinkAlone) {
+TEST_F(UncertainLinksTest, AreUnknownInThatLinkAlone) {
   const std::vector<Target> targets = {point("a", "plate"), point("b", "slab"), point("c", "base")};
-  for (const bool is_doubted : {false, true}) {
-    const FrameReport& report = frame_at(is_doubted ? 100 * ms : 0, is_doubted, targets);
+  for (const bool is_uncertain : {false, true}) {
+    const FrameReport& report = frame_at(is_uncertain ? 100 * ms : 0, is_uncertain, targets);
     EXPECT_EQ(report.status, FrameStatus::ok);
-    if (is_doubted)
-      expect_doubted(report.targets[0]);
+    if (is_uncertain)
+      expect_unknown(report.targets[0]);
     else
       EXPECT_TRUE(report.targets[0].judgement) << report.targets[0].reason;
     for (const std::size_t other : {1U, 2U}) EXPECT_TRUE(report.targets[other].judgement) << other;
   }
 }
 
-TEST_F(DoubtedTargetsTest, AreUnknownOnAFrameThatIsKept) {
+TEST_F(UncertainLinksTest, AreUnknownOnAFrameThatIsKept) {
   frame_at(0, true, {});
   frame_at(100 * ms, false, {});
   for (const std::int64_t stamp : {std::int64_t{0}, 100 * ms}) {
@@ -58,31 +58,32 @@ TEST_F(DoubtedTargetsTest, AreUnknownOnAFrameThatIsKept) {
     late.stamp = stamp;
     const TargetReport& report = frame_at(200 * ms, stamp != 0, {&late, 1}).targets[0];
     if (stamp == 0)
-      expect_doubted(report);
+      expect_unknown(report);
     else
       EXPECT_TRUE(report.judgement) << report.reason;
   }
 }
 
-TEST_F(DoubtedTargetsTest, EstimatesInThatLinkAreRefused) {
+TEST_F(UncertainLinksTest, EstimatesInThatLinkAreRefused) {
   Target target = region("handled", beside_slab);
   target.handling = PointTrackerConfig{};
-  target.estimate = TargetEstimate{.value = Eigen::Vector3d(0.1, 0.0, 0.2), .frame = "plate"};
+  target.estimate = TargetEstimate{.value = Eigen::Vector3d(0.1, 0.0, 0.2),
+                                   .frame = ReferenceFrame::of_link("plate")};
   EXPECT_EQ(frame_at(0, true, {&target, 1}).targets[0].estimate, Outcome::refused_invalid);
   EXPECT_EQ(frame_at(100 * ms, false, {&target, 1}).targets[0].estimate, Outcome::accepted);
 }
 
-TEST_F(DoubtedTargetsTest, WhatIsNoLinkIsRefused) {
+TEST_F(UncertainLinksTest, WhatIsNoLinkIsRefused) {
   const std::size_t count = slab_robot().links().size();
   const auto process = [&](std::size_t link) {
     const std::array links = {plate_[0], link};
     return pipeline_
-        .process({.depth = depth_.view(), .joints = positions_, .doubts = {links, "no reason"}})
+        .process({.depth = depth_.view(), .joints = positions_, .uncertain_links = links})
         .status;
   };
   EXPECT_EQ(process(count - 1), FrameStatus::ok);
   for (const std::size_t none : {count, std::size_t{1000000}}) {
-    expect_refused([&] { process(none); }, {"doubted link " + std::to_string(none), "'slabs'"});
+    expect_refused([&] { process(none); }, {std::to_string(none), "'slabs'"});
   }
   EXPECT_EQ(process(0), FrameStatus::ok);  // a good frame is judged after it
 }

@@ -5,34 +5,34 @@
 #include <utility>
 
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/shells.hpp>
+#include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra {
 
-std::vector<ShellTriangles> shells_of(const PreparedMesh& mesh) {
-  std::array<ShellTriangles, 3> kinds;
-  auto& [closed, pierced, open] = kinds;
-  closed.solid = pierced.solid = true;
+std::vector<TriangleGroup> groups_of(const PreparedMesh& mesh) {
+  std::array<TriangleGroup, 3> kinds;
+  auto& [closed, perforated, open] = kinds;
+  closed.solid = perforated.solid = true;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const SurfacePatch& patch = mesh.patches[i];
     const auto& [facing, holes] = mesh.orientations()[i];
-    ShellTriangles& shell = facing == Facing::unknown ? open : holes.empty() ? closed : pierced;
+    TriangleGroup& group = facing == Facing::unknown ? open : holes.empty() ? closed : perforated;
     // A patch that faces inwards is turned: what is first seen of it from outside is then a front
     // face, even if it is a cavity inside another body.
     const bool turn = facing == Facing::inwards;
     for (const std::uint32_t t : patch.triangles) {
       auto [a, b, c] = mesh.triangles[t];
       if (turn) std::swap(b, c);
-      shell.indices.insert(shell.indices.end(), {a, b, c});
+      group.indices.insert(group.indices.end(), {a, b, c});
     }
-    shell.bounds.extend(patch.bounds);
-    shell.holes.insert(shell.holes.end(), holes.begin(), holes.end());
+    group.bounds.extend(patch.bounds);
+    group.holes.insert(group.holes.end(), holes.begin(), holes.end());
   }
-  std::vector<ShellTriangles> shells;
-  for (ShellTriangles& shell : kinds) {
-    if (!shell.indices.empty()) shells.push_back(std::move(shell));
+  std::vector<TriangleGroup> groups;
+  for (TriangleGroup& group : kinds) {
+    if (!group.indices.empty()) groups.push_back(std::move(group));
   }
-  return shells;
+  return groups;
 }
 
 SideRule::SideRule(const Intrinsics& k) {
@@ -42,10 +42,10 @@ SideRule::SideRule(const Intrinsics& k) {
   reach_ = DepthRenderer::near_plane * std::sqrt(1.0 + u * u + v * v) + rounding;
 }
 
-Sides SideRule::sides(bool solid, bool pierced, const Eigen::AlignedBox3d& bounds,
+Sides SideRule::sides(bool solid, bool has_holes, const Eigen::AlignedBox3d& bounds,
                       const Eigen::Vector3d& camera_centre) const {
   if (!solid || bounds.exteriorDistance(camera_centre) <= reach_) return Sides::both;
-  return pierced ? Sides::front_and_through_holes : Sides::front;
+  return has_holes ? Sides::front_and_through_holes : Sides::front;
 }
 
 }  // namespace penumbra
