@@ -8,7 +8,6 @@
 
 #include <io/assembly/bag_scene.hpp>
 #include <io/assembly/bag_source.hpp>
-#include <io/assembly/pose_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -143,7 +142,7 @@ void BagSource::show(FrameData& data, const Frame& frame) {
 
 std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = bag_notes(name_, *bag_, assembler_.faults());
-  for (const std::string& refusal : refusals_of(assembler_.robot().posed()->history))
+  for (const std::string& refusal : assembler_.robot().posed()->refusals())
     lines.push_back(name_ + ": " + refusal);
   const TargetInbox& targets = assembler_.camera(0).setup()->targets;
   if (targets.waiting() > 0)

@@ -14,7 +14,7 @@ namespace {
 void check_parent(const Robot& robot, const std::string& link) {
   if (robot.find_link(link)) return;
   const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
-  throw InputError("--parent: '" + link + "' is no link of the robot" + near_names(link, known));
+  throw InputError("--parent: '" + link + "' is not a link of the robot" + near_names(link, known));
 }
 
 /// Returns the link that has this frame, or an empty text.

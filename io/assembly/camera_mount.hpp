@@ -13,7 +13,7 @@
 
 namespace penumbra::io {
 
-/// What the user says about where the camera is.
+/// The user's options for the camera's pose.
 struct MountOptions {
   std::optional<std::string> camera_frame;  ///< in place of the images' frame_id
   std::optional<std::string> parent;        ///< link
@@ -25,7 +25,7 @@ struct MountOptions {
 /// Returns the mount's part of these options. Throws InputError of the pose's file.
 [[nodiscard]] MountOptions mount_options(const BagOptions& bag);
 
-/// Where a camera is.
+/// The pose of a camera on the robot.
 struct CameraMount {
   std::string frame;   ///< of the judged images in TF; empty: T_parent_camera is the pose
   std::string parent;  ///< a link of the robot
@@ -38,18 +38,18 @@ struct CameraMount {
   }
 };
 
-/// Where the camera sits as far as the user, the robot and TF tell: at the nearest link above its
-/// frame. Nothing if no link is above it (yet). Throws InputError for a parent that is no link, and
-/// images that do not name their frame.
+/// Returns the mount by the options, the robot and TF: the nearest link above the camera's frame.
+/// Returns nothing if no link is above it yet. Throws InputError for a parent that is not a link,
+/// and for images that do not name their frame.
 [[nodiscard]] std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& options,
                                                     const FrameTree& frames,
                                                     const std::string& frame_of_images);
 
-/// The frame that find_mount looks for in TF.
+/// Returns the frame that find_mount looks for in TF.
 [[nodiscard]] std::string mounted_frame(const MountOptions& options,
                                         const std::string& frame_of_images);
 
-/// Beside the robot: TF has to know the way from the camera to the root link.
+/// Returns the mount of a camera that is not on the robot: TF must connect it to the root link.
 [[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                                         const std::string& frame_of_images);
 

@@ -7,23 +7,13 @@
 namespace penumbra::io {
 namespace {
 
-/// A 64-bit FNV-1a hash.
-class Key {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) mix(static_cast<unsigned char>(c));
-    mix(0);
-  }
-  void add(std::uint64_t number) {
-    for (int shift = 0; shift < 64; shift += 8) mix(number >> shift & 0xFFU);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  void mix(std::uint64_t byte) { value_ = (value_ ^ byte) * 0x100000001B3U; }
-
-  std::uint64_t value_ = 0xCBF29CE484222325U;
-};
+/// Returns fields as one key. Names have no zero byte.
+template <typename... Fields>
+std::string key_of(const Fields&... fields) {
+  std::string key;
+  ((key.append(fields), key.push_back('\0')), ...);
+  return key;
+}
 
 std::string describe(const JointStateMessage& state) {
   std::string text = std::to_string(state.names.size()) + " joints";
@@ -39,23 +29,18 @@ std::string describe(const JointStateMessage& state) {
 
 const std::string& MessageSources::of_joints(const std::string& topic, std::uint64_t publisher,
                                              const JointStateMessage& state) {
-  Key key;
-  key.add(topic);
-  key.add(publisher);
-  key.add(state.header.frame_id);
-  for (const std::string& name : state.names) key.add(name);
-  key.add((state.velocities.empty() ? 0U : 1U) + (state.efforts.empty() ? 0U : 2U));
-  if (const auto found = names_.find(key.value()); found != names_.end()) return found->second;
-  return keep(key.value(), name_of(topic, publisher) + " (" + describe(state) + ")");
+  std::string key = key_of(topic, std::to_string(publisher), state.header.frame_id,
+                           state.velocities.empty() ? "" : "v", state.efforts.empty() ? "" : "e");
+  for (const std::string& name : state.names) key += key_of(name);
+  if (const auto found = names_.find(key); found != names_.end()) return found->second;
+  return keep(key, name_of(topic, publisher) + " (" + describe(state) + ")");
 }
 
 const std::string& MessageSources::of_transforms(const std::string& topic,
                                                  std::uint64_t publisher) {
-  Key key;
-  key.add(topic);
-  key.add(publisher);
-  if (const auto found = names_.find(key.value()); found != names_.end()) return found->second;
-  return keep(key.value(), name_of(topic, publisher));
+  const std::string key = key_of(topic, std::to_string(publisher));
+  if (const auto found = names_.find(key); found != names_.end()) return found->second;
+  return keep(key, name_of(topic, publisher));
 }
 
 std::string MessageSources::name_of(const std::string& topic, std::uint64_t publisher) {
@@ -65,7 +50,7 @@ std::string MessageSources::name_of(const std::string& topic, std::uint64_t publ
   return "publisher " + std::to_string(place->second) + " of " + printable(topic);
 }
 
-const std::string& MessageSources::keep(std::uint64_t key, std::string name) {
+const std::string& MessageSources::keep(const std::string& key, std::string name) {
   if (names_.size() >= most) {  // remaining publishers get new names and become new sources
     names_.clear();
     publishers_.clear();

@@ -27,9 +27,9 @@ class MessageSources {
 
  private:
   std::string name_of(const std::string& topic, std::uint64_t publisher);
-  const std::string& keep(std::uint64_t key, std::string name);
+  const std::string& keep(const std::string& key, std::string name);
 
-  std::map<std::uint64_t, std::string> names_;  // by the hash of the identifying fields
+  std::map<std::string, std::string> names_;  // by the identifying fields
   std::set<std::string> used_;
   std::map<std::pair<std::string, std::uint64_t>, std::size_t> publishers_;  // in order
   std::map<std::string, std::size_t> counts_;                                // number of publishers

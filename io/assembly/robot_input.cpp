@@ -4,7 +4,6 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/assembly/pose_messages.hpp>
 #include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
 
@@ -30,7 +29,30 @@ std::string why_unused(const JointStateMessage& message, const Robot& robot) {
   return "joint states hold no position that can be used";
 }
 
+PoseHistoryOptions history_options(bool compare_sources) {
+  PoseHistoryOptions options;
+  options.joints.compare_sources = options.transforms.compare_sources = compare_sources;
+  return options;
+}
+
 }  // namespace
+
+PosedRobot::PosedRobot(Robot what, bool compare_sources)
+    : robot(std::move(what)), history(robot, history_options(compare_sources)) {}
+
+std::vector<std::string> PosedRobot::refusals() const {
+  std::vector<std::string> lines;
+  if (history.clock_jumps() > 0) lines.push_back(history.last_jump());
+  if (history.joint_states_without_stamp() > 0)
+    lines.push_back(std::to_string(history.joint_states_without_stamp()) +
+                    " joint states without a stamp are not used");
+  if (const std::size_t refused = history.joints().refused_values(); refused > 0)
+    lines.push_back("joint positions not used: " + std::to_string(refused) +
+                    " (absent, not finite, beyond 1e9, or of a quaternion not of length 1)");
+  if (history.transforms().refused() > 0)
+    lines.push_back("transforms are not used, the last: " + history.transforms().last_refusal());
+  return lines;
+}
 
 MadeRobot make_robot(const RobotOrder& order) {
   try {
@@ -38,7 +60,7 @@ MadeRobot make_robot(const RobotOrder& order) {
     // folder of the program.
     return {order.number,
             std::make_shared<PosedRobot>(Robot::parse(order.description, "/", order.options),
-                                         history_options(order.compare_sources)),
+                                         order.compare_sources),
             {}};
   } catch (const InputError& error) {
     return {order.number, nullptr, error.what()};
@@ -49,8 +71,7 @@ RobotInput::RobotInput(RobotInputOptions options) : options_(std::move(options))
   for (const TransformMessage& t : options_.static_transforms)
     static_transforms_.emplace(t.child_frame_id, t);
   if (options_.given)
-    replace(
-        std::make_shared<PosedRobot>(*options_.given, history_options(options_.compare_sources)));
+    replace(std::make_shared<PosedRobot>(*options_.given, options_.compare_sources));
 }
 
 void RobotInput::replace(std::shared_ptr<PosedRobot> robot) {
@@ -90,7 +111,8 @@ void RobotInput::place(MadeRobot made) {
 void RobotInput::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
   last_joints_ = now;
   if (!posed_) return;
-  if (add_to_history(message, source, posed_->history) > 0)
+  if (posed_->history.add_joints(message.header.stamp, message.names, message.positions, source) >
+      0)
     last_used_joints_ = now;
   else
     unused_joints_ = why_unused(message, posed_->robot);
@@ -104,8 +126,13 @@ void RobotInput::take(const TfMessage& message, bool is_static, std::string_view
     if (is_static && (static_transforms_.contains(t.child_frame_id) ||
                       static_transforms_.size() < FrameTree::max_frames))
       static_transforms_[t.child_frame_id] = t;
+    if (!posed_) continue;
+    if (is_static)
+      posed_->history.add_static_transform(t.header.frame_id, t.child_frame_id, t.T_parent_child);
+    else
+      posed_->history.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id,
+                                    t.T_parent_child, source);
   }
-  if (posed_) add_to_history(message, is_static, source, posed_->history);
 }
 
 }  // namespace penumbra::io

@@ -21,10 +21,13 @@ namespace penumbra::io {
 
 /// A robot and the history of its poses.
 struct PosedRobot {
-  PosedRobot(Robot what, const PoseHistoryOptions& options)
-      : robot(std::move(what)), history(robot, options) {}
+  /// `compare_sources`: see JointBufferOptions and TransformBufferOptions.
+  PosedRobot(Robot what, bool compare_sources);
   PosedRobot(const PosedRobot&) = delete;
   PosedRobot& operator=(const PosedRobot&) = delete;
+
+  /// Returns the messages that the history refused, one line each.
+  [[nodiscard]] std::vector<std::string> refusals() const;
 
   const Robot robot;
   PoseHistory history;

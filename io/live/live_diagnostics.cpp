@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include <io/assembly/pose_messages.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/files/statistics.hpp>
@@ -216,7 +215,7 @@ DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
   Status status = make_status("robot", current);
   if (const auto& posed = inbox.robot().posed()) {
     if (status.message.empty()) status.message = posed->robot.name() + ", its pose is known";
-    for (const std::string& line : refusals_of(posed->history)) add(status, "note", line);
+    for (const std::string& line : posed->refusals()) add(status, "note", line);
     for (const std::string& line : posed->robot.notes()) add(status, "note", line);
   }
   add_count(status, "robots received", inbox.robot().robots());

@@ -46,7 +46,7 @@ SpoolPlace SpoolFile::append(std::span<const std::byte> bytes, bool pack) {
   SpoolPlace place{.offset = end_, .stored = bytes.size(), .size = bytes.size()};
   if (pack && !bytes.empty() && bytes.size() <= most_packed) {
     compressor_.compress(bytes, packed_);
-    bytes = packed_.view();
+    bytes = packed_;
     place.stored = bytes.size();
     place.is_packed = true;
   }
