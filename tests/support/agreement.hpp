@@ -31,7 +31,7 @@ inline constexpr double silhouette_shift = 1.0;
 /// Largest share of the robot's pixels that may be covered or named differently.
 inline constexpr double differing_limit = 5e-4;
 
-/// How a rendered image agrees with an oracle's, or many images added up.
+/// Counts of how one or more rendered images agree with an oracle.
 struct Agreement {
   std::size_t images = 0;
   std::size_t robot_pixels = 0;  ///< of the oracle
@@ -52,8 +52,8 @@ struct Agreement {
 
 std::ostream& operator<<(std::ostream& out, const Agreement& agreement);
 
-/// Compares every pixel of a rendered image with what the oracle sees. Pixels that differ are
-/// looked at again through rays near them.
+/// Compares every pixel of a rendered image with the oracle. Casts rays near each pixel that
+/// differs.
 [[nodiscard]] Agreement compare(const VirtualDepthView& rendered, const RayOracle& oracle,
                                 const OracleImage& expected, const Intrinsics& intrinsics);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Algebra of covariances of any size, compiled once: of fixed sizes it takes seconds in each file.
+// Covariance algebra of dynamic size, compiled once: fixed sizes cost seconds in each file.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace penumbra::test {
 /// The lower triangle L of covariance = L L^T.
 [[nodiscard]] Eigen::MatrixXd root(const Eigen::MatrixXd& covariance);
 
-/// In sigmas, squared (Mahalanobis).
+/// The squared Mahalanobis distance.
 [[nodiscard]] double squared_sigmas(const Eigen::VectorXd& error,
                                     const Eigen::MatrixXd& covariance);
 

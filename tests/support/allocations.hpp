@@ -5,11 +5,12 @@
 
 namespace penumbra::test {
 
-/// How often the program has called operator new. Link penumbra_counted_allocations into the test.
+/// Returns how often the program has called operator new. Link penumbra_counted_allocations into
+/// the test.
 [[nodiscard]] std::size_t allocations();
 
-/// While one lives, memory of `large` bytes or more is given `spared` times and then refused with
-/// std::bad_alloc. One at a time.
+/// During its lifetime, the first `spared` allocations of `large` bytes or more succeed and later
+/// ones throw std::bad_alloc. Only one may exist at a time.
 class MemoryShortage {
  public:
   MemoryShortage(std::size_t large, std::size_t spared);
@@ -17,7 +18,7 @@ class MemoryShortage {
   MemoryShortage(const MemoryShortage&) = delete;
   MemoryShortage& operator=(const MemoryShortage&) = delete;
 
-  /// How often so much was asked for.
+  /// Allocations of `large` bytes or more so far.
   [[nodiscard]] std::size_t asked() const;
 };
 

@@ -13,9 +13,8 @@
 
 namespace penumbra::test {
 
-/// Tests every triangle against every ray, in extended precision wherever the answer is near: for
-/// small scenes whose coordinates are too large, too small or too skewed for an oracle in single
-/// precision.
+/// Tests every triangle against every ray, in extended precision where rounding could matter. For
+/// small scenes whose coordinates are too large, too small or too skewed for single precision.
 class BruteForceOracle final : public RayOracle {
  public:
   BruteForceOracle(std::span<const Body> bodies, std::span<const Eigen::Isometry3d> T_camera_body);

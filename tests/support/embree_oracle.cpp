@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-/// Depth of the triangle's plane on the ray, not outside of what the triangle spans.
+/// Depth of the triangle's plane on the ray, clamped to the range of the triangle's corners.
 RayHit exact_hit(const Corners& corners, std::size_t body, const Vector3d& direction) {
   const auto& [a, b, c] = corners;
   const Vector3d normal = (b - a).cross(c - a);
@@ -26,7 +26,7 @@ RayHit exact_hit(const Corners& corners, std::size_t body, const Vector3d& direc
   return {std::clamp(1.0 / inverse_depth.dot(direction), low, high), body, inverse_depth};
 }
 
-/// Collects the triangles that a ray meets, and lets it go on.
+/// Collects the triangles that a ray hits, and continues the ray.
 struct Collector {
   RTCIntersectContext context;  // Embree is given this member, and gives it back
   std::vector<std::pair<unsigned, unsigned>> hits;  // geometry, triangle

@@ -23,7 +23,7 @@ struct ScriptResult {
 
 inline std::filesystem::path node_folder() { return PENUMBRA_NODE_FOLDER; }
 
-/// Copies a file unless it is there; another process that reads it finds the old one or the new.
+/// Copies a file unless it exists. The copy is atomic for other processes.
 inline void put_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
   namespace fs = std::filesystem;
   if (fs::exists(to) && read_bytes(from) == read_bytes(to)) return;
@@ -32,8 +32,8 @@ inline void put_whole(const std::filesystem::path& from, const std::filesystem::
   fs::rename(part, to);
 }
 
-/// Puts the scripts and npm's packages, of the versions of the lock file, into node_folder(). Tests
-/// run at the same time: the first one installs, the others wait. Whether they are there.
+/// Installs the scripts and the npm packages of the lock file into node_folder(). Tests run in
+/// parallel: the first one installs, the others wait. Returns whether the installation succeeded.
 inline bool node_scripts_are_there() {
   namespace fs = std::filesystem;
   const fs::path source = fs::path(PENUMBRA_SOURCE_DIR) / "tests" / "reference";
@@ -56,7 +56,7 @@ inline bool node_scripts_are_there() {
   return there;
 }
 
-/// `arguments`: as a shell takes them.
+/// `arguments`: quoted for the shell.
 inline ScriptResult run_script(const std::string& script, const std::string& arguments) {
   const TemporaryFolder folder;
   const auto output = folder.path() / "output", errors = folder.path() / "errors";
@@ -68,7 +68,7 @@ inline ScriptResult run_script(const std::string& script, const std::string& arg
 
 }  // namespace penumbra::test
 
-/// Skips the running test where Node.js or its packages cannot be had.
+/// Skips the running test where Node.js or its packages are not available.
 #define PENUMBRA_REQUIRE_NODE_SCRIPTS()                                               \
   if (!penumbra::test::node_scripts_are_there())                                      \
   GTEST_SKIP() << "skipped: no Node.js with npm, or no npm packages; see npm.log in " \

@@ -25,18 +25,18 @@ inline std::optional<std::size_t> find_device() {
   return std::nullopt;
 }
 
-/// The same, which is there if OpenGL is_required().
+/// Returns the same; fails the test if OpenGL is_required() and no device can draw.
 inline std::optional<std::size_t> working_device() {
   static const std::optional<std::size_t> device = find_device();
   static_cast<void>(is_there(device.has_value(), "opengl"));
   return device;
 }
 
-/// Whether some device of gl_devices() can draw; where none does, the tests that ask are skipped or
-/// try less, unless OpenGL is_required().
+/// Returns whether a device of gl_devices() can draw. If not, tests are skipped or shortened,
+/// unless OpenGL is_required().
 inline bool has_opengl() { return working_device().has_value(); }
 
-/// Whether this machine can draw with the backend; if not, it is for want of OpenGL.
+/// Returns whether this machine can draw with the backend; only OpenGL may be missing.
 inline bool can_draw(Backend backend) { return backend != Backend::gl || has_opengl(); }
 
 inline constexpr const char* no_opengl = "skipped: no OpenGL";

@@ -11,7 +11,7 @@
 
 namespace penumbra::test {
 
-/// What the kernel says of a process, "self" or its number.
+/// Reads a value of /proc for a process: "self" or its number.
 struct ProcessMemory {
   double resident = 0.0;  ///< MiB
   std::size_t open_files = 0;

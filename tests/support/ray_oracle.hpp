@@ -21,8 +21,7 @@ struct RayHit {
   Eigen::Vector3d inverse_depth;
 };
 
-/// Tells what a camera at the origin of the optical frame sees, by casting rays: an independent
-/// answer to what a renderer draws.
+/// Casts rays from a camera at the origin of the optical frame. Independent of the renderers.
 class RayOracle {
  public:
   virtual ~RayOracle() = default;

@@ -9,8 +9,8 @@
 
 namespace penumbra::test {
 
-/// Whether PENUMBRA_REQUIRE, words with commas between them, names what tests may else go without:
-/// "data", "opengl" or "simulation".
+/// Returns whether PENUMBRA_REQUIRE, a comma-separated list, contains "data", "opengl" or
+/// "simulation". Tests skip if one is missing that is not listed.
 inline bool is_required(std::string_view what) {
   const char* const given = std::getenv("PENUMBRA_REQUIRE");
   if (given == nullptr) return false;
@@ -18,8 +18,8 @@ inline bool is_required(std::string_view what) {
   return words.find("," + std::string(what) + ",") != std::string::npos;
 }
 
-/// Whether something that tests may skip for is there. Fails the running test where it is required
-/// and missing.
+/// Returns whether something optional is available. Fails the running test if it is required and
+/// missing.
 inline bool is_there(bool found, std::string_view what) {
   if (!found && is_required(what))
     ADD_FAILURE() << "PENUMBRA_REQUIRE asks for " << what << ", which is not here";

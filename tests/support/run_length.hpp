@@ -6,20 +6,18 @@
 
 namespace penumbra::test {
 
-/// Whether this build watches memory or threads (PENUMBRA_SANITIZE), which takes memory of its own
-/// and 20 times as long.
+/// Whether this is a sanitizer build (PENUMBRA_SANITIZE), which needs more memory and 20 times as
+/// long.
 inline constexpr bool sanitized = PENUMBRA_IS_SANITIZED;
 
-/// Sanitizers see what code does after a few samples; how exact its results are is for other builds
-/// to measure, with all samples.
+/// A few samples are enough for sanitizers. Other builds measure accuracy, with all samples.
 inline constexpr int sample_stride = sanitized ? 5 : 1;
 constexpr int samples(int all) { return all / sample_stride; }
 
-/// Whether the long searches for faults are asked for.
+/// Whether PENUMBRA_FULL asks for the long fault searches.
 inline bool is_full_run() { return std::getenv("PENUMBRA_FULL") != nullptr; }
 
-/// Whether the long measurements are: they are no sanitizer's, which sees no more in them than in
-/// short ones.
+/// Whether PENUMBRA_FULL asks for the long measurements. Sanitizer builds skip them.
 inline bool measures_in_full() { return is_full_run() && !sanitized; }
 
 }  // namespace penumbra::test

@@ -44,18 +44,18 @@ namespace penumbra::test {
 /// Adds the triangles of another mesh.
 void append(TriangleMesh& mesh, const TriangleMesh& other);
 
-/// The mesh as a mirror shows it: x negated, corners in the order they had, so wound inwards.
+/// The mirrored mesh: x negated, corners in the same order, so wound inwards.
 [[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
 
-/// Triangles with no order at all, corners within `extent` of the origin.
+/// Random triangles, corners within `extent` of the origin.
 [[nodiscard]] TriangleMesh triangle_soup(std::mt19937_64& random, int count, float extent);
 
 [[nodiscard]] Eigen::Isometry3d random_pose(std::mt19937_64& random,
                                             const Eigen::Vector3d& low_corner,
                                             const Eigen::Vector3d& high_corner);
 
-/// The smallest rotation that turns `from` into the direction of `to`. Eigen's own costs ten
-/// seconds of compilation wherever it stands.
+/// The smallest rotation that turns `from` into the direction of `to`. Eigen's own adds ten
+/// seconds to the compilation of each file.
 [[nodiscard]] Eigen::Quaterniond turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 [[nodiscard]] inline Eigen::Isometry3d at(double x, double y, double z) {

@@ -17,7 +17,7 @@ inline std::string read_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// An empty folder of its own for the running test, gone with this.
+/// An empty folder for the running test, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
