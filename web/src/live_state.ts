@@ -64,11 +64,12 @@ export class LiveState {
 
   /** @param milliseconds from the frame's arrival until it was displayed */
   drawn(status: LiveStatus, milliseconds: number): void {
-    const lag = status.age_ms + milliseconds;
-    // The first frame after a pause can be old: the server keeps the newest one.
-    const isOld = this.lag === null && lag > 0 && lag < maxAge;
-    this.frameTime = performance.now() - (isOld ? lag : 0);
-    this.lag = lag;
+    // The first frame after a pause can be old: the server keeps the newest one. Drawing takes this long
+    // only on a page that was hidden meanwhile.
+    const age = status.age_ms + (milliseconds > drawingMilliseconds ? milliseconds : 0);
+    const isOld = this.lag === null && age > 0 && age < maxAge;
+    this.frameTime = performance.now() - (isOld ? age : 0);
+    this.lag = status.age_ms + milliseconds;
     this.hasFrames = true;
     this.fault = null;
     this.rate = status.rate_hz;
