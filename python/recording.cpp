@@ -5,8 +5,8 @@
 #include <python/fields.hpp>
 #include <python/recording.hpp>
 
-#include <io/files/recording.hpp>
 #include <io/files/frame_reader.hpp>
+#include <io/files/recording.hpp>
 #include <io/files/targets_file.hpp>
 
 namespace penumbra::python {

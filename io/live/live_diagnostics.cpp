@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <utility>
 
-#include <io/files/printable.hpp>
 #include <io/files/json-inl.hpp>
+#include <io/files/printable.hpp>
 #include <io/files/statistics.hpp>
 #include <io/live/live_diagnostics.hpp>
 

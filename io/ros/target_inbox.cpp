@@ -154,8 +154,7 @@ void TargetInbox::add(const std::string& topic, const PoseStampedMessage& messag
 
 ReferenceFrame TargetInbox::frame_of(Waiting& waiting) const {
   waiting.link_frame = std::exchange(waiting.image_frame, {});
-  if (waiting.link_frame.empty() || waiting.link_frame == without_slash(camera_frame_))
-    return {};
+  if (waiting.link_frame.empty() || waiting.link_frame == without_slash(camera_frame_)) return {};
   const std::string frame = waiting.link_frame;
   if (frame.starts_with(frame_prefix_)) waiting.link_frame.erase(0, frame_prefix_.size());
   if (!frame.starts_with(frame_prefix_) || !robot_.find_link(waiting.link_frame))

@@ -80,7 +80,7 @@ TEST(BadInput, Robots) {
       {replace("tiny.urdf", ""), {"tiny.urdf"}},
       {replace("tiny.urdf", "robot: tiny\n"), {"tiny.urdf"}},
       {replace("tiny.urdf", "<robot name=\"tiny\"><link name=\"base\">"), {"tiny.urdf"}},
-      {replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)), {"tiny.urdf", "UTF-16"}},
+      {replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)), {"tiny.urdf", "UTF-8"}},
       {replace("tiny.urdf",
                "<robot name=\"tiny\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"
                "<xacro:include filename=\"a.xacro\"/><link name=\"base\"/></robot>"),

@@ -198,8 +198,7 @@ TEST_F(Commands, PlayLatchesWhatWasLatched) {
       EXPECT_TRUE(line_of(outcome.out, topic).ends_with("reliable, latched")) << outcome.out;
     for (const char* topic : {"/joint_states", "/robot_description"})
       EXPECT_TRUE(line_of(outcome.out, topic).ends_with(" reliable")) << outcome.out;
-    EXPECT_NE(outcome.err.find("/joint_states: the QoS that the bag tells cannot be read"),
-              std::string::npos)
+    EXPECT_NE(outcome.err.find("/joint_states: the bag's QoS cannot be read"), std::string::npos)
         << outcome.err;
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
     auto by_option = words;

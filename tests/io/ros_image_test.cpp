@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <io/ros/cdr_reader.hpp>
-#include <io/ros/image_codec.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
+#include <io/ros/image_codec.hpp>
 
 namespace penumbra::io {
 namespace {
