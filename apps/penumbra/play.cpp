@@ -161,7 +161,7 @@ void BagPlayer::announce(std::size_t index) {
       if (restamper.leaves_headers()) note_kept_stamps(topic.type);
       if (restamper.has_headers()) played.restamper = restamper;
     }
-    played.publication = graph_.advertise(played.name, played.type, played.qos);
+    played.publication = graph_.advertise(played.name, played.type, played.qos, topic.definition);
   } catch (const InputError& error) {
     if (contains(arguments_.topics, topic.name)) throw;
     notes_.push_back(io::printable(topic.name) + " is not played: " + error.what());

@@ -51,7 +51,7 @@ class DdsSubscription final : public Subscription {
       : topic_(std::move(session), topic, type, counts_) {
     const GraphSession& here = topic_.session();
     reader_ = checked(
-        dds_create_reader(here.participant(), topic_.entity(), make_qos(qos).get(), nullptr),
+        dds_create_reader(here.participant(), topic_.entity(), make_qos(qos, type).get(), nullptr),
         "subscription to " + topic);
     const dds_entity_t condition = dds_create_readcondition(reader_, DDS_ANY_STATE);
     checked(dds_waitset_attach(here.waitset(), condition, condition), "subscription to " + topic);
@@ -99,10 +99,10 @@ class DdsSubscription final : public Subscription {
 class DdsPublication final : public Publication {
  public:
   DdsPublication(std::shared_ptr<GraphSession> session, const std::string& topic,
-                 const std::string& type, const TopicQos& qos)
+                 const std::string& type, const TopicQos& qos, std::string_view definition)
       : topic_(std::move(session), topic, type, nullptr),
         writer_(checked(dds_create_writer(topic_.session().participant(), topic_.entity(),
-                                          make_qos(qos).get(), nullptr),
+                                          make_qos(qos, type, definition).get(), nullptr),
                         "publication of " + topic)) {}
   ~DdsPublication() override { dds_delete(writer_); }
 
@@ -138,8 +138,9 @@ class DdsParticipant final : public Participant {
   }
 
   std::unique_ptr<Publication> advertise(const std::string& topic, const std::string& type,
-                                         const TopicQos& qos) override {
-    return std::make_unique<DdsPublication>(session_, topic, type, qos);
+                                         const TopicQos& qos,
+                                         std::string_view definition) override {
+    return std::make_unique<DdsPublication>(session_, topic, type, qos, definition);
   }
 
   bool wait(std::chrono::nanoseconds at_most) override {

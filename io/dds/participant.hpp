@@ -108,12 +108,13 @@ class Participant {
 
   /// `topic`: "/a/b"; `type`: "sensor_msgs/msg/Image". Both functions throw InputError for an
   /// invalid name of ROS 2, and for a topic that this participant already has with another type.
+  /// `definition`: the ros2msg text of a type that is not built in, for its hash.
   [[nodiscard]] virtual std::unique_ptr<Subscription> subscribe(const std::string& topic,
                                                                 const std::string& type,
                                                                 const TopicQos& qos) = 0;
-  [[nodiscard]] virtual std::unique_ptr<Publication> advertise(const std::string& topic,
-                                                               const std::string& type,
-                                                               const TopicQos& qos) = 0;
+  [[nodiscard]] virtual std::unique_ptr<Publication> advertise(
+      const std::string& topic, const std::string& type, const TopicQos& qos,
+      std::string_view definition = {}) = 0;
 
   /// Waits until a subscription has messages or wake() is called. Returns false on timeout.
   virtual bool wait(std::chrono::nanoseconds at_most) = 0;

@@ -3,6 +3,8 @@
 #include <new>
 
 #include <io/dds/qos.hpp>
+#include <io/dds/type_hash.hpp>
+#include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -11,7 +13,7 @@ constexpr dds_duration_t longest_write = DDS_MSECS(100);
 
 }  // namespace
 
-QosPointer make_qos(const TopicQos& qos) {
+QosPointer make_qos(const TopicQos& qos, const std::string& type, std::string_view definition) {
   QosPointer made(dds_create_qos());
   if (!made) throw std::bad_alloc();
   dds_qset_reliability(made.get(),
@@ -27,6 +29,9 @@ QosPointer make_qos(const TopicQos& qos) {
   dds_qset_writer_data_lifecycle(made.get(), false);
   const std::array<dds_data_representation_id_t, 1> plain_cdr = {DDS_DATA_REPRESENTATION_XCDR1};
   dds_qset_data_representation(made.get(), plain_cdr.size(), plain_cdr.data());
+  const std::string hash = type_hash(type, definition.empty() ? definition_of(type) : definition);
+  const std::string user_data = "typehash=" + hash + ";";
+  if (!hash.empty()) dds_qset_userdata(made.get(), user_data.data(), user_data.size());
   return made;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <dds/dds.h>
 
@@ -15,8 +16,11 @@ struct DeleteQos {
 };
 using QosPointer = std::unique_ptr<dds_qos_t, DeleteQos>;
 
-/// Returns the QoS in the form that ROS 2's own participants use.
-[[nodiscard]] QosPointer make_qos(const TopicQos& qos);
+/// Returns the QoS in the form that ROS 2's own participants use, with the hash of the message type
+/// as user data, which nodes of Jazzy and later compare. `definition`: the type's ros2msg text;
+/// empty: the built-in one.
+[[nodiscard]] QosPointer make_qos(const TopicQos& qos, const std::string& type,
+                                  std::string_view definition = {});
 
 /// Returns the QoS of a discovered endpoint.
 [[nodiscard]] TopicQos read_qos(const dds_qos_t* qos);

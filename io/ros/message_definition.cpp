@@ -23,7 +23,7 @@ std::string_view take_until(std::string_view& text, std::string_view ends) {
 std::string full_type(std::string_view text, std::string_view owner) {
   const std::size_t end = std::min(text.find_first_of("[<"), text.size());
   std::string name = short_type(text.substr(0, end));
-  if (name == "byte" || name == "char") name = "uint8";
+  if (name == "char") name = "uint8";
   if (name == "time") name = "builtin_interfaces/Time";
   const bool is_message = !name.empty() && name.front() >= 'A' && name.front() <= 'Z';
   if (is_message && name.find('/') == std::string::npos)

@@ -253,7 +253,7 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
   judged_ = &frame;
   view->name = is_late ? out_of_order : std::string_view(known.first);
   if (is_late) {
-    const Judgement judgement = judge_.judge(*view);
+    Judgement judgement = judge_.judge(*view);
     judge_.forget(out_of_order);
     return judgement;
   }

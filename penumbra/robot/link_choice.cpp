@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fnmatch.h>
 
@@ -126,12 +127,13 @@ std::vector<std::string> missing_geometry_notes(const Urdf& urdf,
     }
     if (count == 0) continue;
     const std::string kind = name_of(other(wanted));
-    notes.push_back(std::to_string(count) + (count == 1 ? " link has no " : " links have no ") +
-                    name_of(wanted) + " geometry, only " + kind + ": " + names +
-                    (count > most_names ? ", ..." : "") + "; use " + kind +
-                    " for such links (--geometry-fallback, or geometry: {LINK: " + kind +
-                    "}) or for all (--geometry " + kind +
-                    "), or leave out links that the real robot does not have (ignore_links)");
+    std::ostringstream note;
+    note << count << (count == 1 ? " link has no " : " links have no ") << name_of(wanted)
+         << " geometry, only " << kind << ": " << names << (count > most_names ? ", ..." : "")
+         << "; use " << kind << " for such links (--geometry-fallback, or geometry: {LINK: " << kind
+         << "}) or for all (--geometry " << kind
+         << "), or leave out links that the real robot does not have (ignore_links)";
+    notes.push_back(note.str());
   }
   return notes;
 }
