@@ -92,7 +92,7 @@ std::optional<io::BagTopics> CameraSearch::look() {
     since_ = Clock::now();
   }
   const auto settled = Clock::now() - since_;
-  why_ = "nobody publishes depth images yet";
+  why_ = "nobody publishes depth images yet (discovery range " + io::discovery_range() + ")";
   try {
     const io::BagTopics chosen = io::choose_camera_topics("ROS 2's graph", topics, topics_, true);
     if (settled >= settled_after) return chosen;

@@ -37,7 +37,8 @@ std::string hosts_of(const io::GraphTopic& topic) {
 
 void print_topics(int domain, const std::vector<io::GraphTopic>& topics) {
   if (topics.empty()) {
-    std::cout << "nobody publishes or subscribes on domain " << domain << '\n';
+    std::cout << "nobody publishes or subscribes on domain " << domain << ", discovery range "
+              << io::discovery_range() << '\n';
     return;
   }
   std::vector<std::vector<std::string>> rows = {

@@ -4,8 +4,11 @@
 #include <mutex>
 #include <string_view>
 
+#include <unistd.h>
+
 #include <penumbra/base/error.hpp>
 
+#include <io/dds/graph_domain-inl.hpp>
 #include <io/dds/graph_log.hpp>
 #include <io/dds/graph_session.hpp>
 
@@ -20,28 +23,44 @@ constexpr std::string_view our_settings =
     R"(<CycloneDDS><Domain id="any"><Internal><SocketReceiveBufferSize max="16MiB"/>)"
     R"(<NackDelay>10ms</NackDelay></Internal></Domain></CycloneDDS>)";
 
-// Without multicast, participants find each other by the ports of their numbers.
-constexpr std::string_view localhost_settings =
-    R"(<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>)"
-    R"(<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>)"
-    R"(<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers>)"
-    R"(</Discovery></Domain></CycloneDDS>)";
+// Nodes of Humble listen on the loopback interface only, those of Jazzy on the default one. A
+// machine may have no other than the loopback interface, which must not be named twice.
+constexpr std::string_view both_interfaces =
+    R"(<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface autodetermine="true"/>)"
+    R"(<NetworkInterface address="127.0.0.1"/></Interfaces></General></Domain></CycloneDDS>)";
 
 // Shared memory is off: it needs a daemon, ends the process if there is none, and does not pass CDR
 // bytes.
 constexpr std::string_view last_settings =
     R"(<CycloneDDS><Domain id="any"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>)";
 
-std::string environment(const char* name) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? "" : value;
+/// Returns the settings of ROS 2 Jazzy for a discovery range. Without multicast, participants find
+/// each other by the ports of their numbers.
+std::string discovery_settings(const std::string& range) {
+  if (range == "SYSTEM_DEFAULT") return {};
+  std::string peers;
+  if (range == "LOCALHOST") peers = R"(<Peer address="localhost"/>)";
+  if (environment("ROS_LOCALHOST_ONLY") != "1")
+    for (const std::string& peer : static_peers()) peers += "<Peer address=\"" + peer + "\"/>";
+  std::string settings = R"(<CycloneDDS><Domain id="any">)";
+  if (range != "SUBNET") settings += "<General><AllowMulticast>false</AllowMulticast></General>";
+  if (range == "OFF")
+    settings += "<Discovery><ParticipantIndex>none</ParticipantIndex><Tag>penumbra_" +
+                std::to_string(::getpid()) + "</Tag></Discovery>";
+  else
+    settings +=
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>" +
+        (peers.empty() ? "" : "<Peers>" + peers + "</Peers>") + "</Discovery>";
+  return settings + "</Domain></CycloneDDS>";
 }
 
 /// Returns the settings, in XML or as file names, separated by commas. Later settings override
 /// earlier ones.
-std::string all_settings() {
+std::string all_settings(std::string_view interfaces) {
   std::string all(our_settings);
-  if (environment("ROS_LOCALHOST_ONLY") == "1") all += "," + std::string(localhost_settings);
+  all += "," + discovery_settings(discovery_range());
+  all.append(",").append(interfaces);
   const std::string users = environment("CYCLONEDDS_URI");
   if (!users.empty()) all += "," + users;
   return all + "," + std::string(last_settings);
@@ -75,7 +94,14 @@ class GraphDomain {
   explicit GraphDomain(int id) {
     keep_logged_lines();
     static_cast<void>(take_logged_lines());
-    entity_ = dds_create_domain(static_cast<dds_domainid_t>(id), all_settings().c_str());
+    const auto create = [id](std::string_view interfaces) {
+      return dds_create_domain(static_cast<dds_domainid_t>(id), all_settings(interfaces).c_str());
+    };
+    entity_ = create(discovery_range() == "LOCALHOST" ? both_interfaces : "");
+    if (entity_ < 0 && discovery_range() == "LOCALHOST") {
+      static_cast<void>(take_logged_lines());
+      entity_ = create("");
+    }
     if (entity_ < 0) refuse_graph(id, dds_strretcode(entity_));
   }
   ~GraphDomain() { dds_delete(entity_); }

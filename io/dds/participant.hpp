@@ -131,14 +131,19 @@ class Participant {
   [[nodiscard]] virtual std::vector<std::string> take_complaints() = 0;
 };
 
-/// Joins ROS 2's graph. Environment: ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 (this machine only,
-/// without multicast) and CYCLONEDDS_URI, which overrides everything else. Throws InputError with
-/// one line that says what to do for a bad domain, for invalid settings in CYCLONEDDS_URI, without
-/// a network, and in builds without DDS.
+/// Joins ROS 2's graph. Environment, as in ROS 2 Jazzy: ROS_DOMAIN_ID,
+/// ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS, ROS_LOCALHOST_ONLY=1 (the range LOCALHOST,
+/// without static peers) and CYCLONEDDS_URI, which overrides everything else. Throws InputError
+/// with one line that says what to do for a bad domain, for invalid settings in CYCLONEDDS_URI,
+/// without a network, and in builds without DDS.
 [[nodiscard]] std::unique_ptr<Participant> join_graph(const ParticipantOptions& options);
 
 /// Returns the domain that join_graph() uses. Throws InputError.
 [[nodiscard]] int graph_domain(const ParticipantOptions& options);
+
+/// Returns the range in which join_graph() finds others: SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT.
+/// Throws InputError.
+[[nodiscard]] std::string discovery_range();
 
 /// Returns whether this build has DDS.
 [[nodiscard]] bool has_dds();

@@ -56,6 +56,24 @@ TEST(GraphDomain, IsThatOfOptionsEnvironmentOrZero) {
   EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = -1})), InputError);
 }
 
+TEST(DiscoveryRange, IsThatOfTheEnvironment) {
+  unsetenv("ROS_LOCALHOST_ONLY");
+  unsetenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
+  EXPECT_EQ(io::discovery_range(), "SUBNET");
+  setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF", 1);
+  EXPECT_EQ(io::discovery_range(), "OFF");
+  setenv("ROS_LOCALHOST_ONLY", "1", 1);
+  EXPECT_EQ(io::discovery_range(), "LOCALHOST");
+  unsetenv("ROS_LOCALHOST_ONLY");
+  for (const auto& [name, value] : {std::pair{"ROS_AUTOMATIC_DISCOVERY_RANGE", "NEAR"},
+                                    std::pair{"ROS_STATIC_PEERS", "192.0.2.1;<Peers>"}}) {
+    unsetenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
+    setenv(name, value, 1);
+    expect_refused([] { static_cast<void>(io::join_graph({.domain = 9})); }, {name});
+    unsetenv(name);
+  }
+}
+
 TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
   const LoneDomain domain;
   for (const char* const bad :
