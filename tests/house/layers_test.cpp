@@ -78,6 +78,7 @@ const std::vector<Library>& libraries() {
                                         {"sqlite3.h", "io/bag", 1},
                                         {"boost/", "io/web", 2},
                                         {"dds/", "io/dds", 8},
+                                        {"nettle/", "io/dds", 1},
                                         {"mujoco/", "sim", 1},
                                         {"epoxy/egl.h", "sim", 1},
                                         {"CLI/", "apps", 2},
