@@ -140,8 +140,9 @@ void print_network(const Json& machine) {
              &advice = machine["network"]["advice"];
   std::cout << "\nLive topics of ROS 2\n";
   if (!machine["build"]["dds"])
-    std::cout << "  not built in: install cyclonedds-dev and build Penumbra again with "
-                 "-DPENUMBRA_WITH_DDS=ON\n";
+    std::cout
+        << "  not built in: install cyclonedds-dev and nettle-dev and build Penumbra again with "
+           "-DPENUMBRA_WITH_DDS=ON\n";
   std::cout << "  a socket may hold "
             << (limit.is_null() ? "an unknown number of bytes"
                                 : std::to_string(limit.get<std::uint64_t>() / 1024) + " KiB")

@@ -10,7 +10,8 @@ bool has_dds() { return false; }
 
 std::unique_ptr<Participant> join_graph(const ParticipantOptions&) {
   throw InputError(
-      "this build has no DDS, and so no ROS 2 graph: install cyclonedds-dev and build Penumbra "
+      "this build has no DDS, and so no ROS 2 graph: install cyclonedds-dev and nettle-dev and "
+      "build Penumbra "
       "again with -DPENUMBRA_WITH_DDS=ON");
 }
 
