@@ -30,7 +30,7 @@ std::string environment(const char* name) {
 
 std::string discovery_range() {
   if (environment("ROS_LOCALHOST_ONLY") == "1") return "LOCALHOST";
-  const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
+  std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
   if (range.empty()) return "SUBNET";
   for (const char* known : {"SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT"})
     if (range == known) return range;
