@@ -43,7 +43,7 @@ TEST(RosDefinition, ReadsEveryKindOfField) {
   ASSERT_EQ(types.size(), 4U);
   EXPECT_EQ(types[0].type, "own_msgs/Kinds");
   EXPECT_EQ(types[0].fields,
-            (std::vector<std::string>{"bool[] flags", "uint8 one", "uint8 two", "float64[3] xyz",
+            (std::vector<std::string>{"bool[] flags", "byte one", "uint8 two", "float64[3] xyz",
                                       "int16[<=5] few", "string<=10[<=3] names", "string greeting",
                                       "own_msgs/Inner inner", "other_msgs/Thing[2] things",
                                       "builtin_interfaces/Time stamp",

@@ -53,7 +53,7 @@ export const phone = {
 };
 
 /** Opens a page; `faults` collects its errors, and requests to other hosts. */
-export async function open(browser, url, options = desktop) {
+export async function open(browser, url, options = desktop, beforeLoad = () => {}) {
   const context = await browser.newContext({ deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
   const faults = [];
@@ -65,6 +65,7 @@ export async function open(browser, url, options = desktop) {
     if (!request.url().startsWith(new URL(url).origin) && !/^(blob|data):/.test(request.url()))
       faults.push(`request to another host: ${request.url()}`);
   });
+  await beforeLoad(page);
   const start = performance.now();
   await page.goto(url);
   await page.locator('#cover').waitFor({ state: 'hidden' });

@@ -102,9 +102,15 @@ test('an unreachable server is reported, with a button to try again', async () =
   await close();
 });
 
+/**
+ * Opens the recording; `answer` handles the requests of frame 1. The route is set before the page
+ * loads: a busy browser sends a loaded page's next request past a new route.
+ */
+const openWithFrame1 = (answer) =>
+  open(browser, server.url, desktop, (page) => page.route('**/api/frames/1/packet*', answer));
+
 test('a damaged packet is reported and not displayed', async () => {
-  const { page, close } = await open(browser, server.url, desktop);
-  await page.route('**/api/frames/1/packet*', async (route) => {
+  const { page, close } = await openWithFrame1(async (route) => {
     const body = await (await route.fetch()).body();
     await route.fulfill({ body: body.subarray(0, body.length - 5) });
   });
@@ -122,8 +128,7 @@ test('a damaged packet is reported and not displayed', async () => {
 });
 
 test('a frame whose image cannot be decoded is reported and not displayed', async () => {
-  const { page, close } = await open(browser, server.url, desktop);
-  await page.route('**/api/frames/1/packet*', async (route) => {
+  const { page, close } = await openWithFrame1(async (route) => {
     const body = await (await route.fetch()).body();
     const start = body.indexOf(Buffer.from([0xff, 0xd8, 0xff])); // start of the JPEG
     assert.ok(start > 0);
