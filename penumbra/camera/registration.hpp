@@ -21,8 +21,8 @@ namespace penumbra {
 /// as in the source. There is no measurement where the source has none or only the second camera
 /// sees.
 ///
-/// A surface behind one that the first camera cannot measure may appear in front of the gap in the
-/// second camera's image: no depth image shows this fault.
+/// A surface next to an object that the first camera cannot measure may appear through that object
+/// in the second camera's image: no depth image shows this fault.
 class DepthRegistration {
  public:
   /// Depths outside of this range, metres, in either camera are no measurements.

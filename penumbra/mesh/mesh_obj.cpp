@@ -92,8 +92,8 @@ class ObjReader {
   }
 
   [[noreturn]] void fail(std::string_view word, const char* wanted) const {
-    damaged("OBJ, line " + std::to_string(line_) + ": " + in_quotes(word) + " instead of " +
-            wanted);
+    damaged("OBJ, line " + std::to_string(line_) + ": " +
+            (word.empty() ? "the line ends" : in_quotes(word)) + " instead of " + wanted);
   }
 
   struct Face {

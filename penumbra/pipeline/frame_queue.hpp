@@ -18,7 +18,7 @@ namespace penumbra {
 
 /// Which frames are returned.
 enum class DropPolicy {
-  newest,  ///< the newest by stamp with a pose; earlier ones are dropped. For live images
+  newest,  ///< the newest whose pose came or was waited for; drops earlier ones. For live images
   every    ///< all, in the order of arrival. For bags
 };
 

@@ -80,8 +80,7 @@ PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
   if (!is_rigid(config.T_parent_camera))
     throw InputError(
         "camera pose is not a rigid transform: expected a rotation (orthonormal, determinant 1) "
-        "and "
-        "a finite translation in metres");
+        "and a finite translation in metres");
   if (config.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_distance)
     throw InputError("camera pose is more than 1000 km from its parent link; expected metres");
   T_camera_parent_ = config.T_parent_camera.inverse();

@@ -121,7 +121,7 @@ fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view
 const fs::path& FileLocator::package_folder(const std::string& name, const fs::path& file) {
   if (const auto known = packages_.find(name); known != packages_.end()) {
     if (is_folder(known->second)) return known->second;
-    throw InputError("package " + in_quotes(name) + " was given as " + known->second.string() +
+    throw InputError("package " + in_quotes(name) + " is taken from " + known->second.string() +
                      ", which is no folder");
   }
   const auto [folder, how] = search(name, file);
@@ -142,7 +142,8 @@ std::pair<fs::path, std::string> FileLocator::search(const std::string& name,
                                                            {"IGN_GAZEBO_RESOURCE_PATH", name}};
   for (const auto& [variable, below] : variables)
     for (const fs::path& prefix : folders_in(variable))
-      if (is_folder(prefix / below)) return {prefix / below, std::string("by ") + variable};
+      if (is_file(existing(prefix / below, file.string())))
+        return {prefix / below, std::string("by ") + variable};
   for (const fs::path& near : folders_near(folder_, name))
     if (is_file(existing(near, file.string()))) return {near, "found next to or above the URDF"};
   return {};

@@ -169,7 +169,8 @@ void resolve_mimics(const Urdf& urdf, const std::vector<std::size_t>& source,
     joints[i].variable = target.variable;
     joints[i].offset = offset + multiplier * target.offset;
     joints[i].multiplier = multiplier * target.multiplier;
-    if (!(std::max(std::abs(joints[i].multiplier), std::abs(joints[i].offset)) <= largest_mimic))
+    const auto is_large = [](double value) { return !(std::abs(value) <= largest_mimic); };
+    if (is_large(joints[i].multiplier) || is_large(joints[i].offset))
       fail(start, "its chain of mimics multiplies or offsets by more than 1e9");
   }
 }

@@ -123,8 +123,8 @@ struct Judgement {
 /// The point is the median of the trusted depths of about 1,000 pixels of the extent. A depth is
 /// trusted if its label is clear or front, it is within m of the expected depth (if any), and it is
 /// not the depth of robot within edge_margin (at least LabelRule's default): for virtual depths
-/// from n to f, not from n - e(n) to f + k e(f). Near pixels outside the lens model none is
-/// trusted. Only the verdicts visible and partial have a point.
+/// from n to f, not from n - e(n) to f + k e(f). Near pixels outside the lens model, no
+/// depth is trusted. Only the verdicts visible and partial have a point.
 class TargetJudge {
  public:
   /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.
