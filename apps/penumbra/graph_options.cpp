@@ -37,7 +37,7 @@ void check_results(const std::string& list) {
                     [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; });
     if (!known)
       refuse_option("--publish", name,
-                    "of vdi, labels, mask, filtered_depth, points, targets, overlay");
+                    "one of vdi, labels, mask, filtered_depth, points, targets, overlay");
   }
 }
 
@@ -84,7 +84,7 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
              static_cast<void>(io::dds_topic(from));
              static_cast<void>(io::dds_topic(to));
              if (!remaps.emplace(from, to).second)
-               refuse_option("--remap", text, "the only one from " + from);
+               throw InputError("--remap: " + from + " is given twice");
            });
 }
 
@@ -135,8 +135,8 @@ void add_live(CLI::App& app, LiveArguments& live) {
              0.0, longest_duration);
   add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);
   add_server(app, live.server,
-             "serve the viewer's page of this camera there; of several cameras each next one's at "
-             "the next port; 0: any that is free; default: no page");
+             "serve the viewer's page there; with several cameras, each further page gets the next "
+             "port; 0: any free port; default: no page");
   add_graph(app, live);
   add_judging(app, live.judging, "collision");
   add_bag(app, live.judging.input.bag,
@@ -154,7 +154,7 @@ void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   for (std::size_t i = 0; i < live.cameras.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (live.cameras[i].name == live.cameras[j].name)
-        refuse_option("--camera", live.cameras[i].name, "another name for each camera");
+        throw InputError("--camera: the name '" + live.cameras[i].name + "' is given twice");
   if (live.cameras.size() == 1) return;
   const auto refuse = [](const char* option) {
     throw InputError(

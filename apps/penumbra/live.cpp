@@ -103,8 +103,8 @@ class Diagnostics {
   LivePages& pages_;
 };
 
-/// Waits for the graph's one camera. Nothing: it was stopped before. Throws InputError where there
-/// is none when the time is over.
+/// Waits for the graph's one camera. Returns nothing if it was stopped before. Throws InputError if
+/// the time is over without a camera.
 std::optional<io::CameraInputOptions> find_camera(const LiveArguments& arguments,
                                                   CameraSearch& search,
                                                   const io::CameraInputOptions& common,
@@ -166,7 +166,7 @@ class Live {
     subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
   }
 
-  /// Whether it was stopped, rather than that its time was over.
+  /// Returns whether it was stopped before its time was over.
   bool run(io::Participant& graph, Diagnostics& diagnostics, StopSignal& stop) {
     runner_->start();
     std::atomic<bool> ends = false;
@@ -187,10 +187,10 @@ class Live {
     return stopped;
   }
 
-  /// After run(), as what follows: what ended it before its time; null: nothing did.
+  /// Returns the fault that ended run(), or null.
   [[nodiscard]] const std::exception_ptr& fault() const { return fault_; }
 
-  /// Images of which there are results.
+  /// Returns the number of judged images.
   [[nodiscard]] std::size_t judged() {
     return runner_->with_inbox([&](const io::LiveInbox& inbox) {
       std::size_t images = 0;
@@ -304,7 +304,12 @@ int execute(const LiveArguments& arguments) {
   Live live(arguments, names, *graph, options, pages);
   const bool stopped = live.run(*graph, diagnostics, stop);
   print_notes(graph->take_complaints());
-  if (summary) write_summary(*summary, live.summary());
+  try {
+    if (summary) write_summary(*summary, live.summary());
+  } catch (const InputError& error) {
+    if (!live.fault()) throw;
+    print_notes(std::vector<std::string>{error.what()});
+  }
   if (live.fault()) std::rethrow_exception(live.fault());
   if (stopped || live.judged() > 0) return 0;
   std::cerr << "penumbra: no image was judged\n";

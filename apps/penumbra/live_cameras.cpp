@@ -11,10 +11,10 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// The graph has to stay the same so long before the camera is chosen, or none can be.
+/// The graph must not change for this long before the camera is chosen, or refused as ambiguous.
 constexpr auto settled_after = 1s, ambiguous_after = 3s;
 
-/// What others than Penumbra publish.
+/// Returns the topics that programs other than Penumbra publish.
 std::vector<io::BagTopic> published_topics(const io::Participant& graph) {
   std::vector<io::BagTopic> topics;
   for (const io::GraphTopic& topic : graph.graph())

@@ -15,25 +15,25 @@
 
 namespace penumbra::app {
 
-/// What does not depend on which camera it is. Throws InputError of the pose's file.
+/// Returns the options that all cameras share. Throws InputError for the file of the pose.
 [[nodiscard]] io::CameraInputOptions camera_options(const LiveArguments& arguments);
 
-/// Cameras whose depth images are named: nothing has to be there yet.
+/// Returns the cameras whose depth topics are given by name. The topics need not exist yet.
 [[nodiscard]] std::vector<io::CameraInputOptions> named_cameras(
     const LiveArguments& arguments, const io::NameResolver& names,
     const io::CameraInputOptions& common);
 
-/// Returns what the user says of the topics of a camera that is not named.
+/// Returns the user's choices for the topics of a camera that is searched.
 [[nodiscard]] io::BagOptions searched_topics(const LiveArguments& arguments,
                                              const io::NameResolver& names);
 
-/// Looks for the one camera of a graph, which appears bit by bit.
+/// Searches the one camera of a graph. Its topics may appear one after the other.
 class CameraSearch {
  public:
   CameraSearch(const io::Participant& graph, io::BagOptions topics);
 
-  /// The camera's topics, once the graph has settled; nothing: not yet, why() says what lacks.
-  /// Throws io::AmbiguousTopics where there are several, and it stays so.
+  /// Returns the camera's topics when the graph no longer changes. Nothing: not yet; why() says
+  /// what is missing. Throws io::AmbiguousTopics if there are several for some seconds.
   [[nodiscard]] std::optional<io::BagTopics> look();
   [[nodiscard]] const std::string& why() const { return why_; }
 
@@ -41,7 +41,7 @@ class CameraSearch {
   const io::Participant& graph_;
   io::BagOptions topics_;
   std::string seen_, why_;
-  std::chrono::steady_clock::time_point since_;  // it is as it is
+  std::chrono::steady_clock::time_point since_;  // the last change
 };
 
 [[nodiscard]] io::CameraInputOptions found_camera(const io::BagTopics& chosen,

@@ -18,10 +18,10 @@
 
 namespace penumbra::app {
 
-/// How a topic is subscribed to; `reliable`: asked of all.
+/// Returns the QoS of a subscription. `reliable`: for all topics.
 [[nodiscard]] io::TopicQos live_qos(const io::InputTopic& topic, bool reliable);
 
-/// Publishes a camera's results, those that somebody subscribes to.
+/// Publishes the results of a camera that have subscribers.
 class GraphResults final : public io::ResultSink {
  public:
   /// `name_of`: the topic of a result, "/penumbra/labels"; empty: it is not published.
@@ -31,7 +31,7 @@ class GraphResults final : public io::ResultSink {
   [[nodiscard]] bool wants(io::Result result) const override;
   void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
 
-  /// What was published so far; of any thread.
+  /// Returns the numbers of published results. Any thread may call this.
   [[nodiscard]] io::WrittenResults counts() const;
 
  private:
@@ -40,19 +40,18 @@ class GraphResults final : public io::ResultSink {
   std::atomic<std::size_t> not_written_ = 0;
 };
 
-/// Hands a graph's messages to a runner. receive() is for one thread; the rest for any.
+/// Hands a graph's messages to a runner. One thread calls receive(); any thread calls the rest.
 class LiveSubscriptions {
  public:
   LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable);
 
-  /// Subscribes to what can be by now: topics of targets once somebody says their type, color
-  /// images as long as `with_color`.
+  /// Subscribes to the topics whose types are known by now; to color images while `with_color`.
   void follow(bool with_color);
 
-  /// Waits for messages and hands them on, at most that long.
+  /// Waits for messages, at most `at_most`, and hands them on.
   void receive(std::chrono::nanoseconds at_most);
 
-  /// What is known of each of the runner's topics.
+  /// Returns the state of each of the runner's topics.
   [[nodiscard]] std::vector<io::LiveLink> links() const;
 
  private:
@@ -65,11 +64,10 @@ class LiveSubscriptions {
   io::LiveRunner& runner_;
   bool reliable_;
   std::vector<io::InputTopic> topics_;
-  mutable std::mutex
-      mutex_;  // guards what follows; taken before the runner's, not while it is held
+  mutable std::mutex mutex_;  // guards the members below; lock it before the runner's
   std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to
   std::vector<std::string> other_types_;
-  std::vector<io::LiveLink> former_;  // what subscriptions that ended had lost
+  std::vector<io::LiveLink> former_;  // losses of closed subscriptions
 };
 
 }  // namespace penumbra::app

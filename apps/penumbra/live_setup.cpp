@@ -40,8 +40,8 @@ void check_remaps(const io::NameResolver& names,
       static_cast<void>(names.resolve(result_name(camera, topic)));
   if (const auto unused = names.unused(); !unused.empty())
     throw InputError("--remap '" + io::printable(unused.front()) +
-                     "': nothing here is called so; of what is found by its type name the topic "
-                     "itself, as by --depth-topic");
+                     "': no topic has this name; topics that are found by their type are named by "
+                     "their own options, for example --depth-topic");
 }
 
 io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResolver& names) {

@@ -17,18 +17,17 @@ namespace penumbra::app {
 
 inline constexpr const char* diagnostics_topic = "/diagnostics";
 
-/// As whom it speaks there.
+/// Returns the name and hardware id of this program's diagnostics.
 [[nodiscard]] io::DiagnosticSource diagnostic_source(const io::NameResolver& names);
 
-/// Of a camera's result, before it is resolved; `camera`: its name, empty for the only one.
+/// Returns the topic of a camera's result before it is resolved. `camera`: empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);
 
-/// To be called when all else is resolved: throws InputError for a name that is remapped and that
-/// nothing has.
+/// Throws InputError for a remapped name that no topic has. Call it after all names are resolved.
 void check_remaps(const io::NameResolver& names,
                   const std::vector<io::CameraInputOptions>& cameras);
 
-/// All but the cameras. Throws InputError of a robot's file.
+/// Returns all options but the cameras. Throws InputError for the file of the robot.
 [[nodiscard]] io::LiveOptions live_options(const LiveArguments& arguments,
                                            const io::NameResolver& names);
 

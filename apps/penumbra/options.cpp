@@ -45,7 +45,7 @@ void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& p
     if (!std::filesystem::is_directory(folder, error))
       refuse_option("--package", text, "NAME=DIR with a folder that exists");
     if (!packages.emplace(name, folder).second)
-      refuse_option("--package", text, "the only one of " + name + "; give each name once");
+      throw InputError("--package " + text + ": " + name + " is given twice");
   };
   add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
            take);

@@ -100,7 +100,11 @@ struct BagPlayer::Clock {
   double rate = 1.0;
 
   [[nodiscard]] std::int64_t ahead(std::int64_t recorded) const {
-    return static_cast<std::int64_t>(static_cast<double>(recorded - first_log) / rate);
+    constexpr double most = 1e18;  // nanoseconds: 30 years
+    std::int64_t difference = 0;
+    if (__builtin_sub_overflow(recorded, first_log, &difference)) return 0;  // a damaged time
+    return static_cast<std::int64_t>(
+        std::clamp(static_cast<double>(difference) / rate, -most, most));
   }
 };
 

@@ -66,17 +66,17 @@ void CameraInput::note_arrival(std::int64_t now) {
 
 void CameraInput::take_depth(KeptImage image, std::int64_t now) {
   const std::uint64_t index = counts_.received++;
-  note_arrival(now);
   const std::int64_t stamp = image.header().stamp;
   const std::string frame = image.header().frame_id;
   infos_.add_image(stamp);
-  color_infos_.add_image(stamp);
   Waiting waiting{.index = index, .image = std::move(image), .arrived = now};
   if (gives_every()) {
+    color_infos_.add_image(stamp);
     if (frame_name(frame) != frame_name(depth_frame_))
       waiting.fault = "the depth image is of the frame '" + printable(frame) +
                       "', the first one of '" + printable(depth_frame_) + "'";
   } else {
+    note_arrival(now);
     depth_frame_ = frame;
     refresh();
     if (!setup_) return drop(FrameDrop::not_ready);
@@ -240,7 +240,7 @@ void CameraInput::collect(std::int64_t now) {
 CameraInput::InfoState CameraInput::find_info(const Waiting& waiting, std::int64_t now) {
   const std::int64_t stamp = waiting.pose.stamp;
   if (!infos_.are_likely() || infos_.covers(stamp)) return InfoState::known;
-  if (now - waiting.arrived < newest_companion_wait) return InfoState::awaited;
+  if (!finished_ && now - waiting.arrived < newest_companion_wait) return InfoState::awaited;
   if (infos_.are_certain()) return InfoState::missing;
   infos_.note_missing();
   return InfoState::known;
@@ -269,7 +269,7 @@ bool CameraInput::find_newest(std::int64_t now, Waiting& found) {
 bool CameraInput::awaits_companions(const Waiting& waiting, std::int64_t now,
                                     bool with_color) const {
   if (finished_ || waiting.image.is_empty() || held_.size() >= options_.max_frames ||
-      now - waiting.arrived > every_companion_wait)
+      stamp_distance(now, waiting.arrived) > std::uint64_t{every_companion_wait})
     return false;
   const std::int64_t stamp = waiting.pose.stamp;
   const bool has_info = infos_.are_certain() ? infos_.covers(stamp) : infos_.reaches(stamp);
@@ -328,7 +328,8 @@ std::optional<std::int64_t> CameraInput::wake_at() const {
   std::optional<std::int64_t> first;
   if (setup_) first = setup_->queue.wake_at();
   if (!held_.empty()) {
-    const std::int64_t alone = held_.front().arrived + newest_companion_wait;
+    const std::int64_t alone =
+        held_.front().arrived + (gives_every() ? every_companion_wait : newest_companion_wait);
     first = std::min(first.value_or(alone), alone);
   }
   return first;

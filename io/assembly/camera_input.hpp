@@ -54,14 +54,14 @@ struct CameraInputOptions {
 
 /// The reason why an image was not judged.
 enum class FrameDrop {
-  superseded,  ///< this and the next four are those of DropReason
+  superseded,  ///< the first five equal DropReason
   late,
   overflow,
   clock_jump,
   no_stamp,
   unreadable,     ///< the message cannot be decoded
   not_ready,      ///< no robot or no camera_info was known yet
-  changed,        ///< robot, camera_info or mount changed while it waited, or it was taken before
+  changed,        ///< robot, camera_info or mount changed while it waited, or it is older than that
   no_camera_info  ///< its own camera_info is missing, other images have one
 };
 inline constexpr std::size_t frame_drops = 9;

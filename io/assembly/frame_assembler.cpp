@@ -36,7 +36,8 @@ FrameAssembler::FrameAssembler(RobotInputOptions robot,
 std::size_t FrameAssembler::add_topic(InputTopic topic) {
   topics_.push_back(std::move(topic));
   received_.push_back(0);
-  handlers_.push_back(handler_of(topics_.size() - 1));
+  handlers_.emplace_back();
+  handlers_.back() = handler_of(topics_.size() - 1);
   return topics_.size() - 1;
 }
 

@@ -27,7 +27,8 @@ namespace penumbra::io {
 /// time. What is not known is a status of the frame. Images that do not become frames are counted
 /// with the reason.
 /// Which frames come out is the camera's choice (CameraInputOptions::known): the newest image that
-/// can be judged, by the setup of now (live), or every image in order, by one setup (bags).
+/// can be judged, with the current setup (live), or every image, with one setup (bags). Those that
+/// cannot be read come before images that wait for a pose.
 ///
 /// This class knows no transport, starts no thread and reads no clock. Its callers are the bag
 /// reader (BagSource), the DDS subscriptions (LiveRunner) and, like them, any other node. One
@@ -35,7 +36,8 @@ namespace penumbra::io {
 /// for each camera; it comes back by done().
 class FrameAssembler {
  public:
-  /// Throws InputError for options that FrameQueue refuses.
+  /// Throws InputError for options that FrameQueue refuses, if a camera is known; otherwise its
+  /// frames have the fault.
   FrameAssembler(RobotInputOptions robot, const std::vector<CameraInputOptions>& cameras);
   FrameAssembler(const FrameAssembler&) = delete;
   FrameAssembler& operator=(const FrameAssembler&) = delete;

@@ -29,7 +29,8 @@ QosPointer make_qos(const TopicQos& qos, const std::string& type, std::string_vi
   dds_qset_writer_data_lifecycle(made.get(), false);
   const std::array<dds_data_representation_id_t, 1> plain_cdr = {DDS_DATA_REPRESENTATION_XCDR1};
   dds_qset_data_representation(made.get(), plain_cdr.size(), plain_cdr.data());
-  const std::string hash = type_hash(type, definition.empty() ? definition_of(type) : definition);
+  const std::string_view text = definition.empty() ? definition_of(type) : definition;
+  const std::string hash = text.empty() ? "" : type_hash(type, text);
   const std::string user_data = "typehash=" + hash + ";";
   if (!hash.empty()) dds_qset_userdata(made.get(), user_data.data(), user_data.size());
   return made;

@@ -48,8 +48,9 @@ std::string field_json(std::string_view field, std::string& nested) {
   const std::string string_capacity = number_after(element, "<=");
   const std::string at_most = number_after(range, "[<="), exactly = number_after(range, "[");
   const auto built_in = built_in_types.find(base);
-  if (built_in == built_in_types.end()) nested = base;
-  int number = nested.empty() ? built_in->second : nested_type;
+  const bool is_built_in = built_in != built_in_types.end();
+  if (!is_built_in) nested = base;
+  int number = is_built_in ? built_in->second : nested_type;
   if (string_capacity != "0") number += bounded_string;
   if (at_most != "0")
     number += bounded_sequence;

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether what is open still has its name: the program that held the lock may have renamed it.
+/// Returns whether the open file still has its name: the program that held the lock may have
+/// renamed it.
 bool has_name(int descriptor, const fs::path& name) {
   struct stat opened = {}, named = {};
   return ::fstat(descriptor, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&

@@ -245,8 +245,14 @@ FileResult read_png(const std::filesystem::path& file, Image<T>& image,
   InputFile input;
   if (FileResult opened = input.open(file); !opened.ok()) return opened;
   if (input.size() > max_file_bytes) return FileResult::bad(file, "is no image: larger than 1 GB");
-  std::vector<std::byte> bytes(input.size());
-  bytes.resize(input.read(bytes.data(), bytes.size()));
+  constexpr std::size_t signature = 8;  // the rest is read if it is that of a PNG file
+  std::vector<std::byte> bytes(signature);
+  bytes.resize(input.read(bytes.data(), signature));
+  if (bytes.size() == signature &&
+      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, signature) == 0) {
+    bytes.resize(std::max<std::size_t>(input.size(), signature));
+    bytes.resize(signature + input.read(&bytes[signature], bytes.size() - signature));
+  }
   const auto fault = decode_png(bytes, image, wanted);
   return fault ? FileResult::bad(file, *fault) : FileResult{};
 }

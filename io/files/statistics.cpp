@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -8,10 +9,17 @@
 namespace penumbra::io {
 namespace {
 
-/// Returns a message without the numbers of its files, lines and frames.
-std::string reason_of(std::string message) {
-  std::erase_if(message, [](char c) { return c >= '0' && c <= '9'; });
-  return message;
+/// Returns a message without the digits of frame numbers, files and lines. Those of joints and
+/// links stay.
+std::string reason_of(const std::string& message) {
+  std::istringstream words(message);
+  std::string reason, before;
+  for (std::string word; words >> word; before = word) {
+    const bool is_place = word.find_first_of("/.") != std::string::npos || before == "frame";
+    if (is_place) std::erase_if(word, [](char c) { return c >= '0' && c <= '9'; });
+    reason += word + ' ';
+  }
+  return reason;
 }
 
 }  // namespace

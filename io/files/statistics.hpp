@@ -31,7 +31,8 @@ inline constexpr std::array stages = {
     Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
     Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
 
-/// A message of frames, and their number. Messages that differ only in digits are one reason.
+/// A message of frames, and their number. Messages that differ only in numbers of frames, files and
+/// lines are one reason.
 struct Reason {
   std::string message;  ///< the first frame's
   std::size_t frames = 0;

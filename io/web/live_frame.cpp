@@ -41,7 +41,7 @@ const Scene& LiveScene::drawn() const {
   return *drawn_;
 }
 
-const CloudMaker& LiveScene::cloud() const {
+const PacketCloud& LiveScene::cloud() const {
   std::call_once(cloud_once_, [this] { cloud_.emplace(camera); });
   return *cloud_;
 }

@@ -31,7 +31,7 @@ class LiveScene {
   /// Returns the robot's triangles, collected at the first call.
   [[nodiscard]] const Scene& drawn() const;
   /// Returns the camera's rays, computed at the first call.
-  [[nodiscard]] const CloudMaker& cloud() const;
+  [[nodiscard]] const PacketCloud& cloud() const;
 
   const std::uint64_t version;
   const Camera camera;
@@ -40,7 +40,7 @@ class LiveScene {
   std::shared_ptr<const PosedRobot> posed_;
   mutable std::once_flag drawn_once_, cloud_once_;
   mutable std::optional<Scene> drawn_;
-  mutable std::optional<CloudMaker> cloud_;
+  mutable std::optional<PacketCloud> cloud_;
 };
 
 /// The parts of a judged frame that pages need. Colour is decoded and depth converted to metres on

@@ -68,7 +68,7 @@ std::shared_ptr<const Image<Rgb8>> PacketFrame::color_pixels() const {
   return fault ? nullptr : image;
 }
 
-CloudMaker::CloudMaker(const Camera& camera)
+PacketCloud::PacketCloud(const Camera& camera)
     : width_(camera.intrinsics.width()), height_(camera.intrinsics.height()) {
   rays_.reserve(2 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   constexpr float no_ray = std::numeric_limits<float>::quiet_NaN();
@@ -80,7 +80,7 @@ CloudMaker::CloudMaker(const Camera& camera)
     }
 }
 
-std::optional<PartBytes> CloudMaker::make(const PacketFrame& frame, int step) const {
+std::optional<PartBytes> PacketCloud::make(const PacketFrame& frame, int step) const {
   const auto depth = frame.part(Part::depth);
   const auto labels = frame.part(Part::labels);
   if (!depth || !labels) return std::nullopt;
@@ -109,7 +109,7 @@ std::optional<PartBytes> CloudMaker::make(const PacketFrame& frame, int step) co
 }
 
 std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wanted,
-                                     const CloudMaker* cloud, std::uint64_t scene_version,
+                                     const PacketCloud* cloud, std::uint64_t scene_version,
                                      std::string_view more) {
   std::vector<SharedBytes> packet(1);
   std::string parts;

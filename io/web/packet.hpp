@@ -80,10 +80,10 @@ class FrameArchive {
 };
 
 /// Makes point clouds of depth images. Thread-safe.
-class CloudMaker {
+class PacketCloud {
  public:
   /// `camera`: the camera of the parts' images.
-  explicit CloudMaker(const Camera& camera);
+  explicit PacketCloud(const Camera& camera);
 
   /// Returns a point for every step-th pixel with depth: x, y, z in the optical frame, metres,
   /// label, and colour (grey if there is none). Returns nothing without depth or labels.
@@ -106,7 +106,7 @@ void fill_metres(ImageView<const T> from, Image<float>& to) {
 /// Returns a frame's packet: the length of the JSON, the JSON, the parts. `cloud` may be null.
 /// `more` is added to the JSON: empty, or ", " and members.
 [[nodiscard]] std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wanted,
-                                                   const CloudMaker* cloud,
+                                                   const PacketCloud* cloud,
                                                    std::uint64_t scene_version,
                                                    std::string_view more = {});
 

@@ -21,7 +21,7 @@ struct RunReport {
   std::vector<std::string> frames;    ///< the report's text of each frame
   std::string start, end;             ///< the report's text around the frames
 
-  /// Reads a file. Throws InputError if it is not the report of a run or has another version.
+  /// Reads a file. Throws InputError if it is not the report of a run.
   [[nodiscard]] static RunReport read(const std::filesystem::path& file);
 };
 

@@ -54,7 +54,7 @@ class StoredView final : public WebHandler {
   Scene scene_;
   const FrameArchive& archive_;
   std::optional<std::size_t> expected_;
-  std::optional<CloudMaker> cloud_;
+  std::optional<PacketCloud> cloud_;
 };
 
 }  // namespace penumbra::io

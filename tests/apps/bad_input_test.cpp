@@ -206,7 +206,7 @@ TEST(BadInput, CommandLines) {
       {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
       {{"doctor", "--fast"}, "--fast"},
       {{"run", "x.mcap", "-o", "out", "--package", "name=nowhere"}, "a folder that exists"},
-      {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "'n=/tmp'"},
+      {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "n=/tmp"},
       {{"run", "recording", "-o", ""}, "-o,--output"},
       {{"run", "", "-o", "out"}, "INPUT"},
       {{"inspect", ""}, "URDF"}};

@@ -17,10 +17,10 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
   const std::vector<Refused> all = {
       {{"--domain", "233"}, "--domain"},
       {{"--camera", "left"}, "NAME=TOPIC"},
-      {{"--camera", "a=/x", "--camera", "a=/y"}, "another name"},
+      {{"--camera", "a=/x", "--camera", "a=/y"}, "given twice"},
       {{"--camera", "1=/b"}, "--camera: '1' is not a name"},
       {{"--camera", "a b=/b"}, "--camera: 'a b' is not a name"},
-      {{"--remap", "/nobody:=/b"}, "--remap '/nobody': nothing here is called so"},
+      {{"--remap", "/nobody:=/b"}, "--remap '/nobody': no topic has this name"},
       {{"--remap", "/penumbra/labels:=/b", "--camera", "a=/x"}, "--remap '/penumbra/labels'"},
       {{"--camera", "a=/x y"}, "not a topic name"},
       {{"--camera", "a=/x", "--depth-topic", "/y"}, "leave one of them out"},

@@ -63,7 +63,7 @@ TEST_F(RenderTest, RefusesBadInput) {
       {{"--renderer", "auto"}, "cpu, gl, reference"},
       {{"--package", "name"}, "--package"},
       {{"--package", "name=" + path("nowhere").string()}, "a folder that exists"},
-      {{"--package", package, "--package", package}, "the only one of name"},
+      {{"--package", package, "--package", package}, "is given twice"},
       {{"--links", path("vdi.npy")}, "--links"},
       {{"--links", path("links.npy")}, ".png"},
       {{"--links", path("folder.png")}, "is a folder"},

@@ -200,6 +200,6 @@ export class StoredView implements FrameSource {
   private showNoAnswer(): void {
     const name = 'the server does not respond';
     showState({ name, numbers: ` · ${this.last + 1} frames so far`, isFault: true });
-    if (this.last < 0) cover('The server does not respond: is penumbra view still running?', []);
+    if (this.last < 0) cover('The server does not respond: is penumbra still running?', []);
   }
 }

@@ -26,7 +26,7 @@ async function get<T>(
   } catch (error) {
     const isTimeout = error instanceof DOMException && error.name === 'TimeoutError';
     if (!isTimeout && !(error instanceof TypeError)) throw error; // TypeError: network failure
-    throw new ApiError('The server does not respond: is penumbra view still running?', 0);
+    throw new ApiError('The server does not respond: is penumbra still running?', 0);
   }
 }
 
