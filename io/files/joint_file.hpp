@@ -17,7 +17,7 @@ struct JointRow {
   std::optional<std::int64_t>
       stamp;  ///< nanoseconds, at least 0; not set where the file has no such column
   std::vector<double> positions;  ///< order of Robot::variables(); empty if the row is at fault
-  std::string fault;              ///< why the row cannot be used, with file and line; empty if it can
+  std::string fault;  ///< why the row cannot be used, with file and line; empty if it can
 };
 
 /// Reads a joint file: a header "frame,[stamp,]NAME,..." with every variable of the robot once, in
