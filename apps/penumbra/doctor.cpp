@@ -89,7 +89,10 @@ Json libraries_json() {
 /// What `doctor --json` prints. Values that do not apply are null.
 Json examine_machine() {
   const unsigned threads = std::thread::hardware_concurrency();
-  const auto buffers = io::receive_buffer_limit();
+  const io::ReceiveBuffers buffers = io::receive_buffers();
+  Json advice = Json::array();
+  for (const std::string& line : {io::limit_advice(buffers), io::normal_advice(buffers)})
+    if (!line.empty()) advice.push_back(line);
   Json opengl = opengl_json();
   Json renderers = renderers_json(opengl["devices"]);
   return {{"penumbra", PENUMBRA_VERSION},
@@ -106,8 +109,9 @@ Json examine_machine() {
           {"opengl", std::move(opengl)},
           {"renderers", std::move(renderers)},
           {"network",
-           {{"receive_buffer_limit", or_null(buffers)},
-            {"advice", or_null(io::receive_buffer_advice(buffers))}}},
+           {{"receive_buffer_limit", or_null(buffers.limit)},
+            {"receive_buffer_default", or_null(buffers.normal)},
+            {"advice", std::move(advice)}}},
           {"libraries", libraries_json()}};
 }
 
@@ -136,18 +140,21 @@ void print_opengl(const Json& opengl) {
 }
 
 void print_network(const Json& machine) {
-  const Json &limit = machine["network"]["receive_buffer_limit"],
-             &advice = machine["network"]["advice"];
+  const Json& network = machine["network"];
+  const auto kibibytes = [&](const char* key) {
+    return network[key].is_null()
+               ? "an unknown number of bytes"
+               : std::to_string(network[key].get<std::uint64_t>() / 1024) + " KiB";
+  };
   std::cout << "\nLive topics of ROS 2\n";
   if (!machine["build"]["dds"])
     std::cout
         << "  not built in: install cyclonedds-dev and nettle-dev and build Penumbra again with "
            "-DPENUMBRA_WITH_DDS=ON\n";
-  std::cout << "  a socket may hold "
-            << (limit.is_null() ? "an unknown number of bytes"
-                                : std::to_string(limit.get<std::uint64_t>() / 1024) + " KiB")
-            << " for its reader (net.core.rmem_max)\n";
-  if (!advice.is_null()) std::cout << "  note: " << text_of(advice) << '\n';
+  std::cout << "  a socket may hold " << kibibytes("receive_buffer_limit")
+            << " for its reader (net.core.rmem_max), by default "
+            << kibibytes("receive_buffer_default") << " (net.core.rmem_default)\n";
+  for (const Json& advice : network["advice"]) std::cout << "  note: " << text_of(advice) << '\n';
 }
 
 void print_machine(const Json& machine) {

@@ -224,10 +224,12 @@ class Live {
       });
       subscriptions_->follow(pictures || pages_.need_color());
       const auto links = subscriptions_->links();
-      diagnostics.tell(runner_->with_inbox([&](const io::LiveInbox& inbox) {
+      io::DiagnosticArrayMessage message = runner_->with_inbox([&](const io::LiveInbox& inbox) {
         return words.report(inbox, links,
                             {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
-      }));
+      });
+      add_losses(message);
+      diagnostics.tell(message);
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -236,6 +238,20 @@ class Live {
       stopped = stop.wait_until(until);
     }
     return stopped;
+  }
+
+  /// Adds the results that subscribers lost to the cameras' statuses, which are the last ones.
+  void add_losses(io::DiagnosticArrayMessage& message) const {
+    auto status = message.status.end() - static_cast<std::ptrdiff_t>(results_.size());
+    for (const auto& results : results_) {
+      const io::WrittenResults counts = results->counts();
+      const auto add = [&](const char* key, std::size_t number) {
+        if (number > 0) status->values.push_back({key, std::to_string(number)});
+      };
+      add("results not published: subscribers were behind", counts.not_written);
+      add("results not acknowledged by subscribers", counts.unacknowledged);
+      ++status;
+    }
   }
 
   const LiveArguments& arguments_;
@@ -285,8 +301,7 @@ int execute(const LiveArguments& arguments) {
   }
   StopSignal stop;
   const auto graph = io::join_graph(arguments.graph);
-  if (const std::string advice = io::receive_buffer_advice(io::receive_buffer_limit());
-      !advice.empty())
+  if (const std::string advice = io::limit_advice(io::receive_buffers()); !advice.empty())
     print_notes(std::vector{advice});
   LivePages pages(arguments, graph->domain());
   pages.print();

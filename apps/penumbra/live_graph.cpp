@@ -38,13 +38,17 @@ bool GraphResults::wants(io::Result result) const {
 void GraphResults::write(io::Result result, std::int64_t /*stamp*/,
                          std::span<const std::byte> payload) {
   const auto topic = static_cast<std::size_t>(result);
-  ++(publications_[topic]->write(payload) ? written_[topic] : not_written_);
+  io::Publication& publication = *publications_[topic];
+  const std::uint64_t before = publication.unacknowledged();
+  ++(publication.write(payload) ? written_[topic] : not_written_);
+  unacknowledged_ += publication.unacknowledged() - before;
 }
 
 io::WrittenResults GraphResults::counts() const {
   io::WrittenResults counts;
   std::copy(written_.begin(), written_.end(), counts.written.begin());
   counts.not_written = not_written_;
+  counts.unacknowledged = unacknowledged_;
   return counts;
 }
 

@@ -37,7 +37,7 @@ class GraphResults final : public io::ResultSink {
  private:
   std::array<std::unique_ptr<io::Publication>, io::result_topics.size()> publications_;
   std::array<std::atomic<std::size_t>, io::result_topics.size()> written_ = {};
-  std::atomic<std::size_t> not_written_ = 0;
+  std::atomic<std::size_t> not_written_ = 0, unacknowledged_ = 0;
 };
 
 /// Hands a graph's messages to a runner. One thread calls receive(); any thread calls the rest.

@@ -96,6 +96,9 @@ class DdsSubscription final : public Subscription {
   std::atomic<std::uint64_t> taken_ = 0;
 };
 
+// Cyclone DDS asks subscribers for acknowledgements every 100 ms.
+constexpr std::chrono::milliseconds longest_acknowledgement{300};
+
 class DdsPublication final : public Publication {
  public:
   DdsPublication(std::shared_ptr<GraphSession> session, const std::string& topic,
@@ -103,10 +106,17 @@ class DdsPublication final : public Publication {
       : topic_(std::move(session), topic, type, nullptr),
         writer_(checked(dds_create_writer(topic_.session().participant(), topic_.entity(),
                                           make_qos(qos, type, definition).get(), nullptr),
-                        "publication of " + topic)) {}
+                        "publication of " + topic)),
+        depth_(static_cast<std::uint64_t>(qos.depth)) {}
   ~DdsPublication() override { dds_delete(writer_); }
 
   bool write(std::span<const std::byte> data) override {
+    const auto now = std::chrono::steady_clock::now();
+    if (dds_wait_for_acks(writer_, 0) == DDS_RETCODE_OK) {
+      waiting_ = 0;
+      acknowledged_ = now;
+    }
+    if (++waiting_ > depth_ && now - acknowledged_ > longest_acknowledgement) ++unacknowledged_;
     return dds_writecdr(writer_, make_cdr_sample(topic_.type(), data)) == DDS_RETCODE_OK;
   }
 
@@ -120,9 +130,15 @@ class DdsPublication final : public Publication {
     return static_cast<int>(matched.current_count);
   }
 
+  [[nodiscard]] std::uint64_t unacknowledged() const override { return unacknowledged_; }
+
  private:
   DdsTopic topic_;
   dds_entity_t writer_ = 0;
+  std::uint64_t depth_;
+  std::uint64_t waiting_ = 0;  // messages since all earlier ones were acknowledged, at that time
+  std::chrono::steady_clock::time_point acknowledged_;
+  std::uint64_t unacknowledged_ = 0;
 };
 
 class DdsParticipant final : public Participant {

@@ -79,6 +79,11 @@ class Publication {
 
   /// Returns the number of matched subscribers, including those of this participant.
   [[nodiscard]] virtual int subscribers() const = 0;
+
+  /// Returns the number of messages that left the history, as far as the middleware shows it,
+  /// before all reliable subscribers acknowledged them: those subscribers may have lost them. The
+  /// thread of write() calls this.
+  [[nodiscard]] virtual std::uint64_t unacknowledged() const = 0;
 };
 
 struct GraphEndpoint {

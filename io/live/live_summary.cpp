@@ -56,16 +56,18 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
                       {"lost", links[i].lost},
                       {"overwritten", links[i].overwritten}});
   Json cameras = Json::array();
-  std::size_t not_written = 0;
+  std::size_t not_written = 0, unacknowledged = 0;
   for (std::size_t i = 0; i < inbox.camera_count(); ++i) {
     const WrittenResults& results = run.results.at(i);
     cameras.push_back(camera_json(inbox.camera(i), inbox.tally(i), results));
     not_written += results.not_written;
+    unacknowledged += results.unacknowledged;
   }
   const double share = run.seconds > 0.0 ? run.cpu_seconds / run.seconds : 0.0;
   return Json{{"seconds", run.seconds},
               {"cpu_share", share},
               {"results_not_written", not_written},
+              {"results_not_acknowledged", unacknowledged},
               {"robots", inbox.robot().robots()},
               {"cameras", cameras},
               {"topics", topics},

@@ -16,7 +16,8 @@ namespace penumbra::io {
 /// Counts the published results of a camera. Results without a subscriber are not published.
 struct WrittenResults {
   std::array<std::size_t, result_topics.size()> written = {};  ///< indexed by Result
-  std::size_t not_written = 0;  ///< not published because subscribers were too slow
+  std::size_t not_written = 0;     ///< not published because subscribers were too slow
+  std::size_t unacknowledged = 0;  ///< published; reliable subscribers may have lost them
 };
 
 /// The duration and outcome of a `penumbra live`.

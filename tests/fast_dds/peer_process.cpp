@@ -83,6 +83,8 @@ void PeerProcess::give(std::span<const std::byte> message) {
   }
 }
 
+void PeerProcess::stop() { ::kill(pid_, SIGSTOP); }
+
 void PeerProcess::kill() {
   if (pid_ < 0) return;
   ::kill(pid_, SIGKILL);

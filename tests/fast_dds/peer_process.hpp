@@ -33,6 +33,9 @@ class PeerProcess {
   /// For one that publishes what it is given.
   void give(std::span<const std::byte> message);
 
+  /// SIGSTOP: it answers nothing.
+  void stop();
+
   /// SIGKILL: it says no goodbye.
   void kill();
 

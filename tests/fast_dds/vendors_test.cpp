@@ -135,6 +135,28 @@ TEST_F(Vendors, QosThatDoesNotFitIsToldByPolicy) {
   EXPECT_NE(topics[0].publishers[0].host, "");
 }
 
+TEST_F(Vendors, WhatAStoppedSubscriberDoesNotAcknowledgeIsCounted) {
+  constexpr std::uint32_t depth = 10, count = 40;
+  const auto said = graph->advertise("/a", ros_image, {.reliable = true, .depth = depth});
+  auto other = peer("count", "reliable,depth=50");
+  ASSERT_TRUE(other.says("ready"));
+  ASSERT_TRUE(eventually(*graph, [&] { return said->subscribers() == 1; }));
+  std::this_thread::sleep_for(200ms);  // Fast DDS may know of the match a little later
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ASSERT_TRUE(said->write(pattern_message(i, 1000)));
+    ASSERT_TRUE(other.says(std::to_string(i) + " 1000"));
+  }
+  ASSERT_TRUE(said->flush(5s));
+  EXPECT_EQ(said->unacknowledged(), 0U);
+  other.stop();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ASSERT_TRUE(said->write(pattern_message(i, 1000)));
+    std::this_thread::sleep_for(33ms);
+  }
+  EXPECT_NEAR(said->unacknowledged(), count - depth, 1);
+  other.kill();
+}
+
 TEST_F(Vendors, APublisherThatIsKilledMayComeBack) {
   const auto heard = graph->subscribe("/a", ros_image, {.reliable = true, .depth = 100});
   {
