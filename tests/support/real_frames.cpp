@@ -33,7 +33,6 @@ RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rende
       if (rendered.depth(u, v) > 0.0f) frame.robot_indices.push_back(v * intrinsics.width() + u);
     }
   }
-  frame.robot_pixels = frame.robot_indices.size();
   return frame;
 }
 
