@@ -18,8 +18,6 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <penumbra/labels/labels.hpp>
 
@@ -90,65 +88,14 @@ std::map<std::string, FrameTimes> time_all(const std::vector<Contender>& contend
   return times;
 }
 
-/// llvmpipe's vector width cannot be changed in a running process: each is tried in a child.
-double llvmpipe_trial(const std::vector<BenchScene>& scenes, int bits) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return 1e300;
-  const pid_t child = fork();
-  if (child == 0) {
-    double sum = 0.0;
-    try {
-      for (const BenchScene& scene : scenes) {
-        LlvmpipeRenderer renderer(scene.intrinsics, scene.bodies(), bits);
-        FrameTimes times(scene.path.size());
-        for (int round = 0; round < 2; ++round) {
-          for (std::size_t i = 0; i < scene.path.size(); ++i) {
-            times.add(i, time_ms([&] { renderer.render(scene.path[i]); }));
-          }
-        }
-        sum += std::log(times.typical());
-      }
-    } catch (const std::exception& error) {
-      std::cerr << error.what() << '\n';
-      _exit(1);
-    }
-    const double mean = std::exp(sum / static_cast<double>(scenes.size()));
-    _exit(write(ends[1], &mean, sizeof(mean)) == sizeof(mean) ? 0 : 1);
-  }
-  close(ends[1]);
-  double mean = 1e300;
-  if (read(ends[0], &mean, sizeof(mean)) != sizeof(mean)) mean = 1e300;
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return mean;
-}
-
-int best_llvmpipe_width(const std::vector<BenchScene>& scenes) {
-  int best = 0;
-  double best_ms = 1e300;
-  for (const int bits : {128, 256, 512}) {
-    const double ms = llvmpipe_trial(scenes, bits);
-    std::cout << "llvmpipe, " << bits << " bits: "
-              << (ms < 1e299 ? std::to_string(ms) + " ms (geometric mean)" : "does not run")
-              << '\n';
-    if (ms < best_ms) {
-      best_ms = ms;
-      best = bits;
-    }
-  }
-  return best;
-}
-
 /// Everything that is timed on one scene.
 class SceneBench {
  public:
-  SceneBench(const BenchScene& scene, int llvmpipe_bits)
+  explicit SceneBench(const BenchScene& scene)
       : scene_(scene),
         bodies_(scene.bodies()),
-        llvmpipe_(scene.intrinsics, bodies_, llvmpipe_bits),
-        embree_rectangle_(scene.intrinsics, bodies_, Region::rectangle),
-        embree_hulls_(scene.intrinsics, bodies_, Region::hulls) {
+        llvmpipe_(scene.intrinsics, bodies_),
+        embree_(scene.intrinsics, bodies_) {
     for (const std::string& isa : isas_) {
       renderers_.push_back(
           make_depth_renderer(Backend::cpu, scene.intrinsics, bodies_, {.threads = 1, .isa = isa}));
@@ -172,11 +119,8 @@ class SceneBench {
     }
     all.push_back(
         {"llvmpipe", [this](std::size_t frame) { return llvmpipe_.render(scene_.path[frame]); }});
-    all.push_back({"Embree, rectangle", [this](std::size_t frame) {
-                     return embree_rectangle_.render(scene_.path[frame]);
-                   }});
-    all.push_back({"Embree, hulls",
-                   [this](std::size_t frame) { return embree_hulls_.render(scene_.path[frame]); }});
+    all.push_back(
+        {"Embree", [this](std::size_t frame) { return embree_.render(scene_.path[frame]); }});
     return all;
   }
 
@@ -187,15 +131,15 @@ class SceneBench {
   const BenchScene& scene_;
   std::vector<Body> bodies_;
   LlvmpipeRenderer llvmpipe_;
-  EmbreeTracer embree_rectangle_, embree_hulls_;
+  EmbreeTracer embree_;
   std::vector<std::string> isas_ = compared_isas();
   std::vector<std::unique_ptr<DepthRenderer>> renderers_;
   std::vector<Classifier> classifiers_;
   std::vector<Image<std::uint16_t>> sensor_;
 };
 
-json run(const BenchScene& scene, int llvmpipe_bits, int rounds) {
-  SceneBench bench(scene, llvmpipe_bits);
+json run(const BenchScene& scene, int rounds) {
+  SceneBench bench(scene);
   const std::vector<Contender> contenders = bench.contenders();
   const auto times = time_all(contenders, scene, rounds);
   json result{{"scene", scene.name}, {"triangles", bench.triangles()}, {"opengl", bench.opengl()}};
@@ -218,7 +162,7 @@ json run(const BenchScene& scene, int llvmpipe_bits, int rounds) {
   for (const std::string& isa : compared_isas()) {
     const double ours = times.at("cpu " + isa).typical();
     std::printf("cpu %s is faster than", isa.c_str());
-    for (const char* other : {"llvmpipe", "Embree, rectangle", "Embree, hulls"})
+    for (const char* other : {"llvmpipe", "Embree"})
       std::printf(" %s: %.1f times;", other, times.at(other).typical() / ours);
     std::printf("\n");
   }
@@ -232,9 +176,7 @@ void run_all(int rounds, const std::string& json_file) {
   std::cout << "processor: " << cpu_model() << "; one thread each; " << rounds << " rounds of "
             << frames << " frames, a new pose every frame, seed " << seed
             << "\ntypical: median over the frames of each frame's fastest round\n";
-  const int bits = best_llvmpipe_width(scenes);
-  report["llvmpipe_vector_width"] = bits;
-  for (const BenchScene& scene : scenes) report["scenes"].push_back(run(scene, bits, rounds));
+  for (const BenchScene& scene : scenes) report["scenes"].push_back(run(scene, rounds));
   if (!json_file.empty()) std::ofstream(json_file) << report.dump(1) << '\n';
 }
 

@@ -16,7 +16,7 @@
 #include <mutex>
 #include <thread>
 
-#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
 #include <sim/arm.hpp>
 #include <sim/scene.hpp>
@@ -51,13 +51,9 @@ class StereoCell {
             arm_, {.seed = seed, .belt_jitter = 0.0, .frame_rate = frame_rate, .duration = 0.0},
             intrinsics())),
         stage_(arm_, scene_->description(), folder_.path(), intrinsics()),
+        renderer_(make_depth_renderer(Backend::cpu, intrinsics(), bodies_of(arm_.robot()))),
         camera_(intrinsics(), seed),
-        poses_(arm_.robot().links().size()) {
-    std::vector<Body> bodies;
-    for (std::size_t i = 0; i < poses_.size(); ++i)
-      bodies.push_back({arm_.robot().links()[i], arm_.robot().meshes(i)});
-    renderer_ = make_depth_renderer(Backend::cpu, intrinsics(), bodies, {});
-  }
+        poses_(arm_.robot().links().size()) {}
 
   /// Captures frame `index` into `images`. Returns the robot alone, as rendered.
   VirtualDepthView capture(std::size_t index, StereoImages& images) {

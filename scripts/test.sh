@@ -157,7 +157,7 @@ check "page is what its sources give" web/check_bundle.sh
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 # Other tests cover the same.
-once_more='^Gl[.]RenderersMadeAndDroppedHoldNothing$|^LiveRenderers[.]ADevice'
+once_more='^LiveRenderers[.]ADevice'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
   "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&
