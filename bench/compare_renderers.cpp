@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times the cpu renderer beside llvmpipe and Embree on the same frames, in one process, on one
 // thread, and counts each one's wrong pixels:
-// compare_renderers [--rounds N] [--frames N] [--seed N] [--json FILE]. The table goes to stdout.
+// compare_renderers [--rounds N] [--json FILE]. The table goes to stdout.
 #include "embree_oracle.hpp"
 #include "embree_tracer.hpp"
 #include "llvmpipe.hpp"
@@ -18,8 +18,6 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <penumbra/labels/labels.hpp>
 
@@ -28,32 +26,15 @@ namespace {
 
 using nlohmann::json;
 
-struct Settings {
-  int rounds = 5;
-  std::size_t frames = 60;
-  std::uint64_t seed = 7;
-  int cold_frames = 20;
-  std::string json_file;
-};
+constexpr std::size_t frames = 60;
+constexpr std::uint64_t seed = 7;
 
-Settings parse(int argc, char** argv) {
-  Settings settings;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string name = argv[i];
-    if (name == "--rounds") settings.rounds = std::stoi(argv[i + 1]);
-    if (name == "--frames") settings.frames = std::stoul(argv[i + 1]);
-    if (name == "--seed") settings.seed = std::stoul(argv[i + 1]);
-    if (name == "--json") settings.json_file = argv[i + 1];
-  }
-  return settings;
-}
-
-std::vector<BenchScene> all_scenes(const Settings& s) {
+std::vector<BenchScene> all_scenes() {
   std::vector<BenchScene> scenes;
-  scenes.push_back(ur5e_scene(Geometry::collision, 640, 480, 615.0, s.frames, s.seed));
-  scenes.push_back(ur5e_scene(Geometry::collision, 1280, 720, 915.0, s.frames, s.seed));
-  scenes.push_back(xarm7_scene(s.frames));
-  scenes.push_back(ur5e_scene(Geometry::visual, 1280, 720, 915.0, s.frames, s.seed));
+  scenes.push_back(ur5e_scene(Geometry::collision, 640, 480, 615.0, frames, seed));
+  scenes.push_back(ur5e_scene(Geometry::collision, 1280, 720, 915.0, frames, seed));
+  scenes.push_back(xarm7_scene(frames));
+  scenes.push_back(ur5e_scene(Geometry::visual, 1280, 720, 915.0, frames, seed));
   return scenes;
 }
 
@@ -92,8 +73,8 @@ Accuracy accuracy_of(const Contender& contender, const BenchScene& scene) {
 }
 
 /// Rounds over all frames, the contenders in turn, so that a disturbance meets all of them.
-std::map<std::string, FrameTimes> time_warm(const std::vector<Contender>& contenders,
-                                            const BenchScene& scene, int rounds) {
+std::map<std::string, FrameTimes> time_all(const std::vector<Contender>& contenders,
+                                           const BenchScene& scene, int rounds) {
   std::map<std::string, FrameTimes> times;
   for (int round = 0; round < rounds; ++round) {
     for (const Contender& contender : contenders) {
@@ -107,81 +88,14 @@ std::map<std::string, FrameTimes> time_warm(const std::vector<Contender>& conten
   return times;
 }
 
-std::map<std::string, FrameTimes> time_cold(const std::vector<Contender>& contenders,
-                                            const BenchScene& scene, int frames) {
-  CacheSweeper sweeper;
-  std::map<std::string, FrameTimes> times;
-  for (const Contender& contender : contenders) {
-    const auto count = std::min(static_cast<std::size_t>(frames), scene.path.size());
-    auto& of = times.try_emplace(contender.name, count).first->second;
-    for (std::size_t frame = 0; frame < count; ++frame) {
-      sweeper.sweep();
-      of.add(frame, time_ms([&] { contender.draw(frame); }));
-    }
-  }
-  return times;
-}
-
-/// llvmpipe's vector width cannot be changed in a running process: each is tried in a child.
-double llvmpipe_trial(const std::vector<BenchScene>& scenes, int bits) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return 1e300;
-  const pid_t child = fork();
-  if (child == 0) {
-    double sum = 0.0;
-    try {
-      for (const BenchScene& scene : scenes) {
-        LlvmpipeRenderer renderer(scene.intrinsics, scene.bodies(), bits);
-        FrameTimes times(scene.path.size());
-        for (int round = 0; round < 2; ++round) {
-          for (std::size_t i = 0; i < scene.path.size(); ++i) {
-            times.add(i, time_ms([&] { renderer.render(scene.path[i]); }));
-          }
-        }
-        sum += std::log(times.typical());
-      }
-    } catch (const std::exception& error) {
-      std::cerr << error.what() << '\n';
-      _exit(1);
-    }
-    const double mean = std::exp(sum / static_cast<double>(scenes.size()));
-    _exit(write(ends[1], &mean, sizeof(mean)) == sizeof(mean) ? 0 : 1);
-  }
-  close(ends[1]);
-  double mean = 1e300;
-  if (read(ends[0], &mean, sizeof(mean)) != sizeof(mean)) mean = 1e300;
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return mean;
-}
-
-int best_llvmpipe_width(const std::vector<BenchScene>& scenes, json& trials) {
-  int best = 0;
-  double best_ms = 1e300;
-  for (const int bits : {128, 256, 512}) {
-    const double ms = llvmpipe_trial(scenes, bits);
-    if (ms < 1e299) trials[std::to_string(bits)] = ms;
-    std::cout << "llvmpipe, " << bits << " bits: "
-              << (ms < 1e299 ? std::to_string(ms) + " ms (geometric mean)" : "does not run")
-              << '\n';
-    if (ms < best_ms) {
-      best_ms = ms;
-      best = bits;
-    }
-  }
-  return best;
-}
-
 /// Everything that is timed on one scene.
 class SceneBench {
  public:
-  SceneBench(const BenchScene& scene, int llvmpipe_bits)
+  explicit SceneBench(const BenchScene& scene)
       : scene_(scene),
         bodies_(scene.bodies()),
-        llvmpipe_(scene.intrinsics, bodies_, llvmpipe_bits),
-        embree_rectangle_(scene.intrinsics, bodies_, Region::rectangle),
-        embree_hulls_(scene.intrinsics, bodies_, Region::hulls) {
+        llvmpipe_(scene.intrinsics, bodies_),
+        embree_(scene.intrinsics, bodies_) {
     for (const std::string& isa : isas_) {
       renderers_.push_back(
           make_depth_renderer(Backend::cpu, scene.intrinsics, bodies_, {.threads = 1, .isa = isa}));
@@ -205,87 +119,65 @@ class SceneBench {
     }
     all.push_back(
         {"llvmpipe", [this](std::size_t frame) { return llvmpipe_.render(scene_.path[frame]); }});
-    all.push_back({"Embree, rectangle", [this](std::size_t frame) {
-                     return embree_rectangle_.render(scene_.path[frame]);
-                   }});
-    all.push_back({"Embree, hulls",
-                   [this](std::size_t frame) { return embree_hulls_.render(scene_.path[frame]); }});
+    all.push_back(
+        {"Embree", [this](std::size_t frame) { return embree_.render(scene_.path[frame]); }});
     return all;
   }
 
   [[nodiscard]] std::string opengl() const { return llvmpipe_.description(); }
   [[nodiscard]] std::size_t triangles() const { return renderers_.front()->triangle_count(); }
-  [[nodiscard]] const std::vector<std::string>& isas() const { return isas_; }
 
  private:
   const BenchScene& scene_;
   std::vector<Body> bodies_;
   LlvmpipeRenderer llvmpipe_;
-  EmbreeTracer embree_rectangle_, embree_hulls_;
+  EmbreeTracer embree_;
   std::vector<std::string> isas_ = compared_isas();
   std::vector<std::unique_ptr<DepthRenderer>> renderers_;
   std::vector<Classifier> classifiers_;
   std::vector<Image<std::uint16_t>> sensor_;
 };
 
-json run(const BenchScene& scene, int llvmpipe_bits, const Settings& settings) {
-  SceneBench bench(scene, llvmpipe_bits);
+json run(const BenchScene& scene, int rounds) {
+  SceneBench bench(scene);
   const std::vector<Contender> contenders = bench.contenders();
-  const auto warm = time_warm(contenders, scene, settings.rounds);
-  const auto cold = time_cold(contenders, scene, settings.cold_frames);
+  const auto times = time_all(contenders, scene, rounds);
   json result{{"scene", scene.name}, {"triangles", bench.triangles()}, {"opengl", bench.opengl()}};
   std::printf("\n%s: %zu triangles\n", scene.name.c_str(), bench.triangles());
-  std::printf("%-20s %9s %9s %9s %9s | %10s %10s of %s\n", "ms per frame", "typical", "median",
-              "min", "cold", "coverage", "depth", "robot pixels differ from the oracle");
+  std::printf("%-20s %9s %9s | %10s %10s of %s\n", "ms per frame", "typical", "median", "coverage",
+              "depth", "robot pixels differ from the oracle");
   for (const Contender& contender : contenders) {
-    const FrameTimes& times = warm.at(contender.name);
+    const FrameTimes& own = times.at(contender.name);
     const Accuracy accuracy = accuracy_of(contender, scene);
-    std::printf("%-20s %9.3f %9.3f %9.3f %9.3f | %10zu %10zu of %zu\n", contender.name.c_str(),
-                times.typical(), times.median(), times.min(), cold.at(contender.name).median(),
-                accuracy.coverage_differs, accuracy.depth_differs, accuracy.robot_pixels);
+    std::printf("%-20s %9.3f %9.3f | %10zu %10zu of %zu\n", contender.name.c_str(), own.typical(),
+                own.median(), accuracy.coverage_differs, accuracy.depth_differs,
+                accuracy.robot_pixels);
     result["contenders"].push_back({{"name", contender.name},
-                                    {"typical_ms", times.typical()},
-                                    {"median_ms", times.median()},
-                                    {"min_ms", times.min()},
-                                    {"cold_ms", cold.at(contender.name).median()},
+                                    {"typical_ms", own.typical()},
+                                    {"median_ms", own.median()},
                                     {"coverage_differs", accuracy.coverage_differs},
                                     {"depth_differs", accuracy.depth_differs},
                                     {"robot_pixels", accuracy.robot_pixels}});
   }
-  for (const std::string& isa : bench.isas()) {
-    const double ours = warm.at("cpu " + isa).typical();
-    const double to_llvmpipe = warm.at("llvmpipe").typical() / ours;
-    const double to_rectangle = warm.at("Embree, rectangle").typical() / ours;
-    const double to_hulls = warm.at("Embree, hulls").typical() / ours;
-    std::printf(
-        "cpu %s: times as fast as llvmpipe %.1f, as Embree in the robot's rectangle %.1f, "
-        "in its links' hulls %.1f\n",
-        isa.c_str(), to_llvmpipe, to_rectangle, to_hulls);
-    result["ratios"].push_back({{"isa", isa},
-                                {"against_llvmpipe", to_llvmpipe},
-                                {"against_embree_rectangle", to_rectangle},
-                                {"against_embree_hulls", to_hulls}});
+  for (const std::string& isa : compared_isas()) {
+    const double ours = times.at("cpu " + isa).typical();
+    std::printf("cpu %s is faster than", isa.c_str());
+    for (const char* other : {"llvmpipe", "Embree"})
+      std::printf(" %s: %.1f times;", other, times.at(other).typical() / ours);
+    std::printf("\n");
   }
   std::fflush(stdout);
   return result;
 }
 
-int main_of(const Settings& settings) {
-  const std::vector<BenchScene> scenes = all_scenes(settings);
-  json report{{"cpu", cpu_model()},
-              {"threads", 1},
-              {"rounds", settings.rounds},
-              {"frames", settings.frames},
-              {"seed", settings.seed}};
-  std::cout << "processor: " << cpu_model() << "; one thread each; " << settings.rounds
-            << " rounds of " << settings.frames << " frames, a new pose every frame, seed "
-            << settings.seed << "\ntypical: median over the frames of each frame's fastest round; "
-            << "cold: caches swept before each frame\n";
-  const int bits = best_llvmpipe_width(scenes, report["llvmpipe_vector_width_trials_ms"]);
-  report["llvmpipe_vector_width"] = bits;
-  for (const BenchScene& scene : scenes) report["scenes"].push_back(run(scene, bits, settings));
-  if (!settings.json_file.empty()) std::ofstream(settings.json_file) << report.dump(1) << '\n';
-  return 0;
+void run_all(int rounds, const std::string& json_file) {
+  const std::vector<BenchScene> scenes = all_scenes();
+  json report{{"cpu", cpu_model()}, {"rounds", rounds}, {"frames", frames}, {"seed", seed}};
+  std::cout << "processor: " << cpu_model() << "; one thread each; " << rounds << " rounds of "
+            << frames << " frames, a new pose every frame, seed " << seed
+            << "\ntypical: median over the frames of each frame's fastest round\n";
+  for (const BenchScene& scene : scenes) report["scenes"].push_back(run(scene, rounds));
+  if (!json_file.empty()) std::ofstream(json_file) << report.dump(1) << '\n';
 }
 
 }  // namespace
@@ -293,7 +185,9 @@ int main_of(const Settings& settings) {
 
 int main(int argc, char** argv) {
   try {
-    return penumbra::bench::main_of(penumbra::bench::parse(argc, argv));
+    const penumbra::bench::Arguments given(argc, argv);
+    penumbra::bench::run_all(given.rounds, given.json_file);
+    return 0;
   } catch (const std::exception& error) {
     std::cerr << "compare_renderers: " << error.what() << '\n';
     return 1;

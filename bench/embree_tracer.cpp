@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -13,7 +12,6 @@
 namespace penumbra::bench {
 namespace {
 
-using Eigen::AlignedBox2d;
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -22,41 +20,8 @@ constexpr int block = 4;  // pixels a side of a packet of 16 rays
 constexpr int lanes = block * block;
 constexpr int stream = 8;  // packets a call: 10 KiB, to stay in the first cache beside the tree
 
-/// Columns of blocks in which a row of blocks holds something; first > last: nothing.
-struct Columns {
-  int first = std::numeric_limits<int>::max();
-  int last = -1;
-};
-
-/// Points in the image whose convex hull holds what is to be traced.
-using Outline = std::array<Vector2d, 8>;
-
-Outline outline_of(const AlignedBox2d& box) {
-  Outline points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = box.corner(static_cast<AlignedBox2d::CornerType>(i % 4));
-  }
-  return points;
-}
-
-/// From the least to the largest u that the convex hull has between two rows: the ends of the
-/// segments between all pairs of its points, cut to the rows. Empty where none reaches them.
-Eigen::AlignedBox1d extent(const Outline& points, double v0, double v1) {
-  Eigen::AlignedBox1d columns;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      const auto& [top, bottom] = points[i].y() < points[j].y() ? std::tie(points[i], points[j])
-                                                                : std::tie(points[j], points[i]);
-      if (bottom.y() < v0 || top.y() > v1) continue;
-      const double height = std::max(bottom.y() - top.y(), 1e-9);
-      for (const double v : {std::max(v0, top.y()), std::min(v1, bottom.y())}) {
-        const double u = top.x() + (bottom.x() - top.x()) * (v - top.y()) / height;
-        columns.extend(Eigen::Matrix<double, 1, 1>(u));
-      }
-    }
-  }
-  return columns;
-}
+/// Blocks of pixels, the last ones included.
+using Blocks = Eigen::AlignedBox2i;
 
 }  // namespace
 
@@ -67,13 +32,12 @@ struct EmbreeTracer::State {
     std::array<Vector3d, 8> corners;  // of the body's bounding box
   };
 
-  State(const Intrinsics& intrinsics, Region where) : k(intrinsics), region(where) {
+  explicit State(const Intrinsics& intrinsics) : k(intrinsics) {
     padded_width = (k.width() + block - 1) / block * block;
     const int padded_height = (k.height() + block - 1) / block * block;
     depth = Image<float>(padded_width, padded_height);
     for (int u = 0; u < padded_width; ++u) x.push_back(static_cast<float>(k.ray(u, 0).x()));
     for (int v = 0; v < padded_height; ++v) y.push_back(static_cast<float>(k.ray(0, v).y()));
-    rows = padded_height / block;
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
     for (RTCRayHit16& packet : packets) {
@@ -91,21 +55,18 @@ struct EmbreeTracer::State {
   State& operator=(const State&) = delete;
 
   void add(const Body& body, std::size_t index);
-  [[nodiscard]] Outline project(const Instance& instance, const Isometry3d& T_camera_body) const;
-  void add_columns(const Outline& outline);
+  [[nodiscard]] Blocks blocks_around(std::span<const Isometry3d> T_camera_body) const;
   void trace(int block_row, int first, int last);
 
   Intrinsics k;
-  Region region;
   RTCDevice device = rtcNewDevice("threads=1");
   RTCScene scene = rtcNewScene(device);
   std::vector<Instance> instances;
   std::vector<float> x, y;  // rays' directions by column and row
-  int padded_width = 0, rows = 0;
+  int padded_width = 0;
   Image<float> depth;
   std::array<RTCRayHit16, stream> packets{};
-  std::vector<std::vector<Columns>> spans;   // per block row, per outline
-  std::vector<std::vector<Columns>> traced;  // joined, of the last frame
+  Blocks traced;  // of the last frame
 };
 
 void EmbreeTracer::State::add(const Body& body, std::size_t index) {
@@ -151,33 +112,24 @@ void EmbreeTracer::State::add(const Body& body, std::size_t index) {
   }
 }
 
-Outline EmbreeTracer::State::project(const Instance& instance,
-                                     const Isometry3d& T_camera_body) const {
-  Outline points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3d corner = T_camera_body * instance.corners[i];
-    if (corner.z() < DepthRenderer::near_plane) {
-      return outline_of({Vector2d::Zero(), Vector2d(k.width(), k.height())});
+/// The blocks that the rectangle around all bodies' projected bounding boxes meets, and a pixel
+/// around it; all where a corner is not before the near plane.
+Blocks EmbreeTracer::State::blocks_around(std::span<const Isometry3d> T_camera_body) const {
+  const Eigen::AlignedBox2d image(Vector2d::Zero(), Vector2d(k.width() - 1, k.height() - 1));
+  Eigen::AlignedBox2d rectangle;
+  for (const Instance& instance : instances)
+    for (const Vector3d& in_body : instance.corners) {
+      const Vector3d corner = T_camera_body[instance.body] * in_body;
+      if (corner.z() < DepthRenderer::near_plane) {
+        rectangle.extend(image);
+      } else {
+        const Vector2d pixel = k.project(corner);
+        rectangle.extend(pixel - Vector2d::Ones()).extend(pixel + Vector2d::Ones());
+      }
     }
-    points[i] = k.project(corner);
-  }
-  return points;
-}
-
-/// Adds the blocks that the outline's convex hull meets, and a pixel around it.
-void EmbreeTracer::State::add_columns(const Outline& outline) {
-  const int blocks_per_row = padded_width / block;
-  const double last_column = blocks_per_row - 1;
-  for (int row = 0; row < rows; ++row) {
-    const auto columns = extent(outline, row * block - 1.0, row * block + block);
-    if (columns.isEmpty()) continue;
-    const double low = columns.min().x();
-    const double high = columns.max().x();
-    if (high < -1.0 || low > k.width()) continue;
-    spans[static_cast<std::size_t>(row)].push_back(
-        {static_cast<int>(std::clamp((low - 1.0) / block, 0.0, last_column)),
-         static_cast<int>(std::clamp((high + 1.0) / block, 0.0, last_column))});
-  }
+  const Eigen::AlignedBox2d seen = rectangle.intersection(image);
+  if (seen.isEmpty()) return {};
+  return {(seen.min() / block).cast<int>(), (seen.max() / block).cast<int>()};
 }
 
 void EmbreeTracer::State::trace(int block_row, int first, int last) {
@@ -214,52 +166,29 @@ void EmbreeTracer::State::trace(int block_row, int first, int last) {
   }
 }
 
-EmbreeTracer::EmbreeTracer(const Intrinsics& intrinsics, std::span<const Body> bodies,
-                           Region region)
-    : state_(std::make_unique<State>(intrinsics, region)) {
+EmbreeTracer::EmbreeTracer(const Intrinsics& intrinsics, std::span<const Body> bodies)
+    : state_(std::make_unique<State>(intrinsics)) {
   for (std::size_t i = 0; i < bodies.size(); ++i) state_->add(bodies[i], i);
-  state_->spans.resize(static_cast<std::size_t>(state_->rows));
-  state_->traced.resize(static_cast<std::size_t>(state_->rows));
 }
 
 EmbreeTracer::~EmbreeTracer() = default;
 
 ImageView<const float> EmbreeTracer::render(std::span<const Isometry3d> T_camera_body) {
   State& s = *state_;
-  for (auto& row : s.spans) row.clear();
-  AlignedBox2d rectangle;
   for (const State::Instance& instance : s.instances) {
-    const Isometry3d& pose = T_camera_body[instance.body];
-    const Eigen::Matrix<float, 3, 4> matrix = pose.matrix().topRows<3>().cast<float>();
+    const Eigen::Matrix<float, 3, 4> matrix =
+        T_camera_body[instance.body].matrix().topRows<3>().cast<float>();
     rtcSetGeometryTransform(instance.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
     rtcCommitGeometry(instance.geometry);
-    const Outline outline = s.project(instance, pose);
-    if (s.region == Region::hulls) s.add_columns(outline);
-    for (const Vector2d& point : outline) rectangle.extend(point);
   }
-  if (s.region == Region::rectangle && !rectangle.isEmpty()) s.add_columns(outline_of(rectangle));
   rtcCommitScene(s.scene);
-  for (int row = 0; row < s.rows; ++row) {
-    auto& spans = s.spans[static_cast<std::size_t>(row)];
-    auto& traced = s.traced[static_cast<std::size_t>(row)];
-    for (const Columns& old : traced) {
-      for (int v = row * block; v < (row + 1) * block; ++v) {
-        std::fill(&s.depth(old.first * block, v),
-                  &s.depth(old.first * block, v) + (old.last + 1 - old.first) * block, 0.0F);
-      }
-    }
-    traced.clear();
-    std::sort(spans.begin(), spans.end(),
-              [](const Columns& a, const Columns& b) { return a.first < b.first; });
-    for (const Columns& span : spans) {
-      if (!traced.empty() && span.first <= traced.back().last + 1) {
-        traced.back().last = std::max(traced.back().last, span.last);
-      } else {
-        traced.push_back(span);
-      }
-    }
-    for (const Columns& span : traced) s.trace(row, span.first, span.last);
-  }
+  if (!s.traced.isEmpty())
+    for (int v = s.traced.min().y() * block; v < (s.traced.max().y() + 1) * block; ++v)
+      std::fill(&s.depth(s.traced.min().x() * block, v),
+                &s.depth(s.traced.max().x() * block, v) + block, 0.0F);
+  s.traced = s.blocks_around(T_camera_body);
+  for (int row = s.traced.min().y(); row <= s.traced.max().y(); ++row)
+    s.trace(row, s.traced.min().x(), s.traced.max().x());
   return {s.depth.data(), s.k.width(), s.k.height(), s.padded_width};
 }
 

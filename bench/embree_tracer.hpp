@@ -12,19 +12,13 @@
 
 namespace penumbra::bench {
 
-/// Where rays are cast, to whole packets; all over the image where a corner of a box is not before
-/// the near plane.
-enum class Region {
-  rectangle,  ///< one rectangle around all bodies' projected bounding boxes
-  hulls,      ///< the convex hull of each body's projected bounding box
-};
-
 /// The comparator for ray casting: Embree in its robust mode on the calling thread. One tree per
 /// body, built once at high quality, instances moved every frame; coherent rays in packets of 4x4
-/// pixels, several packets a call: the fastest of the packet sizes, shapes and calls tried.
+/// pixels, several packets a call: the fastest of the packet sizes, shapes and calls tried. Rays
+/// are cast in the rectangle around the robot.
 class EmbreeTracer {
  public:
-  EmbreeTracer(const Intrinsics& intrinsics, std::span<const Body> bodies, Region region);
+  EmbreeTracer(const Intrinsics& intrinsics, std::span<const Body> bodies);
   ~EmbreeTracer();
   EmbreeTracer(const EmbreeTracer&) = delete;
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;

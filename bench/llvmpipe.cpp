@@ -6,12 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
+#include <epoxy/gl.h>
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include <penumbra/render/gl/egl_context.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
 
 namespace penumbra::bench {
 namespace {
@@ -45,14 +43,13 @@ void require(bool condition, const char* what) {
   if (!condition) throw std::runtime_error(std::string("llvmpipe: ") + what);
 }
 
-GLuint compiled(GLenum kind, const char* source) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint status = GL_FALSE;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &status);
-  require(status == GL_TRUE, "a shader does not compile");
-  return shader;
+/// Returns a context of the first device that is llvmpipe.
+std::unique_ptr<gl::EglContext> open_llvmpipe() {
+  for (std::size_t i = 0; i < gl::EglContext::device_count(); ++i) {
+    auto context = std::make_unique<gl::EglContext>(i);
+    if (context->device().name.find("llvmpipe") != std::string::npos) return context;
+  }
+  throw std::runtime_error("llvmpipe: no OpenGL device is llvmpipe");
 }
 
 }  // namespace
@@ -64,34 +61,11 @@ struct LlvmpipeRenderer::State {
     GLsizei indices;
   };
 
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
+  std::unique_ptr<gl::EglContext> context = open_llvmpipe();
   GLint matrix_location = -1;
   Eigen::Matrix4d clip_from_camera;
   std::vector<Drawable> drawables;
   Image<float> depth;
-
-  ~State() {
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-  }
-
-  void make_context() {
-    display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-    require(eglInitialize(display, nullptr, nullptr) == EGL_TRUE, "no surfaceless display");
-    eglBindAPI(EGL_OPENGL_API);
-    constexpr std::array wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE,
-                                EGL_PBUFFER_BIT, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint count = 0;
-    eglChooseConfig(display, wanted.data(), &config, 1, &count);
-    require(count == 1, "no configuration");
-    constexpr std::array version{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                 EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
-    require(context != EGL_NO_CONTEXT, "no OpenGL 4.5 context");
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
-  }
 
   void make_target(const Intrinsics& k) {
     depth = Image<float>(k.width(), k.height());
@@ -116,10 +90,8 @@ struct LlvmpipeRenderer::State {
   }
 
   void make_program() {
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_VERTEX_SHADER, vertex_shader));
-    glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragment_shader));
-    glLinkProgram(program);
+    const GLuint program = gl::make_program(
+        {{GL_VERTEX_SHADER, vertex_shader}, {GL_FRAGMENT_SHADER, fragment_shader}});
     glUseProgram(program);
     matrix_location = glGetUniformLocation(program, "clip_from_body");
   }
@@ -145,35 +117,30 @@ struct LlvmpipeRenderer::State {
   }
 };
 
-LlvmpipeRenderer::LlvmpipeRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies,
-                                   int vector_bits)
-    : state_(std::make_unique<State>()) {
+LlvmpipeRenderer::LlvmpipeRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies) {
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", "0", 1);
-  if (vector_bits != 0) {
-    setenv("LP_NATIVE_VECTOR_WIDTH", std::to_string(vector_bits).c_str(), 1);
-  }
-  state_->make_context();
-  require(description().find("llvmpipe") != std::string::npos, "OpenGL is not llvmpipe here");
+  state_ = std::make_unique<State>();
+  const gl::EglContext::Current current(*state_->context);
   state_->make_target(intrinsics);
   state_->make_program();
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     for (const PreparedMesh& mesh : bodies[body].meshes) state_->upload(mesh, body);
   }
-  require(glGetError() == GL_NO_ERROR, "OpenGL reports an error");
+  gl::check_frame();
 }
 
 LlvmpipeRenderer::~LlvmpipeRenderer() = default;
 
 std::string LlvmpipeRenderer::description() const {
-  return reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + std::string(", OpenGL ") +
-         reinterpret_cast<const char*>(glGetString(GL_VERSION));
+  const GlDevice& device = state_->context->device();
+  return device.name + ", OpenGL " + device.version;
 }
 
 ImageView<const float> LlvmpipeRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {
   State& s = *state_;
-  eglMakeCurrent(s.display, EGL_NO_SURFACE, EGL_NO_SURFACE, s.context);
+  const gl::EglContext::Current current(*s.context);
   glClear(GL_DEPTH_BUFFER_BIT);
   for (const State::Drawable& drawable : s.drawables) {
     const Eigen::Matrix4f matrix =

@@ -18,9 +18,8 @@ namespace penumbra::bench {
 /// link and frame; the depth buffer is read back and turned into metres.
 class LlvmpipeRenderer {
  public:
-  /// Sets the driver's environment. `vector_bits`: llvmpipe's vector width, 0 for its own choice;
-  /// the first renderer of a process decides. Throws std::runtime_error without llvmpipe.
-  LlvmpipeRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, int vector_bits);
+  /// Sets the driver's environment. Throws std::runtime_error without llvmpipe.
+  LlvmpipeRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies);
   ~LlvmpipeRenderer();
   LlvmpipeRenderer(const LlvmpipeRenderer&) = delete;
   LlvmpipeRenderer& operator=(const LlvmpipeRenderer&) = delete;

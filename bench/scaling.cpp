@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the cpu renderer's time grows with triangles, pixels, links and threads, one axis at a time:
+// How a renderer's time grows with triangles, pixels, links and threads, one axis at a time: the
+// cpu backend by SIMD target and, on a machine with OpenGL, the gl backend:
 // scaling [--rounds N] [--json FILE].
 #include "scenes.hpp"
 #include "timing.hpp"
@@ -10,6 +11,9 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::bench {
 namespace {
@@ -23,10 +27,13 @@ struct Measurement {
   std::size_t triangles, robot_pixels;
 };
 
+/// `isa`: a SIMD target, or "gl".
 Measurement measure(const Intrinsics& intrinsics, const std::vector<Body>& bodies,
-                    const std::vector<LinkPoses>& path, const RendererOptions& options,
-                    int rounds) {
-  const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies, options);
+                    const std::vector<LinkPoses>& path, const std::string& isa, int rounds,
+                    int threads = 1) {
+  const bool is_gl = isa == "gl";
+  const auto renderer = make_depth_renderer(is_gl ? Backend::gl : Backend::cpu, intrinsics, bodies,
+                                            {.threads = threads, .isa = is_gl ? "" : isa});
   FrameTimes times(path.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < path.size(); ++i) {
@@ -41,19 +48,36 @@ Measurement measure(const Intrinsics& intrinsics, const std::vector<Body>& bodie
   return {times.typical(), renderer->triangle_count(), pixels};
 }
 
+/// The SIMD targets, and "gl" if an OpenGL device works.
+std::vector<std::string> compared() {
+  std::vector<std::string> all = compared_isas();
+  try {
+    for (const GlDevice& device : gl_devices()) {
+      if (!device.fault.empty()) continue;
+      std::cout << "gl: " << device.name << ", OpenGL " << device.version << '\n';
+      all.push_back("gl");
+      break;
+    }
+  } catch (const InputError& error) {
+    std::cout << error.what() << '\n';
+  }
+  return all;
+}
+
 /// The axis' value, and time by SIMD target.
 class Table {
  public:
-  Table(json& report, std::string axis) : rows_(report["axes"][axis]), axis_(std::move(axis)) {
-    std::printf("\n%-12s %10s %10s", axis_.c_str(), "triangles", "robot px");
-    for (const std::string& isa : compared_isas()) std::printf(" %9s", isa.c_str());
+  Table(json& report, const std::string& axis, std::vector<std::string> columns)
+      : rows_(report["axes"][axis]), columns_(std::move(columns)) {
+    std::printf("\n%-12s %10s %10s", axis.c_str(), "triangles", "robot px");
+    for (const std::string& isa : columns_) std::printf(" %9s", isa.c_str());
     std::printf("   ms\n");
   }
 
   template <typename Measure>
   void row(const std::string& value, Measure&& measure) {
     json row{{"value", value}};
-    for (const std::string& isa : compared_isas()) {
+    for (const std::string& isa : columns_) {
       const Measurement m = measure(isa);
       if (!row.contains("triangles")) {
         std::printf("%-12s %10zu %10zu", value.c_str(), m.triangles, m.robot_pixels);
@@ -70,53 +94,49 @@ class Table {
 
  private:
   json& rows_;
-  std::string axis_;
+  std::vector<std::string> columns_;
 };
 
-void scale_triangles(json& report, int rounds) {
+void scale_triangles(json& report, const std::vector<std::string>& columns, int rounds) {
   const Intrinsics camera(1280, 720, 915.0, 915.0, 640.0, 360.0);
-  Table table(report, "triangles");
+  Table table(report, "triangles", columns);
   for (const std::size_t triangles : {1000U, 3000U, 10000U, 30000U, 100000U, 300000U, 1000000U}) {
     const SphereScene scene(8, triangles);
     table.row(std::to_string(triangles), [&](const std::string& isa) {
-      return measure(camera, scene.bodies(), scene.path(frames), {.threads = 1, .isa = isa},
-                     rounds);
+      return measure(camera, scene.bodies(), scene.path(frames), isa, rounds);
     });
   }
 }
 
-void scale_links(json& report, int rounds) {
+void scale_links(json& report, const std::vector<std::string>& columns, int rounds) {
   const Intrinsics camera(1280, 720, 915.0, 915.0, 640.0, 360.0);
-  Table table(report, "links");
+  Table table(report, "links", columns);
   for (const std::size_t links : {1U, 2U, 5U, 10U, 20U, 50U, 100U, 200U}) {
     const SphereScene scene(links, 40000);
     table.row(std::to_string(links), [&](const std::string& isa) {
-      return measure(camera, scene.bodies(), scene.path(frames), {.threads = 1, .isa = isa},
-                     rounds);
+      return measure(camera, scene.bodies(), scene.path(frames), isa, rounds);
     });
   }
 }
 
-void scale_pixels(json& report, int rounds) {
-  Table table(report, "image");
+void scale_pixels(json& report, const std::vector<std::string>& columns, int rounds) {
+  Table table(report, "image", columns);
   for (const auto& [width, height] :
        {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}}) {
     const BenchScene scene =
         ur5e_scene(Geometry::collision, width, height, 0.72 * width, frames, 7);
     table.row(std::to_string(width) + "x" + std::to_string(height), [&](const std::string& isa) {
-      return measure(scene.intrinsics, scene.bodies(), scene.path, {.threads = 1, .isa = isa},
-                     rounds);
+      return measure(scene.intrinsics, scene.bodies(), scene.path, isa, rounds);
     });
   }
 }
 
 void scale_threads(json& report, int rounds) {
   const BenchScene scene = ur5e_scene(Geometry::visual, 1280, 720, 915.0, frames, 7);
-  Table table(report, "threads");
+  Table table(report, "threads", compared_isas());
   for (int threads = 1; threads <= 4; ++threads) {
     table.row(std::to_string(threads), [&](const std::string& isa) {
-      return measure(scene.intrinsics, scene.bodies(), scene.path, {.threads = threads, .isa = isa},
-                     rounds);
+      return measure(scene.intrinsics, scene.bodies(), scene.path, isa, rounds, threads);
     });
   }
 }
@@ -126,19 +146,15 @@ void scale_threads(json& report, int rounds) {
 
 int main(int argc, char** argv) {
   using namespace penumbra::bench;
-  int rounds = 5;
-  std::string json_file;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::string(argv[i]) == "--rounds") rounds = std::stoi(argv[i + 1]);
-    if (std::string(argv[i]) == "--json") json_file = argv[i + 1];
-  }
   try {
+    const auto [rounds, json_file] = Arguments(argc, argv);
     json report{{"cpu", cpu_model()}, {"frames", frames}, {"rounds", rounds}};
     std::cout << "processor: " << cpu_model() << "; " << rounds << " rounds of " << frames
               << " frames, a new pose every frame\n";
-    scale_triangles(report, rounds);
-    scale_pixels(report, rounds);
-    scale_links(report, rounds);
+    const std::vector<std::string> columns = compared();
+    scale_triangles(report, columns, rounds);
+    scale_pixels(report, columns, rounds);
+    scale_links(report, columns, rounds);
     scale_threads(report, rounds);
     if (!json_file.empty()) std::ofstream(json_file) << report.dump(1) << '\n';
     return 0;

@@ -63,14 +63,6 @@ TriangleMesh sphere(double radius, std::size_t triangles) {
 
 }  // namespace
 
-std::vector<Body> BenchScene::bodies() const {
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < robot->links().size(); ++i) {
-    bodies.push_back({robot->links()[i], robot->meshes(i)});
-  }
-  return bodies;
-}
-
 std::filesystem::path data_folder() {
   const char* given = std::getenv("PENUMBRA_DATA");
   return given != nullptr ? given : PENUMBRA_DATA_DEFAULT;

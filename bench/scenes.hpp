@@ -12,8 +12,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/robot/robot.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::bench {
 
@@ -29,7 +28,7 @@ struct BenchScene {
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
   std::function<Robot()> load_robot = {};  ///< another one like it
 
-  [[nodiscard]] std::vector<Body> bodies() const;
+  [[nodiscard]] std::vector<Body> bodies() const { return bodies_of(*robot); }
 };
 
 /// Folder of robots and recordings: PENUMBRA_DATA or the one given to CMake.

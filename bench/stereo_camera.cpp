@@ -25,12 +25,6 @@ cv::Mat matrix(Image<std::uint8_t>& image) {
   return {image.height(), image.width(), CV_8U, image.data()};
 }
 
-template <typename T>
-void fit(Image<T>& image, const Intrinsics& k) {
-  if (image.width() != k.width() || image.height() != k.height())
-    image = Image<T>(k.width(), k.height());
-}
-
 /// Random speckles from 0 to 1, half of them dark.
 Image<float> speckles(int width, int height, sim::Random& random) {
   Image<float> image(width, height);
@@ -71,7 +65,7 @@ StereoCamera::~StereoCamera() = default;
 /// `from_left`: metres between this camera and the left one, where the projector is.
 void StereoCamera::light(const Image<io::Rgb8>& color, const Image<float>& depth, double from_left,
                          Image<std::uint8_t>& grey) {
-  fit(grey, intrinsics_);
+  grey.fit(intrinsics_.width(), intrinsics_.height());
   const int last = intrinsics_.width() - 1;
   const auto shift = static_cast<float>(intrinsics_.fx() * from_left);
   std::size_t at_noise = random_.bits() % noise_.size();
@@ -100,10 +94,10 @@ void StereoCamera::capture(sim::Stage& stage, const Eigen::Isometry3d& T_base_le
   const sim::Viewpoint right{intrinsics_, T_base_left * Eigen::Translation3d(baseline, 0.0, 0.0)};
   const sim::Window whole{0, 0, intrinsics_.width(), intrinsics_.height()};
   const auto everything = [](std::int32_t) { return true; };
-  fit(images.ids, intrinsics_);
-  fit(images.depth, intrinsics_);
-  fit(right_depth_, intrinsics_);
-  fit(images.measured, intrinsics_);
+  images.ids.fit(intrinsics_.width(), intrinsics_.height());
+  images.depth.fit(intrinsics_.width(), intrinsics_.height());
+  right_depth_.fit(intrinsics_.width(), intrinsics_.height());
+  images.measured.fit(intrinsics_.width(), intrinsics_.height());
   stage.draw_ids(left, everything, whole, &images.ids, &images.depth);
   stage.draw_ids(right, everything, whole, nullptr, &right_depth_);
   stage.draw_color(left, color_);

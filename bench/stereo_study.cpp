@@ -2,8 +2,7 @@
 // Measures against the simulator's truth what a stereo camera carries past the robot's outline, how
 // much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
 #include "../tests/support/cloud_measure.hpp"
-#include "stereo_cell.hpp"
-#include "stereo_picture.hpp"
+#include "stereo_camera.hpp"
 #include "study_page.hpp"
 
 #include <algorithm>
@@ -11,12 +10,17 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
-#include <sim/simulation.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <sim/arm.hpp>
+#include <sim/scene.hpp>
+#include <sim/temporary_folder.hpp>
 
 namespace penumbra::study {
 namespace {
@@ -30,6 +34,55 @@ constexpr std::array<int, 4> reaches = {0, 20, 40, 60};
 constexpr double wrong = 0.03;        // metres: a depth farther from the truth than this
 constexpr double right = 0.02;        // metres: a depth nearer to the truth than this
 constexpr double robots_depth = 3.0;  // of e(z): how near to the robot's depth carried ones are
+
+constexpr double frame_rate = 30.0;  // turns a frame's number into the scene's time
+constexpr double nearby = 64.0;      // pixels from the robot: no farther point was carried
+
+/// The simulated arm among eight things before, behind and beside it, seen by a stereo camera. The
+/// seed chooses the camera's place and the things; every frame is a new arm pose with the things in
+/// new places.
+class StereoCell {
+ public:
+  [[nodiscard]] static Intrinsics intrinsics() { return {848, 480, 600.0, 600.0, 423.5, 239.5}; }
+
+  explicit StereoCell(std::uint64_t seed)
+      : arm_(PENUMBRA_STUDY_ARM, visual_geometry(), folder_.path()),
+        scene_(sim::make_random_targets(
+            arm_, {.seed = seed, .belt_jitter = 0.0, .frame_rate = frame_rate, .duration = 0.0},
+            intrinsics())),
+        stage_(arm_, scene_->description(), folder_.path(), intrinsics()),
+        renderer_(make_depth_renderer(Backend::cpu, intrinsics(), bodies_of(arm_.robot()))),
+        camera_(intrinsics(), seed),
+        poses_(arm_.robot().links().size()) {}
+
+  /// Captures frame `index` into `images`. Returns the robot alone, as rendered.
+  VirtualDepthView capture(std::size_t index, StereoImages& images) {
+    const double time = static_cast<double>(index) / frame_rate;
+    const std::vector<double> joints = scene_->joints(time);
+    stage_.place(joints, scene_->pose(time).parts);
+    const Eigen::Isometry3d& T_base_camera = scene_->description().T_base_camera;
+    camera_.capture(stage_, T_base_camera, images);
+    arm_.robot().forward_kinematics(joints, poses_);
+    for (Eigen::Isometry3d& pose : poses_) pose = T_base_camera.inverse() * pose;
+    return renderer_->render(poses_);
+  }
+
+ private:
+  static RobotOptions visual_geometry() {
+    RobotOptions options;
+    options.geometry = Geometry::visual;
+    options.geometry_fallback = true;
+    return options;
+  }
+
+  sim::TemporaryFolder folder_;
+  sim::Arm arm_;
+  std::unique_ptr<sim::Scene> scene_;
+  sim::Stage stage_;
+  std::unique_ptr<DepthRenderer> renderer_;
+  StereoCamera camera_;
+  std::vector<Eigen::Isometry3d> poses_;  // T_camera_link
+};
 
 enum class Point { robot, carried, thing, room, other };
 
@@ -49,103 +102,71 @@ bool is_others(const StereoImages& images, int u, int v, double distance) {
 }
 
 /// What a measured point really is.
-Point point_of(const StereoImages& images, const test::NearestRobot& nearest,
-               const Tolerance& tolerance, int u, int v) {
+Point point_of(const StereoImages& images, const VirtualDepthView& rendered,
+               const tuning::NearestPixels& nearest, int u, int v) {
   const std::int32_t id = images.ids(u, v);
   const bool is_object = id >= sim::first_object_id;
   if (id != 0 && !is_object) return Point::robot;
   const double measured = 0.001 * static_cast<double>(images.measured(u, v));
   const double off = std::abs(measured - static_cast<double>(images.depth(u, v)));
-  const auto robot = static_cast<double>(nearest.depth(u, v));
-  if (off > wrong && robot > 0.0 &&
-      std::abs(measured - robot) < robots_depth * tolerance.at(robot) &&
-      !is_others(images, u, v, nearest.distance(u, v)))
-    return Point::carried;
+  const double distance = nearest.distance(u, v);
+  if (off > wrong && distance <= nearby) {
+    const auto at = nearest.at(u, v);
+    const auto robot = static_cast<double>(rendered.depth(at.u, at.v));
+    if (std::abs(measured - robot) < robots_depth * LabelRule{}.tolerance.at(robot) &&
+        !is_others(images, u, v, distance))
+      return Point::carried;
+  }
   if (off >= right) return Point::other;
   return is_object ? Point::thing : Point::room;
 }
 
-/// Counts of points, and of those that each rule keeps.
+/// Counts of points in a cloud without the robot, by what they are, and of those that each reach
+/// labels fringe. `on_robot`: measured on the robot itself.
 struct Tally {
-  std::size_t frames = 0, robot = 0, carried = 0, things = 0, room = 0;
-  std::array<std::size_t, reaches.size()> carried_left{}, things_taken{}, room_taken{};
-  std::array<std::size_t, 6> by_distance{};
+  std::size_t frames = 0, on_robot = 0;
+  std::array<std::size_t, 5> points{};  // by Point
+  std::array<std::array<std::size_t, 5>, reaches.size()> fringe{};
 
-  void add(const Tally& other);
-};
-
-constexpr std::array<double, 6> distances = {2, 5, 10, 20, 40, test::NearestRobot::reach};
-
-template <typename A>
-void add_each(A& to, const A& from) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
-}
-
-void Tally::add(const Tally& other) {
-  frames += other.frames;
-  robot += other.robot;
-  carried += other.carried;
-  things += other.things;
-  room += other.room;
-  add_each(carried_left, other.carried_left);
-  add_each(things_taken, other.things_taken);
-  add_each(room_taken, other.room_taken);
-  add_each(by_distance, other.by_distance);
-}
-
-/// Labels by every reach.
-class Rules {
- public:
-  Rules() {
-    for (const int reach : reaches) {
-      LabelRule rule;
-      rule.fringe_reach = reach;
-      classifiers_.emplace_back(StereoCell::intrinsics().width(), StereoCell::intrinsics().height(),
-                                rule);
+  void add(const Tally& other) {
+    frames += other.frames;
+    on_robot += other.on_robot;
+    for (std::size_t kind = 0; kind < points.size(); ++kind) {
+      points[kind] += other.points[kind];
+      for (std::size_t i = 0; i < reaches.size(); ++i) fringe[i][kind] += other.fringe[i][kind];
     }
   }
-
-  [[nodiscard]] std::array<LabelView, reaches.size()> classify(const VirtualDepthView& robot,
-                                                               const StereoImages& images) {
-    std::array<LabelView, reaches.size()> labels;
-    for (std::size_t i = 0; i < reaches.size(); ++i)
-      labels[i] = classifiers_[i].classify(robot, images.measured.view());
-    return labels;
-  }
-
- private:
-  std::vector<Classifier> classifiers_;
 };
 
+std::vector<Classifier> classifiers() {
+  std::vector<Classifier> all;
+  for (const int reach : reaches) {
+    LabelRule rule;
+    rule.fringe_reach = reach;
+    all.emplace_back(StereoCell::intrinsics().width(), StereoCell::intrinsics().height(), rule);
+  }
+  return all;
+}
+
 /// Points that a cloud without the robot holds are the clear and front ones.
-void tally(const StereoImages& images, const VirtualDepthView& robot, Rules& rules, Tally& sum) {
-  const test::NearestRobot nearest = test::nearest_robot(robot.depth);
-  const auto labels = rules.classify(robot, images);
-  const Tolerance tolerance = LabelRule{}.tolerance;
+void tally(const StereoImages& images, const VirtualDepthView& robot,
+           std::vector<Classifier>& classifiers, Tally& sum) {
+  const tuning::NearestPixels nearest = test::nearest_robot(robot.depth);
+  std::array<LabelView, reaches.size()> labels;
+  for (std::size_t i = 0; i < reaches.size(); ++i)
+    labels[i] = classifiers[i].classify(robot, images.measured.view());
   ++sum.frames;
   for (int v = 0; v < images.measured.height(); ++v)
     for (int u = 0; u < images.measured.width(); ++u) {
       if (images.measured(u, v) == 0) continue;
-      const Point point = point_of(images, nearest, tolerance, u, v);
+      const Point point = point_of(images, robot, nearest, u, v);
+      sum.on_robot += point == Point::robot;
       const int pixel = v * images.measured.width() + u;
-      const Label plain = label_at(labels[0], pixel);
-      const bool is_in_cloud = plain == Label::clear || plain == Label::front;
-      sum.robot += point == Point::robot;
-      sum.things += point == Point::thing && is_in_cloud;
-      sum.room += point == Point::room && is_in_cloud;
-      if (point == Point::carried && is_in_cloud) {
-        ++sum.carried;
-        ++sum.by_distance[static_cast<std::size_t>(
-            std::lower_bound(distances.begin(), distances.end() - 1, nearest.distance(u, v)) -
-            distances.begin())];
-      }
-      if (!is_in_cloud) continue;
-      for (std::size_t i = 0; i < reaches.size(); ++i) {
-        const bool is_fringe = label_at(labels[i], pixel) == Label::fringe;
-        sum.carried_left[i] += point == Point::carried && !is_fringe;
-        sum.things_taken[i] += point == Point::thing && is_fringe;
-        sum.room_taken[i] += point == Point::room && is_fringe;
-      }
+      if (!is_trusted(label_at(labels[0], pixel))) continue;
+      const auto kind = static_cast<std::size_t>(point);
+      ++sum.points[kind];
+      for (std::size_t i = 0; i < reaches.size(); ++i)
+        sum.fringe[i][kind] += label_at(labels[i], pixel) == Label::fringe;
     }
 }
 
@@ -154,15 +175,16 @@ Tally study(std::size_t frames) {
   std::mutex mutex;
   std::atomic<std::size_t> next_cell = 0;
   const auto work = [&] {
-    Rules rules;
+    std::vector<Classifier> rules = classifiers();
+    StereoImages images;
     for (;;) {
       const std::size_t cell = next_cell++;
       if (cell * frames_per_cell >= frames) return;
       StereoCell place(first_seed + cell);
       Tally sum;
       for (std::size_t i = 0; i < std::min(frames_per_cell, frames - cell * frames_per_cell); ++i) {
-        place.capture(i);
-        tally(place.images(), place.virtual_depth(), rules, sum);
+        const VirtualDepthView robot = place.capture(i, images);
+        tally(images, robot, rules, sum);
       }
       const std::lock_guard lock(mutex);
       all.add(sum);
@@ -179,47 +201,21 @@ std::string report(const Tally& sum) {
   std::vector<std::vector<std::string>> rows = {{"fringe_reach, px", "points of the robot left, %",
                                                  "points of things removed, %",
                                                  "points of the room removed, %"}};
-  for (std::size_t i = 0; i < reaches.size(); ++i)
-    rows.push_back({std::to_string(reaches[i]),
-                    number(test::percent(sum.carried_left[i], sum.robot + sum.carried), 2),
-                    number(test::percent(sum.things_taken[i], sum.things), 2),
-                    number(test::percent(sum.room_taken[i], sum.room), 3)});
-  return '\n' + table(rows) + '\n';
-}
-
-std::string counts(const Tally& sum) {
-  std::vector<std::vector<std::string>> far = {{"pixels from the outline"},
-                                               {"points carried there"}};
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    far[0].push_back("to " + number(distances[i], 0));
-    far[1].push_back(std::to_string(sum.by_distance[i]));
+  const auto of = [](const auto& counts, Point point) {
+    return counts[static_cast<std::size_t>(point)];
+  };
+  const std::size_t carried = of(sum.points, Point::carried);
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    const auto& fringe = sum.fringe[i];
+    const auto removed = [&](Point point, int digits) {
+      return number(test::percent(of(fringe, point), of(sum.points, point)), digits);
+    };
+    rows.push_back(
+        {std::to_string(reaches[i]),
+         number(test::percent(carried - of(fringe, Point::carried), sum.on_robot + carried), 2),
+         removed(Point::thing, 2), removed(Point::room, 3)});
   }
-  std::ostringstream out;
-  out << sum.frames << " frames, seeds from " << first_seed << ": " << sum.robot
-      << " points on the robot, " << sum.things << " right ones on things and " << sum.room
-      << " on the room\n\n"
-      << table(far) << '\n';
-  return out.str();
-}
-
-void draw(const std::filesystem::path& file, std::uint64_t cell, std::size_t frame) {
-  StereoCell place(first_seed + cell);
-  place.capture(frame);
-  Rules rules;
-  const StereoImages& images = place.images();
-  const VirtualDepthView robot = place.virtual_depth();
-  const test::NearestRobot nearest = test::nearest_robot(robot.depth);
-  const LabelView labels = rules.classify(robot, images)[2];
-  Image<io::Rgb8> out = picture(images, labels);
-  for (int v = 0; v < images.ids.height(); ++v)
-    for (int u = 0; u < images.ids.width(); ++u) {
-      const Label label = label_at(labels, v * images.ids.width() + u);
-      const bool is_in_cloud = label == Label::clear || label == Label::front;
-      if (images.measured(u, v) != 0 && is_in_cloud &&
-          point_of(images, nearest, LabelRule{}.tolerance, u, v) == Point::carried)
-        out(images.ids.width() + u, images.ids.height() + v) = {255, 0, 255};  // left
-    }
-  io::write_png(file, out.view());
+  return '\n' + table(rows) + '\n';
 }
 
 }  // namespace
@@ -229,19 +225,14 @@ int main(int argc, char** argv) {
   using namespace penumbra::study;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
-    if (arguments.size() == 4 && arguments[0] == "--picture") {
-      draw(arguments[1], std::stoul(arguments[2]), std::stoul(arguments[3]));
-      return 0;
-    }
     const bool has_count = arguments.size() == 3 && arguments[1] == "--frames";
     if (arguments.size() != 1 && !has_count) {
-      std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n"
-                   "       stereo_study --picture FILE.png CELL FRAME\n";
+      std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n";
       return 2;
     }
     const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
     const std::string text = report(sum);
-    std::cout << text << counts(sum);
+    std::cout << text;
     if (!has_count)
       update_page(std::filesystem::path(arguments[0]) / "docs/cloud.md", "stereo_study", text);
   } catch (const std::exception& error) {

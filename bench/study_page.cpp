@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study_page.hpp"
 
+#include <cstdlib>
 #include <fstream>
 #include <iomanip>
+#include <iostream>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
@@ -44,6 +46,22 @@ void update_page(const std::filesystem::path& page, const std::string& study,
   if (begin == std::string::npos || end == std::string::npos)
     throw InputError(page.string() + ": has no markers of " + study);
   write_file(page, text.substr(0, begin + first.size()) + content + text.substr(end));
+}
+
+int main_of(const char* name, int placements,
+            void (*run)(const std::filesystem::path&, const std::filesystem::path&, int), int argc,
+            char** argv) {
+  if (argc < 3 || argc > 4) {
+    std::cerr << "usage: " << name << " RECORDING REPOSITORY [PLACEMENTS IN EACH FRAME]\n";
+    return 2;
+  }
+  try {
+    run(argv[1], argv[2], argc > 3 ? std::atoi(argv[3]) : placements);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
 }
 
 }  // namespace penumbra::study

@@ -20,4 +20,10 @@ void write_file(const std::filesystem::path& file, const std::string& content);
 void update_page(const std::filesystem::path& page, const std::string& study,
                  const std::string& content);
 
+/// Runs a study with the arguments RECORDING REPOSITORY [PLACEMENTS IN EACH FRAME].
+int main_of(const char* name, int placements,
+            void (*run)(const std::filesystem::path& recording, const std::filesystem::path& root,
+                        int placements),
+            int argc, char** argv);
+
 }  // namespace penumbra::study

@@ -2,7 +2,6 @@
 #include "timing.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 
 #include <penumbra/base/simd_target.hpp>
@@ -16,24 +15,6 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-double clock_ms(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-/// Applies `f` to each figure's values.
-template <typename F>
-PassCost by_figure(const std::vector<PassCost>& costs, F&& f) {
-  const auto of = [&](double PassCost::*figure) {
-    std::vector<double> values;
-    values.reserve(costs.size());
-    for (const PassCost& cost : costs) values.push_back(cost.*figure);
-    return f(values);
-  };
-  return {of(&PassCost::wall_ms), of(&PassCost::process_ms), of(&PassCost::thread_ms)};
-}
-
 }  // namespace
 
 void FrameTimes::add(std::size_t frame, double ms) {
@@ -42,26 +23,14 @@ void FrameTimes::add(std::size_t frame, double ms) {
 }
 
 double FrameTimes::median() const { return median_of(all_); }
-double FrameTimes::min() const { return *std::min_element(all_.begin(), all_.end()); }
 double FrameTimes::typical() const { return median_of(best_); }
 
-PassCost clocks_now() {
-  return {clock_ms(CLOCK_MONOTONIC), clock_ms(CLOCK_PROCESS_CPUTIME_ID),
-          clock_ms(CLOCK_THREAD_CPUTIME_ID)};
-}
-
-PassCost PassCosts::least() const {
-  return by_figure(all_, [](const auto& v) { return *std::min_element(v.begin(), v.end()); });
-}
-
-PassCost PassCosts::median() const {
-  return by_figure(all_, [](const auto& v) { return median_of(v); });
-}
-
-void CacheSweeper::sweep() {
-  constexpr std::size_t cache_line = 64;
-  for (std::size_t i = 0; i < memory_.size(); i += cache_line) memory_[i] = next_;
-  ++next_;
+Arguments::Arguments(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string name = argv[i];
+    if (name == "--rounds") rounds = std::stoi(argv[i + 1]);
+    if (name == "--json") json_file = argv[i + 1];
+  }
 }
 
 std::string cpu_model() {

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures what labelling rules make of a real recording in which nothing stands before the robot,
-// and of objects pasted into it. Writes docs/tuning.md's table, its plot and a CSV file.
-#include "tolerance_study.hpp"
-
+// Measures what label rules make of a real recording in which nothing stands before the robot, and
+// of squares pasted into it. Writes the table of docs/tuning.md and its plot.
+#include "../tests/support/cloud_measure.hpp"
+#include "../tests/support/pasted_objects.hpp"
 #include "study_page.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <numeric>
 #include <sstream>
 
 namespace penumbra::study {
 namespace {
 
-constexpr std::uint64_t first_seed = 20230206;
+constexpr std::uint64_t seed = 20230206;
+constexpr int gaps = 10;  // centimetres
+
+struct NamedRule {
+  std::string name;
+  LabelRule rule;
+};
 
 LabelRule rule_of(const Tolerance& tolerance, int width, int margin) {
   LabelRule rule;
@@ -23,134 +33,122 @@ LabelRule rule_of(const Tolerance& tolerance, int width, int margin) {
   return rule;
 }
 
-std::vector<NamedRule> compared_rules() {
-  return {{"default", LabelRule{}},
-          {"paper: 0.01", LabelRule::paper()},
-          {"0.015 + 0.006 z², opening 7", rule_of({0.015, 0, 0.006}, 7, 0)},
-          {"0.02 + 0.012 z², no clean-up", rule_of({0.02, 0, 0.012}, 0, 0)}};
+const std::array<NamedRule, 4> rules = {
+    {{"default", LabelRule{}},
+     {"paper: 0.01", LabelRule::paper()},
+     {"0.015 + 0.006 z², opening 7", rule_of({0.015, 0, 0.006}, 7, 0)},
+     {"0.02 + 0.012 z², no clean-up", rule_of({0.02, 0, 0.012}, 0, 0)}}};
+
+Classifier classifier_of(const test::RealFrame& frame, const LabelRule& rule) {
+  return {frame.robot.width(), frame.robot.height(), rule};
 }
 
-std::vector<NamedKind> kinds() {
-  return {{"square 5 cm", {test::Shape::square, 0.05, 0.0}},
-          {"disc 5 cm", {test::Shape::disc, 0.05, 0.0}},
-          {"square 5 cm, tilted 35°", {test::Shape::square, 0.05, 0.61}},
-          {"square 8 cm", {test::Shape::square, 0.08, 0.0}},
-          {"disc 10 cm, tilted 20°", {test::Shape::disc, 0.10, 0.35}}};
-}
-
-/// The default with one thing changed.
-std::vector<NamedRule> variants() {
-  const LabelRule base;
-  std::vector<NamedRule> rules = {{"default", base}};
-  const auto add = [&](const std::string& name, auto change) {
-    LabelRule rule = base;
-    change(rule);
-    rules.push_back({name, rule});
+/// Nothing stands before the robot in the frames as they are.
+std::string untouched(const std::vector<test::RealFrame>& frames) {
+  std::vector<std::vector<std::string>> rows = {{"% of the robot mask", "mean", "worst frame"}};
+  const auto add = [&](const std::string& name, const LabelRule& rule, Label label) {
+    Classifier classifier = classifier_of(frames.front(), rule);
+    std::vector<double> shares;
+    for (const test::RealFrame& frame : frames)
+      shares.push_back(test::percent(classifier.classify(frame.view(), frame.measured.view())
+                                         .pixels[static_cast<std::size_t>(label)],
+                                     frame.mask_pixels));
+    const double mean =
+        std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+    rows.push_back(
+        {name, number(mean, 2), number(*std::max_element(shares.begin(), shares.end()), 2)});
   };
-  for (const double a : {0.005, 0.01, 0.02, 0.025})
-    add("a = " + std::to_string(a).substr(0, 5), [&](LabelRule& r) { r.tolerance.a = a; });
-  for (const double c : {0.0, 0.003, 0.009, 0.012})
-    add("c = " + std::to_string(c).substr(0, 5), [&](LabelRule& r) { r.tolerance.c = c; });
-  for (const int width : {3, 5, 9, 11})
-    add("front_min_width = " + std::to_string(width),
-        [&](LabelRule& r) { r.front_min_width = width; });
-  for (const int margin : {0, 4, 12, 16})
-    add("edge_margin = " + std::to_string(margin), [&](LabelRule& r) { r.edge_margin = margin; });
-  return rules;
+  for (const NamedRule& rule : rules) add("false front: " + rule.name, rule.rule, Label::front);
+  add("false beyond: default", rules[0].rule, Label::beyond);
+  add("unknown", rules[0].rule, Label::unknown);
+  return table(rows);
 }
 
-struct Study {
-  std::vector<test::RealFrame> frames;
-  int placements;
-  std::ostringstream csv;
-  std::vector<Curve> curves;
+/// Percent of the squares' pixels that each rule labels front.
+using Seen = std::array<double, rules.size()>;
 
-  std::string untouched() {
-    std::vector<std::vector<std::string>> rows = {{"% of the robot mask", "mean", "worst frame"}};
-    const auto rules = compared_rules();
-    const auto results = study_untouched(frames, rules);
-    const auto add = [&](const std::string& name, const std::vector<double>& values) {
-      csv << "untouched," << name << ",,";
-      for (const double value : values) csv << ',' << number(value, 4);
-      csv << ',' << number(mean(values), 4) << '\n';
-      rows.push_back({name, number(mean(values), 2), number(largest(values), 2)});
-    };
-    for (std::size_t i = 0; i < rules.size(); ++i)
-      add("false front: " + rules[i].name, results[i].front);
-    add("false beyond: default", results[0].beyond);
-    add("unknown", results[0].unknown);
-    return table(rows);
-  }
-
-  /// Returns a table of the gaps up to 5 cm and of 10 cm. The CSV file has all gaps, and
-  /// the band at the edge.
-  std::string objects(const NamedKind& named) {
-    const auto rules = compared_rules();
-    std::vector<std::vector<std::string>> rows = {{named.name + ", cm before"}};
-    for (const NamedRule& rule : rules) rows[0].push_back(rule.name);
-    const bool plotted = curves.empty();
-    if (plotted)
-      for (const NamedRule& rule : rules) curves.push_back({rule.name, {}, {}});
-    for (int gap = 1; gap <= 10; ++gap) {
-      const auto seen =
-          study_objects(frames, rules, named.kind, 0.01 * gap, placements, first_seed);
-      std::vector<std::string> row = {std::to_string(gap)};
+Seen see_squares(std::vector<test::RealFrame>& frames, double gap, int placements) {
+  std::vector<Classifier> classifiers;
+  for (const NamedRule& rule : rules)
+    classifiers.push_back(classifier_of(frames.front(), rule.rule));
+  std::array<std::size_t, rules.size()> fronts{};
+  std::size_t all = 0;
+  test::Paster paster(seed);
+  for (test::RealFrame& frame : frames)
+    for (int n = 0; n < placements; ++n) {
+      paster.paste_before(frame, {test::Outline::plate, 0.05}, gap);
+      all += paster.on_robot().size();
       for (std::size_t i = 0; i < rules.size(); ++i) {
-        row.push_back(number(seen[i].core, 1));
-        csv << "object," << rules[i].name << ',' << named.name << ',' << gap << ','
-            << number(seen[i].core, 3) << ',' << number(seen[i].band, 3) << '\n';
-        if (!plotted) continue;
-        curves[i].x.push_back(gap);
-        curves[i].y.push_back(seen[i].core);
+        const LabelView labels = classifiers[i].classify(frame.view(), frame.measured.view());
+        for (const int pixel : paster.on_robot())
+          fronts[i] += test::label_at(labels, pixel) == Label::front;
       }
-      if (gap <= 5 || gap == 10) rows.push_back(row);
-      std::cerr << named.name << ' ' << gap << " cm\n";
+      paster.undo(frame);
     }
-    return table(rows);
-  }
+  Seen seen;
+  for (std::size_t i = 0; i < rules.size(); ++i) seen[i] = test::percent(fronts[i], all);
+  return seen;
+}
 
-  void tuning() {
-    const auto rules = variants();
-    const auto untouched = study_untouched(frames, rules);
-    const test::ObjectKind kind = kinds().front().kind;
-    std::vector<std::vector<Seen>> seen;
-    for (const double gap : {0.02, 0.03, 0.05})
-      seen.push_back(study_objects(frames, rules, kind, gap, placements, first_seed));
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-      csv << "tuning," << rules[i].name << ",," << number(mean(untouched[i].front), 4) << ','
-          << number(largest(untouched[i].front), 4);
-      for (const auto& at_gap : seen) csv << ',' << number(at_gap[i].core, 3);
-      csv << '\n';
-    }
+/// An SVG line chart of percentages over the gap in centimetres.
+std::string plot(const std::vector<Seen>& seen) {
+  constexpr double left = 60, top = 40, across = 560, down = 300;  // the plot's area, pixels
+  constexpr std::array colours = {"#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad"};
+  const auto x_of = [](double centimetres) { return left + across * centimetres / gaps; };
+  const auto y_of = [](double percent) { return top + down * (1.0 - percent / 100); };
+  std::ostringstream out;
+  const auto text = [&](double x, double y, const char* anchor, const std::string& words) {
+    out << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor << "\">" << words
+        << "</text>\n";
+  };
+  out << std::fixed << std::setprecision(1)
+      << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 390\" "
+         "font-family=\"sans-serif\" font-size=\"12\">\n"
+         "<title>Square of 5 cm before the robot</title>\n"
+         "<rect width=\"640\" height=\"390\" fill=\"#fff\"/>\n";
+  for (int percent = 0; percent <= 100; percent += 20) {
+    out << "<path d=\"M" << left << ' ' << y_of(percent) << 'h' << across
+        << "\" stroke=\"#ddd\"/>\n";
+    text(left - 8, y_of(percent) + 4, "end", std::to_string(percent));
   }
-};
+  for (int gap = 0; gap <= gaps; ++gap)
+    text(x_of(gap), top + down + 18, "middle", std::to_string(gap));
+  text(left + across / 2, top + down + 38, "middle", "object before the robot, cm");
+  text(left, top - 8, "start", "labelled front, % of the object's measured pixels");
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    const std::string stroke = std::string("stroke-width=\"2\" stroke=\"") + colours.at(i) + '"';
+    out << "<polyline fill=\"none\" " << stroke << " points=\"";
+    for (std::size_t gap = 0; gap < seen.size(); ++gap)
+      out << x_of(static_cast<double>(gap + 1)) << ',' << y_of(seen[gap][i]) << ' ';
+    const double y = top + down - 18.0 * static_cast<double>(i) - 16;
+    out << "\"/>\n<path d=\"M" << left + across - 270 << ' ' << y << "h24\" " << stroke << "/>\n";
+    text(left + across - 240, y + 4, "start", rules[i].name);
+  }
+  out << "</svg>\n";
+  return out.str();
+}
 
 void run(const std::filesystem::path& recording, const std::filesystem::path& root,
          int placements) {
-  Study study{test::load_real_frames(recording), placements, {}, {}};
-  const std::string untouched = '\n' + study.untouched() + '\n';
-  std::cout << untouched;
-  for (const NamedKind& kind : kinds()) std::cout << study.objects(kind) << '\n';
-  study.tuning();
-  write_file(root / "bench/results/tolerance.csv", study.csv.str());
-  write_file(root / "docs/tolerance.svg",
-             svg_plot("Square of 5 cm before the robot", study.curves));
-  update_page(root / "docs/tuning.md", "tolerance_study", untouched);
+  std::vector<test::RealFrame> frames = test::load_real_frames(recording);
+  const std::string page = '\n' + untouched(frames) + '\n';
+  std::cout << page;
+  std::vector<std::vector<std::string>> rows = {{"square 5 cm, cm before"}};
+  for (const NamedRule& rule : rules) rows[0].push_back(rule.name);
+  std::vector<Seen> seen;
+  for (int gap = 1; gap <= gaps; ++gap) {
+    seen.push_back(see_squares(frames, 0.01 * gap, placements));
+    rows.push_back({std::to_string(gap)});
+    for (const double percent : seen.back()) rows.back().push_back(number(percent, 1));
+  }
+  std::cout << table(rows);
+  write_file(root / "docs/tolerance.svg", plot(seen));
+  update_page(root / "docs/tuning.md", "tolerance_study", page);
 }
 
 }  // namespace
 }  // namespace penumbra::study
 
 int main(int argc, char** argv) {
-  if (argc < 3 || argc > 4) {
-    std::cerr << "usage: tolerance_study RECORDING REPOSITORY [PLACEMENTS]\n";
-    return 2;
-  }
-  try {
-    penumbra::study::run(argv[1], argv[2], argc > 3 ? std::atoi(argv[3]) : 100);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+  return penumbra::study::main_of("tolerance_study", 100, penumbra::study::run, argc, argv);
 }

@@ -10,8 +10,7 @@ install(TARGETS penumbra EXPORT PenumbraTargets
 # The public headers: the classes that docs/cpp.md names, and what these include. All other headers
 # are free to change.
 set(public_headers
-  base/error.hpp base/image.hpp base/stamps.hpp base/tile_mask.hpp
-  base/virtual_depth.hpp
+  base/error.hpp base/image.hpp base/stamps.hpp
   mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
   time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp time/stamped_track.hpp
   time/transform_buffer.hpp

@@ -6,6 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
@@ -47,11 +48,8 @@ void run(const std::filesystem::path& folder) {
   std::cout << "elbow at " << elbow.transpose() << " m\n";
 
   // Renderer: what would a camera see of it?
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < robot.links().size(); ++i)
-    bodies.push_back({robot.links()[i], robot.meshes(i)});
   const Intrinsics intrinsics(640, 480, 610.0, 610.0, 322.5, 236.0);
-  const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies);
+  const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies_of(robot));
 
   const Eigen::Isometry3d T_camera_base = look_at({1.2, -1.0, 0.8}, {0.2, 0.0, 0.3}).inverse();
   std::vector<Eigen::Isometry3d> T_camera_link = T_base_link;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/joint_buffer.hpp>
@@ -44,11 +45,8 @@ Eigen::Isometry3d camera_pose(std::int64_t stamp) {
 
 void run(const std::filesystem::path& folder) {
   const Robot robot = Robot::load(folder / "arm.urdf", {.packages = {{"arm_description", folder}}});
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < robot.links().size(); ++i)
-    bodies.push_back({robot.links()[i], robot.meshes(i)});
-  const auto renderer =
-      make_depth_renderer(Backend::cpu, Intrinsics(1280, 720, 915.0, 915.0, 641.5, 362.0), bodies);
+  const Intrinsics intrinsics(1280, 720, 915.0, 915.0, 641.5, 362.0);
+  const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies_of(robot));
 
   JointBuffer buffer(robot, {.max_gap = 0.05});
   JointAnswer joints;

@@ -17,9 +17,8 @@ inline constexpr double wrist_radius = 0.036;    ///< metres from the wrist's su
 
 /// What is known of a cell before anything moves. Every method may use all of it.
 struct Cell {
-  Camera camera;
+  Camera camera;  ///< of both cameras
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  Camera second_camera;  ///< the second depth camera
   Eigen::Isometry3d T_base_second_camera = Eigen::Isometry3d::Identity();
   LabelRule rule;
   std::size_t links = 0;                        ///< of the robot

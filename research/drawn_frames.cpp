@@ -16,21 +16,6 @@ namespace {
 constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, black{0, 0, 0};
 constexpr int text_scale = 2, letter_width = text_scale * io::BitmapFont::advance;
 constexpr double wrist_box = 0.12;  // metres: edge of the box around a wrist
-constexpr int largest_width = 800;  // pixels of an image that is kept at its size
-
-Image<io::Rgb8> halved(const Image<io::Rgb8>& image) {
-  Image<io::Rgb8> half(image.width() / 2, image.height() / 2);
-  const auto mean = [](int a, int b, int c, int d) {
-    return static_cast<std::uint8_t>((a + b + c + d + 2) / 4);
-  };
-  for (int v = 0; v < half.height(); ++v)
-    for (int u = 0; u < half.width(); ++u) {
-      const io::Rgb8 &a = image(2 * u, 2 * v), &b = image(2 * u + 1, 2 * v);
-      const io::Rgb8 &c = image(2 * u, 2 * v + 1), &d = image(2 * u + 1, 2 * v + 1);
-      half(u, v) = {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)};
-    }
-  return half;
-}
 
 void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const LineStyle& style,
                Image<io::Rgb8>& image) {
@@ -72,11 +57,7 @@ DrawnFrames::DrawnFrames(const sim::Simulation& simulation)
       T_base_camera_(simulation.T_base_camera()),
       object_size_(simulation.object_size()) {}
 
-void DrawnFrames::add(const sim::SimFrame& frame) {
-  const bool large = frame.color.width() > largest_width;
-  scale_ = large ? 0.5 : 1.0;
-  images_.push_back(large ? halved(frame.color) : frame.color);
-}
+void DrawnFrames::add(const sim::SimFrame& frame) { images_.push_back(frame.color); }
 
 void DrawnFrames::write(const std::filesystem::path& folder, const SeedRun& run) const {
   for (std::size_t i = 0; i < images_.size(); ++i) {
@@ -118,9 +99,8 @@ std::vector<DrawnFrames::Edge> DrawnFrames::edges_of(
     const Eigen::Isometry3d& T_camera_target) const {
   std::vector<Edge> edges;
   if (object_size_.isZero()) {
-    const Eigen::Vector2d at = scale_ * camera_.intrinsics.project(T_camera_target.translation());
-    const double r =
-        0.5 * scale_ * camera_.intrinsics.fx() * wrist_box / T_camera_target.translation().z();
+    const Eigen::Vector2d at = camera_.intrinsics.project(T_camera_target.translation());
+    const double r = 0.5 * camera_.intrinsics.fx() * wrist_box / T_camera_target.translation().z();
     const std::array<Eigen::Vector2d, 4> corners{
         at + Eigen::Vector2d(-r, -r), at + Eigen::Vector2d(r, -r), at + Eigen::Vector2d(r, r),
         at + Eigen::Vector2d(-r, r)};
@@ -131,7 +111,7 @@ std::vector<DrawnFrames::Edge> DrawnFrames::edges_of(
   const auto corners = project_box(camera_, T_camera_target, object_size_);
   for (std::size_t a = 0; a < corners.size(); ++a)
     for (const std::size_t axis : {std::size_t{1}, std::size_t{2}, std::size_t{4}})
-      if ((a & axis) == 0) edges.emplace_back(scale_ * corners[a], scale_ * corners[a | axis]);
+      if ((a & axis) == 0) edges.emplace_back(corners[a], corners[a | axis]);
   return edges;
 }
 

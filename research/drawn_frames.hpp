@@ -41,7 +41,6 @@ class DrawnFrames {
   Camera camera_;
   Eigen::Isometry3d T_base_camera_;
   Eigen::Vector3d object_size_;  // 0: a wrist
-  double scale_ = 1.0;           // of the kept images
   std::vector<Image<io::Rgb8>> images_;
 };
 

@@ -38,32 +38,6 @@ void make_folder(const std::filesystem::path& folder) {
     throw InputError("-o: " + folder.string() + " cannot be made: " + error.message());
 }
 
-/// metrics.json of a folder. It is opened under another name before the runs, which take minutes,
-/// so that an unwritable folder is refused at once.
-class MetricsFile {
- public:
-  explicit MetricsFile(const std::filesystem::path& folder)
-      : path_(folder / "metrics.json"), pending_(path_), file_(pending_.part(), std::ios::binary) {
-    check_file();
-  }
-
-  void write(const std::string& text) {
-    file_ << text;
-    file_.close();
-    check_file();
-    pending_.finish();
-  }
-
- private:
-  void check_file() const {
-    if (!file_) throw InputError("-o: " + path_.string() + " cannot be written");
-  }
-
-  std::filesystem::path path_;
-  io::PendingFile pending_;
-  std::ofstream file_;
-};
-
 using FrameDone = std::function<void(std::size_t seed_index, const sim::SimFrame& frame)>;
 
 /// Runs every seed, several at the same time. The first fault ends all.
@@ -107,7 +81,13 @@ void run_experiment(const ExperimentOptions& options,
   check(options);
   make_folder(options.output);
   if (options.frames) make_folder(options.output / "frames");
-  MetricsFile metrics(options.output);
+  const std::filesystem::path path = options.output / "metrics.json";
+  io::PendingFile pending(path);
+  std::ofstream file(pending.part(), std::ios::binary);  // before the runs, which take minutes
+  const auto check_file = [&] {
+    if (!file) throw InputError("-o: " + path.string() + " cannot be written");
+  };
+  check_file();
   RunSettings settings;
   settings.duration = options.duration;
   const sim::Simulation first(options.experiment,
@@ -119,7 +99,10 @@ void run_experiment(const ExperimentOptions& options,
     if (options.frames && i == 0) drawn.add(frame);
     step(total);
   });
-  metrics.write(metrics_json(result));
+  file << metrics_json(result);
+  file.close();
+  check_file();
+  pending.finish();
   if (options.frames) drawn.write(options.output / "frames", result.seeds.front());
 }
 

@@ -95,8 +95,8 @@ std::optional<PoseEstimate> fit_object(const Cell& cell, const Observation& obse
   std::vector<Eigen::Vector2d> points;
   add_points(cell.camera, cell.T_base_camera, observed.depth, expected.translation(), top, radius,
              points);
-  add_points(cell.second_camera, cell.T_base_second_camera, observed.second_depth,
-             expected.translation(), top, radius, points);
+  add_points(cell.camera, cell.T_base_second_camera, observed.second_depth, expected.translation(),
+             top, radius, points);
   if (points.size() < least_points) return std::nullopt;
   const Eigen::Vector3d x = expected.linear().col(0);
   const double yaw = std::atan2(x.y(), x.x());

@@ -84,8 +84,8 @@ std::vector<double> second_depths_on_ray(const Cell& cell, const View& view) {
   for (int v = 0; v < image.height; v += step)
     for (int u = 0; u < image.width; u += step) {
       if (image(u, v) == 0) continue;
-      const Eigen::Vector3d p = surface_at(cell.second_camera.intrinsics, T_first_second, u, v,
-                                           image(u, v) * metres_per_unit);
+      const Eigen::Vector3d p =
+          surface_at(cell.camera.intrinsics, T_first_second, u, v, image(u, v) * metres_per_unit);
       const double distance = (p - along * along.dot(p)).squaredNorm();
       if (distance < ray_radius * ray_radius && p.z() > 0) depths.push_back(p.z());
     }
@@ -114,13 +114,13 @@ Answer look_by_second_camera(const Cell& cell, const View& view, const Follower&
 }
 
 /// Returns Penumbra's verdict on the key point's pixels, and the position from trusted depths only.
-Answer look_by_labels(const Cell& cell, const View& view, TargetJudge& judge) {
+Answer look_by_labels(const Cell& cell, const View& view, TargetJudge& judge,
+                      TargetMemory& memory) {
   TargetView target;
-  target.name = "wrist";
   target.region = PixelEllipse{view.keypoint, Eigen::Vector2d::Constant(keypoint_radius), 0};
   target.point_pixel = view.keypoint;
   judge.begin(view.observed.robot);
-  const Judgement judged = judge.judge(target);
+  const Judgement judged = judge.judge(target, memory);
   Answer answer;
   if (judged.point) answer = wrist_at(cell, view, judged.point->z());
   answer.verdict = judged.verdict;
@@ -157,11 +157,12 @@ std::vector<Method> make_point_methods(const Cell& cell) {
                      std::bind_front(look_by_second_camera, std::cref(cell))});
   for (const bool partial : {true, false}) {
     const auto judge = std::make_shared<TargetJudge>(cell.camera, cell.rule, cell.links);
+    const auto memory = std::make_shared<TargetMemory>();
     methods.push_back({partial ? "penumbra_partial" : "penumbra",
                        partial ? "Penumbra, partial" : "Penumbra",
                        make_follower(partial ? takes_partial : tracker),
-                       [&cell, judge](const View& view, const Follower&) {
-                         return look_by_labels(cell, view, *judge);
+                       [&cell, judge, memory](const View& view, const Follower&) {
+                         return look_by_labels(cell, view, *judge, *memory);
                        }});
   }
   return methods;

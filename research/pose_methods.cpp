@@ -78,12 +78,11 @@ class RegionJudge {
 
   Judgement operator()(const View& view, const Follower& follower) {
     TargetView target;
-    target.name = "object";
     target.region = PixelMask{view.detection.mask.view()};
     target.extent = view.detection.extent;
     target.motion = motion_since_visible(view.observed.stamp, follower);
     judge_.begin(view.observed.robot);
-    const Judgement judgement = judge_.judge(target);
+    const Judgement judgement = judge_.judge(target, memory_);
     if (judgement.verdict == Verdict::visible) last_visible_ = view.observed.stamp;
     return judgement;
   }
@@ -104,6 +103,7 @@ class RegionJudge {
 
   const Cell& cell_;
   TargetJudge judge_;
+  TargetMemory memory_;
   std::optional<std::int64_t> last_visible_;
 };
 

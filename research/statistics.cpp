@@ -92,66 +92,26 @@ std::vector<Measure> conveyor_measures() {
           {"translation_p95_mm", hidden_error(&Sample::translation_error, 0.95, millimetres)},
           {"rotation_median_deg", hidden_error(&Sample::rotation_error, 0.5, degrees)},
           {"rotation_p95_deg", hidden_error(&Sample::rotation_error, 0.95, degrees)},
-          {"wrong_accepted", events_per_seed(accepted_wrong(wrong_pose)), Spread::count},
+          {"wrong_accepted", events_per_seed(accepted_wrong(wrong_pose))},
           {"wrong_accepted_hidden", events_per_seed([](const Event& event) {
              return !event.seen && accepted_wrong(wrong_pose)(event);
-           }),
-           Spread::count},
+           })},
           {"without_pose_s", seconds_without_pose},
-          {"success_percent", successes, Spread::seeds}};
+          {"success_percent", successes}};
 }
 
 std::vector<Measure> handover_measures() {
-  return {
-      {"translation_median_mm", hidden_error(&Sample::translation_error, 0.5, millimetres)},
-      {"translation_p95_mm", hidden_error(&Sample::translation_error, 0.95, millimetres)},
-      {"on_robot_accepted",
-       events_per_seed([](const Event& event) { return event.accepted && event.on_robot; }),
-       Spread::count},
-      {"wrong_accepted", events_per_seed(accepted_wrong(wrong_wrist)), Spread::count},
-      {"refused_visible_percent",
-       percent_of_events([](const Event& event) { return event.seen; }, refused), Spread::events},
-      {"refused_before_robot_percent",
-       percent_of_events([](const Event& event) { return event.before_robot; }, refused),
-       Spread::events},
-      {"without_pose_s", seconds_without_pose},
-      {"success_percent", successes, Spread::seeds}};
-}
-
-constexpr double tail = 0.025;
-
-/// Returns the probability of at most `count` events if `mean` are expected.
-double poisson_up_to(std::size_t count, double mean) {
-  double sum = 0;
-  for (std::size_t i = 0; i <= count; ++i) {
-    const auto k = static_cast<double>(i);
-    sum += std::exp(k * std::log(mean) - mean - std::lgamma(k + 1));
-  }
-  return sum;
-}
-
-/// Returns the probability that at most `count` of `all` trials succeed, each with probability p,
-/// 0 < p < 1.
-double binomial_up_to(std::size_t count, std::size_t all, double p) {
-  const auto n = static_cast<double>(all);
-  double sum = 0;
-  for (std::size_t i = 0; i <= count; ++i) {
-    const auto k = static_cast<double>(i);
-    sum += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) +
-                    k * std::log(p) + (n - k) * std::log1p(-p));
-  }
-  return sum;
-}
-
-/// Returns where a falling function has a value, between two ends.
-template <typename Function>
-double crossing(const Function& falling, double value, double low, double high) {
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (falling(middle) > value ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return {{"translation_median_mm", hidden_error(&Sample::translation_error, 0.5, millimetres)},
+          {"translation_p95_mm", hidden_error(&Sample::translation_error, 0.95, millimetres)},
+          {"on_robot_accepted",
+           events_per_seed([](const Event& event) { return event.accepted && event.on_robot; })},
+          {"wrong_accepted", events_per_seed(accepted_wrong(wrong_wrist))},
+          {"refused_visible_percent",
+           percent_of_events([](const Event& event) { return event.seen; }, refused)},
+          {"refused_before_robot_percent",
+           percent_of_events([](const Event& event) { return event.before_robot; }, refused)},
+          {"without_pose_s", seconds_without_pose},
+          {"success_percent", successes}};
 }
 
 std::optional<Confidence> bootstrap(const Measure& measure, Runs seeds) {
@@ -168,51 +128,10 @@ std::optional<Confidence> bootstrap(const Measure& measure, Runs seeds) {
   return Confidence{*low, *high};
 }
 
-/// Returns the interval of a percentage of seeds.
-Confidence percent_confidence(double value, std::size_t seeds) {
-  const auto count = std::llround(value / percent * static_cast<double>(seeds));
-  const Confidence share = fraction_confidence(static_cast<std::size_t>(count), seeds);
-  return {percent * share.low, percent * share.high};
-}
-
-std::optional<Confidence> confidence_of(const Measure& measure, Runs seeds, double value) {
-  constexpr double few = 10;
-  const auto n = static_cast<double>(seeds.size());
-  const auto with_value = static_cast<std::size_t>(std::count_if(
-      seeds.begin(), seeds.end(),
-      [&](const MethodOfSeed& run) { return measure.value(std::span(&run, 1)).has_value(); }));
-  const bool is_none_or_all = value == 0 || value == percent;
-  if (measure.spread == Spread::count && value * n < few - 0.5) {
-    const Confidence count = count_confidence(static_cast<std::size_t>(std::llround(value * n)));
-    return Confidence{count.low / n, count.high / n};
-  }
-  if (measure.spread == Spread::seeds || (measure.spread == Spread::events && is_none_or_all))
-    return percent_confidence(value, with_value);
-  return bootstrap(measure, seeds);
-}
-
 }  // namespace
 
 std::vector<Measure> measures_of(const std::string& experiment) {
   return experiment == "conveyor" ? conveyor_measures() : handover_measures();
-}
-
-Confidence count_confidence(std::size_t count) {
-  const auto k = static_cast<double>(count);
-  const double most = k + 10 * std::sqrt(k + 1) + 10;
-  const auto up_to = [](std::size_t c) {
-    return [c](double mean) { return poisson_up_to(c, mean); };
-  };
-  return {count == 0 ? 0.0 : crossing(up_to(count - 1), 1 - tail, 0, most),
-          crossing(up_to(count), tail, 0, most)};
-}
-
-Confidence fraction_confidence(std::size_t count, std::size_t all) {
-  const auto up_to = [all](std::size_t c) {
-    return [c, all](double p) { return binomial_up_to(c, all, p); };
-  };
-  return {count == 0 ? 0.0 : crossing(up_to(count - 1), 1 - tail, 0, 1),
-          count == all ? 1.0 : crossing(up_to(count), tail, 0, 1)};
 }
 
 std::optional<double> quantile(std::vector<double> values, double q) {
@@ -229,8 +148,7 @@ std::optional<double> quantile(std::vector<double> values, double q) {
 Interval interval_of(const Measure& measure, std::span<const MethodOfSeed> seeds) {
   Interval interval;
   interval.value = measure.value(seeds);
-  if (interval.value && seeds.size() > 1)
-    interval.confidence = confidence_of(measure, seeds, *interval.value);
+  if (interval.value && seeds.size() > 1) interval.confidence = bootstrap(measure, seeds);
   return interval;
 }
 

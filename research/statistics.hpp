@@ -23,21 +23,10 @@ struct MethodOfSeed {
   const MethodRun* method = nullptr;
 };
 
-/// How a measure's confidence is found. A bootstrap says nothing of an event that happened never or
-/// always: every resample is the same.
-enum class Spread {
-  resampled,  ///< a bootstrap over seeds
-  count,      ///< events per seed: Poisson's exact interval if there are fewer than 10 in all
-  seeds,      ///< percent of the seeds: Clopper's and Pearson's exact interval
-  events      ///< percent of the events: if it is 0 or 100, as if each seed were one event, because
-              ///< the events of one seed depend on each other
-};
-
 /// What is measured of a method, over one seed or several.
 struct Measure {
   std::string key;  ///< in metrics.json
   std::function<std::optional<double>(std::span<const MethodOfSeed>)> value;
-  Spread spread = Spread::resampled;
 };
 
 [[nodiscard]] std::vector<Measure> measures_of(const std::string& experiment);
@@ -47,13 +36,6 @@ struct Interval {
   std::optional<Confidence> confidence;  ///< 95 %; empty for a single seed, or if all resamples are
                                          ///< the same
 };
-
-/// Returns the exact interval of the expected number of events if `count` were seen (Garwood 1936).
-[[nodiscard]] Confidence count_confidence(std::size_t count);
-
-/// Returns the exact interval of the probability if `count` of `all` trials succeeded (Clopper and
-/// Pearson 1934). all > 0.
-[[nodiscard]] Confidence fraction_confidence(std::size_t count, std::size_t all);
 
 /// Returns the value below which the fraction `q` of `values` lies, interpolated; nothing if there
 /// are no values.

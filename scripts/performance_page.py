@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rewrites the tables of the performance page, and draws its plots, from the benchmarks' JSON.
 
-performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json,
-RESULTS/run.txt and every RESULTS/gl-*.json; replaces the text between "<!-- begin NAME -->" and
-"<!-- end NAME -->" in PAGE/performance.md; writes PAGE/performance.svg and PAGE/performance-gl.svg.
+performance_page.py RESULTS PAGE: reads RESULTS/renderers.json, RESULTS/scaling.json and
+RESULTS/run.txt; replaces the text between "<!-- begin NAME -->" and "<!-- end NAME -->" in
+PAGE/performance.md; writes PAGE/performance.svg.
 """
 import json
 import math
@@ -12,7 +12,6 @@ import pathlib
 import re
 import sys
 
-from performance_gl import devices, gl_panels, gl_sections
 from performance_table import table
 
 WIDTH, HEIGHT, MARGIN = 460, 300, 56
@@ -99,14 +98,12 @@ def main():
     results, page = (pathlib.Path(argument) for argument in sys.argv[1:3])
     renderers = json.loads((results / "renderers.json").read_text())
     scaling = json.loads((results / "scaling.json").read_text())
-    reports = [json.loads(file.read_text()) for file in sorted(results.glob("gl-*.json"))]
     run = (results / "run.txt").read_text().splitlines()[:2]
     fill(page / "performance.md", {
         "settings": settings(renderers, scaling), "renderers": renderers_table(renderers),
-        "run": ": ".join(run) + ".", "devices": devices(reports), "gl": gl_sections(reports)})
+        "run": ": ".join(run) + "."})
     (page / "performance.svg").write_text(plot(
         [(axis, rows, f"ms per frame by {axis}") for axis, rows in scaling["axes"].items()]))
-    (page / "performance-gl.svg").write_text(plot(gl_panels(reports)))
 
 
 if __name__ == "__main__":

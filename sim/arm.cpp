@@ -15,6 +15,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/robot/file_locator-inl.hpp>
 
 #include <io/files/stl_file.hpp>
 #include <sim/arm.hpp>
@@ -38,25 +39,6 @@ std::string lower_ending(const fs::path& file) {
   return ending;
 }
 
-/// Returns the file of a mesh. Packages that are not given are searched in the folders above the
-/// URDF.
-fs::path resolve(const std::string& name, const fs::path& urdf, const RobotOptions& options) {
-  constexpr std::string_view scheme = "package://", file_scheme = "file://";
-  if (name.starts_with(file_scheme)) return name.substr(file_scheme.size());
-  if (!name.starts_with(scheme)) return urdf.parent_path() / name;
-  const std::string rest = name.substr(scheme.size());
-  const std::size_t slash = rest.find('/');
-  const std::string package = rest.substr(0, slash);
-  const std::string path = slash == std::string::npos ? "" : rest.substr(slash + 1);
-  const auto given = options.packages.find(package);
-  if (given != options.packages.end()) return given->second / path;
-  for (fs::path folder = fs::absolute(urdf).parent_path(); folder.has_relative_path();
-       folder = folder.parent_path())
-    if (folder.filename() == package) return folder / path;
-  throw InputError(urdf.string() + ": package '" + package +
-                   "' is not found above the file; name its folder");
-}
-
 /// Copies a mesh to where MuJoCo finds it and returns its name. MuJoCo identifies meshes by name
 /// only, so each element gets a file of its own: one mesh may be used at several scales.
 std::string place_mesh(const fs::path& from, const fs::path& folder, int number) {
@@ -78,13 +60,14 @@ std::string prepared(const fs::path& urdf, const RobotOptions& options, const fs
   const std::string text = read_whole_file(urdf, FileLimit::text);
   static const std::regex pattern(R"re(<robot\b[^>]*>|filename\s*=\s*"([^"]*)")re");
   std::string out;
+  detail::FileLocator files(urdf.parent_path(), options.packages);
   auto from = text.cbegin();
   int number = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) {
     out.append(from, (*it)[0].first);
     from = (*it)[0].second;
     if ((*it)[1].matched)
-      out += "filename=\"" + place_mesh(resolve((*it)[1], urdf, options), folder, number++) + '"';
+      out += "filename=\"" + place_mesh(files.locate((*it)[1]), folder, number++) + '"';
     else
       out += it->str() + compiler;
   }

@@ -132,8 +132,7 @@ void DepthSensor::cut_holes(std::uint64_t frame, Image<std::uint16_t>& measured)
 void DepthSensor::measure(const Image<float>& truth, std::uint64_t frame,
                           Image<std::uint16_t>& measured) {
   const int width = truth.width(), height = truth.height();
-  if (measured.width() != width || measured.height() != height)
-    measured = Image<std::uint16_t>(width, height);
+  measured.fit(width, height);
   const double edges = noise_.edge_holes + noise_.edge_mixed;
   const bool has_edges = edges > 0.0 && noise_.edge_width > 0.0;
   if (has_edges) find_sides(truth);

@@ -35,6 +35,30 @@ fs::path new_file(const fs::path& file) {
   return file;
 }
 
+/// Returns whether `folder` has every file of `wanted`.
+bool holds(const fs::path& folder, const fs::path& wanted) {
+  for (const auto& entry : fs::recursive_directory_iterator(wanted)) {
+    const fs::path file = folder / entry.path().lexically_relative(wanted);
+    if (entry.is_regular_file() &&
+        (!fs::is_regular_file(file) ||
+         read_whole_file(entry.path(), FileLimit::data) != read_whole_file(file, FileLimit::data)))
+      return false;
+  }
+  return true;
+}
+
+/// Returns the folder of the URDF's package next to a bag, where package://NAME/... is found.
+/// Refuses a folder of that name with other content.
+fs::path mesh_folder(const fs::path& description, const fs::path& bag) {
+  fs::path folder = bag.parent_path() / description.filename();
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error)) && !holds(folder, description))
+    throw InputError("--output: " + folder.string() +
+                     " is there and does not hold the simulated arm's meshes, which go there; "
+                     "choose another folder for the bag");
+  return folder;
+}
+
 io::CameraInfoMessage info_of(const Camera& camera, const io::MessageHeader& header) {
   const Intrinsics& k = camera.intrinsics;
   io::CameraInfoMessage info{.header = header,
@@ -56,7 +80,7 @@ io::JointStateMessage joint_states(const Robot& robot, const io::MessageHeader& 
 
 /// Returns the second camera's frame. Both cameras of a simulation have the same frame name.
 std::string second_frame(const Simulation& simulation) {
-  return "second_" + simulation.second_camera().frame_id;
+  return "second_" + simulation.camera().frame_id;
 }
 
 /// Returns the fields of an object that are known without judging it.
@@ -80,7 +104,7 @@ io::TargetMessage target_of(const ObjectTruth& object, std::int64_t stamp) {
 RecordingBag::RecordingBag(const fs::path& file, const Simulation& simulation,
                            const std::string& scene, const SimulationOptions& options)
     : file_(new_file(file)),
-      meshes_(simulation.urdf().parent_path(), file),
+      meshes_(mesh_folder(simulation.urdf().parent_path(), file)),
       pending_(file),
       writer_(pending_.part(), {.profile = "ros2"}),
       simulation_(simulation),
@@ -89,7 +113,7 @@ RecordingBag::RecordingBag(const fs::path& file, const Simulation& simulation,
       scene_(scene_text(simulation, scene, options)) {}
 
 std::string RecordingBag::where() const {
-  return file_.string() + ", its arm's meshes: " + meshes_.path().string();
+  return file_.string() + ", its arm's meshes: " + meshes_.string();
 }
 
 RecordingBag::Channel& RecordingBag::channel_of(const std::string& topic, const std::string& type,
@@ -146,8 +170,7 @@ void RecordingBag::write_camera(const SimFrame& frame) {
 
 void RecordingBag::write_second_camera(const SimFrame& frame) {
   const io::MessageHeader header{frame.stamp, second_frame(simulation_)};
-  write("/second_camera/depth/camera_info", frame.stamp,
-        info_of(simulation_.second_camera(), header));
+  write("/second_camera/depth/camera_info", frame.stamp, info_of(simulation_.camera(), header));
   write("/second_camera/depth/image_rect_raw", frame.stamp,
         io::image_message(header, "16UC1", frame.second_depth.view()));
 }
@@ -180,7 +203,12 @@ void RecordingBag::add(const SimFrame& frame, std::size_t /*index*/) {
 
 void RecordingBag::finish() {
   writer_.close();
-  meshes_.copy();
+  std::error_code error;
+  if (!fs::exists(meshes_, error))
+    fs::copy(simulation_.urdf().parent_path(), meshes_, fs::copy_options::recursive, error);
+  if (error)
+    throw InputError(meshes_.string() + ": cannot be written (" + error.message() +
+                     "); choose another with -o");
   new_file(file_);  // checks again, because writing the frames took time
   pending_.finish();
 }

@@ -10,7 +10,6 @@
 
 #include <io/files/pending_file.hpp>
 #include <io/mcap/writer.hpp>
-#include <sim/mesh_folder.hpp>
 #include <sim/recording_sink.hpp>
 
 namespace penumbra::sim {
@@ -52,7 +51,7 @@ class RecordingBag final : public RecordingSink {
   void write_truth(const SimFrame& frame);
 
   std::filesystem::path file_;
-  MeshFolder meshes_;
+  std::filesystem::path meshes_;  // the URDF's folder next to the bag
   io::PendingFile pending_;
   io::mcap::Writer writer_;
   const Simulation& simulation_;

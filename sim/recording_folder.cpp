@@ -79,7 +79,7 @@ RecordingFolder::RecordingFolder(const fs::path& folder, const Simulation& simul
   write_robot();
   write_camera("", simulation.camera(), simulation.T_base_camera());
   if (second_camera_)
-    write_camera("second_", simulation.second_camera(), simulation.T_base_second_camera());
+    write_camera("second_", simulation.camera(), simulation.T_base_second_camera());
   write_scene(scene, options);
 }
 

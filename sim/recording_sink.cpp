@@ -36,8 +36,7 @@ std::string scene_text(const Simulation& simulation, const std::string& scene,
 }
 
 void store_ids(const SimFrame& frame, Image<std::uint16_t>& to) {
-  if (to.width() != frame.ids.width() || to.height() != frame.ids.height())
-    to = Image<std::uint16_t>(frame.ids.width(), frame.ids.height());
+  to.fit(frame.ids.width(), frame.ids.height());
   for (std::size_t i = 0; i < to.size(); ++i)
     to.data()[i] = static_cast<std::uint16_t>(frame.ids.data()[i]);
 }

@@ -83,12 +83,6 @@ void lay_over(const Image<std::int32_t>& ids, const Image<float>& depth, const W
   }
 }
 
-template <typename T>
-void fit(Image<T>& image, const Intrinsics& intrinsics) {
-  if (image.width() != intrinsics.width() || image.height() != intrinsics.height())
-    image = Image<T>(intrinsics.width(), intrinsics.height());
-}
-
 }  // namespace
 
 struct Simulation::State {
@@ -104,7 +98,7 @@ struct Simulation::State {
 
   SimulationOptions options;
   std::filesystem::path urdf = shipped_urdf();
-  Camera camera = d415_color(), second_camera = d415_color();
+  Camera camera = d415_color();  // both
   TemporaryFolder folder;
   Arm arm;
   std::unique_ptr<Scene> scene;
@@ -123,9 +117,9 @@ Simulation::State::State(const std::string& name, const SimulationOptions& optio
       scene(make_scene(name)),
       stage(arm, scene->description(), folder.path(), camera.intrinsics),
       view{camera.intrinsics, scene->description().T_base_camera},
-      second_view{second_camera.intrinsics, scene->description().T_base_second_camera},
+      second_view{camera.intrinsics, scene->description().T_base_second_camera},
       sensor(options_.depth, camera.intrinsics.fx(), options_.seed, depth_stream),
-      second_sensor(options_.depth, second_camera.intrinsics.fx(), options_.seed, second_stream),
+      second_sensor(options_.depth, camera.intrinsics.fx(), options_.seed, second_stream),
       duration(options_.duration > 0.0 ? options_.duration : scene->description().duration) {}
 
 std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
@@ -153,10 +147,10 @@ void Simulation::State::report_joints(double time, SimFrame& to) const {
 void Simulation::State::draw(const ScenePose& pose, SimFrame& to) {
   const auto background = [](std::int32_t id) { return id == 0; };
   const Window whole{0, 0, view.intrinsics.width(), view.intrinsics.height()};
-  fit(to.ids, view.intrinsics);
-  fit(to.true_depth, view.intrinsics);
-  fit(to.robot_ids, view.intrinsics);
-  fit(to.robot_depth, view.intrinsics);
+  to.ids.fit(view.intrinsics.width(), view.intrinsics.height());
+  to.true_depth.fit(view.intrinsics.width(), view.intrinsics.height());
+  to.robot_ids.fit(view.intrinsics.width(), view.intrinsics.height());
+  to.robot_depth.fit(view.intrinsics.width(), view.intrinsics.height());
   if (options.color) stage.draw_color(view, to.color);
   stage.draw_ids(view, is_robot, whole, &to.robot_ids, &to.robot_depth);
   stage.draw_ids(view, background, whole, nullptr, &to.true_depth);
@@ -165,7 +159,7 @@ void Simulation::State::draw(const ScenePose& pose, SimFrame& to) {
   draw_objects(pose, to);
   sensor.measure(to.true_depth, frame, to.depth);
   if (!options.second_camera) return;
-  fit(second_truth, second_view.intrinsics);
+  second_truth.fit(second_view.intrinsics.width(), second_view.intrinsics.height());
   const auto everything = [](std::int32_t) { return true; };
   stage.draw_ids(second_view, everything, whole, nullptr, &second_truth);
   second_sensor.measure(second_truth, frame, to.second_depth);
@@ -175,8 +169,8 @@ void Simulation::State::draw_objects(const ScenePose& pose, SimFrame& to) {
   const std::vector<std::string>& names = scene->description().objects;
   const std::vector<ObjectSolid>& solids = scene->description().solids;
   to.objects.resize(names.size());
-  fit(alone_ids, view.intrinsics);
-  fit(alone_depth, view.intrinsics);
+  alone_ids.fit(view.intrinsics.width(), view.intrinsics.height());
+  alone_depth.fit(view.intrinsics.width(), view.intrinsics.height());
   for (std::size_t i = 0; i < names.size(); ++i) {
     ObjectTruth& object = to.objects[i];
     object.name = names[i];
@@ -197,8 +191,8 @@ void Simulation::State::draw_objects(const ScenePose& pose, SimFrame& to) {
 void Simulation::State::count_alone(const Window& window, const SimFrame& frame_of,
                                     ObjectTruth& object) const {
   object.pixels_alone = object.pixels_behind_robot = 0;
-  fit(object.alone, view.intrinsics);
-  fit(object.alone_depth, view.intrinsics);
+  object.alone.fit(view.intrinsics.width(), view.intrinsics.height());
+  object.alone_depth.fit(view.intrinsics.width(), view.intrinsics.height());
   std::fill_n(object.alone.data(), object.alone.size(), std::uint8_t{0});
   std::fill_n(object.alone_depth.data(), object.alone_depth.size(), 0.0F);
   for (int v = window.v0; v < window.v1; ++v)
@@ -259,7 +253,6 @@ const std::filesystem::path& Simulation::urdf() const { return state_->urdf; }
 const Robot& Simulation::robot() const { return state_->arm.robot(); }
 const Camera& Simulation::camera() const { return state_->camera; }
 const Eigen::Isometry3d& Simulation::T_base_camera() const { return state_->view.T_base_camera; }
-const Camera& Simulation::second_camera() const { return state_->second_camera; }
 const Eigen::Isometry3d& Simulation::T_base_second_camera() const {
   return state_->second_view.T_base_camera;
 }

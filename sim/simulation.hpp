@@ -119,10 +119,10 @@ class Simulation {
   [[nodiscard]] std::size_t frames() const;  ///< number of frames of the scene
 
   [[nodiscard]] const std::filesystem::path& urdf() const;  ///< URDF of the robot
-  [[nodiscard]] const Robot& robot() const;    ///< the robot as Penumbra reads it, visual geometry
-  [[nodiscard]] const Camera& camera() const;  ///< colour and depth, aligned
+  [[nodiscard]] const Robot& robot() const;  ///< the robot as Penumbra reads it, visual geometry
+  /// Colour and depth, aligned; also the second camera's.
+  [[nodiscard]] const Camera& camera() const;
   [[nodiscard]] const Eigen::Isometry3d& T_base_camera() const;
-  [[nodiscard]] const Camera& second_camera() const;
   [[nodiscard]] const Eigen::Isometry3d& T_base_second_camera() const;
 
   /// Returns the image on the front (+z face, u along +x) of the textured object.

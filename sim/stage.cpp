@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -9,8 +10,8 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/render/gl/egl_context.hpp>
 
-#include <sim/egl_context.hpp>
 #include <sim/mujoco_handles.hpp>
 #include <sim/simulation.hpp>
 #include <sim/stage.hpp>
@@ -35,6 +36,17 @@ constexpr const char* light =
 
 [[noreturn]] void throw_fault(const char* message) {
   throw std::runtime_error(std::string("MuJoCo: ") + message);
+}
+
+/// Returns a context with the fixed functions that MuJoCo's renderer needs.
+std::unique_ptr<gl::EglContext> open_context() {
+  // MuJoCo reads from this variable where to find OpenGL's functions. The user's value is kept.
+  setenv("MUJOCO_GL", "egl", 0);
+  try {
+    return gl::open_device(-1, gl::GlProfile::legacy);
+  } catch (const InputError& error) {
+    throw InputError(std::string("simulation: ") + error.what());
+  }
 }
 
 std::string body_name(std::size_t part) { return "part_" + std::to_string(part); }
@@ -94,12 +106,13 @@ struct Stage::Drawing {
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
 
+  void update_scene();
   void draw(const Viewpoint& view, bool segmentation);
 
   const Arm& arm;
   ModelPtr model;
   DataPtr data;
-  EglContext egl;
+  std::unique_ptr<gl::EglContext> egl = open_context();
   mjrContext context{};
   mjvScene scene{};
   mjvOption option{};
@@ -143,7 +156,7 @@ Stage::Drawing::Drawing(const Arm& robot, const SceneDescription& description,
   }
   model->vis.global.offwidth = largest.width();
   model->vis.global.offheight = largest.height();
-  const EglContext::Current current(egl);
+  const gl::EglContext::Current current(*egl);
   mjr_defaultContext(&context);
   mjr_makeContext(model.get(), &context, mjFONTSCALE_50);
   mjr_setBuffer(mjFB_OFFSCREEN, &context);
@@ -161,9 +174,15 @@ Stage::Drawing::Drawing(const Arm& robot, const SceneDescription& description,
 
 Stage::Drawing::~Drawing() {
   const std::lock_guard lock(mujoco_mutex());
-  const EglContext::Current current(egl);
+  const gl::EglContext::Current current(*egl);
   mjv_freeScene(&scene);
   mjr_freeContext(&context);
+}
+
+void Stage::Drawing::update_scene() {
+  mjvCamera unused;
+  mjv_defaultFreeCamera(model.get(), &unused);
+  mjv_updateScene(model.get(), data.get(), &option, nullptr, &unused, mjCAT_ALL, &scene);
 }
 
 void Stage::Drawing::draw(const Viewpoint& view, bool segmentation) {
@@ -204,16 +223,14 @@ void Stage::place(std::span<const double> joints, std::span<const Eigen::Isometr
 
 void Stage::draw_color(const Viewpoint& view, Image<io::Rgb8>& color) {
   Drawing& d = *drawing_;
-  const EglContext::Current current(d.egl);
-  mjvCamera unused;
-  mjv_defaultFreeCamera(d.model.get(), &unused);
-  mjv_updateScene(d.model.get(), d.data.get(), &d.option, nullptr, &unused, mjCAT_ALL, &d.scene);
+  const gl::EglContext::Current current(*d.egl);
+  d.update_scene();
   d.draw(view, false);
   const int width = view.intrinsics.width(), height = view.intrinsics.height();
   const std::size_t row = 3 * static_cast<std::size_t>(width);
   d.bytes.resize(row * static_cast<std::size_t>(height));
   mjr_readPixels(d.bytes.data(), nullptr, {0, 0, width, height}, &d.context);
-  if (color.width() != width || color.height() != height) color = Image<io::Rgb8>(width, height);
+  color.fit(width, height);
   for (int v = 0; v < height; ++v)
     std::memcpy(color.view().row(v), &d.bytes[row * static_cast<std::size_t>(height - 1 - v)], row);
 }
@@ -222,10 +239,8 @@ void Stage::draw_ids(const Viewpoint& view, const std::function<bool(std::int32_
                      const Window& window, Image<std::int32_t>* ids, Image<float>* depth) {
   if (window.empty()) return;
   Drawing& d = *drawing_;
-  const EglContext::Current current(d.egl);
-  mjvCamera unused;
-  mjv_defaultFreeCamera(d.model.get(), &unused);
-  mjv_updateScene(d.model.get(), d.data.get(), &d.option, nullptr, &unused, mjCAT_ALL, &d.scene);
+  const gl::EglContext::Current current(*d.egl);
+  d.update_scene();
   for (int i = 0; i < d.scene.ngeom; ++i) {
     mjvGeom& geom = d.scene.geoms[i];
     const bool of_model = geom.objtype == mjOBJ_GEOM;

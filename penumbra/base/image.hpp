@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,11 @@ class Image {
         height_(height),
         pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value) {}
 
+  /// Gives the image a size. Its pixels are T{} if it had another size, else unchanged.
+  void fit(int width, int height) {
+    if (width != width_ || height != height_) *this = Image(width, height);
+  }
+
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] bool empty() const { return pixels_.empty(); }
@@ -72,5 +78,55 @@ using DepthView = std::variant<ImageView<const std::uint16_t>, ImageView<const f
 [[nodiscard]] inline float metres_of(float depth) {
   return std::isfinite(depth) && depth > 0 ? depth : 0.0F;
 }
+
+/// The tiles of an image that are not empty, so that the cost of later stages depends on touched
+/// pixels and not on the image's size. Bit i of rows[j] is the tile with the first pixel
+/// (i * tile_width, j * tile_height); the last tile of a row or column may extend past the image.
+struct TileMask {
+  static constexpr int tile_height = 8;
+
+  int width = 0;        ///< of the image, pixels
+  int height = 0;       ///< of the image, pixels
+  int tile_width = 32;  ///< pixels; a power of two so that at most 64 tiles span the image
+  std::vector<std::uint64_t> rows;
+
+  TileMask() = default;
+  TileMask(int image_width, int image_height) : width(image_width), height(image_height) {
+    while (tile_width * 64 < image_width) tile_width *= 2;
+    rows.assign(static_cast<std::size_t>((image_height + tile_height - 1) / tile_height), 0);
+  }
+
+  /// Marks every tile with a pixel of [u0, u1] x [v0, v1], bounds inside the image.
+  void mark(int u0, int v0, int u1, int v1) {
+    const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tile_width);
+    const std::uint64_t bits = upto & (~std::uint64_t{0} << (u0 / tile_width));
+    for (int j = v0 / tile_height; j <= v1 / tile_height; ++j)
+      rows[static_cast<std::size_t>(j)] |= bits;
+  }
+
+  /// Calls f(u0, u1, v0, v1) for every run of marked tiles in a tile row: the pixels u0 <= u < u1,
+  /// v0 <= v < v1, cut to the image.
+  template <typename F>
+  void for_each_span(F&& f) const {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const int v0 = static_cast<int>(j) * tile_height;
+      const int v1 = v0 + tile_height < height ? v0 + tile_height : height;
+      for (std::uint64_t bits = rows[j]; bits != 0;) {
+        const int first = std::countr_zero(bits);
+        const int count = std::countr_one(bits >> first);
+        const int u1 = (first + count) * tile_width;
+        f(first * tile_width, u1 < width ? u1 : width, v0, v1);
+        bits = first + count >= 64 ? 0 : bits & (~std::uint64_t{0} << (first + count));
+      }
+    }
+  }
+};
+
+/// A virtual depth image: what the camera would measure if there were only the robot.
+struct VirtualDepthView {
+  ImageView<const float> depth;          ///< metres along the optical axis; 0: no robot on the ray
+  ImageView<const std::uint16_t> links;  ///< link index + 1 of the nearest surface; 0: none
+  const TileMask* touched = nullptr;     ///< outside of these tiles depth and links are 0
+};
 
 }  // namespace penumbra

@@ -7,7 +7,6 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
 #include <penumbra/camera/camera.hpp>
 
 namespace penumbra {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
 
 namespace penumbra::labelling {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
 #include <penumbra/labels/labels.hpp>
 
 namespace penumbra::labelling {

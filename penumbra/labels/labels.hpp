@@ -9,8 +9,6 @@
 #include <string_view>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
-#include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/camera.hpp>
 
 namespace penumbra {

@@ -14,7 +14,6 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/solid_angle-inl.hpp>
 #include <penumbra/mesh/surface_patches-inl.hpp>
 
 namespace penumbra {

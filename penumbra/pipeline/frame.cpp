@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra {
 
 std::string_view to_string(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::ok:
-      return "ok";
-    case FrameStatus::missing_joints:
-      return "missing_joints";
-    case FrameStatus::stale_joints:
-      return "stale_joints";
-    case FrameStatus::missing_link:
-      return "missing_link";
-    case FrameStatus::missing_depth:
-      return "missing_depth";
-    case FrameStatus::bad_depth:
-      return "bad_depth";
-    case FrameStatus::missing_transform:
-      return "missing_transform";
-    case FrameStatus::stale_transform:
-      return "stale_transform";
-    case FrameStatus::poses_disagree:
-      return "poses_disagree";
-  }
-  return "";
+  constexpr std::array<std::string_view, 9> names = {
+      "ok",        "missing_joints",    "stale_joints",    "missing_link",  "missing_depth",
+      "bad_depth", "missing_transform", "stale_transform", "poses_disagree"};
+  return names[static_cast<std::size_t>(status)];
 }
 
 bool has_pose(FrameStatus status) {

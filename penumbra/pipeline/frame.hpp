@@ -12,7 +12,6 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -15,19 +16,9 @@ constexpr std::uint64_t never_tried = std::numeric_limits<std::uint64_t>::max();
 }  // namespace
 
 std::string_view to_string(DropReason reason) {
-  switch (reason) {
-    case DropReason::superseded:
-      return "superseded";
-    case DropReason::late:
-      return "late";
-    case DropReason::overflow:
-      return "overflow";
-    case DropReason::clock_jump:
-      return "clock_jump";
-    case DropReason::no_stamp:
-      return "no_stamp";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> names = {"superseded", "late", "overflow", "clock_jump",
+                                                     "no_stamp"};
+  return names[static_cast<std::size_t>(reason)];
 }
 
 Frame QueuedFrame::frame() const {

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
-#include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/labels/labels.hpp>
 

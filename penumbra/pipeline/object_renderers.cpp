@@ -7,6 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
+#include <penumbra/render/pixel_rectangle-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -22,35 +23,6 @@ void check_mesh(const TriangleMesh* mesh) {
       if (corner >= mesh->vertices.size())
         throw InputError("mesh has a triangle with corner " + std::to_string(corner) + " of " +
                          std::to_string(mesh->vertices.size()) + " vertices");
-}
-
-/// Columns [u0, u1) and rows [v0, v1).
-struct PixelRectangle {
-  int u0, u1, v0, v1;
-
-  [[nodiscard]] bool empty() const { return u0 >= u1 || v0 >= v1; }
-};
-
-/// Returns the pixels that may show a box; all of them if it crosses the near plane.
-PixelRectangle pixels_of(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box,
-                         const Intrinsics& camera) {
-  const Eigen::AlignedBox3d box(-0.5 * size, 0.5 * size);
-  Eigen::AlignedBox2d seen;
-  bool is_near = false;
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d p =
-        T_camera_box * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    is_near = is_near || p.z() < DepthRenderer::near_plane;
-    if (!is_near) seen.extend(camera.project(p));
-  }
-  const int width = camera.width(), height = camera.height();
-  if (is_near) return {0, width, 0, height};
-  const auto inside = [](double at, int size_of_image) {
-    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size_of_image)));
-  };
-  return {inside(std::floor(seen.min().x()), width), inside(std::floor(seen.max().x()) + 1, width),
-          inside(std::floor(seen.min().y()), height),
-          inside(std::floor(seen.max().y()) + 1, height)};
 }
 
 /// Intersects rays from the camera's centre with a box, in its frame (slabs: Kay and Kajiya 1986).
@@ -101,7 +73,8 @@ ObjectRenderers::~ObjectRenderers() = default;
 VirtualDepthView ObjectRenderers::box(const Eigen::Vector3d& size,
                                       const Eigen::Isometry3d& T_camera_box) {
   clear_box();
-  const PixelRectangle pixels = pixels_of(size, T_camera_box, intrinsics_);
+  const PixelRectangle pixels =
+      pixels_of(Eigen::AlignedBox3d(-0.5 * size, 0.5 * size), T_camera_box, intrinsics_);
   if (!pixels.empty()) {
     const Eigen::Isometry3d T_box_camera = T_camera_box.inverse();
     const BoxRays rays(0.5 * size, T_box_camera.translation());

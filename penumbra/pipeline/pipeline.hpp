@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -37,6 +38,9 @@ struct PipelineConfig {
 
   static constexpr double max_target_history = 60.0;
 };
+
+/// Returns the links' names and meshes, which refer to the robot, for make_depth_renderer.
+[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
 
 /// The whole method, one call per frame: poses, virtual depth, labels, targets. Allocates nothing
 /// per frame after the first of its kind. One instance serves one thread at a time.

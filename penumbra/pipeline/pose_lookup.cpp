@@ -11,8 +11,8 @@
 namespace penumbra {
 namespace {
 
-/// Metres by which a rotation counts as an arc.
-constexpr double arc_radius = 0.5;
+constexpr double agreement = 0.005;  // metres between a link's poses by joint states and by TF
+constexpr double arc_radius = 0.5;   // metres at which a rotation counts as an arc
 
 double distance_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   const double turn =
@@ -44,7 +44,7 @@ bool holds(const std::vector<std::size_t>& indices, std::size_t index) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
-std::string disagreement_text(const std::string& link, double distance, double agreement) {
+std::string disagreement_text(const std::string& link, double distance) {
   std::ostringstream text;
   text.precision(3);
   text << "joint states and TF put link '" << link << "' " << 1e3 * distance
@@ -72,9 +72,6 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
       camera_parent_(find_camera_parent(robot, options_.camera_parent)),
       rest_(robot.rest_positions()),
       T_root_link_(robot.links().size()) {
-  if (!(options_.agreement >= 0.0))
-    throw InputError("agreement of joint states and TF is " + std::to_string(options_.agreement) +
-                     " m; expected 0 or more");
   moves_needed_.resize(robot.variables().size());
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
     frames_.push_back(options_.frame_prefix + robot.links()[link]);
@@ -201,15 +198,15 @@ void PoseLookup::compare(PoseAnswer& answer) {
     const double distance = distance_between(T_root_link_[i], answer.T_root_link[i]);
     Disagreement& most = is_needed_[i] ? needed : other;
     if (distance > most.distance) most = {i, distance};
-    if (!is_needed_[i] && distance > options_.agreement) answer.uncertain_links.push_back(i);
+    if (!is_needed_[i] && distance > agreement) answer.uncertain_links.push_back(i);
   }
   const auto text = [&](const Disagreement& most) {
-    return disagreement_text(robot_.links()[most.link], most.distance, options_.agreement);
+    return disagreement_text(robot_.links()[most.link], most.distance);
   };
-  if (needed.distance > options_.agreement) {
+  if (needed.distance > agreement) {
     answer.status = FrameStatus::poses_disagree;
     answer.message = text(needed);
-  } else if (other.distance > options_.agreement) {
+  } else if (other.distance > agreement) {
     add_part(answer.uncertain_reason, text(other));
   }
 }

@@ -20,7 +20,8 @@ namespace penumbra {
 enum class PoseSource {
   joints,      ///< joint states, through the URDF
   transforms,  ///< TF
-  both         ///< joint states, which must agree with TF
+  both         ///< joint states, which must agree with TF within 5 mm, and within the arc of
+               ///< 5 mm at 0.5 m for rotations
 };
 [[nodiscard]] std::string_view to_string(PoseSource source);
 
@@ -31,9 +32,6 @@ struct PoseOptions {
   /// The camera's optical frame in TF, without the prefix. Empty: the pipeline's configuration has
   /// the camera's pose.
   std::string camera_frame = {};
-  /// For PoseSource::both, metres: the largest accepted distance of a link's two poses, which is
-  /// the distance of the origins, or the arc of the rotation at 0.5 m if that is larger.
-  double agreement = 0.005;
 };
 
 /// Poses of the robot and camera at a stamp. Unless the status is ok, positions and poses are
@@ -54,8 +52,7 @@ struct PoseAnswer {
 /// serves one thread at a time.
 class PoseLookup {
  public:
-  /// Throws InputError for an unknown camera parent, and an agreement that is negative or not a
-  /// number. `robot` must outlive this.
+  /// Throws InputError for an unknown camera parent. `robot` must outlive this.
   PoseLookup(const Robot& robot, PoseOptions options);
 
   /// TF is looked up from link to parent link; a fixed joint whose frame TF never named has the

@@ -51,9 +51,6 @@ class PoseStage {
   PoseResult result_;
 };
 
-/// Returns the links' names and meshes, which refer to the robot.
-[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
-
 /// Returns the status of a frame with joints of that status.
 [[nodiscard]] FrameStatus status_of(JointStatus joints);
 

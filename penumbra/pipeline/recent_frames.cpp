@@ -11,8 +11,7 @@ namespace {
 
 template <typename T>
 ImageView<const T> copy(ImageView<const T> source, Image<T>& image) {
-  if (image.width() != source.width || image.height() != source.height)
-    image = Image<T>(source.width, source.height);
+  image.fit(source.width, source.height);
   for (int v = 0; v < source.height; ++v)
     std::copy(source.row(v), source.row(v) + source.width, &image(0, v));
   return std::as_const(image).view();

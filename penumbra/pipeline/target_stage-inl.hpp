@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
@@ -15,7 +17,6 @@
 #include <penumbra/pipeline/target_track-inl.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
 
 namespace penumbra {
 
@@ -47,6 +48,7 @@ class TargetStage {
  private:
   /// What is remembered of a target from frame to frame, and what its report refers to.
   struct Record {
+    TargetMemory memory;
     std::size_t call = 0;                    ///< the last call with it
     std::size_t times = 0;                   ///< its occurrences in that call
     bool is_new = true;                      ///< its handling has not been read
@@ -57,7 +59,14 @@ class TargetStage {
     std::vector<Blame> blame;
     std::string reason;
   };
-  using Records = MapByTarget<Record>;
+  /// Allows lookup by string_view.
+  struct NameHash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view name) const {
+      return std::hash<std::string_view>{}(name);
+    }
+  };
+  using Records = std::unordered_map<std::string, Record, NameHash, std::equal_to<>>;
 
   void begin(std::span<const Target> targets, const LabelledFrame& frame);
   Records::value_type& record_of(const Target& target);
@@ -66,7 +75,7 @@ class TargetStage {
   void check(const Target& target, Record& record) const;
   const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
   const LabelledFrame& late_frame(std::int64_t stamp);
-  Judgement judge_on(const LabelledFrame& frame, const Target& target, Records::value_type& known);
+  Judgement judge_on(const LabelledFrame& frame, const Target& target, Record& record);
   static void lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report);
   [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const PoseResult& poses,
                                                            const Record& record) const;

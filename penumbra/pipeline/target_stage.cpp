@@ -11,10 +11,6 @@
 namespace penumbra {
 namespace {
 
-/// Name in the judge for targets whose stamp is before one that was judged: hysteresis and extents
-/// of later frames must not change.
-constexpr std::string_view out_of_order("\0 out of order", 14);
-
 /// Prefix of the names of targets without identity, which are remembered for one call.
 constexpr char without_identity = '\1';
 
@@ -146,7 +142,6 @@ void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& fr
   for (auto known = records_.begin(); known != records_.end();) {
     const bool is_unused = calls_ - known->second.call > forgotten_after;
     const bool is_gone = is_unused || known->first.starts_with(without_identity);
-    if (is_gone) judge_.forget(known->first);
     known = is_gone ? records_.erase(known) : std::next(known);
   }
   ++calls_;
@@ -178,7 +173,7 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame,
   try {
     check(target, record);
     const LabelledFrame& seen = frame_of(target, frame);
-    Judgement judgement = judge_on(seen, target, known);
+    Judgement judgement = judge_on(seen, target, record);
     record.blame.assign(judgement.blame.begin(), judgement.blame.end());
     judgement.blame = record.blame;
     record.reason = judgement.reason;
@@ -237,9 +232,7 @@ const LabelledFrame& TargetStage::late_frame(std::int64_t stamp) {
   return late_.emplace(late_labeller_->label(*depth, *poses));
 }
 
-Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target,
-                                Records::value_type& known) {
-  Record& record = known.second;
+Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target, Record& record) {
   const bool is_late = frame.stamp() && record.last_stamp && *frame.stamp() < *record.last_stamp;
   if (is_late && is_modal(target))
     throw InputError("its stamp is before one that was judged: modal extents need stamps in order");
@@ -251,18 +244,13 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
   }
   if (judged_ != &frame) judge_.begin(frame.images);
   judged_ = &frame;
-  view->name = is_late ? out_of_order : std::string_view(known.first);
-  if (is_late) {
-    Judgement judgement = judge_.judge(*view);
-    judge_.forget(out_of_order);
-    return judgement;
-  }
+  if (is_late) return judge_.judge(*view);  // the memory is of later frames
   record.judged_poses = frame.poses;
   record.last_stamp = frame.stamp();
   if (view->extent == Extent::modal && record.good_pixel)
     if (const auto pixel = track_pixel(*frame.poses, record))
       view->motion = *pixel - *record.good_pixel;
-  return judge_.judge(*view);
+  return judge_.judge(*view, record.memory);
 }
 
 /// With a missing link, anything that seems visible may be hidden by it, and any depth may be its
@@ -322,11 +310,9 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp, Ta
 void TargetStage::forget(std::string_view name) {
   const auto found = records_.find(name);
   if (found != records_.end()) records_.erase(found);
-  judge_.forget(name);
 }
 
 void TargetStage::forget_all() {
-  for (const auto& [name, record] : records_) judge_.forget(name);
   records_.clear();
   recent_poses_.clear();
   recent_depth_.clear();

@@ -192,7 +192,6 @@ struct TargetViews::Builder {
 
 std::optional<TargetView> TargetViews::view(const Target& target, const LabelledFrame& frame) {
   Builder builder{*this, frame, {}};
-  builder.view.name = target.name;
   builder.view.thresholds = target.thresholds;
   builder.view.depth_margin = target.depth_margin;
   if (!std::visit(builder, target.shape)) return std::nullopt;

@@ -27,8 +27,7 @@ void without_robot(const FrameReport& report, DepthImage& out) {
       report.depth);
   std::visit(
       [&]<typename T>(Image<T>& image) {
-        if (image.width() != labels.width || image.height() != labels.height)
-          image = Image<T>(labels.width, labels.height);
+        image.fit(labels.width, labels.height);
         const auto* const depth = std::get_if<ImageView<const T>>(&report.depth);
         const bool has_depth = depth != nullptr && !depth->empty() && report.missing_links.empty();
         for (int v = 0; v < labels.height; ++v) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <penumbra/mesh/solid_angle-inl.hpp>
 #include <penumbra/mesh/surface_patches-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 

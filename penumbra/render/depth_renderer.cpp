@@ -4,10 +4,8 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/render/cpu/cpu_renderer.hpp>
+#include <penumbra/render/backends-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/gl/gl_renderer.hpp>
-#include <penumbra/render/reference.hpp>
 
 namespace penumbra {
 namespace {

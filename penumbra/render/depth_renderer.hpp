@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/render/reference.hpp>
+#include <penumbra/render/backends-inl.hpp>
 
 namespace penumbra {
 namespace {

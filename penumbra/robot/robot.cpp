@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -85,21 +86,9 @@ struct Robot::Model {
 };
 
 std::string_view to_string(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return "revolute";
-    case JointType::continuous:
-      return "continuous";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::fixed:
-      return "fixed";
-    case JointType::planar:
-      return "planar";
-    case JointType::floating:
-      break;
-  }
-  return "floating";
+  constexpr std::array<std::string_view, 6> names = {"revolute", "continuous", "prismatic",
+                                                     "fixed",    "planar",     "floating"};
+  return names[static_cast<std::size_t>(type)];
 }
 
 Matrix3d plane_axes(const Vector3d& normal) {

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 
@@ -23,11 +23,6 @@ template <typename... Parts>
   (message << ... << parts);
   throw InputError(message.str());
 }
-
-/// The pixels [u0, u1) of row v.
-struct RowSpan {
-  int v, u0, u1;
-};
 
 /// Returns the index of the first of `count` bytes that is not 0, or `count` if all are 0.
 [[nodiscard]] int first_set(const std::uint8_t* p, int count);

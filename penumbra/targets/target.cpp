@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+
 #include <penumbra/targets/region_spans-inl.hpp>
 #include <penumbra/targets/target.hpp>
 
@@ -28,19 +30,9 @@ void TargetThresholds::check() const {
 }
 
 std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::visible:
-      return "visible";
-    case Verdict::partial:
-      return "partial";
-    case Verdict::hidden:
-      return "hidden";
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::out_of_view:
-      return "out_of_view";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> names = {"visible", "partial", "hidden", "unknown",
+                                                     "out_of_view"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace penumbra

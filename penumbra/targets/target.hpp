@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
 
 namespace penumbra {
 

@@ -29,7 +29,6 @@ void check_target(const TargetView& target) {
   const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
   const std::optional<double>& depth = target.expected_depth;
   const double most = static_cast<double>(RenderedRegion::max_depth);
-  if (target.name.empty()) region_fault("needs a name");
   if (rendered && target.extent == Extent::modal)
     region_fault("a rendered region is the full extent: amodal");
   if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
@@ -102,18 +101,16 @@ struct TargetJudge::State {
   State(const Camera& camera_, const LabelRule& rule, std::size_t links,
         ImageView<const std::uint8_t> unseen);
 
-  Judgement judge(const TargetView& target);
-  TargetMemory& memory_of(std::string_view name);
+  Judgement judge(const TargetView& target, TargetMemory& memory);
   void add_point(const TargetView& target, Judgement& judgement);
 
   Camera camera;
   labelling::Rule rule;
   TalliedFrame frame;
-  std::uint64_t number = 0;  // of the frame
+  bool has_frame = false;
   RobotSurroundings robot;
   ExtentObserver observer;
   std::vector<Blame> blame;
-  MapByTarget<TargetMemory> memories;
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
@@ -148,32 +145,23 @@ void TargetJudge::begin(const LabelledImages& images) {
   std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
   state_->frame = TalliedFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
-  ++state_->number;
+  state_->has_frame = true;
+}
+
+Judgement TargetJudge::judge(const TargetView& target, TargetMemory& memory) {
+  if (!state_->has_frame) throw std::logic_error("TargetJudge::judge() before begin()");
+  return state_->judge(target, memory);
 }
 
 Judgement TargetJudge::judge(const TargetView& target) {
-  if (state_->number == 0) throw std::logic_error("TargetJudge::judge() before begin()");
-  return state_->judge(target);
+  TargetMemory none;
+  return judge(target, none);
 }
 
-void TargetJudge::forget(std::string_view name) {
-  const auto found = state_->memories.find(name);
-  if (found != state_->memories.end()) state_->memories.erase(found);
-}
-
-TargetMemory& TargetJudge::State::memory_of(std::string_view name) {
-  const auto found = memories.find(name);
-  return found != memories.end() ? found->second : memories[std::string(name)];
-}
-
-Judgement TargetJudge::State::judge(const TargetView& target) {
+Judgement TargetJudge::State::judge(const TargetView& target, TargetMemory& memory) {
   check_target(target);
   const ExpectedDepth expected = expected_of(target);
   observer.fill(target.region);
-  TargetMemory& memory = memory_of(target.name);
-  if (memory.frame == number) region_fault("its name is used twice in a frame");
-  memory.frame = number;
-
   const bool wants_depths = target.wants_point && frame.is_measured();
   const Visibility visibility =
       observer.observe({frame, target, expected, robot, wants_depths}, memory);

@@ -7,11 +7,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/targets/target.hpp>
@@ -28,7 +28,6 @@ struct LabelledImages {
 
 /// A target in one frame, in pixels.
 struct TargetView {
-  std::string_view name;  ///< identifies the target's hysteresis and last full extent
   Region region;
   Extent extent = Extent::amodal;
   /// Metres, ze below, for the whole region; a rendered region has its own. With it, robot pixels
@@ -45,6 +44,22 @@ struct TargetView {
   /// extents.
   std::optional<Eigen::Vector2d> motion;
   TargetThresholds thresholds;
+};
+
+/// The pixels [u0, u1) of row v.
+struct RowSpan {
+  int v, u0, u1;
+};
+
+/// What a judge remembers of a target from frame to frame. One for each target; start with a new
+/// one for another object.
+struct TargetMemory {
+  Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
+  std::vector<RowSpan> extent;       ///< modal: the last full extent; empty: none
+  Eigen::Vector2d moved{0, 0};       ///< motion from then until the last verdict visible
+  double size = 0;                   ///< modal: pixels of the whole target
+  std::optional<double> depth;       ///< expected depth of the size, metres
+  bool is_cut = false;               ///< the extent reaches the image's border, so there is more
 };
 
 /// A link that hides a target.
@@ -77,8 +92,8 @@ struct Judgement {
   std::string_view reason;  ///< one constant line if the verdict is unknown, else empty
 };
 
-/// Judges targets on labelled images. Remembers hysteresis and extents by the targets' names until
-/// forget(). Allocates nothing per target once its name, and extents of its size, were seen.
+/// Judges targets on labelled images. Allocates nothing per target once extents of its size were
+/// seen.
 ///
 /// The state of a pixel. Without an expected depth it follows from the label: clear, front,
 /// occluded, unknown; beyond counts as occluded, or as clear if beyond_hides is false. With the
@@ -106,7 +121,7 @@ struct Judgement {
 ///   what is seen is measured, or at least past_limit of what is measured is behind the target
 ///   (d > ze + m).
 ///
-/// A modal extent is compared with the whole target as seen before. The judge remembers the last
+/// A modal extent is compared with the whole target as seen before. The memory holds the last
 /// extent and the mean size over about 100 frames in which the robot did not touch the target. A
 /// larger extent replaces the size at once; one that is smaller by more than partial_enter is
 /// ignored. With expected depths the size scales by 1 / depth^2.
@@ -140,13 +155,13 @@ class TargetJudge {
   /// Sets the frame to judge. Throws InputError for images that do not have the camera's size.
   void begin(const LabelledImages& images);
 
-  /// Judges one target. Throws InputError, without the target's name, for an invalid region (not
-  /// finite, without area, a mask of another size), numbers out of range and a name that was
-  /// already judged in this frame; and std::logic_error before begin().
-  [[nodiscard]] Judgement judge(const TargetView& target);
+  /// Judges one target and updates its memory. Throws InputError, without the target's name, for an
+  /// invalid region (not finite, without area, a mask of another size) and numbers out of range;
+  /// and std::logic_error before begin().
+  [[nodiscard]] Judgement judge(const TargetView& target, TargetMemory& memory);
 
-  /// Forgets a target, for a name that now means another object.
-  void forget(std::string_view name);
+  /// Judges a target without hysteresis and without an earlier extent.
+  [[nodiscard]] Judgement judge(const TargetView& target);
 
  private:
   struct State;

@@ -3,45 +3,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <penumbra/targets/extent_tally-inl.hpp>
 #include <penumbra/targets/region_spans-inl.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/trusted_depth-inl.hpp>
 
 namespace penumbra {
-
-/// The memory of a target's verdicts.
-struct TargetMemory {
-  std::uint64_t frame = 0;           ///< in which it was last judged
-  Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
-  std::vector<RowSpan> extent;       ///< modal: the last full extent; empty: none
-  Eigen::Vector2d moved{0, 0};       ///< motion from then until the last verdict visible
-  double size = 0;                   ///< modal: pixels of the whole target
-  std::optional<double> depth;       ///< expected depth of the size, metres
-  bool is_cut = false;               ///< the extent reaches the image's border, so there is more
-};
-
-/// Allows lookup by string_view.
-struct TargetNameHash {
-  using is_transparent = void;
-  std::size_t operator()(std::string_view name) const {
-    return std::hash<std::string_view>{}(name);
-  }
-};
-
-template <typename Value>
-using MapByTarget = std::unordered_map<std::string, Value, TargetNameHash, std::equal_to<>>;
 
 /// The reason why the size of a modal target is unknown.
 enum class SizeUnknown { none, first_near_robot, cut, moved };

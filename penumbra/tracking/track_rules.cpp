@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
@@ -60,33 +61,14 @@ bool good_enough(Verdict verdict, Verdict worst) {
 namespace penumbra {
 
 std::string_view to_string(Source source) {
-  switch (source) {
-    case Source::measured:
-      return "measured";
-    case Source::predicted:
-      return "predicted";
-    case Source::held:
-      return "held";
-    case Source::lost:
-      break;
-  }
-  return "lost";
+  constexpr std::array<std::string_view, 4> names = {"measured", "predicted", "held", "lost"};
+  return names[static_cast<std::size_t>(source)];
 }
 
 std::string_view to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::accepted:
-      return "accepted";
-    case Outcome::refused_verdict:
-      return "refused_verdict";
-    case Outcome::refused_gate:
-      return "refused_gate";
-    case Outcome::refused_late:
-      return "refused_late";
-    case Outcome::refused_invalid:
-      break;
-  }
-  return "refused_invalid";
+  constexpr std::array<std::string_view, 5> names = {"accepted", "refused_verdict", "refused_gate",
+                                                     "refused_late", "refused_invalid"};
+  return names[static_cast<std::size_t>(outcome)];
 }
 
 }  // namespace penumbra

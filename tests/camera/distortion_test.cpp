@@ -54,28 +54,6 @@ TEST(Distortion, KnowsRosNames) {
   EXPECT_EQ(to_string(DistortionModel::rational_polynomial), "rational_polynomial");
 }
 
-TEST(Distortion, RefusesWhatItDoesNotKnow) {
-  std::vector<double> thin_prism(12, 0.0);
-  thin_prism[9] = 0.01;
-  struct Bad {
-    std::string model;
-    std::vector<double> coefficients;
-    std::string part;  // of the message
-  };
-  for (const Bad& bad :
-       {Bad{"division", {0.1}, "plumb_bob"},
-        {"division", {0.1}, "division"},
-        {"plumb_bob", {0.1, 0.2}, "2 coefficients"},
-        {"plumb_bob", {}, "0 coefficients"},
-        {"rational_polynomial", std::vector<double>(5, 0.1), "needs 8"},
-        {"equidistant", std::vector<double>(5, 0.1), "needs 4"},
-        {"", {0.1}, "coefficients that are 0"},
-        {"rational_polynomial", thin_prism, "thin prism"},
-        {"plumb_bob", {0.1, std::nan(""), 0, 0, 0}, "coefficient 2"},
-        {"plumb_bob", {0.1, std::numeric_limits<double>::infinity(), 0, 0, 0}, "coefficient 2"}})
-    test::expect_refused([&] { const Distortion lens(bad.model, bad.coefficients); }, {bad.part});
-}
-
 TEST(Distortion, DerivativeAgreesWithDifferences) {
   constexpr double h = 1e-5;
   constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2

@@ -130,48 +130,6 @@ TEST(Rectification, MapsOfRandomCamerasAndLenses) {
   EXPECT_LT(cut, 20);
 }
 
-TEST(Rectification, WithoutDistortionIsTheRawImage) {
-  const Camera camera = camera_with(Intrinsics(101, 75, 90.7, 91.3, 49.8, 37.1), {});
-  const Rectification maps(camera);
-  EXPECT_EQ(maps.pinhole(), camera.intrinsics);
-  for (std::int32_t i = 0; i < 101 * 75; ++i) {
-    ASSERT_EQ(maps.raw_to_pinhole().data[i], i);
-    ASSERT_EQ(maps.pinhole_to_raw().data[i], i);
-  }
-}
-
-// A touched raw tile is one that holds a raw pixel whose pinhole pixel lies in a touched tile: by
-// brute force over all pixels.
-TEST(Rectification, TouchedRawTilesAreExact) {
-  auto random = test::seeded_random(22);
-  for (const test::Lens& sample : test::typical_lenses()) {
-    const Camera camera =
-        camera_with(Intrinsics(321, 241, 160, 161, 161.3, 118.2), sample.distortion());
-    const Rectification maps(camera);
-    const int width = maps.pinhole().width();
-    for (int round = 0; round < 5; ++round) {
-      TileMask pinhole(width, maps.pinhole().height());
-      for (int j = 0; j < 5; ++j) {
-        const int u = static_cast<int>(random() % static_cast<unsigned>(width));
-        const int v = static_cast<int>(random() % static_cast<unsigned>(pinhole.height));
-        pinhole.mark(u, v, u, v);
-      }
-      TileMask expected(camera.intrinsics.width(), camera.intrinsics.height());
-      for (int v = 0; v < expected.height; ++v)
-        for (int u = 0; u < expected.width; ++u)
-          if (const std::int32_t i = maps.raw_to_pinhole()(u, v); i != Rectification::no_pixel) {
-            const auto row = static_cast<std::size_t>(i / width / TileMask::tile_height);
-            if ((pinhole.rows[row] >> (i % width / pinhole.tile_width) & 1) != 0)
-              expected.mark(u, v, u, v);
-          }
-      TileMask touched(expected.width, expected.height);
-      touched.mark(0, 0, touched.width - 1, touched.height - 1);  // what was there is replaced
-      maps.touched_raw(pinhole, touched);
-      EXPECT_EQ(touched.rows, expected.rows) << sample.name;
-    }
-  }
-}
-
 TEST(Rectification, LargeFisheyesAreCutToAnImageThatFits) {
   const std::vector<double> ideal(4, 0.0);
   const Camera camera =

@@ -36,33 +36,6 @@ TEST(Registration, WhatIsNotMeasuredStaysSo) {
     }
 }
 
-TEST(Registration, OnlyDepthsOfTheSensorsRangeCount) {
-  Camera camera = plain_camera(80, 60, 70);
-  camera.range = {0.5, 2.0};
-  DepthRegistration registration(camera, camera);
-  for (const auto& [depth, kept] :
-       {std::pair{0.49F, 0.0F}, {0.51F, 0.51F}, {1.99F, 1.99F}, {2.01F, 0.0F}}) {
-    const Image<float> image(80, 60, depth);
-    const auto same = std::get<ImageView<const float>>(
-        registration.warp(image.view(), Eigen::Isometry3d::Identity()));
-    EXPECT_EQ(same(40, 30), kept);
-  }
-}
-
-TEST(Registration, MillimetresThatDoNotFitAreNone) {
-  const Camera camera = plain_camera(80, 60, 70);
-  DepthRegistration registration(camera, camera);
-  const Image<std::uint16_t> image(80, 60, 65'000);
-  const auto at = [&](double z) {
-    return std::get<ImageView<const std::uint16_t>>(registration.warp(image.view(), pose(0, 0, z)))(
-        40, 30);
-  };
-  EXPECT_EQ(at(0.5), 65'500);
-  EXPECT_EQ(at(0.6), 0);
-  EXPECT_EQ(at(-64.992), 0) << "nearer than min_depth";
-  EXPECT_EQ(at(-66.0), 0) << "behind the camera";
-}
-
 TEST(Registration, StridesAreFollowedAndRubbishIsSafe) {
   auto random = test::seeded_random(9);
   const Camera from = plain_camera(64, 48, 50);

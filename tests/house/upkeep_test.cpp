@@ -56,16 +56,6 @@ TEST(Upkeep, FilesAreShort) {
   }
 }
 
-TEST(Upkeep, TheShippedRecordingIsSmall) {
-  constexpr std::uintmax_t most_bytes = 3'000'000;
-  std::uintmax_t bytes = 0;
-  const std::filesystem::path folder = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) bytes += entry.file_size();
-  EXPECT_GT(bytes, 0U);
-  EXPECT_LT(bytes, most_bytes);
-}
-
 // Every package that CMake looks for comes from a Debian package that the scripts install; those of
 // ros/ are built inside of ROS.
 TEST(Upkeep, PackagesAreListed) {
@@ -113,48 +103,6 @@ TEST(Upkeep, PackagesAreListed) {
           << file.path << " needs " << package->second << ", not in scripts/packages.sh";
     }
   }
-}
-
-std::string text_of(const SourceFile& file) {
-  std::string text;
-  for (const std::string& line : file.lines) text += line + '\n';
-  return text;
-}
-
-// What was not found at the first configuration stays off, whatever is installed later.
-TEST(Upkeep, WhoeverIsToldToBuildAgainIsToldTheOption) {
-  std::size_t messages = 0;
-  for (const auto& file : source_files({"penumbra", "io", "sim", "apps"}, {".cpp"})) {
-    const std::string text = text_of(file);
-    if (text.find("\"this build has no ") == std::string::npos &&
-        text.find(": this build has no ") == std::string::npos &&
-        text.find("not built in: ") == std::string::npos)
-      continue;
-    ++messages;
-    EXPECT_NE(text.find("-DPENUMBRA_WITH_"), std::string::npos) << file.path;
-  }
-  EXPECT_GE(messages, 5U);
-}
-
-// A folder keeps the switches of the script that configured it before.
-TEST(Upkeep, ScriptsThatShareABuildFolderSetTheSameSwitches) {
-  const std::regex folder(R"(-B (build/\w+))"), name(R"(-D(PENUMBRA_\w+)=)");
-  std::map<std::string, std::map<std::string, std::set<std::string>>> switches;
-  for (const auto& file : source_files({"scripts"}, {".sh"})) {
-    const std::string text = std::regex_replace(text_of(file), std::regex("\\\\\n"), " ");
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      std::smatch match;
-      if (!std::regex_search(line, match, folder)) continue;
-      auto& of_script = switches[match[1]][file.path];
-      for (std::sregex_iterator it(line.begin(), line.end(), name), end; it != end; ++it)
-        of_script.insert((*it)[1]);
-    }
-  }
-  EXPECT_EQ(switches["build/demo"].size(), 2U);
-  for (const auto& [built_in, scripts] : switches)
-    for (const auto& [script, set] : scripts)
-      EXPECT_EQ(set, scripts.begin()->second) << built_in << ": " << script;
 }
 
 TEST(Upkeep, LinksInDocumentsLeadSomewhere) {

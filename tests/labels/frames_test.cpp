@@ -31,23 +31,6 @@ TEST_P(Frames, LeaveNothingToTheNext) {
   }
 }
 
-TEST_P(Frames, MayChangeTheirTiles) {
-  auto random = test::seeded_random(42);
-  constexpr int width = 300, height = 70;
-  Classifier used(width, height, LabelRule{}, GetParam());
-  Classifier fresh(width, height, LabelRule{}, GetParam());
-  test::Scene first = test::random_scene(width, height, random);
-  (void)used.classify(first.view(), first.metres.view());
-  test::Scene scene = test::random_scene(width, height, random);
-  scene.tiles.tile_width = 64;
-  scene.mark_tiles();
-  const auto counts = used.classify(scene.view(), scene.metres.view()).pixels;
-  EXPECT_EQ(counts, fresh.classify(scene.view(), scene.metres.view()).pixels);
-  VirtualDepthView all = scene.view();
-  all.touched = nullptr;
-  EXPECT_EQ(counts, used.classify(all, scene.metres.view()).pixels);
-}
-
 TEST_P(Frames, AllocateNothing) {
   auto random = test::seeded_random(44);
   Classifier classifier(300, 70, LabelRule{}, GetParam());

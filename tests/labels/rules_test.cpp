@@ -101,37 +101,6 @@ TEST_P(Rules, OutsideTheSensorsRangeIsNoMeasurement) {
   EXPECT_EQ(label(rule, 4.0f, 3.0f), Label::front);  // a robot farther than the range still counts
 }
 
-TEST_P(Rules, MillimetresAtTheRangesEndsAreInside) {
-  // Among them 3.0 m, which float32 rounds up when it is made of 3000 * 0.001.
-  Scene scene(37, 1);
-  std::fill_n(scene.robot.data(), 37, 1.0f);
-  scene.mark_tiles();
-  const auto is_measured = [&](const LabelRule& rule, int millimetres) {
-    const Image<std::uint16_t> depth(37, 1, static_cast<std::uint16_t>(millimetres));
-    Classifier classifier(37, 1, rule, GetParam());
-    const LabelView view = classifier.classify(scene.view(), depth.view());
-    const std::size_t unknown = view.pixels[static_cast<std::size_t>(Label::unknown)];
-    EXPECT_TRUE(unknown == 0 || unknown == 37) << millimetres;
-    return unknown == 0;
-  };
-  LabelRule rule = without_cleanup();
-  for (int end = 13; end < 20000; end += 29) {
-    rule.range = {0.0, end / 1000.0};
-    EXPECT_TRUE(is_measured(rule, end)) << end << " mm is range.far";
-    EXPECT_FALSE(is_measured(rule, end + 1)) << end << " mm is range.far";
-    rule.range = {end / 1000.0, infinity};
-    EXPECT_TRUE(is_measured(rule, end)) << end << " mm is range.near";
-    EXPECT_FALSE(is_measured(rule, end - 1)) << end << " mm is range.near";
-  }
-  rule.range = {0.0, infinity};
-  EXPECT_TRUE(is_measured(rule, 65534));
-  EXPECT_FALSE(is_measured(rule, 65535)) << "saturated";
-  rule.range = {70.0, 80.0};
-  EXPECT_FALSE(is_measured(rule, 65534));
-  rule.range = {0.0, 0.0005};
-  EXPECT_FALSE(is_measured(rule, 1));
-}
-
 TEST_P(Rules, FoldedBeyondIsOccluded) {
   LabelRule rule = without_cleanup();
   rule.fold_beyond = true;
@@ -221,13 +190,6 @@ TEST(RuleCheck, RefusesAndSaysWhatItGot) {
     EXPECT_THROW(Classifier(8, 8, rule), InputError) << part;
   }
   test::expect_refused([] { (void)LabelRule::for_sensor("kinect"); }, {"kinect"});
-}
-
-TEST(ClassifierMade, RefusesBadSizesAndTargets) {
-  EXPECT_THROW(Classifier(0, 8, LabelRule{}), InputError);
-  EXPECT_THROW(Classifier(8, 40000, LabelRule{}), InputError);
-  EXPECT_THROW(Classifier(8, 8, LabelRule{}, "AVX9"), InputError);
-  EXPECT_EQ(Classifier(8, 8, LabelRule{}).isa(), simd_target_names().front());
 }
 
 }  // namespace

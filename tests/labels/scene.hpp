@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/base/image.hpp>
 #include <penumbra/base/simd_target.hpp>
-#include <penumbra/base/tile_mask.hpp>
 #include <penumbra/labels/labels.hpp>
 
 namespace penumbra::test {

@@ -33,31 +33,6 @@ TEST_F(MeshBadFile, NoFile) {
   EXPECT_NE(refusal("/dev/zero").find("not a regular file"), std::string::npos);
 }
 
-TEST_F(MeshBadFile, TooLargeIsRefusedUnread) {
-  const auto file = folder_.write("sparse.dae", "");
-  std::filesystem::resize_file(file, std::uintmax_t{6} << 30U);
-  EXPECT_NE(refusal(file).find("sparse.dae: has 6442450944 bytes"), std::string::npos);
-}
-
-TEST_F(MeshBadFile, PolygonsOfTooManyCorners) {
-  std::string vertices, face = "f", corners = "5000";
-  for (int i = 0; i < 5000; ++i) {
-    vertices += std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0\n";
-    face += " " + std::to_string(i + 1);
-    corners += " " + std::to_string(i);
-  }
-  std::string obj;
-  for (std::size_t at = 0; at < vertices.size(); at = vertices.find('\n', at) + 1)
-    obj += "v " + vertices.substr(at, vertices.find('\n', at) + 1 - at);
-  expect_refused("many.obj", obj + face + "\n", "a polygon has 5000 corners");
-  expect_refused("many.ply",
-                 "ply\nformat ascii 1.0\nelement vertex 5000\nproperty float x\n"
-                 "property float y\nproperty float z\nelement face 1\n"
-                 "property list uint uint vertex_indices\nend_header\n" +
-                     vertices + corners + "\n",
-                 "a polygon has 5000 corners");
-}
-
 TEST_F(MeshBadFile, NoMesh) {
   for (const char* name : {"e.stl", "e.dae", "e.obj", "e.ply", "e.gltf", "e.glb", "e.step"})
     expect_refused(name, "", "empty");
@@ -114,14 +89,6 @@ TEST_F(MeshBadFile, CoordinatesThatAreNoPlaces) {
   }
 }
 
-TEST_F(MeshBadFile, UnitsThatAreNoLength) {
-  for (const char* bad : {"x", "", "0", "-1", "nan", "inf", "1 inch", "0,01", "1e9"})
-    expect_refused("a.dae",
-                   test::collada(std::string("<unit name=\"odd\" meter=\"") + bad + "\"/>",
-                                 test::collada_node()),
-                   "is no length");
-}
-
 TEST_F(MeshBadFile, IndicesBeyondTheVertices) {
   expect_refused("a.obj", test::replaced(test::obj(), "f 1 3 2", "f 1 3 5"), "names vertex 5 of 4");
   expect_refused("b.obj", test::replaced(test::obj(), "f 1 3 2", "f 1 3 0"), "vertex's number");
@@ -173,21 +140,6 @@ TEST_F(MeshBadFile, ObjVerticesThatReadersTakeForDifferentThings) {
   std::string cr = test::replaced(test::obj(), "f 1 3 2", "f 1 3 5");
   for (char& c : cr) c = c == '\n' ? '\r' : c;
   expect_refused("cr.obj", cr, "line 10: a corner names vertex 5 of 4");
-}
-
-TEST_F(MeshBadFile, PlyWithoutACoordinateOrName) {
-  for (const auto& [name, bytes] : test::samples())
-    if (name.ends_with(".ply")) {
-      for (const char* line : {"property float", "property float y y"})
-        expect_refused(name, test::replaced(bytes, "property float y", line), "a type and a name");
-      for (const char* axis : {"x", "y", "z"}) {
-        const std::string line = std::string("property float ") + axis;
-        expect_refused(name, test::replaced(bytes, line, "property float w"),
-                       std::string("have 0 properties '") + axis + "'");
-        expect_refused(name, test::replaced(bytes, "element face", line + "\nelement face"),
-                       std::string("have 2 properties '") + axis + "'");
-      }
-    }
 }
 
 TEST_F(MeshBadFile, GltfThatWouldBeMisread) {
@@ -268,42 +220,6 @@ TEST_F(MeshBadFile, TruncationIsAnErrorAtEveryByte) {
       EXPECT_FALSE(refusal(folder_.write(name, bytes.substr(0, size))).empty())
           << name << " " << size;
   }
-}
-
-/// A tube of `side` corners, as exporters write it: all vertices, then all faces.
-std::string tube_obj(int side) {
-  std::string text = "o tube\n";
-  for (int i = 0; i < side; ++i)
-    for (const int z : {0, 1})
-      text += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " " +
-              std::to_string(z) + "\n";
-  for (int i = 0; i < side; ++i) {
-    const auto corner = [&](int k) { return " " + std::to_string(1 + (2 * i + k) % (2 * side)); };
-    text +=
-        "f" + corner(0) + corner(2) + corner(1) + "\nf" + corner(1) + corner(2) + corner(3) + "\n";
-  }
-  return text;
-}
-
-TEST_F(MeshBadFile, ObjCutInsideALineBeforeAllVerticesAreUsedIsRefused) {
-  const std::string whole = tube_obj(100);
-  const std::size_t all_used = whole.rfind("\nf 199 ");  // the faces before name every vertex
-  ASSERT_NE(all_used, std::string::npos);
-  for (std::size_t size = 0; size < all_used; size += 17) {
-    if (size > 0 && whole[size - 1] == '\n') continue;
-    EXPECT_NE(refusal(folder_.write("a.obj", whole.substr(0, size))), "") << size;
-  }
-}
-
-TEST_F(MeshBadFile, PlyThatReadersTakeForDifferentThings) {
-  const auto expect = [&](const std::string& what, const std::string& by, const std::string& why) {
-    expect_refused("a.ply", test::replaced(test::ascii_ply(), what, by), why);
-  };
-  expect("element face", "element tristrips", "tristrips");
-  expect("3 0 2 1", "3 0 2.5 1", "names vertex 2.5");
-  expect("3 0 2 1", "2.5 0 2 1", "count");
-  expect("uchar int", "uchar float", "no integers");
-  expect("element face", "element vertex 0\nelement face", "two elements");
 }
 
 TEST_F(MeshBadFile, ObjOdditiesAreRead) {

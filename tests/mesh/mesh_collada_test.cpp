@@ -161,56 +161,6 @@ TEST_F(Collada, TransformsThatAreNotReadMatterOnlyToGeometry) {
     expect_refused(test::collada("", test::collada_node(bad)), "damaged");
 }
 
-TEST_F(Collada, CountsOfPrimitivesMustFit) {
-  const auto refuse = [&](const std::string& primitive, const std::string& why) {
-    expect_refused(with_primitive(primitive), why);
-  };
-  refuse("<triangles count=\"1\">" + vertex_input + "</triangles>", "promises");
-  refuse("<triangles count=\"2\">" + vertex_input + "<p>0 1 2</p></triangles>", "promises 2");
-  refuse("<triangles count=\"1\">" + vertex_input + "<p>0 1 2</p><p>0 1 2</p></triangles>",
-         "a second");
-  refuse("<triangles>" + vertex_input + "<p>0 1 2</p></triangles>", "it has no count");
-  refuse("<polylist count=\"1\">" + vertex_input + "</polylist>", "promises");
-  refuse("<polylist count=\"1\">" + vertex_input + "<p>0 1 2</p></polylist>", "no <vcount>");
-  refuse("<polylist count=\"2\">" + vertex_input + "<vcount>3</vcount><p>0 1 2</p></polylist>",
-         "promises 2");
-  for (const char* sizes : {"4", "2"})
-    refuse("<polylist count=\"1\">" + vertex_input + "<vcount>" + sizes +
-               "</vcount><p>0 1 2</p></polylist>",
-           "disagree");
-  const auto element = [&](const std::string& name, const char* count, const char* indices) {
-    return "<" + name + " count=\"" + count + "\">" + vertex_input + indices + "</" + name + ">";
-  };
-  for (const char* name : {"polygons", "tristrips", "trifans"}) {
-    refuse(element(name, "1", ""), "promises 1");
-    refuse(element(name, "2", "<p>0 1 2</p>"), "promises 2");
-  }
-  refuse("<polygons count=\"1\">" + vertex_input + "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>",
-         "hole");
-  refuse("<triangels count=\"1\">" + vertex_input + "<p>0 1 2</p></triangels>",
-         "unknown in a <mesh>");
-}
-
-TEST_F(Collada, SourcesMustHoldWhatIsReadFromThem) {
-  const std::string text = test::collada("", test::collada_node());
-  for (const std::string name : {"Name_array", "IDREF_array", "int_array"})
-    expect_refused(test::replaced(test::replaced(text, "<float_array", "<" + name), "</float_array",
-                                  "</" + name),
-                   "it has no <float_array>");
-  expect_refused("source=\"#pa\"", "source=\"#pb\"", "is not the <float_array>");
-  expect_refused("source=\"#p\"", "source=\"#q\"", "no <source> q");
-  expect_refused("source=\"#v\"", "source=\"#p\"", "is not the <vertices>");
-  expect_refused("stride=\"3\"", "", "stride of 1");
-  expect_refused("stride=\"3\"", "stride=\"3\" offset=\"1\"", "disagree");
-  expect_refused("count=\"4\" stride", "count=\"4294967295\" stride", "disagree");
-  expect_refused("name=\"Z\"", "name=\"Y\"", "positions need");
-  expect_refused("name=\"Z\"", "", "positions need");
-  expect_refused("\"POSITION\"", "\"NORMAL\"", "no <input> POSITION");
-  expect_refused("\"VERTEX\"", "\"POSITION\"", "no <input> VERTEX");
-  expect_refused("offset=\"0\"", "offset=\"99\"", "its offset");
-  expect_refused("<p>0 2 1", "<p>0 -2 1", "names vertex -2");
-}
-
 TEST_F(Collada, WhatASceneShowsMustBeThereAndRigid) {
   const std::string text = test::collada("", test::collada_node());
   expect_refused(test::replaced(text, "<scene>", "<scenery>"), "XML");

@@ -50,58 +50,6 @@ TEST(PreparedMesh, ClosedPatchesFaceOneWayAndHaveNoHoles) {
   EXPECT_EQ(&copy.orientations(), &prepared.orientations()) << "found once";
 }
 
-TEST(PreparedMesh, SmallHolesAreInBallsAroundThem) {
-  TriangleMesh mesh = torus(40, 24);
-  const auto [a, b, c] = mesh.triangles[100];
-  mesh.triangles.erase(mesh.triangles.begin() + 100);
-  for (const bool inwards : {false, true}) {
-    const auto patches = orientations(inwards ? turned(mesh) : mesh);
-    ASSERT_EQ(patches.size(), 1U);
-    EXPECT_EQ(patches[0].facing, inwards ? Facing::inwards : Facing::outwards);
-    ASSERT_EQ(patches[0].holes.size(), 1U);
-    const Ball& hole = patches[0].holes[0];
-    for (const std::uint32_t v : {a, b, c}) {
-      EXPECT_LE((mesh.vertices[v].cast<double>() - hole.centre).norm(), hole.radius);
-    }
-    EXPECT_LT(hole.radius, 0.05);
-  }
-}
-
-TEST(PreparedMesh, ATurnedTriangleIsAHoleAndAPatchOfItsOwn) {
-  TriangleMesh mesh = torus(40, 24);
-  std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
-  const PreparedMesh prepared(mesh);
-  ASSERT_EQ(prepared.patches.size(), 2U);
-  EXPECT_EQ(prepared.patches[1].triangles, std::vector<std::uint32_t>{7});
-  EXPECT_EQ(prepared.orientations()[0].facing, Facing::outwards);
-  EXPECT_EQ(prepared.orientations()[0].holes.size(), 1U);
-  EXPECT_EQ(prepared.orientations()[1].facing, Facing::unknown);
-  EXPECT_FALSE(prepared.watertight);
-}
-
-TEST(PreparedMesh, BodiesThatShareAnEdgeAreApart) {
-  // Two tetrahedra over the edge from (0, 0, 0) to (0, 0, 1), the second wound inwards.
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
-                    {0, 1, 4}, {0, 5, 1}, {0, 4, 5}, {1, 5, 4}};
-  const PreparedMesh prepared(mesh);
-  ASSERT_EQ(prepared.patches.size(), 2U);
-  EXPECT_EQ(prepared.patches[0].triangles, (std::vector<std::uint32_t>{0, 1, 2, 3}));
-}
-
-TEST(PreparedMesh, LargeAndManyHolesLeaveAPatchOpen) {
-  TriangleMesh half = torus(20, 12);
-  half.triangles.resize(half.triangles.size() / 2);
-  EXPECT_EQ(orientations(half)[0].facing, Facing::unknown);
-  TriangleMesh sieve = torus(80, 48);
-  for (std::size_t i = 9; i > 0; --i) {
-    sieve.triangles.erase(sieve.triangles.begin() + static_cast<std::ptrdiff_t>(700 * i));
-  }
-  EXPECT_EQ(orientations(sieve)[0].facing, Facing::unknown);
-  EXPECT_TRUE(orientations({}).empty());
-}
-
 /// A flask 0.8 m wide whose neck of 4 cm is open, with a tube from its bottom up to `top`.
 TriangleMesh flask_with_stem(float top) {
   return revolved({{0.0F, top},

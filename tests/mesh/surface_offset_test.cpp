@@ -140,11 +140,6 @@ std::vector<double> margins(const std::vector<double>& all) {
   return test::sanitized ? std::vector<double>{all.back()} : all;
 }
 
-TEST(Offset, ZeroReturnsTheMesh) {
-  const TriangleMesh box = make_box({1, 2, 3});
-  EXPECT_EQ(offset_surface(box, 0.0).triangles.size(), box.triangles.size());
-}
-
 TEST(Offset, SolidsGrow) {
   TriangleMesh several = make_box({0.1, 0.1, 0.1});
   append(several, make_sphere(0.03), {0.06, 0, 0});
@@ -179,14 +174,6 @@ TEST(Offset, SolidsShrinkAndDetailsVanish) {
     for (const TriangleMesh& mesh : {turned(make_box({0.3, 0.2, 0.1})), make_cylinder(0.04, 0.1),
                                      l_shape(), finned(0.003), crumpled(0.4), two})
       expect_shrunk(mesh, offset_surface(mesh, -depth), depth, 300);
-}
-
-TEST(Offset, HolesSmallerThanTheMarginAreClosed) {
-  const TriangleMesh ball = make_sphere(0.1);
-  TriangleMesh pierced = ball;
-  pierced.triangles.resize(pierced.triangles.size() - 1);
-  expect_shrunk(ball, offset_surface(pierced, -0.01), 0.01, 300);
-  EXPECT_EQ(offset_surface(pierced, 0.01).patches.size(), 1U) << "no inner side";
 }
 
 TEST(Offset, NothingIsLeftOfThinSolids) {

@@ -55,26 +55,6 @@ INSTANTIATE_TEST_SUITE_P(Policies, EveryPolicy,
                            return test.param == DropPolicy::newest ? "Newest" : "Every";
                          });
 
-TEST_P(EveryPolicy, WaitsForTheStatesAroundTheStamp) {
-  make(GetParam());
-  joint(990);
-  image(1000, 1005);
-  EXPECT_EQ(next(1005), -1);
-  joint(999);
-  EXPECT_EQ(next(1010), -1) << "the latest state is not taken";
-  EXPECT_EQ(queue_->wake_at(), 1205 * ms);
-  joint(1009);
-  ASSERT_EQ(next(1011), 1000);
-  EXPECT_EQ(frame_.pose.status, FrameStatus::ok);
-  EXPECT_NEAR(frame_.pose.joints.positions[0], 1.0, 1e-12);
-  EXPECT_EQ(frame_.pose.age, 9 * ms);
-  EXPECT_EQ(frame_.waited, 6 * ms);
-  EXPECT_EQ(next(1011), -1);
-  EXPECT_FALSE(queue_->wake_at());
-  EXPECT_EQ(queue_->counts().given_out, 1U);
-  EXPECT_EQ(queue_->counts().waiting, 0U);
-}
-
 TEST_P(EveryPolicy, DisagreementIsKnownAtOnce) {
   make({.policy = GetParam(), .poses = {.source = PoseSource::both}});
   joint(1000);

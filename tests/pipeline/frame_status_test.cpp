@@ -117,23 +117,6 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   EXPECT_EQ(process(with_joints(answer)).joint_age, 1500);
 }
 
-TEST(FrameStatusOfRobot, AQuaternionThatIsNone) {
-  Pipeline pipeline(
-      Robot::parse(R"(<robot name="free"><link name="base"/><link name="ball"><collision><geometry>
-        <sphere radius="0.1"/></geometry></collision></link><joint name="free" type="floating">
-        <parent link="base"/><child link="ball"/></joint></robot>)",
-                   "."),
-      slab_camera());
-  const auto status = [&](double qx, double qw) {
-    const std::vector<double> positions = {0.0, 0.0, 1.0, qx, 0.0, 0.0, qw};
-    return pipeline.process({.joints = positions}).status;
-  };
-  EXPECT_EQ(status(0.0, 1.0), FrameStatus::missing_depth);
-  EXPECT_EQ(status(0.6, 0.8), FrameStatus::missing_depth);
-  EXPECT_EQ(status(0.0, 0.0), FrameStatus::missing_joints);
-  EXPECT_EQ(status(0.5, 1.0), FrameStatus::missing_joints);
-}
-
 /// As blind as no image.
 TEST_F(FrameStatusTest, DepthWithoutAnyMeasurement) {
   Frame frame = good();

@@ -104,29 +104,6 @@ TEST_F(TargetsTest, EstimatesOfTheCameraAreBroughtToTheRoot) {
   }
 }
 
-/// Not even where it is of a frame that was judged before.
-TEST_F(TargetsTest, EstimatesInAnUnknownFrameAreRefused) {
-  Target target = region("a", beside_slab);
-  target.handling = PointTrackerConfig{};
-  judge(1 * ms, target);
-  target.estimate = TargetEstimate{
-      .value = Eigen::Vector3d(0, 0, 1), .stamp = 1 * ms, .frame = ReferenceFrame::of_link("arm")};
-  const TargetReport& report = judge(2 * ms, target);
-  EXPECT_EQ(report.verdict, Verdict::unknown);
-  EXPECT_NE(report.reason.find("'arm'"), std::string_view::npos) << report.reason;
-  EXPECT_EQ(report.estimate, Outcome::refused_invalid);
-}
-
-TEST_F(TargetsTest, WithoutStampsNothingIsHandled) {
-  const Target target = followed(beside_slab);
-  const FrameReport& report = pipeline_.process(
-      {.stamp = {}, .depth = depth_.view(), .joints = positions_, .targets = {&target, 1}});
-  EXPECT_EQ(report.targets[0].verdict, Verdict::visible);
-  EXPECT_FALSE(report.targets[0].handled);
-  EXPECT_TRUE(report.targets[0].wants_stamp);
-  EXPECT_FALSE(judge(1 * ms, target).wants_stamp);
-}
-
 TEST_F(TargetsTest, AForgottenTargetStartsAnew) {
   judge(0, followed(beside_slab));
   pipeline_.forget_target("hand");
@@ -161,14 +138,6 @@ TEST_F(TargetsTest, EstimatesInTheCameraAreInvalid) {
   }
   target.estimate = TargetEstimate{.value = Eigen::Vector3d(0, 0, 1)};
   EXPECT_EQ(judge(100 * ms, target).estimate, penumbra::Outcome::accepted) << "not held against it";
-}
-
-/// As of a clock that stands still.
-TEST_F(TargetsTest, ARefusedEstimateIsNotMeasured) {
-  ASSERT_EQ(judge(0, estimated(0, beside_slab, 0.0)).handled->source, Source::measured);
-  const TargetReport& report = judge(0, estimated(0, beside_slab, 0.17));
-  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_invalid);
-  EXPECT_EQ(report.handled->source, Source::predicted);
 }
 
 }  // namespace

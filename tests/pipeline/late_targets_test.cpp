@@ -109,13 +109,5 @@ TEST_F(LateTargetsTest, StampsThatGoBackLeaveHysteresisAlone) {
       << "it has not left that yet";
 }
 
-TEST(TargetHistory, OutsideOfItsBoundsIsRefused) {
-  PipelineConfig config = plain_config();
-  for (const double seconds : {-1.0, 61.0, std::numeric_limits<double>::quiet_NaN()}) {
-    config.target_history = seconds;
-    EXPECT_THROW(Pipeline(slab_robot(), slab_camera(), config), InputError);
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -106,30 +106,6 @@ TEST(Lens, RawImagesShowWhatRaysThroughTheLensMeet) {
   EXPECT_GT(uncovered, 1000U) << "corners of some";
 }
 
-TEST(Lens, CountsOfAFrameAddUp) {
-  const Camera camera = lens_camera();
-  const std::vector<double> positions = {0.0};
-  const Image<float> depth(camera.intrinsics.width(), camera.intrinsics.height(), 0.6F);
-  for (const ImageSpace image : {ImageSpace::raw, ImageSpace::rectified}) {
-    PipelineConfig config = plain_config();
-    config.image = image;
-    Pipeline pipeline(slab_robot(), camera, config);
-    for (const DepthView& seen : {DepthView{}, DepthView{depth.view()}}) {
-      const FrameReport& report = pipeline.process({.depth = seen, .joints = positions});
-      const PixelCounts& p = report.pixels;
-      EXPECT_EQ(p.robot, p.front + p.occluded + p.unknown + p.beyond);
-      const auto labels = pixels_of(report.labels);
-      EXPECT_EQ(std::count(labels.begin(), labels.end(), unknown_label),
-                static_cast<std::ptrdiff_t>(p.unknown + p.uncovered));
-    }
-    const PixelCounts lost = pipeline.process({.depth = depth.view()}).pixels;
-    EXPECT_GT(lost.uncovered, 0U);
-    EXPECT_EQ(lost.unknown + lost.uncovered,
-              static_cast<std::size_t>(pipeline.intrinsics().width()) *
-                  static_cast<std::size_t>(pipeline.intrinsics().height()));
-  }
-}
-
 TEST(Lens, RawDepthIsComparedWhereItWasMeasured) {
   const Camera camera = lens_camera();
   const Image<Seen> seen = cast_all(camera, 0.0);
@@ -183,51 +159,6 @@ TEST(Lens, RectifiedImagesArePinholeImages) {
   EXPECT_GT(uncovered, 100U) << "what the camera never saw";
   EXPECT_EQ(report.pixels.uncovered, uncovered);
   EXPECT_EQ(report.pixels.unknown, hidden);
-}
-
-/// Blocks of an object, of the wall and of no measurement at random places.
-Image<float> random_depth(const Intrinsics& k, std::mt19937_64& random) {
-  Image<float> depth(k.width(), k.height(), static_cast<float>(wall_depth));
-  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  for (int i = 0; i < 60; ++i) {
-    const int u0 = below(k.width()), v0 = below(k.height());
-    const float value = i % 4 == 0 ? 0.0F : i % 4 == 1 ? static_cast<float>(wall_depth) : 0.4F;
-    for (int v = v0; v < std::min(v0 + 4 + below(24), k.height()); ++v)
-      std::fill_n(depth.view().row(v) + u0, std::min(4 + below(8), k.width() - u0), value);
-  }
-  return depth;
-}
-
-TEST(Lens, RectifiedLabelsAreThoseOfTheWholeRectifiedDepthImage) {
-  std::mt19937_64 random = seeded_random(7);
-  const Camera camera = lens_camera();
-  PipelineConfig config;  // with the clean-up, which looks beside the robot
-  config.image = ImageSpace::rectified;
-  Pipeline pipeline(slab_robot(), camera, config);
-  const Intrinsics& k = pipeline.intrinsics();
-  const auto to_raw = pipeline.rectification()->pinhole_to_raw();
-  Image<float> rectified(k.width(), k.height());
-  std::size_t front = 0;
-  for (int frame = 0; frame < 60; ++frame) {
-    // A robot that fills the image behind an object that does too, then a smaller one: what the
-    // first left beside the second must not count.
-    const bool near = frame % 2 == 0;
-    const std::vector<double> positions = {near ? -0.85 : -0.3};
-    const Image<float> depth =
-        near ? Image<float>(camera.intrinsics.width(), camera.intrinsics.height(), 0.05F)
-             : random_depth(camera.intrinsics, random);
-    const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
-    remap(pipeline.rectification()->pinhole_to_raw(), depth.view(), 0.0F, rectified.view());
-    const ImageView<const float> whole = std::as_const(rectified).view();
-    Classifier classifier(k.width(), k.height(), config.rule);
-    const LabelView expected = classifier.classify(report.virtual_depth, whole);
-    front += report.pixels.front;
-    auto labels = pixels_of(expected.labels);
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      if (to_raw.data[i] == Rectification::no_pixel) labels[i] = unknown_label;
-    ASSERT_EQ(pixels_of(report.labels), labels) << "frame " << frame;
-  }
-  EXPECT_GT(front, 1000U);
 }
 
 }  // namespace

@@ -92,29 +92,6 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
   }
 }
 
-TEST(Pipeline, GivesTheSameImagesForEveryThreadCountAndEveryTime) {
-  const Camera camera = slab_camera();
-  const EditedScene scene = edited_scene(camera, 0.05);
-  const std::vector<double> positions = {0.05};
-  const std::vector<double> elsewhere = {-0.4};
-  std::vector<float> depth;
-  std::vector<std::uint8_t> labels;
-  for (const int threads : {1, 2, 4}) {
-    PipelineConfig config;
-    config.renderer.threads = threads;
-    Pipeline pipeline(slab_robot(), camera, config);
-    for (int round = 0; round < 3; ++round) {
-      static_cast<void>(pipeline.process({.joints = elsewhere}));
-      const FrameReport& report =
-          pipeline.process({.depth = scene.depth.view(), .joints = positions});
-      if (depth.empty()) depth = pixels_of(report.virtual_depth.depth);
-      if (labels.empty()) labels = pixels_of(report.labels);
-      ASSERT_EQ(pixels_of(report.virtual_depth.depth), depth) << threads << " threads";
-      ASSERT_EQ(pixels_of(report.labels), labels) << threads << " threads";
-    }
-  }
-}
-
 TEST(Pipeline, TakesTheCameraOnAMovingLink) {
   PipelineConfig config = plain_config();
   config.camera_parent = "slab";

@@ -50,29 +50,6 @@ TEST_F(UncertainLinksTest, AreUnknownInThatLinkAlone) {
   }
 }
 
-TEST_F(UncertainLinksTest, AreUnknownOnAFrameThatIsKept) {
-  frame_at(0, true, {});
-  frame_at(100 * ms, false, {});
-  for (const std::int64_t stamp : {std::int64_t{0}, 100 * ms}) {
-    Target late = point(stamp == 0 ? "first" : "second", "plate");
-    late.stamp = stamp;
-    const TargetReport& report = frame_at(200 * ms, stamp != 0, {&late, 1}).targets[0];
-    if (stamp == 0)
-      expect_unknown(report);
-    else
-      EXPECT_TRUE(report.judgement) << report.reason;
-  }
-}
-
-TEST_F(UncertainLinksTest, EstimatesInThatLinkAreRefused) {
-  Target target = region("handled", beside_slab);
-  target.handling = PointTrackerConfig{};
-  target.estimate = TargetEstimate{.value = Eigen::Vector3d(0.1, 0.0, 0.2),
-                                   .frame = ReferenceFrame::of_link("plate")};
-  EXPECT_EQ(frame_at(0, true, {&target, 1}).targets[0].estimate, Outcome::refused_invalid);
-  EXPECT_EQ(frame_at(100 * ms, false, {&target, 1}).targets[0].estimate, Outcome::accepted);
-}
-
 TEST_F(UncertainLinksTest, WhatIsNoLinkIsRefused) {
   const std::size_t count = slab_robot().links().size();
   const auto process = [&](std::size_t link) {

@@ -11,32 +11,6 @@
 namespace penumbra::test {
 namespace {
 
-/// A frame of a sensor that fails says nothing of what the robot does not hide.
-TEST_F(TargetsTest, ADepthImageWithoutMeasurementIsNone) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = 2.0 * slab_camera().intrinsics.ray(20, 85);
-  const std::vector<Target> targets{
-      {.name = "solid",
-       .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
-       .handling = PoseTrackerConfig{}},
-      {.name = "region",
-       .shape = RegionTarget{beside_slab},
-       .handling = PoseTrackerConfig{},
-       .estimate = TargetEstimate{.value = pose, .frame = ReferenceFrame::root()}},
-      {.name = "behind", .shape = RegionTarget{behind_slab, Extent::amodal, 2.0}}};
-  depth_ = Image<float>(depth_.width(), depth_.height(), 0.0F);
-  const FrameReport& report = process(1 * ms, targets);
-  EXPECT_EQ(report.status, FrameStatus::bad_depth);
-  for (const std::size_t i : {0U, 1U}) {
-    EXPECT_EQ(report.targets[i].verdict, Verdict::unknown);
-    EXPECT_EQ(report.targets[i].reason,
-              "bad_depth: no pixel of the depth image holds a measurement");
-    EXPECT_EQ(report.targets[i].estimate, penumbra::Outcome::refused_verdict);
-    EXPECT_EQ(report.targets[i].handled->source, Source::lost);
-  }
-  EXPECT_EQ(report.targets[2].verdict, Verdict::hidden) << "the model says so";
-}
-
 class TargetsWithinARange : public TargetsTest {
  protected:
   TargetsWithinARange() {

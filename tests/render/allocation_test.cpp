@@ -41,28 +41,5 @@ TEST_P(Allocation, NoneInTheFrameLoop) {
   EXPECT_EQ(allocations() - before, 0U);
 }
 
-/// Fine enough that a list of its triangles is larger than anything else that is made.
-class ShortMemory : public ::testing::Test {
- protected:
-  static constexpr std::size_t large = 2'000'000;  // bytes; 12 for a triangle
-
-  void SetUp() override {
-    if (!has_opengl()) GTEST_SKIP() << no_opengl;
-    scene_.add(sphere(0.1F, 320));
-    const auto renderer = make(opengl_, camera_, scene_.bodies());  // the driver's own memory
-    ASSERT_GT(renderer->triangle_count() * 12, large);
-  }
-
-  const BackendChoice opengl_{Backend::gl, "", 1};
-  const Intrinsics camera_{32, 24, 30.0, 30.0, 16.0, 12.0};
-  Scene scene_;
-};
-
-TEST_F(ShortMemory, IsTheUsersFaultAndSaysWhatIsLarge) {
-  const MemoryShortage shortage(large, 0);
-  expect_refused([&] { static_cast<void>(make(opengl_, camera_, scene_.bodies())); },
-                 {" triangles", "32 x 24"});
-}
-
 }  // namespace
 }  // namespace penumbra::test

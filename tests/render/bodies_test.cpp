@@ -18,32 +18,6 @@ using Eigen::Vector3f;
 class Bodies : public RenderTest {};
 PENUMBRA_FOR_EACH_BACKEND(Bodies, 2);
 
-TEST_P(Bodies, OpenMeshIsSeenFromItsBackToo) {
-  Scene front;
-  front.add(image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, 1.0));
-  Scene back;
-  back.add(image_rectangle(small_camera, 90.5, 20.5, 20.5, 90.5, 1.0));
-  const Frame seen_from_front = render(small_camera, front);
-  EXPECT_EQ(seen_from_front.covered(), 4900U);
-  EXPECT_EQ(render(small_camera, back).covered(), 4900U);
-}
-
-TEST_P(Bodies, InwardWoundMeshOfTwoPieces) {
-  // One piece wound outwards and one inwards, in one mesh: neither side may be culled as a whole.
-  TriangleMesh pieces = box({0.1F, 0.1F, 0.1F});
-  const auto first = static_cast<std::uint32_t>(pieces.vertices.size());
-  const TriangleMesh other = mirrored(box({0.1F, 0.1F, 0.1F}));
-  for (const Vector3f& vertex : other.vertices) {
-    pieces.vertices.emplace_back(vertex + Vector3f(0.3F, 0, 0));
-  }
-  for (const auto& [a, b, c] : other.triangles) {
-    pieces.triangles.push_back({a + first, b + first, c + first});
-  }
-  Scene scene;
-  scene.add(pieces, at(-0.15, 0.0, 0.8) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()));
-  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
-}
-
 TEST_P(Bodies, PiercedBodiesShowTheirInsidesThroughTheirHoles) {
   std::mt19937_64 random = seeded_random(63);
   std::size_t seen_inside = 0;
@@ -90,43 +64,6 @@ TEST_P(Bodies, SurfacesThatShowTheirBacksFromOutsideAreDrawnWhole) {
     }
 }
 
-TEST_P(Bodies, DegenerateTrianglesDrawNothing) {
-  TriangleMesh mesh = image_rectangle(small_camera, 20.5, 20.5, 90.5, 90.5, 1.0);
-  mesh.vertices.emplace_back(0.0F, 0.0F, 0.5F);
-  mesh.vertices.emplace_back(0.1F, 0.1F, 0.5F);
-  mesh.vertices.emplace_back(0.2F, 0.2F, 0.5F);
-  mesh.triangles.push_back({4, 4, 4});
-  mesh.triangles.push_back({4, 5, 5});
-  mesh.triangles.push_back({4, 5, 6});
-  mesh.triangles.push_back({4, 6, 4});
-  Scene scene;
-  scene.add(mesh);
-  const Frame frame = render(small_camera, scene);
-  EXPECT_EQ(frame.covered(), 4900U);
-  EXPECT_NEAR(frame.depth(81, 58), 1.0, interior_tolerance);
-}
-
-TEST_P(Bodies, SliversAndEdgeOnFaces) {
-  std::mt19937_64 random = seeded_random(61);
-  std::uniform_real_distribution<float> coordinate(-0.4F, 0.4F);
-  TriangleMesh slivers;
-  for (std::uint32_t i = 0; i < 60; ++i) {
-    const float x = coordinate(random);
-    const float y = coordinate(random);
-    const Vector3f a(x, y, coordinate(random));
-    const float w = 1e-3F * coordinate(random);
-    slivers.vertices.push_back(a);
-    slivers.vertices.emplace_back(-a + Vector3f(w, -w, w));
-    slivers.vertices.emplace_back(-a + Vector3f(-w, w, 0.0F));
-    slivers.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  Scene scene;
-  scene.add(slivers, at(0, 0, 1));
-  // A thin plate whose broad faces pass close to the camera's centre.
-  scene.add(box({0.3F, 0.0005F, 0.3F}), at(0, 0.0007, 1.4));
-  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
-}
-
 TEST_P(Bodies, MostBodiesThatThereMayBe) {
   Scene scene;
   for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
@@ -162,25 +99,6 @@ TEST_P(Bodies, BodiesOfNothingTakeNoNumbersFromOthers) {
   }
   scene.poses.assign(scene.poses.size(), at(0, 0, -3));
   EXPECT_EQ(Frame(renderer->render(scene.poses)).covered(), 0U);
-}
-
-TEST_P(Bodies, NoBodyAndBodiesOfNothing) {
-  Scene scene;
-  EXPECT_EQ(render(small_camera, scene).covered(), 0U);
-  scene.add(std::vector<TriangleMesh>{});
-  scene.add(TriangleMesh{});
-  EXPECT_EQ(render(small_camera, scene).covered(), 0U);
-  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  const Frame frame = render(small_camera, scene);
-  EXPECT_GT(frame.covered(), 0U);
-  EXPECT_EQ(frame.links(81, 58), 3);
-}
-
-TEST_P(Bodies, CoincidingBodiesNameOneOfThem) {
-  Scene scene;
-  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  expect_agrees_with_brute_force(render(small_camera, scene).view(), scene, small_camera);
 }
 
 TEST_P(Bodies, NothingOfThePreviousFrameSurvives) {

@@ -27,14 +27,6 @@ void expect_depth(const Frame& frame, const Intrinsics& intrinsics, Depth&& expe
   EXPECT_LE(worst, interior_tolerance);
 }
 
-TEST_P(ClosedForm, FacingPlaneFillsTheImage) {
-  Scene scene;
-  scene.add(image_rectangle(small_camera, -50, -50, 250, 250, 1.5));
-  const Frame frame = render(small_camera, scene);
-  EXPECT_EQ(frame.covered(), frame.depth.size());
-  expect_depth(frame, small_camera, [](const Vector3d&) { return 1.5; });
-}
-
 TEST_P(ClosedForm, TiltedPlanes) {
   for (const double degrees : {-80.0, -45.0, -5.0, 20.0, 60.0, 75.0}) {
     for (const Vector3d& axis : {Vector3d::UnitX().eval(), Vector3d::UnitY().eval()}) {

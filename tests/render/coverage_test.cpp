@@ -98,34 +98,6 @@ TEST_P(Coverage, GridsHaveNoCracks) {
   }
 }
 
-TEST_P(Coverage, TriangulatedFansHaveNoCracks) {
-  std::mt19937_64 random = seeded_random(42);
-  for (int round = 0; round < 20; ++round) {
-    // The hub lies on a pixel's centre, and every spoke runs through further centres.
-    const int hub_u = 40 + static_cast<int>(random() % 40);
-    const int hub_v = 30 + static_cast<int>(random() % 30);
-    std::vector<Vector2d> rim;
-    const int stride = 1 + static_cast<int>(random() % 10);
-    for (int u = 10; u < 110; u += stride) rim.emplace_back(u, 5);
-    for (int v = 5; v < 85; v += stride) rim.emplace_back(110, v);
-    for (int u = 110; u > 10; u -= stride) rim.emplace_back(u, 85);
-    for (int v = 85; v > 5; v -= stride) rim.emplace_back(10, v);
-    TriangleMesh fan;
-    fan.vertices.emplace_back(exact_camera.ray(hub_u, hub_v).cast<float>());
-    for (const Vector2d& p : rim) {
-      fan.vertices.emplace_back(exact_camera.ray(p.x(), p.y()).cast<float>());
-    }
-    const auto count = static_cast<std::uint32_t>(rim.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
-    }
-    Scene scene;
-    scene.add(fan);
-    const Frame frame = render(exact_camera, scene);
-    EXPECT_EQ(covered_inside(frame, 11, 6, 109, 84), 99U * 79U) << "round " << round;
-  }
-}
-
 TEST_P(Coverage, EveryImageSize) {
   std::mt19937_64 random = seeded_random(44);
   for (const auto& [width, height] : {std::pair{1, 1},

@@ -66,38 +66,21 @@ TEST_F(GlEnvironment, DrawsWithoutADisplay) {
   EXPECT_NE(probe("").find("drawn: 2\n"), std::string::npos);
 }
 
-TEST_F(GlEnvironment, APlatformOfNonsenseDoesNotMatter) {
-  EXPECT_NE(probe("EGL_PLATFORM=nonsense").find("drawn: 2\n"), std::string::npos);
-}
-
 TEST_F(GlEnvironment, WithoutEgl) {
   const BrokenLibraries broken({"libEGL.so.1"});
   expect_refused(broken.first_of_all(), "libEGL.so.1 cannot be loaded");
-}
-
-TEST_F(GlEnvironment, WithoutOpenGl) {
-  const BrokenLibraries broken({"libOpenGL.so.0", "libGL.so.1"});
-  expect_refused(broken.first_of_all(), "libOpenGL.so.0");
 }
 
 TEST_F(GlEnvironment, WithoutADriver) {
   expect_refused("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent", "EGL offers no device");
 }
 
-TEST_F(GlEnvironment, OlderOpenGlIsRefusedWithWhatWasFound) {
+TEST_F(GlEnvironment, OlderOpenGlIsRefused) {
   // Mesa's own switch; the vendors of GPUs have none.
   const std::string text = probe("MESA_GL_VERSION_OVERRIDE=3.3");
   if (text.find("Mesa") == std::string::npos) GTEST_SKIP() << "skipped: not Mesa";
-  EXPECT_NE(text.find("refused: renderer 'gl': OpenGL 4.5 is needed, found OpenGL 3.3"),
-            std::string::npos)
-      << text;
+  EXPECT_NE(text.find("refused: renderer 'gl': OpenGL 4.5 is needed"), std::string::npos) << text;
   EXPECT_NE(text.find("fault: renderer 'gl': OpenGL 4.5 is needed"), std::string::npos) << text;
-}
-
-TEST_F(GlEnvironment, ADriverThatCannotBeLoadedIsTheDevicesFault) {
-  const std::string text = probe("LIBGL_DRIVERS_PATH=/nonexistent");
-  if (text.find("drawn: ") != std::string::npos) GTEST_SKIP() << "skipped: not Mesa";
-  EXPECT_NE(text.find("refused: renderer 'gl': "), std::string::npos) << text;
 }
 
 }  // namespace

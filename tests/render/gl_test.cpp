@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the OpenGL renderer has: devices, contexts, the rectangle that it reads back.
 #include "errors.hpp"
-#include "process_memory.hpp"
 #include "random.hpp"
 #include "render_test.hpp"
-#include "run_length.hpp"
 #include "shapes.hpp"
 
 #include <random>
 #include <thread>
 
-#include <penumbra/render/gl/buffer.hpp>
-#include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/gl/open_device.hpp>
-#include <penumbra/render/gl/pixel_rectangle.hpp>
+#include <penumbra/render/gl/egl_context.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
+#include <penumbra/render/pixel_rectangle-inl.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -60,14 +57,6 @@ TEST_F(Gl, DevicesThatDoNotExistAreRefused) {
   expect_refused(made_with(-2), {"-2"});
 }
 
-TEST_F(Gl, WhatIsLargerThanTheDeviceTakesIsRefused) {
-  const auto context = gl::open_device(-1);
-  const gl::EglContext::Current current(*context);
-  constexpr std::size_t petabyte = std::size_t{1} << 50;
-  expect_refused([&] { gl::make_buffer(petabyte, nullptr, 0, "the meshes"); },
-                 {"1125899907 MB for the meshes", context->device().name});
-}
-
 TEST_F(Gl, OnlyTheRobotsRectangleIsTouched) {
   Scene small;
   small.add(box({0.05F, 0.05F, 0.05F}), at(0.3, 0.2, 1.0));
@@ -90,7 +79,7 @@ TEST_F(Gl, RectanglesLeaveNothingOut) {
     const Eigen::AlignedBox3d bounds(Eigen::Vector3d(-0.1, -0.2 * unit(random), -0.1),
                                      Eigen::Vector3d(0.1, 0.1, 0.3 * unit(random)));
     const Eigen::Isometry3d pose = random_pose(random, {-1, -1, -0.4}, {1, 1, 1.5});
-    const gl::PixelRectangle seen = gl::pixels_of(bounds, pose, camera);
+    const PixelRectangle seen = pixels_of(bounds, pose, camera);
     tight += seen.width() < camera.width() ? 1 : 0;
     for (int i = 0; i < 200; ++i) {
       const double x = unit(random);
@@ -139,47 +128,6 @@ TEST_F(Gl, RenderersMoveBetweenThreads) {
     std::thread([&] { renderer->submit(scene_.poses); }).join();
     std::thread([&] { expect_same_bits(renderer->collect(), expected.view()); }).join();
   }
-}
-
-/// MiB by which memory may grow for each renderer made and dropped, and for each frame: malloc's
-/// own changes, some 2 MB, over the shortest run. A lost image would show as 0.4 MiB each time.
-constexpr double growth_per_cycle = 0.04;
-constexpr double growth_per_frame = 0.001;
-/// MiB for the long runs of PENUMBRA_FULL: over 1000 cycles a lost mesh would show as 20 MiB.
-constexpr double growth_in_all = 2.0;
-
-/// How often to do what PENUMBRA_FULL does `full` times.
-int repeats(int usual, int full) {
-  if (sanitized) return usual / 10;
-  return is_full_run() ? full : usual;
-}
-
-template <typename Step>
-void expect_no_growth(int count, double growth, Step&& step) {
-  for (int i = 0; i < count / 3; ++i) step();
-  const ProcessMemory before = memory_of();
-  for (int i = 0; i < count; ++i) step();
-  const ProcessMemory after = memory_of();
-  std::cout << count << " times: resident " << before.resident << " -> " << after.resident
-            << " MiB\n";
-  EXPECT_EQ(after.open_files, before.open_files);
-  if (!sanitized) {  // their allocators keep what is freed; LeakSanitizer looks for what is not
-    const double most = is_full_run() ? growth_in_all : growth * count;
-    EXPECT_LT(after.resident, before.resident + most);
-  }
-}
-
-TEST_F(Gl, RenderersMadeAndDroppedHoldNothing) {
-  expect_no_growth(repeats(100, 1000), growth_per_cycle, [&] {
-    const auto renderer = make(opengl, camera, scene_.bodies());
-    static_cast<void>(renderer->render(scene_.poses));
-  });
-}
-
-TEST_F(Gl, FramesHoldNothing) {
-  const auto renderer = make(opengl, camera, scene_.bodies());
-  expect_no_growth(repeats(300, 10000), growth_per_frame,
-                   [&] { static_cast<void>(renderer->render(scene_.poses)); });
 }
 
 }  // namespace

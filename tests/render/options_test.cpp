@@ -37,12 +37,6 @@ TEST(RendererOptions, UnknownIsaIsRefusedWithTheListOfThoseThatAre) {
   EXPECT_EQ(make({Backend::cpu, "", 1}, camera, {})->info().isa, simd_target_names().front());
 }
 
-TEST(RendererOptions, ThreadsBelowOneAreRefused) {
-  for (const int threads : {0, -1, RendererOptions::max_threads + 1}) {
-    EXPECT_THROW(static_cast<void>(make({Backend::cpu, "", threads}, camera, {})), InputError);
-  }
-}
-
 TEST(Threads, AnyNumberGivesTheSameBits) {
   std::mt19937_64 random = seeded_random(72);
   Scene scene = crowded_scene();

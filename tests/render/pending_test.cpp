@@ -37,11 +37,6 @@ PENUMBRA_FOR_EACH_BACKEND(Pending, 2);
 
 const Intrinsics pending_camera(233, 157, 200.0, 205.0, 120.3, 70.9);
 
-TEST_P(Pending, AsManyAsTheBackendTakes) {
-  const auto renderer = make(GetParam(), pending_camera, scene_.bodies());
-  EXPECT_EQ(renderer->max_pending(), GetParam().backend == Backend::gl ? 3 : 1);
-}
-
 TEST_P(Pending, FramesComeInOrderAndAsFromRender) {
   const auto frames = random_frames(20);
   const auto plain = make(GetParam(), pending_camera, scene_.bodies());

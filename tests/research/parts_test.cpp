@@ -88,30 +88,6 @@ TEST(Bootstrap, OfAMeanHasTheWidthThatTheNormalDistributionSays) {
   EXPECT_NEAR(*interval.value, 0.0495, 1e-12);
 }
 
-/// R's poisson.test and binom.test, to their digits.
-TEST(Confidence, IsTheExactOneOfTables) {
-  constexpr double digits = 5e-5;
-  EXPECT_EQ(count_confidence(0).low, 0.0);
-  EXPECT_NEAR(count_confidence(0).high, 3.6889, digits);
-  EXPECT_NEAR(count_confidence(1).low, 0.0253, digits);
-  EXPECT_NEAR(count_confidence(1).high, 5.5716, digits);
-  EXPECT_NEAR(count_confidence(5).low, 1.6235, digits);
-  EXPECT_NEAR(count_confidence(5).high, 11.6683, digits);
-  EXPECT_EQ(fraction_confidence(0, 30).low, 0.0);
-  EXPECT_NEAR(fraction_confidence(0, 30).high, 0.1157, digits);
-  EXPECT_NEAR(fraction_confidence(3, 30).low, 0.0211, digits);
-  EXPECT_NEAR(fraction_confidence(3, 30).high, 0.2653, digits);
-  EXPECT_NEAR(fraction_confidence(30, 30).low, 0.8843, digits);
-  EXPECT_EQ(fraction_confidence(30, 30).high, 1.0);
-  // "None of 30" leaves room for some.
-  const auto runs = runs_of(std::vector<double>(30, 0.01));
-  const auto all = methods_of(runs);
-  const auto conveyor = measures_of("conveyor");
-  const Interval wrong = interval_of(measure_named(conveyor, "wrong_accepted"), all);
-  EXPECT_EQ(wrong.value, 0.0);
-  EXPECT_NEAR(wrong.confidence.value().high, 3.6889 / 30, digits);
-}
-
 TEST(BoxDepth, IsWhereARayEntersTheBox) {
   Eigen::Isometry3d T_object_camera = Eigen::Isometry3d::Identity();
   T_object_camera.translation().z() = -2;

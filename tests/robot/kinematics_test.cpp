@@ -61,15 +61,6 @@ TEST(Kinematics, ParentsStandBeforeChildrenAndJointsInOrderOfLinks) {
   EXPECT_FALSE(robot.find_variable(""));
 }
 
-TEST(Kinematics, QuaternionOriginIsTheSameAsRpy) {
-  const Robot by_rpy = one_joint("fixed", "<origin rpy=\"0.3 -0.8 2.1\"/>");
-  const Eigen::Quaterniond q(by_rpy.joints()[0].origin.linear());
-  const Robot by_quaternion =
-      one_joint("fixed", "<origin quat_xyzw=\"" + exact(q.x()) + " " + exact(q.y()) + " " +
-                             exact(q.z()) + " " + exact(q.w()) + "\"/>");
-  EXPECT_TRUE(by_quaternion.joints()[0].origin.isApprox(by_rpy.joints()[0].origin, 1e-12));
-}
-
 TEST(Kinematics, WhatIsNotGivenFollowsTheSpecification) {
   expect_point(pose(one_joint("prismatic", ""), {2.0})[1].translation(), {2, 0, 0});
   EXPECT_EQ(one_joint("fixed", "<axis xyz=\"0 0 0\"/><mimic joint=\"gone\"/>").variables().size(),

@@ -52,14 +52,6 @@ TEST_F(Packages, GivenFolderGoesFirstAndNeedsNoNote) {
   EXPECT_TRUE(robot.notes().empty());
 }
 
-TEST_F(Packages, GivenFolderMustExist) {
-  expect_refused(
-      [&] {
-        (void)load("package://p/t.stl", {.packages = {{"p", in("nil")}}});
-      },
-      {"which is no folder"});
-}
-
 TEST_F(Packages, AmentPrefixesInTheirOrder) {
   add_mesh("two/share/p/t.stl", 2);
   add_mesh("three/share/p/t.stl", 3);
@@ -96,28 +88,6 @@ TEST_F(Packages, AreFoundByNameManifestOrPlace) {
   }
 }
 
-TEST_F(Packages, FoundBesideAUrdfOfTheWorkingFolder) {
-  add_mesh("work/robots/p/t.stl", 8);
-  static_cast<void>(load("package://p/t.stl"));
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(in("work/robots"));
-  EXPECT_EQ(size_of(Robot::load("r.urdf")), 8.0);
-  std::filesystem::current_path(before);
-}
-
-TEST_F(Packages, OnePackageIsNotedOnce) {
-  add_mesh("work/robots/p/t.stl", 1);
-  add_mesh("work/robots/p/u.stl", 1);
-  const auto file = folder_.write(
-      "work/robots/r.urdf",
-      robot_xml(link_xml("a", collision_xml("<mesh filename=\"package://p/t.stl\"/>") +
-                                  collision_xml("<mesh filename=\"package://p/u.stl\"/>") +
-                                  collision_xml("<mesh filename=\"package://p/t.stl\"/>"))));
-  const Robot robot = Robot::load(file);
-  EXPECT_EQ(robot.notes().size(), 1u);
-  EXPECT_EQ(robot.meshes(0).size(), 3u);
-}
-
 TEST_F(Packages, UnknownPackageAndMissingFileAreSaid) {
   const std::string unknown = message_of([&] { (void)load("package://p/t.stl"); });
   EXPECT_TRUE(holds(unknown, "package \"p\" was not found"));
@@ -128,11 +98,6 @@ TEST_F(Packages, UnknownPackageAndMissingFileAreSaid) {
         (void)load("package://p/u.stl", {.packages = {{"p", in("given")}}});
       },
       {"no file at " + in("given/u.stl")});
-}
-
-TEST_F(Packages, MalformedUriIsSaid) {
-  for (const char* uri : {"package://", "package:///t.stl", "package://p", "package://p/"})
-    expect_refused([&] { (void)load(uri); }, {"not of the form"});
 }
 
 }  // namespace

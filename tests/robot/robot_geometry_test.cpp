@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../mesh/signed_volume.hpp"
 #include "../support/temporary_folder.hpp"
 #include "urdf_text.hpp"
 
@@ -16,14 +17,6 @@ using Eigen::Vector3d;
 
 // Vertices are rounded to float once, at about a metre.
 constexpr double kVertexTolerance = 1e-6;
-
-double signed_volume(const TriangleMesh& mesh) {
-  double volume = 0.0;
-  for (const auto& t : mesh.triangles)
-    volume += mesh.vertices[t[0]].cast<double>().dot(
-        mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
-  return volume / 6.0;
-}
 
 const LinkReport& report_of(const Robot& robot, const std::string& link) {
   return robot.report()[*robot.find_link(link)];
@@ -111,28 +104,10 @@ TEST(LinkChoice, LinksThatLackTheChosenGeometryAreRefusedWithTheWaysOut) {
   }
 }
 
-TEST(LinkChoice, LinksThatLackTheChosenGeometryAreMissingWhereThatIsAllowed) {
-  const Robot robot = parse(four_links(), {.allow_missing_meshes = true});
-  for (const LinkReport& report : robot.report())
-    EXPECT_EQ(report.missing, report.link == "b") << report.link;
-  EXPECT_FALSE(report_of(robot, "b").drawn);
-  EXPECT_EQ(report_of(robot, "b").fault, "");
-  ASSERT_EQ(robot.notes().size(), 1U);
-  EXPECT_TRUE(holds(robot.notes()[0], "1 link has no collision geometry, only visual: \"b\""));
-}
-
 TEST(LinkChoice, IgnoreAndOnlyTakePatterns) {
   EXPECT_EQ(drawn({.ignore_links = {"[ab]"}}), "d");
   EXPECT_EQ(drawn({.only_links = {"a", "c"}}), "a");
   EXPECT_EQ(drawn({.ignore_links = {"a", "b"}, .only_links = {"*"}}), "d");
-}
-
-TEST(LinkChoice, PatternWithoutALinkIsAnError) {
-  for (const RobotOptions& options :
-       {RobotOptions{.ignore_links = {"nil*"}}, RobotOptions{.only_links = {"nil*"}},
-        RobotOptions{.geometry_of_links = {{"nil*", Geometry::visual}}},
-        RobotOptions{.margins = {{"nil*", 0.01}}}})
-    expect_refused([&] { (void)parse(four_links(), options); }, {"\"nil*\" matches no link"});
 }
 
 TEST(LinkChoice, NameGoesBeforePatternsAndPatternsMustAgree) {
@@ -142,15 +117,6 @@ TEST(LinkChoice, NameGoesBeforePatternsAndPatternsMustAgree) {
   options.margins = {{"*", 0.01}, {"[ad]", 0.02}};
   expect_refused([&] { (void)parse(four_links(), options); },
                  {"\"*\" and \"[ad]\" have different values"});
-}
-
-TEST(LinkChoice, SenselessMarginIsAnError) {
-  for (const double margin : {10.0, -2.0, std::numeric_limits<double>::quiet_NaN()})
-    expect_refused(
-        [&] {
-          (void)parse(four_links(), {.margins = {{"a", margin}}});
-        },
-        {"margin of \"a\""});
 }
 
 TEST(Geometry, EveryElementOfALinkIsDrawn) {
@@ -268,12 +234,6 @@ TEST_F(MeshFiles, MissingMeshMayBeAllowedAndIsReported) {
   EXPECT_TRUE(b.missing);
   EXPECT_TRUE(holds(b.reason, "package \"q\" was not found"));
   EXPECT_TRUE(holds(b.fault, "r.urdf:3: link \"b\": package \"q\" was not found"));
-}
-
-TEST_F(MeshFiles, MarginMovesTheSurface) {
-  const Robot robot = load("filename=\"meshes/t.stl\"", {.margins = {{"a", 0.1}}});
-  EXPECT_EQ(robot.report()[0].margin, 0.1);
-  EXPECT_NEAR(robot.report()[0].bounds.min().x(), -0.1, 0.002);
 }
 
 TEST(Geometry, MarginsOfPrimitivesAreTheirDimensions) {

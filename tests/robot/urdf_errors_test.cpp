@@ -249,17 +249,5 @@ TEST(UrdfFile, ThatCannotBeReadIsNamed) {
   EXPECT_TRUE(holds(refused(sparse), "sparse.urdf: has 53687091200"));
 }
 
-TEST(UrdfFile, TooManyElementsAreRefusedUnread) {
-  std::string xml = "<robot name=\"r\">";
-  for (int i = 0; i < 2'000'000; ++i) xml += "<a/>";
-  expect_refused([&] { (void)parse(xml + "</robot>"); }, {"tags"});
-}
-
-TEST(UrdfFile, LongAndMultilineValuesStayOneShortLine) {
-  const std::string message = message_of(
-      [] { (void)parse(shaped("<sphere radius=\"1&#10;2" + std::string(10000, 'x') + "\"/>")); });
-  EXPECT_LT(message.size(), 400u);
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::test {
@@ -93,13 +93,6 @@ bool smooth(ImageView<const float> depth, int u, int v) {
       if (!(std::abs(depth(x, y) - z) < step * z)) return false;
     }
   return true;
-}
-
-std::vector<Body> bodies_of(const Robot& robot) {
-  std::vector<Body> bodies;
-  for (std::size_t link = 0; link < robot.links().size(); ++link)
-    bodies.push_back({robot.links()[link], robot.meshes(link)});
-  return bodies;
 }
 
 struct Agreement {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -139,20 +140,21 @@ class ModalBench {
     const Image<float> nothing(frame.ids.width(), frame.ids.height());
     judge_.begin({{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}});
     for (const Case& one : cases) {
-      judge_.forget(one.name);
-      EXPECT_EQ(judge_.judge(target_of(one, one.before)).verdict, Verdict::visible) << one.name;
+      memories_[one.name] = {};
+      EXPECT_EQ(judge_.judge(target_of(one, one.before), memories_[one.name]).verdict,
+                Verdict::visible)
+          << one.name;
     }
   }
 
   void judge(const Case& one, Tally& tally) {
     TargetView target = target_of(one, one.seen);
     if (one.way == moved) target.motion = Eigen::Vector2d(-one.du, -one.dv);
-    tally.add(one, judge_.judge(target).verdict);
+    tally.add(one, judge_.judge(target, memories_[one.name]).verdict);
   }
 
   static TargetView target_of(const Case& one, const Mask& mask) {
     TargetView target;
-    target.name = one.name;
     target.region = PixelMask{mask.view()};
     target.extent = Extent::modal;
     target.wants_point = false;
@@ -163,6 +165,7 @@ class ModalBench {
   Simulation simulation_;
   Pipeline pipeline_;
   TargetJudge judge_;
+  std::map<std::string, TargetMemory> memories_;
 };
 
 TEST(ModalTruth, WithADepthCamerasNoise) {

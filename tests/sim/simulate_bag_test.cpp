@@ -253,12 +253,6 @@ TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
   }
 }
 
-TEST_F(SimulateBag, SameSeedGivesTheSameBytes) {
-  ASSERT_EQ(simulate(scenes[1], "one.mcap").status, 0);
-  ASSERT_EQ(simulate(scenes[1], "two.mcap").status, 0);
-  EXPECT_EQ(read_file(path("one.mcap")), read_file(path("two.mcap")));
-}
-
 TEST_F(SimulateBag, RefusesBadOutput) {
   const auto refused = [&](const std::string& to, const std::string& words) {
     const Outcome outcome = simulate(scenes[0], to);
@@ -282,20 +276,6 @@ TEST_F(SimulateBag, RefusesBadOutput) {
   refused("bag.mcap", "does not hold the simulated arm's meshes");
   EXPECT_EQ(read_file(path("arm_description") / "arm.urdf"), "<robot/>");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 3);
-}
-
-TEST_F(SimulateBag, LeavesNothingOfWhatIsNotFinished) {
-  const sim::SimulationOptions options = without_noise(1);
-  sim::Simulation simulation("conveyor", options);
-  sim::SimFrame frame;
-  {
-    sim::RecordingBag bag(path("bag.mcap"), simulation, "conveyor", options);
-    ASSERT_TRUE(simulation.next(frame));
-    bag.add(frame, 0);
-    EXPECT_FALSE(fs::exists(path("bag.mcap")));
-    EXPECT_FALSE(fs::is_empty(folder_.path()));
-  }
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 }  // namespace

@@ -100,17 +100,5 @@ TEST_F(SimulateCommand, RefusesBadInput) {
   }
 }
 
-TEST_F(SimulateCommand, LeavesWhatIsThereAlone) {
-  fs::create_directory(path("full"));
-  write_file(path("full") / "mine.txt", "mine");
-  const Outcome outcome = simulate({"conveyor", "--frames", "0:1"}, "full");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("not an empty folder"), std::string::npos) << outcome.err;
-  EXPECT_EQ(std::distance(fs::directory_iterator(path("full")), fs::directory_iterator()), 1);
-  write_file(path("file"), "mine");
-  EXPECT_EQ(simulate({"conveyor", "--frames", "0:1"}, "file").status, 2);
-  EXPECT_EQ(simulate({"conveyor", "--frames", "0:1"}, "file/deeper").status, 2);
-}
-
 }  // namespace
 }  // namespace penumbra::test

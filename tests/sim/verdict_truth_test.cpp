@@ -230,16 +230,11 @@ class Bench {
   void judge(const SimFrame& frame, const ObjectTruth& target, Tallies& tallies) {
     const std::size_t links = pipeline_.robot().links().size();
     TargetView seen;
-    seen.name = target.name;
     seen.region = PixelMask{target.alone.view()};
     seen.wants_point = false;
     tallies.all[by_labels].add(truth_of(frame, target, links, false), judge_.judge(seen), target);
-    judge_.forget(target.name);
-    const std::string name = target.name + " with depth";
-    seen.name = name;
     seen.region = RenderedRegion{target.alone_depth.view()};
     tallies.all[by_depth].add(truth_of(frame, target, links, true), judge_.judge(seen), target);
-    judge_.forget(name);
   }
 
   std::vector<Target> solids_of(const SimFrame& frame) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/base/image.hpp>
 
 namespace penumbra::test {
 

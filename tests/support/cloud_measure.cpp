@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud_measure.hpp"
 
-#include <algorithm>
+#include "pasted_objects.hpp"
+
+#include <cmath>
 
 namespace penumbra::test {
 
@@ -14,52 +16,51 @@ Label label_at(const LabelView& labels, int pixel) {
   return static_cast<Label>(labels.labels(pixel % width, pixel / width));
 }
 
+tuning::NearestPixels nearest_robot(ImageView<const float> robot) {
+  Image<std::uint8_t> marked(robot.width, robot.height);
+  for (int v = 0; v < robot.height; ++v)
+    for (int u = 0; u < robot.width; ++u) marked(u, v) = robot(u, v) > 0.0F;
+  return tuning::NearestPixels(marked);
+}
+
 double Leftover::percent() const { return test::percent(left, carried + on_robot); }
-double Leftover::front_percent() const { return test::percent(front, mask); }
 
 Leftover measure_leftover(const std::vector<RealFrame>& frames,
-                          const std::vector<NearestRobot>& nearest, const LabelRule& rule) {
+                          const std::vector<tuning::NearestPixels>& nearest,
+                          const LabelRule& rule) {
+  constexpr double most_pixels = 40.0, most_depth = 0.10;  // metres
   Leftover sum;
   const int width = frames.front().robot.width();
   Classifier classifier(width, frames.front().robot.height(), rule);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RealFrame& frame = frames[i];
     const LabelView labels = classifier.classify(frame.view(), frame.measured.view());
-    for_each_carried(frame, nearest[i], [&](int u, int v, double) {
+    for (int pixel = 0; pixel < static_cast<int>(frame.measured.size()); ++pixel) {
+      const int u = pixel % width, v = pixel / width;
+      const double z = 0.001 * static_cast<double>(frame.measured(u, v));
+      if (z == 0.0) continue;
+      sum.clear += label_at(labels, pixel) == Label::clear;
+      if (v >= Paster::air_rows) continue;
+      if (frame.robot(u, v) > 0.0F) {
+        ++sum.on_robot;
+        continue;
+      }
+      if (nearest[i].distance(u, v) > most_pixels) continue;
+      const auto at = nearest[i].at(u, v);
+      if (std::abs(z - static_cast<double>(frame.robot(at.u, at.v))) > most_depth) continue;
       ++sum.carried;
-      sum.left += label_at(labels, v * width + u) != Label::fringe;
-    });
-    for (const int pixel : frame.robot_indices)
-      sum.on_robot += pixel / width < SidePaster::air_rows && frame.measured.data()[pixel] != 0;
-    for (int pixel = 0; pixel < static_cast<int>(frame.measured.size()); ++pixel)
-      sum.clear += frame.measured.data()[pixel] != 0 && label_at(labels, pixel) == Label::clear;
-    sum.front += labels.pixels[static_cast<std::size_t>(Label::front)];
-    sum.mask += frame.mask_pixels;
+      sum.left += label_at(labels, pixel) != Label::fringe;
+    }
   }
   return sum;
 }
 
-void Kept::add(const MeasuredPaste::Pixels& pixels, const LabelView& labels) {
-  const auto kept = [&](const std::vector<int>& of) {
-    return static_cast<std::size_t>(std::count_if(
-        of.begin(), of.end(), [&](int pixel) { return label_at(labels, pixel) != Label::fringe; }));
-  };
+void Kept::add(const std::vector<int>& pixels, const LabelView& labels) {
   ++placements;
-  core += pixels.core.size();
-  band += pixels.band.size();
-  core_kept += kept(pixels.core);
-  band_kept += kept(pixels.band);
+  all += pixels.size();
+  for (const int pixel : pixels) kept += label_at(labels, pixel) != Label::fringe;
 }
 
-void Kept::add(const Kept& other) {
-  placements += other.placements;
-  core += other.core;
-  band += other.band;
-  core_kept += other.core_kept;
-  band_kept += other.band_kept;
-}
-
-double Kept::core_percent() const { return percent(core_kept, core); }
-double Kept::band_percent() const { return percent(band_kept, band); }
+double Kept::percent() const { return test::percent(kept, all); }
 
 }  // namespace penumbra::test

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/robot/robot.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/png.hpp>
@@ -13,13 +12,6 @@
 
 namespace penumbra::test {
 namespace {
-
-std::vector<Body> bodies_of(const Robot& robot) {
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < robot.links().size(); ++i)
-    bodies.push_back({robot.links()[i], robot.meshes(i)});
-  return bodies;
-}
 
 RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rendered,
                      Image<std::uint16_t> measured) {
@@ -33,7 +25,6 @@ RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rende
       if (rendered.depth(u, v) > 0.0f) frame.robot_indices.push_back(v * intrinsics.width() + u);
     }
   }
-  frame.robot_pixels = frame.robot_indices.size();
   return frame;
 }
 

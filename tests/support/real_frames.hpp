@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/base/tile_mask.hpp>
-#include <penumbra/base/virtual_depth.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 
 namespace penumbra::test {
@@ -18,7 +16,6 @@ struct RealFrame {
   Image<float> robot;  ///< virtual depth, metres
   TileMask tiles;
   Image<std::uint16_t> measured;        ///< millimetres
-  std::size_t robot_pixels = 0;         ///< where the virtual depth is not 0
   std::size_t mask_pixels = 0;          ///< of robot_mask_N.png, the robot seen in the colour image
   std::vector<int> robot_indices = {};  ///< v * width + u of the robot's pixels
 

@@ -69,10 +69,8 @@ struct TargetFrame {
 /// On the wall, where blocks of robot are put before it.
 inline const PixelBox middle_box{40, 40, 20, 20};
 
-inline TargetView box_target(std::string_view name, const PixelBox& box,
-                             Extent extent = Extent::amodal) {
+inline TargetView box_target(const PixelBox& box, Extent extent = Extent::amodal) {
   TargetView target;
-  target.name = name;
   target.region = box;
   target.extent = extent;
   return target;

@@ -23,13 +23,13 @@ class ModalTargets : public testing::Test {
     TargetFrame frame;
     frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
     const int seen = std::min(u + width, robot - gap) - u;
-    TargetView target = box_target(
-        "cup", {static_cast<double>(u), 40, static_cast<double>(seen), 20}, Extent::modal);
+    TargetView target =
+        box_target({static_cast<double>(u), 40, static_cast<double>(seen), 20}, Extent::modal);
     if (motion) target.motion = Eigen::Vector2d(*motion, 0);
     target.expected_depth = depth;
     target.thresholds = thresholds;
     judge.begin(frame.images());
-    return judge.judge(target);
+    return judge.judge(target, memory);
   }
 
   static constexpr int width = 40;
@@ -39,6 +39,7 @@ class ModalTargets : public testing::Test {
   TargetThresholds thresholds;
   std::optional<double> depth;
   TargetJudge judge{TargetFrame::camera(), TargetFrame::without_cleanup(), 3};
+  TargetMemory memory;
 };
 
 TEST_F(ModalTargets, AreJudgedByTheirLastGoodExtentToo) {
@@ -58,7 +59,7 @@ TEST_F(ModalTargets, AreJudgedByTheirLastGoodExtentToo) {
 TEST_F(ModalTargets, DoNotSlipBehindTheRobot) {
   constexpr int robot = 100;
   for (const std::optional<double> expected : {std::optional<double>(), std::optional(behind)}) {
-    judge.forget("cup");
+    memory = {};
     depth = expected;
     for (int u = 20; u < 99; ++u) {
       const Verdict verdict = see(u, robot).verdict;
@@ -79,16 +80,16 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
   const PixelBox rest{20, 40, 0.4 * width, 20};
   for (const std::optional<double> expected : {std::optional<double>(), std::optional(behind)}) {
     for (const int frames : {1, 100}) {
-      judge.forget("cup");
+      memory = {};
       depth = expected;
       EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
       TargetFrame far;
       far.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
       for (int i = 0; i < frames; ++i) {
-        TargetView target = box_target("cup", rest, Extent::modal);
+        TargetView target = box_target(rest, Extent::modal);
         target.expected_depth = depth;
         judge.begin(far.images());
-        EXPECT_EQ(judge.judge(target).verdict, Verdict::visible) << "no robot is near";
+        EXPECT_EQ(judge.judge(target, memory).verdict, Verdict::visible) << "no robot is near";
       }
       const Judgement covered = see(20, 36);
       EXPECT_EQ(covered.verdict, Verdict::partial);
@@ -100,16 +101,16 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
 /// It comes nearer at the robot's edge: what it grows offsets what the robot hides.
 TEST_F(ModalTargets, ThatGrowBehindTheRobotAreNotVisible) {
   for (const bool is_expected : {false, true}) {
-    judge.forget("cup");
+    memory = {};
     const auto see_at = [&](double z, int robot) {
       TargetFrame frame;
       frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 0.5f, 1);
       const double whole = 20 * behind / z;  // pixels, as wide as high
       const double seen = std::min(whole, robot - 20.0);
-      TargetView target = box_target("cup", {20, 40, seen, whole}, Extent::modal);
+      TargetView target = box_target({20, 40, seen, whole}, Extent::modal);
       if (is_expected) target.expected_depth = z;
       judge.begin(frame.images());
-      return judge.judge(target).verdict;
+      return judge.judge(target, memory).verdict;
     };
     EXPECT_EQ(see_at(behind, 100), Verdict::visible);
     for (double z = behind; z > 0.6 * behind; z *= 0.99) {
@@ -149,13 +150,13 @@ TEST_F(ModalTargets, KeepTheirAverageSize) {
   const auto see_box = [&](double u, double columns, int robot) {
     TargetFrame frame;
     frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-    TargetView target = box_target("cup", {u, 40, columns, 20}, Extent::modal);
+    TargetView target = box_target({u, 40, columns, 20}, Extent::modal);
     target.expected_depth = depth;
     target.thresholds.min_measured = 0;
     LabelledImages images = frame.images();
     images.measured = {};  // the wall would not move with the target
     judge.begin(images);
-    return judge.judge(target).verdict;
+    return judge.judge(target, memory).verdict;
   };
   for (int i = 0; i < many_frames; ++i)
     EXPECT_EQ(see_box(20, 39 + i % 3, 140), Verdict::visible) << i;
@@ -170,7 +171,7 @@ TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
   TargetFrame frame;
   frame.add_robot(50, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
   judge.begin(frame.images());
-  const Judgement half = judge.judge(box_target("cup", {20, 40, 20, 20}, Extent::modal));
+  const Judgement half = judge.judge(box_target({20, 40, 20, 20}, Extent::modal), memory);
   EXPECT_NEAR(half.occluded, 0.25, share_rounding);
   EXPECT_NEAR(half.unknown, 0.25, share_rounding);
   EXPECT_NEAR(half.clear, 0.5, share_rounding);
@@ -179,7 +180,7 @@ TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
 /// It comes into the image, of which its border shows 10 of 40 columns, and goes behind the robot.
 TEST_F(ModalTargets, OfWhichTheBorderCutsSomeAreNotKnownWhole) {
   for (const double motion : {0.0, 35.0}) {
-    judge.forget("cup");
+    memory = {};
     const auto moved = [&] { return motion > 0 ? std::optional(motion) : std::nullopt; };
     EXPECT_EQ(see(-30, 100).verdict, Verdict::visible) << "no robot is near";
     const Judgement more = see(5, 30, moved());

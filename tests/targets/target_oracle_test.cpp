@@ -167,7 +167,6 @@ class TargetOracle : public testing::Test {
     const std::string name = "target " + std::to_string(i);
     SCOPED_TRACE(name);
     TargetView target = asked(shape, i);
-    target.name = name;
     const Image<float> expected = choose_depth(shape, target);
     naive.mask = shape.mask.view();
     naive.expected = expected.view();

@@ -25,7 +25,7 @@ TEST(TargetPoints, UndoLensDistortion) {
   judge.begin(frame.images());
   const Eigen::Vector2d truth(-0.31, 0.22);  // on the plane z = 1
   const Eigen::Vector2d lens = camera.distortion.distort(truth);
-  TargetView target = box_target("cup", {20, 80, 30, 30});
+  TargetView target = box_target({20, 80, 30, 30});
   target.point_pixel = camera.intrinsics.project({lens.x(), lens.y(), 1.0});
   const Judgement judgement = judge.judge(target);
   ASSERT_TRUE(judgement.point);
@@ -38,16 +38,13 @@ TEST(TargetPoints, NeedEnoughTrustedPixels) {
   frame.see(40, 40, 44, 60, 1.0f);  // 80 of 400
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(frame.images());
-  TargetView target = box_target("cup", {40, 40, 20, 20});
+  TargetView target = box_target({40, 40, 20, 20});
   EXPECT_TRUE(judge.judge(target).point);
-  target.name = "fraction";
   target.thresholds.point_min_fraction = 0.201;
   EXPECT_FALSE(judge.judge(target).point);
-  target.name = "pixels";
   target.thresholds.point_min_fraction = 0;
   target.thresholds.point_min_pixels = 81;
   EXPECT_FALSE(judge.judge(target).point);
-  target.name = "hole";
   target.thresholds.point_min_pixels = 0;
   target.region = PixelBox{70, 70, 5, 5};
   EXPECT_FALSE(judge.judge(target).point);

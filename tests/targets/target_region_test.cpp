@@ -22,7 +22,6 @@ class Regions : public testing::Test {
  protected:
   Judgement judge(const Region& region) {
     TargetView target;
-    target.name = "target";
     target.region = region;
     judge_.begin(frame_.images());
     return judge_.judge(target);
@@ -98,40 +97,6 @@ TEST_F(Regions, CoverOnePixelAtLeast) {
   const Judgement outside = judge(PixelEllipse{{-0.6, 3}, {0.1, 0.1}, 0});
   EXPECT_EQ(outside.covered, 1u);
   EXPECT_EQ(outside.inside, 0u);
-}
-
-TEST_F(Regions, ThatCannotBeAreRefused) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double nan = std::nan("");
-  for (const PixelBox& box :
-       {PixelBox{1, 2, 0, 5}, {1, 2, 3, -5}, {nan, 2, 3, 5}, {1, 2, infinity, 5}, {1, 2e9, 3, 5}})
-    EXPECT_TRUE(is_refused(box, "box "));
-  for (const Corners& corners : std::vector<Corners>{{{1, 1}, {5, 5}},
-                                                     {{1, 1}, {5, 5}, {3, 3}},
-                                                     {{0.1, 0.1}, {0.7, 0.7}, {0.3, 0.3}},
-                                                     {{1, 1}, {1, 1}, {1, 1}},
-                                                     {{1, 1}, {5, nan}, {3, 1}},
-                                                     Corners(10001, {1, 1})})
-    EXPECT_TRUE(is_refused(PixelPolygon{corners}, "polygon"));
-  for (const PixelEllipse& ellipse : {PixelEllipse{{1, 2}, {3, 0}, 0},
-                                      {{1, nan}, {3, 2}, 0},
-                                      {{1, 2}, {3, infinity}, 0},
-                                      {{1, 2}, {3, 2}, nan},
-                                      {{1, 2}, {3, 2e9}, 0}})
-    EXPECT_TRUE(is_refused(ellipse, "ellipse"));
-  const Image<std::uint8_t> mask(TargetFrame::width, TargetFrame::height), small(7, 5, 1);
-  EXPECT_TRUE(is_refused(PixelMask{mask.view()}, "mask"));
-  EXPECT_TRUE(is_refused(PixelMask{small.view()}, "7 x 5"));
-  EXPECT_TRUE(is_refused(PixelMask{}, "mask"));
-  for (const std::vector<std::uint32_t>& counts : std::vector<std::vector<std::uint32_t>>{
-           {TargetFrame::width * TargetFrame::height}, {5, 6}, {4000000000U, 4000000000U}, {}})
-    EXPECT_TRUE(is_refused(RunLengthMask{TargetFrame::width, TargetFrame::height, counts},
-                           "run-length mask"));
-  for (const float bad : {-1.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
-    Image<float> depth(TargetFrame::width, TargetFrame::height, 1.0f);
-    depth(60, 3) = bad;
-    EXPECT_TRUE(is_refused(RenderedRegion{.depth = depth.view(), .touched = nullptr}, ""));
-  }
 }
 
 }  // namespace

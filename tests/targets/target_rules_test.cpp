@@ -16,59 +16,11 @@ using test::middle_box;
 using test::share_rounding;
 using test::TargetFrame;
 
-TEST(Judging, HiddenByOthersIsSaidApartAndMayNotCount) {
-  TargetFrame frame;
-  frame.add_robot(40, 40, 60, 42, 1.0f, 1);
-  frame.see(40, 42, 60, 52, 0.5f);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = 1.5;
-  Judgement judgement = judge_once(frame, target);
-  EXPECT_NEAR(*judgement.hidden_by_other, 0.5, share_rounding);
-  EXPECT_NEAR(judgement.occluded, 0.1, share_rounding);
-  EXPECT_NEAR(judgement.clear, 0.4, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::unknown) << "the rest is not seen where it should be";
-  frame.see(40, 52, 60, 60, 1.5f);
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial);
-  target.thresholds.partial_enter = 0.2;
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial);
-  target.thresholds.others_hide = false;
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
-}
-
-/// e(1.5 m) = 0.0265 m.
-TEST(Judging, WhatTheSensorLooksPastIsNotVisible) {
-  TargetFrame frame;  // the wall is at 2 m
-  frame.add_robot(40, 40, 60, 45, 1.8f, 1);
-  TargetView target = box_target("cup", middle_box);
-  target.expected_depth = 1.5;
-  Judgement judgement = judge_once(frame, target);
-  EXPECT_EQ(judgement.verdict, Verdict::unknown);
-  EXPECT_EQ(judgement.reason, "the sensor looks past where most of it is expected");
-  EXPECT_EQ(*judgement.seen_past, 1.0) << "at the robot and at the wall";
-  EXPECT_EQ(judgement.clear, 1.0);
-  EXPECT_FALSE(judgement.point);
-  frame.see(40, 45, 60, 55, 1.526f);
-  judgement = judge_once(frame, target);
-  EXPECT_NEAR(*judgement.seen_past, 0.5, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::unknown) << "half against half is not seen";
-  frame.see(40, 55, 41, 56, 1.526f);
-  judgement = judge_once(frame, target);
-  EXPECT_NEAR(*judgement.seen_past, 199.0 / 400.0, share_rounding);
-  EXPECT_EQ(judgement.verdict, Verdict::visible) << "less than the limit";
-  target.depth_margin = 0.6;
-  EXPECT_EQ(*judge_once(frame, target).seen_past, 0.0);
-  target.depth_margin = 0;
-  target.thresholds.past_limit = 0.4;
-  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
-  target.expected_depth = {};
-  EXPECT_FALSE(judge_once(frame, target).seen_past) << "no depth is expected";
-}
-
 TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
   TargetFrame frame;
   frame.add_robot(40, 40, 60, 60, 1.0f, 1, false);
   frame.see(40, 40, 60, 60, hole);
-  TargetView target = box_target("cup", middle_box);
+  TargetView target = box_target(middle_box);
   target.thresholds.unknown_limit = 1;
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown);
   frame.see(40, 40, 60, 50, 0.8f);
@@ -80,13 +32,14 @@ TEST(Judging, NoLimitMakesWhatIsUnknownVisible) {
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "partial: none of it is seen";
 }
 
+/// A target of 100 columns of which the robot hides some.
 TEST(Verdicts, TooMuchUnknownIsUnknownUnlessTheRestDecides) {
   const auto verdict = [](int hidden_columns, int unknown_columns) {
     TargetFrame frame;
     frame.add_robot(40, 40, 40 + hidden_columns, 60, 1.0f, 1);
     frame.add_robot(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, 1.0f, 1);
     frame.see(40 + hidden_columns, 40, 40 + hidden_columns + unknown_columns, 60, hole);
-    return judge_once(frame, box_target("cup", middle_box)).verdict;
+    return judge_once(frame, box_target(middle_box)).verdict;
   };
   EXPECT_EQ(verdict(0, 1), Verdict::visible);  // 5 %, the limit
   EXPECT_EQ(verdict(0, 2), Verdict::unknown);
@@ -96,60 +49,72 @@ TEST(Verdicts, TooMuchUnknownIsUnknownUnlessTheRestDecides) {
   EXPECT_EQ(verdict(0, 20), Verdict::unknown);
 }
 
-/// A target of 100 columns of which the robot hides some.
-Verdict verdict_of(TargetJudge& judge, int hidden, const TargetThresholds& thresholds = {}) {
+/// e(1.5 m) = 0.0265 m.
+TEST(Verdicts, HoldOnlyForWhatIsSeenWhereItIsExpected) {
+  TargetFrame frame;  // the wall is at 2 m
+  TargetView target = box_target(middle_box);
+  target.expected_depth = 1.5;
+  frame.see(40, 40, 60, 50, 1.526f);
+  EXPECT_EQ(judge_once(frame, target).reason, "the sensor looks past where most of it is expected");
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "half against half";
+  frame.see(40, 50, 41, 51, 1.526f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible) << "less than the limit";
+  frame.see(40, 51, 60, 60, 0.5f);
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::partial) << "hidden by another object";
+  target.thresholds.others_hide = false;
+  EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
+}
+
+Verdict verdict_of(TargetJudge& judge, int hidden, TargetMemory& memory,
+                   const TargetThresholds& thresholds = {}) {
   TargetFrame frame;
   frame.add_robot(20, 0, 20 + hidden, TargetFrame::height, 1.0f, 1);
-  TargetView target = box_target("cup", {20, 40, 100, 20});
+  TargetView target = box_target({20, 40, 100, 20});
   target.thresholds = thresholds;
   judge.begin(frame.images());
-  return judge.judge(target).verdict;
+  return judge.judge(target, memory).verdict;
 }
 
 TEST(Verdicts, HaveHysteresis) {
   TargetJudge judge(TargetFrame::camera(), TargetFrame::without_cleanup(), 3);
+  TargetMemory memory;
   const std::pair<int, Verdict> sequence[] = {
       {0, Verdict::visible}, {5, Verdict::visible},  {6, Verdict::partial},  {5, Verdict::partial},
       {4, Verdict::visible}, {5, Verdict::visible},  {90, Verdict::partial}, {91, Verdict::hidden},
       {81, Verdict::hidden}, {80, Verdict::partial}, {90, Verdict::partial}, {91, Verdict::hidden},
       {5, Verdict::partial}, {91, Verdict::hidden},  {4, Verdict::visible},  {91, Verdict::hidden}};
   for (const auto& [hidden, verdict] : sequence)
-    EXPECT_EQ(verdict_of(judge, hidden), verdict) << hidden;
-  judge.forget("cup");
-  EXPECT_EQ(verdict_of(judge, 85), Verdict::partial);
-  judge.forget("no such target");
+    EXPECT_EQ(verdict_of(judge, hidden, memory), verdict) << hidden;
+  memory = {};
+  EXPECT_EQ(verdict_of(judge, 85, memory), Verdict::partial);
 }
 
-TEST(Verdicts, RememberPastUnknownAndPerName) {
+TEST(Verdicts, RememberPastUnknown) {
   TargetJudge judge(TargetFrame::camera(), TargetFrame::without_cleanup(), 3);
-  EXPECT_EQ(verdict_of(judge, 95), Verdict::hidden);
+  TargetMemory memory;
+  EXPECT_EQ(verdict_of(judge, 95, memory), Verdict::hidden);
   TargetFrame frame;
   judge.begin({frame.images().labels, {}, {}});
-  EXPECT_EQ(judge.judge(box_target("cup", middle_box)).verdict, Verdict::unknown);
-  EXPECT_EQ(verdict_of(judge, 85), Verdict::hidden);
-  TargetFrame half;
-  half.add_robot(20, 0, 105, TargetFrame::height, 1.0f, 1);
-  judge.begin(half.images());
-  EXPECT_EQ(judge.judge(box_target("plate", {20, 40, 100, 20})).verdict, Verdict::partial);
+  EXPECT_EQ(judge.judge(box_target(middle_box), memory).verdict, Verdict::unknown);
+  EXPECT_EQ(verdict_of(judge, 85, memory), Verdict::hidden);
 }
 
 TEST(Verdicts, OutOfView) {
   TargetFrame frame;
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(frame.images());
-  const Judgement away = judge.judge(box_target("away", {1000, 0, 20, 20}));
+  const Judgement away = judge.judge(box_target({1000, 0, 20, 20}));
   EXPECT_EQ(away.verdict, Verdict::out_of_view);
   EXPECT_EQ(away.covered, 400u);
   EXPECT_EQ(away.inside, 0u);
   EXPECT_EQ(away.clear + away.front + away.occluded + away.unknown, 0);
-  TargetView edge = box_target("edge", {-15, 0, 20, 20});
+  TargetView edge = box_target({-15, 0, 20, 20});
   edge.thresholds.min_inside = 0.25;
   EXPECT_EQ(judge.judge(edge).verdict, Verdict::out_of_view);
   edge.thresholds.min_inside = 0.24;
-  edge.name = "edge again";
   EXPECT_EQ(judge.judge(edge).verdict, Verdict::visible);
   const Image<float> nothing(TargetFrame::width, TargetFrame::height);
-  TargetView rendered = box_target("rendered", middle_box);
+  TargetView rendered = box_target(middle_box);
   rendered.region = RenderedRegion{nothing.view(), nullptr};
   EXPECT_EQ(judge.judge(rendered).verdict, Verdict::out_of_view);
 }

@@ -174,7 +174,6 @@ class TargetSearch : public testing::Test {
 
 TargetView TargetSearch::view(Way way, const World& world, const Truth& truth) {
   TargetView target;
-  target.name = way_names[way];
   target.thresholds = thresholds;
   target.region = PixelMask{(way < modal ? truth.whole : truth.seen).view()};
   target.extent = way < modal ? Extent::amodal : Extent::modal;

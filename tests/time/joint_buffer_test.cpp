@@ -59,29 +59,6 @@ TEST_F(Buffer, HistoryIsBoundedInTimeButTheLastStateIsRemembered) {
   EXPECT_EQ(at(2000).gaps.size(), 2u);
 }
 
-TEST_F(Buffer, ExtremeStampsAreSafe) {
-  constexpr auto kMin = std::numeric_limits<std::int64_t>::min();
-  constexpr auto kMax = std::numeric_limits<std::int64_t>::max();
-  const std::vector<std::string> names = {"p", "q"};
-  const std::vector<double> values = {1.0, 1.0};
-  JointBuffer old_to_new(robot_);
-  for (const std::int64_t stamp : {kMin, kMin + 1, std::int64_t{0}, kMax - 1, kMax})
-    old_to_new.insert(stamp, names, values);
-  for (const std::int64_t stamp : {kMin, std::int64_t{-1}, std::int64_t{1}, kMax}) {
-    old_to_new.at(stamp, answer_);
-    EXPECT_EQ(answer_.status, stamp == kMax ? JointStatus::ok : JointStatus::stale) << stamp;
-  }
-}
-
-TEST(BufferOptions, AreChecked) {
-  const Robot robot = arm();
-  for (const JointBufferOptions& options :
-       {JointBufferOptions{.max_gap = -1.0}, JointBufferOptions{.history = 1e12},
-        JointBufferOptions{.max_gap = std::numeric_limits<double>::quiet_NaN()},
-        JointBufferOptions{.max_states = 0}})
-    expect_refused([&] { JointBuffer buffer(robot, options); }, {"joint buffer"});
-}
-
 const std::vector<std::string> kPose = {"p", "q/x", "q/y", "q/z", "q/qx", "q/qy", "q/qz", "q/qw"};
 
 TEST(BufferKinds, PartsOfAQuaternionBelongToOneStamp) {

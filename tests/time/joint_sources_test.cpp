@@ -321,20 +321,5 @@ TEST(JointSources, NoPoseOffByMoreThanTheNoiseIsOk) {
   std::cout << known << " known\n";
 }
 
-TEST(JointSources, RelaysAndSecondReadersAreNotDisputed) {
-  Draw draw(21);
-  for (int round = 0; round < samples(300); ++round) {
-    const Publisher driver{"driver", draw.path(), draw.time(2, 20)};
-    const Publisher second{"second", driver.path, draw.time(2, 100), 5};
-    const Publisher copy = relay(driver, draw.time(0, 15), second.period);
-    for (const auto& [stamp, answer] :
-         OneJoint().frames(draw.sent({driver, round % 2 == 0 ? second : copy})))
-      if (stamp >= 1000 * ms && stamp < 3700 * ms) {
-        ASSERT_NE(answer.status, JointStatus::disputed)
-            << "round " << round << " at " << stamp / ms;
-      }
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -16,45 +16,20 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// Expects each change of a configuration to be refused in these words.
-template <class Config>
-void expect_refused_each(
-    const std::vector<std::pair<std::string, std::function<void(Config&)>>>& faults) {
-  EXPECT_NO_THROW(Config().check());
-  for (const auto& [part, spoil] : faults) {
-    Config config;
-    spoil(config);
-    expect_refused([&] { config.check(); }, {part});
-  }
-}
-
 TEST(TrackerConfig, SaysWhichFieldIsWrong) {
   using Config = PoseTrackerConfig;
-  expect_refused_each<Config>(
-      {{"position_sigma is 0", [](Config& c) { c.position_sigma = 0; }},
-       {"orientation_sigma is nan", [](Config& c) { c.orientation_sigma = nan; }},
-       {"acceleration is -1", [](Config& c) { c.acceleration = -1; }},
-       {"angular_acceleration is inf", [](Config& c) { c.angular_acceleration = inf; }},
-       {"drift is -1", [](Config& c) { c.drift = -1; }},
-       {"angular_drift is -1", [](Config& c) { c.angular_drift = -1; }},
-       {"speed_sigma is -1", [](Config& c) { c.speed_sigma = -1; }},
-       {"angular_speed_sigma is -1", [](Config& c) { c.angular_speed_sigma = -1; }},
-       {"timeout is 0", [](Config& c) { c.timeout = 0; }},
-       {"gate is -3", [](Config& c) { c.gate = -3; }},
-       {"gate_patience is 0", [](Config& c) { c.gate_patience = 0; }},
-       {"memory is nan", [](Config& c) { c.memory = nan; }},
-       {"max_estimates is 1", [](Config& c) { c.max_estimates = 1; }},
-       {"worst is unknown", [](Config& c) { c.worst = Verdict::unknown; }},
-       {"worst is out_of_view", [](Config& c) { c.worst = Verdict::out_of_view; }},
-       {"direction is (0, 0, 0)", [](Config& c) { c.motion = Motion::along_direction; }},
-       {"direction is given", [](Config& c) { c.direction.x() = 1; }},
-       {"speed is given", [](Config& c) { c.speed = 1; }},
-       {"speed is inf", [](Config& c) {
-          c.motion = Motion::along_direction;
-          c.direction.x() = 1;
-          c.speed = inf;
-        }}});
-  EXPECT_THROW(PoseTracker({.timeout = -1}), InputError);
+  const std::vector<std::pair<std::string, Config>> faults{
+      {"position_sigma is 0", {.position_sigma = 0}},
+      {"orientation_sigma is nan", {.orientation_sigma = nan}},
+      {"acceleration is -1", {.acceleration = -1}},
+      {"angular_drift is -1", {.angular_drift = -1}},
+      {"timeout is 0", {.timeout = 0}},
+      {"gate_patience is 0", {.gate_patience = 0}},
+      {"max_estimates is 1", {.max_estimates = 1}},
+      {"worst is unknown", {.worst = Verdict::unknown}},
+      {"direction is (0, 0, 0)", {.motion = Motion::along_direction}},
+      {"speed is given", {.speed = 1}}};
+  for (const auto& [part, config] : faults) expect_refused([&c = config] { c.check(); }, {part});
 }
 
 /// What becomes of an estimate that was right before `spoil`.

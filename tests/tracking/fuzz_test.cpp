@@ -120,35 +120,5 @@ TEST_P(PoseFuzz, StaysFiniteAndHonest) {
 
 INSTANTIATE_TEST_SUITE_P(Motions, PoseFuzz, testing::ValuesIn(all_motions()));
 
-TEST(PointFuzz, StaysFiniteAndHonest) {
-  auto random = seeded_random(462);
-  Chance chance(random);
-  for (int run = 0; run < samples(40); ++run) {
-    PointTrackerConfig config;
-    config.motion = run % 2 == 0 ? PointMotion::hold : PointMotion::constant_velocity;
-    PointTracker tracker(config);
-    double now = 0;
-    for (int i = 0; i < 400; ++i) {
-      now += chance.one_of(50) ? chance.uniform(0, 1e4) : chance.uniform(0, 0.1);
-      const auto pose = any_estimate(chance, now);
-      PointEstimate estimate{pose.stamp, pose.pose.translation()};
-      if (pose.covariance) estimate.covariance = pose.covariance->topLeftCorner<3, 3>();
-      const Verdict verdict = chance.verdict();
-      const auto outcome = tracker.update(estimate, verdict);
-      if (verdict != Verdict::visible) {
-        EXPECT_TRUE(outcome == Outcome::refused_verdict || outcome == Outcome::refused_invalid);
-      }
-      const auto point = tracker.at(stamp_at(now + chance.uniform(-2, 5)));
-      EXPECT_GE(point.age, 0);
-      EXPECT_EQ(point.source == Source::lost, point.age > config.timeout);
-      if (!std::isinf(point.age)) {
-        ASSERT_TRUE(point.position.allFinite() && point.velocity.allFinite());
-        expect_covariance(point.covariance);
-      }
-      if (HasFailure()) return;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::test

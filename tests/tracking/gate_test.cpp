@@ -68,14 +68,6 @@ TEST(PartlySeen, CountsLessTheLessWasSeen) {
   EXPECT_EQ(x_at(whole, 10 * period), x_at(same, 10 * period));
 }
 
-TEST(PartlySeen, MustAgreeTheMoreTheLessWasSeen) {
-  constexpr double off = 0.04;  // metres: within the gate of a whole target
-  auto whole = settled(), half = settled();
-  EXPECT_EQ(whole.update(partly_seen(10 * period, off, 1.0), Verdict::partial), Outcome::accepted);
-  EXPECT_EQ(half.update(partly_seen(10 * period, off, 0.5), Verdict::partial),
-            Outcome::refused_gate);
-}
-
 TEST(PartlySeen, IsRefusedHiddenOrBelowTheLeastShareOrByWorst) {
   auto tracker = settled();
   EXPECT_EQ(tracker.update(partly_seen(10 * period, 0, 0.9), Verdict::hidden),

@@ -103,40 +103,5 @@ TEST(Memory, ThePastIsAnsweredWithinIt) {
   EXPECT_TRUE(std::isinf(tracker.at(stamp_at(5)).age));
 }
 
-TEST(Memory, OfAFewEstimatesForgetsTheOldest) {
-  PoseTrackerConfig config;
-  config.max_estimates = 3;
-  PoseTracker few(config);
-  PoseTracker all;
-  for (int i = 0; i < 50; ++i) {
-    if (i == 48) continue;
-    few.update(at_x(0.01 * i, 0.001 * i), Verdict::visible);
-    all.update(at_x(0.01 * i, 0.001 * i), Verdict::visible);
-  }
-  EXPECT_EQ(few.update(at_x(0.48, 0.048), Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(all.update(at_x(0.48, 0.048), Verdict::visible), Outcome::accepted);
-  expect_same(few.at(stamp_at(0.6)), all.at(stamp_at(0.6)));
-  PoseEstimate older = at_x(0.47, 0.047);
-  ++older.stamp;
-  EXPECT_EQ(few.update(older, Verdict::visible), Outcome::refused_late);
-  EXPECT_EQ(all.update(older, Verdict::visible), Outcome::accepted);
-  EXPECT_EQ(few.at(stamp_at(0.46)).source, Source::lost);
-}
-
-TEST(Clock, AllStampsAreAllowed) {
-  PoseTracker tracker;
-  constexpr auto least = std::numeric_limits<std::int64_t>::min();
-  constexpr auto greatest = std::numeric_limits<std::int64_t>::max();
-  PoseEstimate estimate;
-  for (const std::int64_t stamp : {least, std::int64_t{0}, greatest}) {
-    estimate.stamp = stamp;
-    EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::accepted);
-    EXPECT_TRUE(tracker.at(greatest).covariance.allFinite());
-  }
-  estimate.stamp = least;
-  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::refused_late);
-  EXPECT_EQ(tracker.at(least).source, Source::lost);
-}
-
 }  // namespace
 }  // namespace penumbra::test

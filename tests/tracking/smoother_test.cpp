@@ -139,24 +139,5 @@ TEST(PointSmoother, FilterIsItsEnd) {
   EXPECT_LT((point.covariance - expected).norm(), linear_variance_tolerance * expected.norm());
 }
 
-// On SO(3) a filter linearises once, about what it knew then. With estimates good to 2 degrees that
-// differs from the smoother by a small part of sigma.
-TEST(PoseSmoother, FilterIsNearlyItsEnd) {
-  constexpr double distance = 0.02;  // of sigma (Mahalanobis), over all six components
-  constexpr double spread = 0.02;    // of the covariance
-  auto random = seeded_random(423);
-  for (int run = 0; run < 5; ++run) {
-    const auto seen = seen_poses(sigmas(0.005, 0.03), false, random);
-    const auto pose = filtered({}, seen);
-    const auto smoothed = smooth(model_of({}), seen);
-    const Vector6d off = difference(pose.pose, smoothed.nodes.back().pose);
-    const Matrix6d expected = smoothed.last_covariance.topLeftCorner<6, 6>();
-    EXPECT_LT(std::sqrt(squared_sigmas(off, expected)), distance);
-    const Matrix6d whitener = inverse(root(expected));
-    const Matrix6d white = whitener * pose.covariance * whitener.transpose();
-    EXPECT_LT((white - Matrix6d::Identity()).norm(), spread);
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::test

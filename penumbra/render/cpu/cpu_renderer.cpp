@@ -8,8 +8,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
+#include <penumbra/render/backends-inl.hpp>
 #include <penumbra/render/clusters.hpp>
-#include <penumbra/render/cpu/cpu_renderer.hpp>
 #include <penumbra/render/cpu/frame.hpp>
 #include <penumbra/render/cpu/kernel.hpp>
 #include <penumbra/render/cpu/workers.hpp>

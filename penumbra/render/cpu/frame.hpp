@@ -14,7 +14,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/tile_mask.hpp>
+#include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/triangle_groups.hpp>

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/gl/egl_context.hpp>
-#include <penumbra/render/gl/gl_check.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
 
 namespace penumbra::gl {
 namespace {
@@ -117,38 +117,32 @@ EGLConfig choose_config(EGLDisplay display, const char* extensions) {
   return config;
 }
 
-/// Which OpenGL there is where 4.5 core is not.
-std::string version_without_wishes(EGLDisplay display, EGLConfig config) {
-  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
-  if (context == EGL_NO_CONTEXT) return "no OpenGL at all (" + egl_error() + ")";
-  std::string version = "an OpenGL that cannot be used without a surface";
-  if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE) {
-    version = "OpenGL " + text(GL_VERSION) + " (" + text(GL_RENDERER) + ")";
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  }
-  eglDestroyContext(display, context);
-  return version;
-}
-
-EGLContext create_context(EGLDisplay display) {
+EGLContext create_context(EGLDisplay display, GlProfile profile) {
   const char* const extensions = eglQueryString(display, EGL_EXTENSIONS);
   const EGLConfig config = choose_config(display, extensions);
-  std::vector<EGLint> wishes{EGL_CONTEXT_MAJOR_VERSION,       4,
-                             EGL_CONTEXT_MINOR_VERSION,       5,
-                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-  // Where resets are told, a frame that one spoilt is an error and not an image.
-  std::vector<EGLint> told = wishes;
-  told.insert(told.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                           EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE});
-  wishes.push_back(EGL_NONE);
-  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, told.data());
-  if (context == EGL_NO_CONTEXT) {
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, wishes.data());
+  if (profile == GlProfile::legacy) {
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
+    if (context == EGL_NO_CONTEXT) refuse("EGL gives no OpenGL context (" + egl_error() + ")");
+    return context;
   }
-  if (context == EGL_NO_CONTEXT) {
-    refuse("OpenGL 4.5 is needed, found " + version_without_wishes(display, config));
-  }
-  return context;
+  // With notification of resets, a frame that one spoilt is an error and not an image.
+  constexpr std::array with_resets{EGL_CONTEXT_MAJOR_VERSION,
+                                   4,
+                                   EGL_CONTEXT_MINOR_VERSION,
+                                   5,
+                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                   EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                   EGL_LOSE_CONTEXT_ON_RESET,
+                                   EGL_NONE};
+  auto without = with_resets;
+  without[6] = EGL_NONE;
+  for (const auto& attributes : {with_resets, without})
+    if (const EGLContext context =
+            eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+        context != EGL_NO_CONTEXT)
+      return context;
+  refuse("OpenGL 4.5 is needed, and the device does not have it (" + egl_error() + ")");
 }
 
 bool draws_on_the_cpu(const std::string& renderer) {
@@ -162,7 +156,7 @@ bool draws_on_the_cpu(const std::string& renderer) {
 
 std::size_t EglContext::device_count() { return devices().size(); }
 
-EglContext::EglContext(std::size_t index) {
+EglContext::EglContext(std::size_t index, GlProfile profile) {
   const std::vector<EGLDeviceEXT> all = devices();
   if (index >= all.size()) {
     throw InputError("renderer 'gl': there is no device " + std::to_string(index) +
@@ -172,7 +166,7 @@ EglContext::EglContext(std::size_t index) {
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) refuse("EGL has no desktop OpenGL");
   try {
     display_ = open_display(all[index]);
-    context_ = create_context(display_);
+    context_ = create_context(display_, profile);
     std::optional<Current> current;
     try {
       current.emplace(*this);

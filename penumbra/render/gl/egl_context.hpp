@@ -2,21 +2,27 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <memory>
 
 #include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::gl {
 
-/// An OpenGL 4.5 core context without a surface, on one device. EGL's displays belong to the whole
+/// Which functions a context has.
+enum class GlProfile {
+  core,   ///< OpenGL 4.5 core
+  legacy  ///< the old ones too, of any version
+};
+
+/// An OpenGL context without a surface, on one device. EGL's displays belong to the whole
 /// process: they are opened once and never closed, since other code may draw on the same ones.
 class EglContext {
  public:
   /// Number of devices that EGL offers. Throws InputError where there is no EGL.
   [[nodiscard]] static std::size_t device_count();
 
-  /// Throws InputError, with what was found, where OpenGL 4.5 cannot be had on device `index`.
-  explicit EglContext(std::size_t index);
+  /// Throws InputError if the profile cannot be had on device `index`.
+  explicit EglContext(std::size_t index, GlProfile profile = GlProfile::core);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -48,5 +54,10 @@ class EglContext {
   void* context_ = nullptr;
   GlDevice device_;
 };
+
+/// Returns a context on the device that RendererOptions::gl_device names. Throws InputError if it
+/// cannot be had.
+[[nodiscard]] std::unique_ptr<EglContext> open_device(int device,
+                                                      GlProfile profile = GlProfile::core);
 
 }  // namespace penumbra::gl

@@ -4,7 +4,6 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/gl/egl_context.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/gl/open_device.hpp>
 
 namespace penumbra {
 
@@ -23,13 +22,13 @@ std::vector<GlDevice> gl_devices() {
 namespace gl {
 namespace {
 
-std::unique_ptr<EglContext> first_usable() {
+std::unique_ptr<EglContext> first_usable(GlProfile profile) {
   std::unique_ptr<EglContext> software;
   std::string first_fault;
   const std::size_t count = EglContext::device_count();
   for (std::size_t i = 0; i < count; ++i) {
     try {
-      auto context = std::make_unique<EglContext>(i);
+      auto context = std::make_unique<EglContext>(i, profile);
       if (!context->device().software) return context;
       if (!software) software = std::move(context);
     } catch (const InputError& error) {
@@ -42,25 +41,13 @@ std::unique_ptr<EglContext> first_usable() {
 
 }  // namespace
 
-std::unique_ptr<EglContext> open_device(int device) {
-  if (device == -1) return first_usable();
+std::unique_ptr<EglContext> open_device(int device, GlProfile profile) {
+  if (device == -1) return first_usable(profile);
   if (device < -1) {
     throw InputError("renderer 'gl': device " + std::to_string(device) +
                      " must be 0 or more, or -1 for the first that can be used");
   }
-  return std::make_unique<EglContext>(static_cast<std::size_t>(device));
-}
-
-std::string words_of(const GlDevice& device) { return device.name + ", OpenGL " + device.version; }
-
-void refuse_for_memory(const Intrinsics& intrinsics, std::span<const Body> bodies) {
-  std::size_t triangles = 0;
-  for (const Body& body : bodies) triangles += body.triangle_count();
-  throw InputError("renderer 'gl': a robot of " + std::to_string(triangles) +
-                   " triangles and an image of " + std::to_string(intrinsics.width()) + " x " +
-                   std::to_string(intrinsics.height()) +
-                   " pixels need more memory than this machine gives; use coarser meshes or a "
-                   "smaller image");
+  return std::make_unique<EglContext>(static_cast<std::size_t>(device), profile);
 }
 
 }  // namespace gl

@@ -1,15 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <epoxy/gl.h>
 
-#include <penumbra/render/gl/buffer.hpp>
-#include <penumbra/render/gl/gl_check.hpp>
+#include <penumbra/base/error.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
 #include <penumbra/render/gl/readback.hpp>
 
 namespace penumbra::gl {
+namespace {
+
+/// Returns the pixels from a row of an image in memory to the next: rows start on cache lines.
+std::size_t row_stride(int width) {
+  constexpr std::size_t alignment = 64;
+  return (static_cast<std::size_t>(width) + alignment - 1) / alignment * alignment;
+}
+
+/// Submits all earlier calls. Returns a fence that is signalled when the device has done them.
+GLsync make_fence() {
+  const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (fence == nullptr) {
+    throw DeviceError("OpenGL: the frame cannot be waited for (" + take_error() + ")");
+  }
+  glFlush();
+  return fence;
+}
+
+/// Waits for a fence, deletes it and makes it null; does not wait for null. Throws DeviceError if
+/// the fence is not signalled or the context fails.
+void wait_for(void*& fence) {
+  if (fence == nullptr) return check_frame();
+  constexpr GLuint64 patience = 60'000'000'000;  // ns; drivers reset what hangs much sooner
+  auto* const sync = static_cast<GLsync>(std::exchange(fence, nullptr));
+  const GLenum result = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, patience);
+  glDeleteSync(sync);
+  check_frame();
+  if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) {
+    throw DeviceError("OpenGL: a frame was not done in 60 s");
+  }
+}
+
+}  // namespace
 
 Readback::Readback(const Intrinsics& intrinsics)
     : width_(intrinsics.width()), height_(intrinsics.height()), stride_(row_stride(width_)) {

@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <penumbra/base/tile_mask.hpp>
-#include <penumbra/base/virtual_depth.hpp>
+#include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/gl/pixel_rectangle.hpp>
+#include <penumbra/render/pixel_rectangle-inl.hpp>
 
 namespace penumbra::gl {
 

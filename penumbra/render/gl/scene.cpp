@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include <penumbra/render/gl/buffer.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
 #include <penumbra/render/gl/scene.hpp>
 
 namespace penumbra::gl {

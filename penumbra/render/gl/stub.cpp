@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands for the OpenGL renderer where it was not built.
 #include <penumbra/base/error.hpp>
+#include <penumbra/render/backends-inl.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
-#include <penumbra/render/gl/gl_renderer.hpp>
 
 namespace penumbra {
 namespace {

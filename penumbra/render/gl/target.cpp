@@ -7,8 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/gl/gl_check.hpp>
-#include <penumbra/render/gl/program.hpp>
+#include <penumbra/render/gl/gl_calls.hpp>
 #include <penumbra/render/gl/shaders-inl.hpp>
 #include <penumbra/render/gl/target.hpp>
 

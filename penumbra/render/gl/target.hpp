@@ -2,7 +2,7 @@
 #pragma once
 
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/gl/pixel_rectangle.hpp>
+#include <penumbra/render/pixel_rectangle-inl.hpp>
 
 namespace penumbra::gl {
 

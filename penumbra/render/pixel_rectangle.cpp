@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/gl/pixel_rectangle.hpp>
+#include <penumbra/render/pixel_rectangle-inl.hpp>
 
-namespace penumbra::gl {
+namespace penumbra {
 
 PixelRectangle PixelRectangle::united(const PixelRectangle& other) const {
   if (empty()) return other;
@@ -47,4 +47,4 @@ PixelRectangle pixels_of(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d
   return seen.empty() ? PixelRectangle{} : seen;
 }
 
-}  // namespace penumbra::gl
+}  // namespace penumbra

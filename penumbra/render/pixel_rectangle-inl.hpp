@@ -5,7 +5,7 @@
 
 #include <penumbra/camera/intrinsics.hpp>
 
-namespace penumbra::gl {
+namespace penumbra {
 
 /// The pixels u0 <= u < u1, v0 <= v < v1 of an image.
 struct PixelRectangle {
@@ -42,4 +42,4 @@ void for_each_outside(const PixelRectangle& old, const PixelRectangle& kept, F&&
                                        const Eigen::Isometry3d& T_camera_box,
                                        const Intrinsics& intrinsics);
 
-}  // namespace penumbra::gl
+}  // namespace penumbra
