@@ -63,7 +63,7 @@ template <typename T>
           static_cast<int>(array.shape(0)), array.strides(0) / static_cast<py::ssize_t>(sizeof(T))};
 }
 
-/// An array of shape (H, W) upon an image, and which pixels it may have.
+/// An array of shape (H, W) that views an image, and the types its pixels may have.
 template <typename... T>
 struct ImageResult {
   py::object array;
@@ -129,7 +129,7 @@ inline void check_size(const py::array& image, const char* argument, int width, 
   check_size(argument, image.shape(1), image.shape(0), width, height);
 }
 
-/// Refuses a second thread: an object that serves one at a time says so instead of breaking.
+/// Refuses a second thread in an object that serves one at a time.
 class OneThread {
  public:
   class Use {

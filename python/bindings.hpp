@@ -18,24 +18,6 @@ namespace py = pybind11;
 /// Long work that no Python object takes part in lets other threads run.
 using WithoutGil = py::call_guard<py::gil_scoped_release>;
 
-/// The object that a method was called on. pybind11 takes None for it where there is no other
-/// argument.
-template <typename T>
-[[nodiscard]] const std::shared_ptr<T>& present(const std::shared_ptr<T>& self, const char* type) {
-  if (!self) throw py::type_error("self: expected " + std::string(type) + "; got None");
-  return self;
-}
-
-/// A member function without arguments. pybind11 would call it on a pointer, which None makes null.
-template <typename T, typename Result>
-[[nodiscard]] auto method(Result (T::*member)()) {
-  return [member](T& self) -> Result { return (self.*member)(); };
-}
-template <typename T, typename Result>
-[[nodiscard]] auto method(Result (T::*member)() const) {
-  return [member](const T& self) -> Result { return (self.*member)(); };
-}
-
 /// The object that a method was called on, as Python has it. None, or another's, is a TypeError.
 template <typename T>
 class Self : public py::object {

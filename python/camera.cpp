@@ -60,7 +60,7 @@ void bind_distortion(py::module_& m) {
       .def("distort", &Distortion::distort, py::arg("undistorted"),
            "Where the lens puts the ray through the point.")
       .def("undistort", &Distortion::undistort, py::arg("distorted"),
-           "The point that the lens puts there; None where there is none.");
+           "The undistorted point, or None if the lens maps no point there.");
   using D = Distortion;
   show_fields(distortion, Field{"model", &D::model, "The lens model."},
               Field{"is_none", &D::is_none, "Whether rays stay straight."},
@@ -140,18 +140,14 @@ void bind_rectification(py::module_& m) {
            py::arg("raw"), "Raises InputError if the lens reaches no pixel.")
       .def_property_readonly(
           "raw_to_pinhole",
-          [](const std::shared_ptr<R>& self) {
-            return array_of(present(self, "Rectification")->raw_to_pinhole(), self);
-          },
+          [](const std::shared_ptr<R>& self) { return array_of(self->raw_to_pinhole(), self); },
           "Of the raw image's size: index v * width + u of each "
-          "pixel's pinhole pixel, -1 where there is none. Read-only view.")
+          "pixel's pinhole pixel, -1 without one. Read-only view.")
       .def_property_readonly(
           "pinhole_to_raw",
-          [](const std::shared_ptr<R>& self) {
-            return array_of(present(self, "Rectification")->pinhole_to_raw(), self);
-          },
+          [](const std::shared_ptr<R>& self) { return array_of(self->pinhole_to_raw(), self); },
           "Of the pinhole image's size: index v * width + u of each "
-          "pixel's raw pixel, -1 where there is none. Read-only view.");
+          "pixel's raw pixel, -1 without one. Read-only view.");
   show_properties(rectification, Field{"pinhole", &R::pinhole, "Size and projection."},
                   Field{"half_angle", &R::half_angle,
                         "Rays farther than this from the optical axis, radians, are not covered."});

@@ -13,7 +13,7 @@ using Named = std::pair<const char*, E>;
 /// Makes the class; `value` gives a member's value in Python.
 template <typename E, typename Value>
 void make_enum(py::module_& m, const char* base, const char* name, const char* doc,
-               std::initializer_list<Named<E>> members, Value value) {
+               const std::vector<Named<E>>& members, Value value) {
   py::dict values;
   for (const auto& [member, of] : members) values[member] = value(member, of);
   const py::object made =
@@ -27,17 +27,28 @@ void make_enum(py::module_& m, const char* base, const char* name, const char* d
 /// Members are called as in C++; their values are the names in report.json and YAML files.
 template <typename E>
 void bind_enum(py::module_& m, const char* name, const char* doc,
-               std::initializer_list<Named<E>> members) {
+               const std::vector<Named<E>>& members) {
   make_enum<E>(m, "Enum", name, doc, members,
                [](const char* member, E /*of*/) { return py::str(member); });
 }
 
+/// Members are called as to_string() calls the first `count` values.
+template <typename E>
+void bind_named_enum(py::module_& m, const char* name, const char* doc, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.emplace_back(to_string(static_cast<E>(i)));
+  std::vector<Named<E>> members;
+  for (int i = 0; i < count; ++i)
+    members.emplace_back(names[static_cast<std::size_t>(i)].c_str(), static_cast<E>(i));
+  bind_enum<E>(m, name, doc, members);
+}
+
 void bind_image_enums(py::module_& m) {
   make_enum<Label>(m, "IntEnum", "Label",
-                   "What a pixel of a label image says. clear: no robot on this ray; front: "
+                   "The value of a pixel in a label image. clear: no robot on this ray; front: "
                    "something real before the robot; occluded: the sensor sees the robot; unknown: "
                    "robot on the ray, no measurement; beyond: the sensor sees past the model; "
-                   "fringe: beside the robot, where the sensor carried its depth.",
+                   "fringe: next to the robot, where the sensor carried its depth.",
                    {{"clear", Label::clear},
                     {"front", Label::front},
                     {"occluded", Label::occluded},
@@ -49,14 +60,9 @@ void bind_image_enums(py::module_& m) {
                         "Which image results are given in: raw, the camera's as it comes, or "
                         "rectified, the pinhole image that covers it.",
                         {{"raw", ImageSpace::raw}, {"rectified", ImageSpace::rectified}});
-  bind_enum<Backend>(
-      m, "Backend", "What draws: cpu (SIMD), gl (OpenGL without a display), reference.",
-      {{"cpu", Backend::cpu}, {"gl", Backend::gl}, {"reference", Backend::reference}});
-  bind_enum<DistortionModel>(m, "DistortionModel", "A lens model, by ROS's name.",
-                             {{"none", DistortionModel::none},
-                              {"plumb_bob", DistortionModel::plumb_bob},
-                              {"rational_polynomial", DistortionModel::rational_polynomial},
-                              {"equidistant", DistortionModel::equidistant}});
+  bind_named_enum<Backend>(
+      m, "Backend", "The renderer: cpu (SIMD), gl (OpenGL without a display), reference.", 3);
+  bind_named_enum<DistortionModel>(m, "DistortionModel", "A lens model, by ROS's name.", 4);
   bind_enum<io::BeyondMeans>(
       m, "BeyondMeans", "What verdicts make of the label beyond.",
       {{"occluded", io::BeyondMeans::occluded}, {"visible", io::BeyondMeans::visible}});
@@ -65,13 +71,7 @@ void bind_image_enums(py::module_& m) {
 void bind_robot_enums(py::module_& m) {
   bind_enum<Geometry>(m, "Geometry", "Which geometry of a URDF is drawn.",
                       {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
-  bind_enum<JointType>(m, "JointType", "A joint's type, by its name in a URDF.",
-                       {{"revolute", JointType::revolute},
-                        {"continuous", JointType::continuous},
-                        {"prismatic", JointType::prismatic},
-                        {"fixed", JointType::fixed},
-                        {"planar", JointType::planar},
-                        {"floating", JointType::floating}});
+  bind_named_enum<JointType>(m, "JointType", "A joint's type, by its name in a URDF.", 6);
   bind_enum<JointStatus>(
       m, "JointStatus",
       "Whether joint positions are known at a stamp; missing: never seen, stale: "
@@ -80,29 +80,16 @@ void bind_robot_enums(py::module_& m) {
        {"missing", JointStatus::missing},
        {"stale", JointStatus::stale},
        {"disputed", JointStatus::disputed}});
-  bind_enum<PoseSource>(m, "PoseSource", "Who says where the links are.",
+  bind_enum<PoseSource>(m, "PoseSource", "The source of the links' poses.",
                         {{"joints", PoseSource::joints},
                          {"transforms", PoseSource::transforms},
                          {"both", PoseSource::both}});
 }
 
 void bind_frame_enums(py::module_& m) {
-  bind_enum<FrameStatus>(m, "FrameStatus", "Whether a frame can be relied on, and if not, why.",
-                         {{"ok", FrameStatus::ok},
-                          {"missing_joints", FrameStatus::missing_joints},
-                          {"stale_joints", FrameStatus::stale_joints},
-                          {"missing_link", FrameStatus::missing_link},
-                          {"missing_depth", FrameStatus::missing_depth},
-                          {"bad_depth", FrameStatus::bad_depth},
-                          {"missing_transform", FrameStatus::missing_transform},
-                          {"stale_transform", FrameStatus::stale_transform},
-                          {"poses_disagree", FrameStatus::poses_disagree}});
-  bind_enum<Verdict>(m, "Verdict", "What is said of a target.",
-                     {{"visible", Verdict::visible},
-                      {"partial", Verdict::partial},
-                      {"hidden", Verdict::hidden},
-                      {"unknown", Verdict::unknown},
-                      {"out_of_view", Verdict::out_of_view}});
+  bind_named_enum<FrameStatus>(m, "FrameStatus",
+                               "Whether a frame can be relied on, and if not, why.", 9);
+  bind_named_enum<Verdict>(m, "Verdict", "The verdict on a target.", 5);
   bind_enum<Extent>(m, "Extent",
                     "What a region covers of its target: amodal, all of it, or modal, what a "
                     "detector still sees.",
@@ -110,17 +97,8 @@ void bind_frame_enums(py::module_& m) {
 }
 
 void bind_track_enums(py::module_& m) {
-  bind_enum<Source>(m, "Source", "Where a handled target's position comes from.",
-                    {{"measured", Source::measured},
-                     {"predicted", Source::predicted},
-                     {"held", Source::held},
-                     {"lost", Source::lost}});
-  bind_enum<Outcome>(m, "Outcome", "What a tracker did with an estimate.",
-                     {{"accepted", Outcome::accepted},
-                      {"refused_verdict", Outcome::refused_verdict},
-                      {"refused_gate", Outcome::refused_gate},
-                      {"refused_late", Outcome::refused_late},
-                      {"refused_invalid", Outcome::refused_invalid}});
+  bind_named_enum<Source>(m, "Source", "Where a handled target's position comes from.", 4);
+  bind_named_enum<Outcome>(m, "Outcome", "What a tracker did with an estimate.", 5);
   bind_enum<Motion>(m, "Motion", "How a target's pose moves while nobody sees it.",
                     {{"constant_twist", Motion::constant_twist},
                      {"constant_velocity", Motion::constant_velocity},

@@ -62,7 +62,7 @@ void bind_frame(py::module_& m) {
       frame,
       Field{"depth", &F::depth,
             "Of the camera's size, millimetres (uint16) or metres (float32), 0 = no measurement; "
-            "None: there is none."},
+            "None: no image."},
       Field{"joints", &F::joints,
             "A dict of positions by name, or an array in the order of Robot.variables, rad and m, "
             "or what JointBuffer.at() returns; None: not known."},
@@ -75,13 +75,13 @@ void bind_frame(py::module_& m) {
             "The camera's pose in its parent link in this frame, metres; None: the "
             "configuration's."},
       Field{"source_status", &F::source_status, "What its source knows to be wrong with it."},
-      Field{"source_message", &F::source_message, "One line that says so."},
+      Field{"source_message", &F::source_message, "One line that describes it."},
       Field{"index", &F::index, "In its source."},
       Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
       Field{"doubted_links", &F::uncertain_links,
             "Indices of links without geometry whose pose is not known: targets and estimates in "
             "them are not judged."},
-      Field{"doubt", &F::uncertain_reason, "One line that says why."});
+      Field{"doubt", &F::uncertain_reason, "The reason, one line."});
   bind_repr(frame, {"index", "stamp", "source_status"});
 }
 

@@ -34,7 +34,7 @@ struct OwnedFrame {
   std::vector<std::size_t> uncertain_links;
   std::string uncertain_reason;
 
-  /// What a view refers to beside the frame.
+  /// Values that a view refers to in addition to the frame.
   struct Parts {
     std::vector<Target> targets;
     std::vector<double> positions;

@@ -27,7 +27,7 @@ struct Frames : TargetSource {
 };
 
 RecordedFrame next(const std::shared_ptr<Frames>& self) {
-  const OneThread::Use use(present(self, "InputFrames")->thread, "the iterator of an Input");
+  const OneThread::Use use(self->thread, "the iterator of an Input");
   auto data = std::make_shared<io::FrameData>();
   Frame frame;
   ++self->given;
@@ -43,7 +43,7 @@ RecordedFrame next(const std::shared_ptr<Frames>& self) {
 }
 
 std::size_t size_of(const std::shared_ptr<Input>& self) {
-  const auto size = Frames(present(self, "Input")).source->size();
+  const auto size = Frames(self).source->size();
   if (!size)
     throw py::type_error("a bag's number of frames is known at its end: count while iterating");
   return *size;
@@ -51,7 +51,7 @@ std::size_t size_of(const std::shared_ptr<Input>& self) {
 
 /// Reads the frames before it, too.
 RecordedFrame frame_at(const std::shared_ptr<Input>& self, std::size_t i) {
-  const auto frames = std::make_shared<Frames>(present(self, "Input"));
+  const auto frames = std::make_shared<Frames>(self);
   try {
     for (std::size_t before = 0; before < i; ++before) next(frames);
     return next(frames);
@@ -82,7 +82,7 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
 
 void bind_bag_options(py::module_& m) {
   py::class_<io::BagOptions> options(
-      m, "BagOptions", "What is said of a bag. Topics are found by type and name where not given.");
+      m, "BagOptions", "Options for a bag. Topics that are not given are found by type and name.");
   using B = io::BagOptions;
   bind_fields(
       options, Field{"depth_topic", &B::depth_topic, "Depth images."},
@@ -90,7 +90,7 @@ void bind_bag_options(py::module_& m) {
       Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
       Field{"joint_topics", &B::joint_topics, "Joint states."},
       Field{"target_topics", &B::target_topics, "Detections, key points, poses."},
-      Field{"poses", &B::poses, "None: joints, or transforms where there are none."},
+      Field{"poses", &B::poses, "None: joints, or transforms if there are no joint states."},
       Field{"robot", &B::robot, "URDF in place of /robot_description."},
       Field{"packages", &B::packages, "package://NAME to its folder."},
       Field{"frame_prefix", &B::frame_prefix, "Before link names in tf, without a leading /."},
@@ -99,14 +99,13 @@ void bind_bag_options(py::module_& m) {
       Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},
       Field{"first_publisher", &B::first_publisher,
-            "Publishers of one joint are not compared: the first one heard is believed."},
+            "Publishers of one joint are not compared: the first one is believed."},
       Field{"time_offset", &B::time_offset, "Seconds added to an image's stamp."});
 }
 
 void bind_input_classes(py::module_& m) {
   py::class_<Frames, std::shared_ptr<Frames>>(m, "InputFrames", "The frames of an Input.")
-      .def("__iter__",
-           [](const std::shared_ptr<Frames>& self) { return present(self, "InputFrames"); })
+      .def("__iter__", [](const std::shared_ptr<Frames>& self) { return self; })
       .def("__next__", &next)
       .def_property_readonly(
           "size", [](const Frames& self) { return self.source->size(); },
@@ -125,9 +124,7 @@ void bind_input_classes(py::module_& m) {
       "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, from "
       "its message.")
       .def("__iter__",
-           [](const std::shared_ptr<Input>& self) {
-             return std::make_shared<Frames>(present(self, "Input"));
-           })
+           [](const std::shared_ptr<Input>& self) { return std::make_shared<Frames>(self); })
       .def("__len__", &size_of)
       .def("__repr__", [](const Input& of) { return "<Input: " + of.input.robot.name() + ">"; })
       .def("__getitem__", &frame_at, py::arg("i"), "Reads the frames before it, too.")
@@ -137,10 +134,10 @@ void bind_input_classes(py::module_& m) {
           "camera", [](const Input& self) { return self.input.camera; }, "Of the judged images.")
       .def_property_readonly(
           "config", [](const Input& self) { return self.input.config; },
-          "Defaults of a pipeline with what the input says.")
+          "Defaults of a pipeline with the input's own settings.")
       .def_property_readonly(
           "targets", [](const Input& self) { return self.input.targets; },
-          "The input's own targets.yaml; None: there is none.")
+          "The input's own targets.yaml, or None.")
       .def_property_readonly(
           "target_history", [](const Input& self) { return self.input.target_history; },
           "PipelineConfig.target_history for targets that come with the frames, s.")

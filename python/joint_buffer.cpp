@@ -24,11 +24,11 @@ void bind_joint_answers(py::module_& m) {
   show_fields(gap, Field{"variable", &JointGap::variable, "Index into Robot.variables."},
               Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
               Field{"last_seen", &JointGap::last_seen,
-                    "Stamp of its latest state at or before, nanoseconds; None: there is none."},
+                    "Stamp of its latest state at or before, nanoseconds, or None."},
               Field{"jump", &JointGap::jump,
                     "Rad or m between two states next to the stamp, more than the joint can move."},
               Field{"source", &JointGap::source,
-                    "The publisher that is believed, where there are several."});
+                    "The publisher that is believed, if there are several."});
 
   py::class_<JointDispute> dispute(m, "JointDispute",
                                    "A variable for which two publishers differ near a stamp.");
@@ -69,7 +69,7 @@ void bind_joint_buffer(py::module_& m) {
           },
           py::arg("stamp"), py::arg("names"), py::arg("positions"), py::arg("source") = "",
           "Adds one joint state; stamp in nanoseconds, positions in rad and m. Returns the number "
-          "of values taken; names that are no variable are passed over. source: a name for the "
+          "of values taken; names that are no variable are ignored. source: a name for the "
           "publisher, the same for all of its states.")
       .def(
           "at",
@@ -79,10 +79,10 @@ void bind_joint_buffer(py::module_& m) {
             return answer;
           },
           py::arg("stamp"), "Positions at a stamp, nanoseconds.")
-      .def("complete_until", method(&JointBuffer::complete_until),
+      .def("complete_until", &JointBuffer::complete_until,
            "Stamp of the newest state up to which every joint is known, nanoseconds; else None.")
-      .def("clear", method(&JointBuffer::clear), "Forgets every state.")
-      .def_property_readonly("refused_values", method(&JointBuffer::refused_values),
+      .def("clear", &JointBuffer::clear, "Forgets every state.")
+      .def_property_readonly("refused_values", &JointBuffer::refused_values,
                              "Positions of the robot's joints that insert() did not take.");
 }
 

@@ -30,7 +30,7 @@ void bind_judgements(py::module_& m) {
               Field{"fraction", &OwnedBlame::fraction, "Of the pixels inside the image."});
   using J = OwnedJudgement;
   py::class_<J> judgement(m, "Judgement",
-                          "What is said of a target's pixels. Fractions are of those inside the "
+                          "The judgement of a target's pixels. Fractions are of those inside the "
                           "image and add up to 1, together with hidden_by_other.");
   show_fields(
       judgement,
@@ -61,7 +61,7 @@ void bind_reports(py::module_& m) {
               Field{"orientation", &H::orientation,
                     "Quaternion x, y, z, w; None if lost, or handled as a point."},
               Field{"sigma", &H::sigma, "Metres: along the most uncertain direction."});
-  py::class_<OwnedTargetReport> report(m, "TargetReport", "What is said of a target.");
+  py::class_<OwnedTargetReport> report(m, "TargetReport", "The verdict on a target, and what it is based on.");
   using R = OwnedTargetReport;
   show_fields(
       report, Field{"name", &R::name, "Its name."},

@@ -38,8 +38,7 @@ void bind_rule(py::module_& m) {
   rule.def_static(
       "for_sensor", &R::for_sensor, py::arg("name"),
       "The rule of a kind of sensor: realsense_d4xx, zed, tof, structured_light, none.");
-  rule.def("check", method(&R::check),
-           "Raises InputError, with the values, for a rule that is none.");
+  rule.def("check", &R::check, "Raises InputError, with the values, for an invalid rule.");
 }
 
 struct Labeller {
@@ -51,7 +50,7 @@ struct Labeller {
   OneThread thread;
 };
 
-/// What a classifier said of an image.
+/// The labels of an image.
 struct Labels {
   std::shared_ptr<Labeller> labeller;
   std::uint64_t call;
@@ -100,7 +99,7 @@ Labels classify_rendered(const std::shared_ptr<Labeller>& self, const VirtualDep
 }
 
 void bind_classifier(py::module_& m) {
-  py::class_<Labels> labels(m, "Labels", "What a classifier said of an image.");
+  py::class_<Labels> labels(m, "Labels", "The labels of an image.");
   show_properties(
       labels,
       Field{"labels", &Labels::labels,
@@ -115,7 +114,7 @@ void bind_classifier(py::module_& m) {
            py::arg("height"), py::arg("rule"), py::arg("isa") = std::string(),
            "isa: a SIMD target by name, or empty: the best one. Raises InputError for "
            "a rule or a size out of bounds.")
-      // The first one is taken for what a renderer gave alone; all else gets the array's errors.
+      // The first overload takes results of a renderer only; everything else gets the array's errors.
       .def("classify", &classify_rendered, py::arg("virtual_depth"), py::arg("measured"),
            "Labels every pixel. virtual_depth: metres, 0 where no robot is; measured: millimetres "
            "(uint16) or metres (float32).")

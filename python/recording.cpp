@@ -94,13 +94,13 @@ void bind_description(py::module_& m) {
           "open", &R::open, py::arg("folder_or_yaml"), WithoutGil(),
           "Reads a recording.yaml, or the one in a folder. Raises InputError with file, line "
           "and key.")
-      .def("pipeline_config", method(&R::pipeline_config),
-           "The defaults of a pipeline with what the recording says.");
+      .def("pipeline_config", &R::pipeline_config,
+           "The defaults of a pipeline with the recording's settings.");
   show_fields(recording, Field{"file", &R::file, "The recording.yaml."},
               Field{"urdf", &R::urdf, "The robot's file."},
               Field{"robot", &R::robot, "How it is read."},
               Field{"camera", &R::camera, "Its camera."},
-              Field{"targets", &R::targets, "The targets.yaml; None: there is none."});
+              Field{"targets", &R::targets, "The targets.yaml, or None."});
 }
 
 /// A reader of frames, each into images of its own.
@@ -136,7 +136,7 @@ void bind_recorded_frames(py::module_& m) {
       Field{"status", of(&D::status), "What is wrong with its data."},
       Field{"message", of(&D::message), "One line that names the file; empty if ok."},
       Field{"depth", [](const F& f) { return f.frame.depth; },
-            "Millimetres (uint16) or metres (float32), 0 = no measurement; None: there is none."},
+            "Millimetres (uint16) or metres (float32), 0 = no measurement; None: no image."},
       Field{"color",
             [](const F& f) {
               return f.data->color.empty() ? std::nullopt
@@ -155,7 +155,7 @@ void bind_recorded_frames(py::module_& m) {
              return std::make_shared<Reader>(recording, robot, color);
            }),
            py::arg("recording"), py::arg("robot"), py::kw_only(), py::arg("color"),
-           "color: read colour images, too. Raises InputError for a joint file that is none.")
+           "color: read colour images, too. Raises InputError for an invalid joint file.")
       .def("__len__", [](const Reader& self) { return self.reader.size(); })
       .def("__getitem__", &read, py::arg("i"))
       .def("__repr__",
@@ -187,13 +187,6 @@ std::shared_ptr<Targets> open_targets(const std::filesystem::path& file, const R
                                                                 .camera_frame = camera_frame}));
 }
 
-/// What C++ has for it: a context needs a robot to refer to.
-double history_by_default() {
-  const Robot robot = Robot::parse("<robot name='r'><link name='l'/></robot>", {});
-  return io::TargetsContext{robot, ImageSpace::raw, Intrinsics(1, 1, 1, 1, 0, 0), false, true}
-      .history;
-}
-
 SourceTargets targets_of(const std::shared_ptr<Targets>& self, std::int64_t index) {
   const OneThread::Use use(self->thread, "TargetsFile.of_frame");
   ++self->given;
@@ -207,7 +200,8 @@ void bind_targets_file(py::module_& m) {
       .def_static(
           "open", &open_targets, py::arg("file"), py::kw_only(), py::arg("robot"), py::arg("image"),
           py::arg("images"), py::arg("is_bent"), py::arg("beyond_hides"),
-          py::arg("history") = history_by_default(), py::arg("camera_frame") = std::string(),
+          py::arg("history") = io::TargetsContext::default_history,
+          py::arg("camera_frame") = std::string(),
           "robot: whose links may be named; image: of the report; images: size and "
           "projection of the report's images; is_bent: the camera's raw images have lens "
           "distortion; beyond_hides: of targets that do not say it; history: seconds that "

@@ -104,7 +104,7 @@ void bind_regions(py::module_& m) {
         check_region(region_of(region), width, height);
       },
       py::arg("region"), py::arg("width"), py::arg("height"),
-      "Raises InputError for a region that is none in an image of that size.");
+      "Raises InputError for a region that is invalid in an image of that size.");
 }
 
 }  // namespace penumbra::python

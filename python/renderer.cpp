@@ -70,9 +70,7 @@ const VirtualDepthView& Renderer::images(std::uint64_t number) const {
 
 namespace {
 
-VirtualDepth collected(const std::shared_ptr<Renderer>& self) {
-  return {self, present(self, "Renderer")->collect()};
-}
+VirtualDepth collected(const std::shared_ptr<Renderer>& self) { return {self, self->collect()}; }
 
 VirtualDepth rendered(const std::shared_ptr<Renderer>& self, const Poses& T_camera_body) {
   if (self->renderer().pending() > 0)
@@ -103,7 +101,7 @@ void bind_renderer_settings(py::module_& m) {
               Field{"software", &D::software, "It draws on the CPU."},
               Field{"fault", &D::fault, "Why it cannot be used; empty: it can."});
   m.def("gl_devices", &gl_devices, WithoutGil(),
-        "What EGL offers here. Raises InputError where there is no OpenGL or EGL.");
+        "What EGL offers here. Raises InputError without OpenGL or EGL.");
 }
 
 std::shared_ptr<Renderer> make_renderer(Backend backend, const Intrinsics& intrinsics,
@@ -148,7 +146,7 @@ void bind_renderer_classes(py::module_& m) {
               Field{"triangle_count", of(&D::triangle_count), "Of all bodies."},
               Field{"pending", of(&D::pending), "Frames submitted and not collected."},
               Field{"max_pending", of(&D::max_pending),
-                    "The images of a frame last until so many more are submitted."});
+                    "The images of a frame are valid until this many more are submitted."});
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ void bind_report_properties(py::class_<Report>& report) {
 void bind_report(py::module_& m) {
   bind_report_parts(m);
   py::class_<Report> report(m, "FrameReport",
-                            "What the pipeline says of one frame. Read its images before the "
+                            "The pipeline's results for one frame. Read its images before the "
                             "pipeline's next call; everything else stays.");
   bind_report_properties(report);
   bind_without_robot(m, report);

@@ -33,7 +33,7 @@ struct OwnedBody {
   std::vector<Mesh> meshes;
 };
 
-/// The message of a KeyError for a name that is none of the robot's variables.
+/// Returns the message of a KeyError for an unknown variable.
 [[nodiscard]] std::string no_variable(const Robot& robot, const std::string& name);
 
 }  // namespace penumbra::python

@@ -89,8 +89,8 @@ void bind_thresholds(py::module_& m) {
       Field{"others_hide", &T::others_hide, "What others than the robot hide counts, too."},
       Field{"point_min_pixels", &T::point_min_pixels, "Trusted depths that a point needs."},
       Field{"point_min_fraction", &T::point_min_fraction, "And their share of the pixels inside."});
-  thresholds.def("check", method(&T::check),
-                 "Raises InputError, with the values, for shares that are none.");
+  thresholds.def("check", &T::check,
+                 "Raises InputError, with the values, for invalid fractions.");
 }
 
 void bind_image_shapes(py::module_& m) {
@@ -147,7 +147,7 @@ OwnedEstimate estimate_of(const ValueSource& value, std::optional<std::int64_t> 
 void bind_estimate(py::module_& m) {
   using E = OwnedEstimate;
   py::class_<E> estimate(m, "TargetEstimate",
-                         "What the perception system says of a target's whereabouts.");
+                         "A perception system's estimate of a target's pose or position.");
   estimate.def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
                py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = FrameName(),
                py::arg("covariance") = TargetEstimate{}.covariance);
@@ -183,7 +183,7 @@ void bind_target(py::module_& m) {
             "Metres by which its surface may be off its expected depth."},
       Field{"thresholds", &T::thresholds, "From where on it counts as hidden."},
       Field{"handling", &T::handling, "How it is followed while it is hidden; None: not at all."},
-      Field{"estimate", &T::estimate, "What the perception system says; None: nothing."},
+      Field{"estimate", &T::estimate, "The perception system's estimate, or None."},
       Field{"fault", &T::fault, "What its source knows to be wrong with it; empty: nothing."});
   bind_repr(target, {"name", "shape"});
   target.def(

@@ -38,8 +38,7 @@ void bind_pose_settings(py::module_& m) {
           "worst", &C::worst,
           "The worst verdict with which estimates are accepted, of visible, partial, hidden; None: "
           "visible, and partial where at least 0.4 was seen."});
-  config.def("check", method(&C::check),
-             "Raises InputError, with the values, for settings out of bounds.");
+  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
 }
 
 void bind_point_settings(py::module_& m) {
@@ -59,8 +58,7 @@ void bind_point_settings(py::module_& m) {
       Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
       Field{"max_estimates", &C::max_estimates, "That are remembered."},
       Field{"worst", &C::worst, worst_doc});
-  config.def("check", method(&C::check),
-             "Raises InputError, with the values, for settings out of bounds.");
+  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
 }
 
 void bind_tracks(py::module_& m) {
@@ -100,7 +98,7 @@ void bind_pose_tracker(py::module_& m) {
           "of the target at that stamp; covariance: of position and rotation vector; seen: share "
           "of the target that was seen, 0 to 1.")
       .def("at", &PoseTracker::at, py::arg("stamp"), "The target at a stamp, nanoseconds.")
-      .def("reset", method(&PoseTracker::reset), "Forgets all estimates.");
+      .def("reset", &PoseTracker::reset, "Forgets all estimates.");
 }
 
 void bind_point_tracker(py::module_& m) {
@@ -119,7 +117,7 @@ void bind_point_tracker(py::module_& m) {
           "stamp in nanoseconds; position: fixed frame, metres; verdict: of the target at that "
           "stamp.")
       .def("at", &PointTracker::at, py::arg("stamp"), "The target at a stamp, nanoseconds.")
-      .def("reset", method(&PointTracker::reset), "Forgets all estimates.");
+      .def("reset", &PointTracker::reset, "Forgets all estimates.");
 }
 
 }  // namespace

@@ -29,16 +29,6 @@ Eigen::Isometry3d pose_at(const double* rows) {
   return pose;
 }
 
-/// Also of sequences of arrays; `depth`: how far below their numbers may lie.
-bool holds_mask(py::handle source, std::size_t depth) {
-  if (is_masked(source)) return true;
-  if (depth == 0 || !(py::isinstance<py::list>(source) || py::isinstance<py::tuple>(source)))
-    return false;
-  const auto parts = py::reinterpret_borrow<py::sequence>(source);
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](py::handle part) { return holds_mask(part, depth - 1); });
-}
-
 }  // namespace
 
 bool is_masked(py::handle object) {
@@ -53,7 +43,7 @@ py::array_t<double> numbers_of(py::handle source, std::span<const py::ssize_t> s
     return std::string("expected ") + what + ", an array of float64 with shape " +
            shape_text(shape);
   };
-  if (holds_mask(source, shape.size()))
+  if (is_masked(source))
     throw py::type_error(expected() + "; got " + description_of(source) + mask_fault);
   // Without forcecast: what is no real number, or would lose digits, is refused.
   using Exact = py::array_t<double, py::array::c_style>;

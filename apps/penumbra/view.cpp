@@ -16,7 +16,7 @@
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/bag/bag_file.hpp>
+#include <io/bag/bag_reader.hpp>
 #include <io/run/judging.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/run_folder.hpp>

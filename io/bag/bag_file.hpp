@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the readers of bags share.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <io/bag/bag_reader.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 
@@ -20,16 +23,23 @@ namespace penumbra::io {
 /// Opens a recording of several files.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag_folder(const std::filesystem::path& folder);
 
-/// Returns whether open_bag_file() opens files with this name.
-[[nodiscard]] bool is_bag_file(const std::filesystem::path& file);
-
-/// Returns whether open_bag_folder() opens this folder: it has a metadata.yaml or bags, and no
-/// recording.yaml, which marks a recording folder.
-[[nodiscard]] bool is_bag_folder(const std::filesystem::path& folder);
-
 /// Returns `text` if its encoding is ros2msg, else the built-in definition of the type, or an empty
 /// text.
 [[nodiscard]] std::string definition_or_built_in(std::string_view type, std::string_view encoding,
                                                  std::string_view text);
+
+/// Reads the QoS of the publishers that a recorder stored: a YAML list of profiles, with rmw's
+/// numbers up to Humble and names since. An empty text gives an empty QoS.
+[[nodiscard]] OfferedQos read_offered_qos(const std::string& profiles);
+
+/// Reads the value in a metadata.yaml: a text or, since Jazzy, a list.
+[[nodiscard]] OfferedQos read_offered_qos(const YamlNode& profiles);
+
+/// Merges the QoS of further publishers into `qos`.
+void merge(const OfferedQos& other, OfferedQos& qos);
+
+/// Adds a topic to a list, or its publishers and messages to the same topic there. Returns its
+/// index.
+std::size_t add_topic(BagTopic topic, std::vector<BagTopic>& topics);
 
 }  // namespace penumbra::io

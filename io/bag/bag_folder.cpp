@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,12 +8,67 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
-#include <io/bag/bag_metadata.hpp>
-#include <io/bag/natural_order.hpp>
-#include <io/bag/offered_qos.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 namespace {
+
+// The metadata.yaml that `ros2 bag record` writes next to a recording's files when it ends.
+struct BagMetadata {
+  std::vector<std::filesystem::path> files;  //< in the order of recording; some may be missing
+  // Number of messages by topic and type.
+  std::map<std::pair<std::string, std::string>, std::uint64_t> messages;
+  std::map<std::pair<std::string, std::string>, OfferedQos> qos;  //< by topic and type
+};
+
+// Up to version 3, paths begin with the recording's folder.
+std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& name) {
+  std::filesystem::path beside = folder / name;
+  std::filesystem::path above = folder.parent_path() / name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(beside, ignored) && std::filesystem::exists(above, ignored))
+    return above;
+  return beside;
+}
+
+void refuse_compression(const YamlNode& information) {
+  const YamlNode* mode = information.find("compression_mode");
+  if (mode == nullptr || mode->is_null()) return;
+  const std::string& name = mode->text_or_empty();
+  if (name.empty() || name == "NONE" || name == "none") return;
+  if (name == "FILE" || name == "file")
+    mode->fail(
+        "files that are compressed as a whole are not read; 'zstd -d' on each, and an empty "
+        "text here with their new names in relative_file_paths, make them readable");
+  mode->fail("'" + name +
+             "' is not read; 'ros2 bag convert' makes a bag without it, or with "
+             "compressed chunks of MCAP");
+}
+
+// Reads a metadata.yaml of any version. Throws InputError with file and line for missing or invalid
+// entries, for recordings without files, and for recordings with compressed files or messages.
+BagMetadata read_bag_metadata(const std::filesystem::path& file) {
+  const YamlNode root = YamlNode::read(file);
+  const YamlNode& information = root.at("rosbag2_bagfile_information");
+  refuse_compression(information);
+  BagMetadata metadata;
+  const YamlNode& paths = information.at("relative_file_paths");
+  for (const std::string& name : paths.texts())
+    metadata.files.push_back(file_of(file.parent_path(), name));
+  if (metadata.files.empty()) paths.fail("names no file; a recording has one at least");
+  const YamlNode* topics = information.find("topics_with_message_count");
+  if (topics == nullptr || topics->is_null()) return metadata;
+  for (const YamlNode& topic : topics->items()) {
+    const YamlNode& about = topic.at("topic_metadata");
+    const std::int64_t count = topic.at("message_count").integer();
+    if (count < 0) topic.at("message_count").fail("is negative; messages are counted from 0");
+    const std::pair name_and_type(about.at("name").text(), about.at("type").text());
+    metadata.messages[name_and_type] += static_cast<std::uint64_t>(count);
+    if (const YamlNode* qos = about.find("offered_qos_profiles"))
+      merge(read_offered_qos(*qos), metadata.qos[name_and_type]);
+  }
+  return metadata;
+}
 
 // One file of a recording. It is open only while its messages are due.
 struct BagPart {
@@ -78,7 +134,7 @@ class BagFolder final : public BagReader {
       throw InputError(folder.string() +
                        ": holds no recording: neither metadata.yaml nor *.mcap "
                        "nor *.db3");
-    std::sort(files.begin(), files.end(), natural_less);
+    std::sort(files.begin(), files.end());
     faults_.push_back(metadata_file.string() +
                       ": is missing (was the recorder killed?); all bags "
                       "of the folder are read");
@@ -131,36 +187,15 @@ class BagFolder final : public BagReader {
   void take_topics(BagPart& part) {
     const auto found = part.reader->topics();
     for (std::size_t i = part.topics.size(); i < found.size(); ++i) {
-      BagTopic topic = found[i];
-      const auto count = std::exchange(topic.messages, std::nullopt);
-      const OfferedQos qos = topic.qos;
-      auto known = std::find_if(topics_.begin(), topics_.end(),
-                                [&](const BagTopic& other) { return other.is_same_topic(topic); });
-      const bool first = known == topics_.end();
-      if (first) known = topics_.insert(known, std::move(topic));
-      merge(qos, known->qos);
-      if (first) set_qos(*known);
-      count_messages(*known, count, first);
-      part.topics.push_back(static_cast<std::size_t>(known - topics_.begin()));
-    }
-  }
-
-  void set_qos(BagTopic& topic) const {
-    if (!metadata_) return;
-    const auto stored = metadata_->qos.find({topic.name, topic.type});
-    if (stored != metadata_->qos.end()) merge(stored->second, topic.qos);
-  }
-
-  void count_messages(BagTopic& topic, const std::optional<std::uint64_t>& count, bool first) {
-    if (metadata_) {
-      const auto stored = metadata_->messages.find({topic.name, topic.type});
-      if (stored != metadata_->messages.end()) topic.messages = stored->second;
-    } else if (first) {
-      topic.messages = count;
-    } else if (topic.messages && count) {
-      *topic.messages += *count;
-    } else {
+      const std::pair name_and_type(found[i].name, found[i].type);
+      BagTopic& topic = topics_[part.topics.emplace_back(add_topic(found[i], topics_))];
+      if (!metadata_) continue;
       topic.messages.reset();
+      if (const auto count = metadata_->messages.find(name_and_type);
+          count != metadata_->messages.end())
+        topic.messages = count->second;
+      if (const auto qos = metadata_->qos.find(name_and_type); qos != metadata_->qos.end())
+        merge(qos->second, topic.qos);
     }
   }
 

@@ -66,6 +66,13 @@ class BagReader {
   [[nodiscard]] virtual std::span<const std::string> faults() const = 0;
 };
 
+/// Returns whether open_bag() opens files with this name.
+[[nodiscard]] bool is_bag_file(const std::filesystem::path& file);
+
+/// Returns whether open_bag() opens this folder: it has a metadata.yaml or bags, and no
+/// recording.yaml, which marks a recording folder.
+[[nodiscard]] bool is_bag_folder(const std::filesystem::path& folder);
+
 /// Opens *.mcap, *.db3 or the folder of a recording: the files of its metadata.yaml or, without
 /// one, all bags in it. Throws InputError that names the file if nothing can be read.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path);

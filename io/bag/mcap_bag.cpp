@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <io/bag/bag_file.hpp>
-#include <io/bag/offered_qos.hpp>
 #include <io/mcap/reader.hpp>
 
 namespace penumbra::io {
@@ -32,20 +31,10 @@ class McapBag final : public BagReader {
   }
 
  private:
-  // Merges channels into topics: each publisher of a topic has a channel of its own.
+  // Each publisher of a topic has a channel of its own.
   void take_channels() {
-    for (const auto& [id, channel] : reader_.channels()) {
-      if (topic_of_.contains(id)) continue;
-      BagTopic topic = topic_of(channel);
-      const auto count = std::exchange(topic.messages, std::nullopt);
-      const OfferedQos qos = topic.qos;
-      auto known = std::find_if(topics_.begin(), topics_.end(),
-                                [&](const BagTopic& other) { return other.is_same_topic(topic); });
-      if (known == topics_.end()) known = topics_.insert(known, std::move(topic));
-      merge(qos, known->qos);
-      if (count) known->messages = known->messages.value_or(0) + *count;
-      topic_of_[id] = static_cast<std::size_t>(known - topics_.begin());
-    }
+    for (const auto& [id, channel] : reader_.channels())
+      if (!topic_of_.contains(id)) topic_of_[id] = add_topic(topic_of(channel), topics_);
   }
 
   [[nodiscard]] BagTopic topic_of(const mcap::Channel& channel) const {

@@ -1,10 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
+namespace {
+
+OfferedQos qos_of_list(const YamlNode& profiles) {
+  OfferedQos qos;
+  for (const YamlNode& profile : profiles.items()) {
+    const YamlNode* durability_node = profile.find("durability");
+    if (durability_node == nullptr) continue;
+    const std::string& durability = durability_node->text();
+    if (durability == "1" || durability == "transient_local") qos.latched = true;
+    if (durability == "2" || durability == "volatile") qos.latched = qos.latched.value_or(false);
+  }
+  return qos;
+}
+
+template <typename F>
+OfferedQos read_or_unreadable(const F& read) {
+  try {
+    return read();
+  } catch (const InputError&) {
+    return {.latched = {}, .is_unreadable = true};
+  }
+}
+
+}  // namespace
 
 bool is_bag_file(const std::filesystem::path& file) {
   return file.extension() == ".mcap" || file.extension() == ".db3";
@@ -33,6 +59,43 @@ std::string definition_or_built_in(std::string_view type, std::string_view encod
                                    std::string_view text) {
   if (encoding == "ros2msg" && !text.empty()) return std::string(text);
   return std::string(definition_of(type));
+}
+
+OfferedQos read_offered_qos(const std::string& profiles) {
+  if (profiles.empty()) return {};
+  return read_or_unreadable([&] {
+    const YamlNode list = YamlNode::parse(profiles, "offered_qos_profiles");
+    return list.is_null() ? OfferedQos{} : qos_of_list(list);
+  });
+}
+
+OfferedQos read_offered_qos(const YamlNode& profiles) {
+  if (profiles.is_null()) return {};
+  return read_or_unreadable([&] {
+    return profiles.is_list() ? qos_of_list(profiles) : read_offered_qos(profiles.text_or_empty());
+  });
+}
+
+void merge(const OfferedQos& other, OfferedQos& qos) {
+  if (other.latched) qos.latched = *other.latched || qos.latched.value_or(false);
+  qos.is_unreadable |= other.is_unreadable;
+}
+
+std::size_t add_topic(BagTopic topic, std::vector<BagTopic>& topics) {
+  const auto known = std::find_if(topics.begin(), topics.end(), [&](const BagTopic& other) {
+    return other.is_same_topic(topic);
+  });
+  const auto index = static_cast<std::size_t>(known - topics.begin());
+  if (known == topics.end()) {
+    topics.push_back(std::move(topic));
+    return index;
+  }
+  merge(topic.qos, known->qos);
+  if (known->messages && topic.messages)
+    *known->messages += *topic.messages;
+  else
+    known->messages.reset();
+  return index;
 }
 
 }  // namespace penumbra::io

@@ -11,6 +11,7 @@
 #include <io/dds/graph_domain-inl.hpp>
 #include <io/dds/graph_log.hpp>
 #include <io/dds/graph_session.hpp>
+#include <io/dds/participant.hpp>
 
 namespace penumbra::io {
 namespace {

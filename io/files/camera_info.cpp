@@ -10,7 +10,6 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/files/camera_info.hpp>
-#include <io/files/camera_info_fields-inl.hpp>
 #include <io/files/yaml.hpp>
 
 namespace penumbra::io {

@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <penumbra/camera/camera.hpp>
 
 namespace penumbra::io {
+
+/// The fields of sensor_msgs/CameraInfo. Fields that the wanted camera does not need may be empty.
+struct CameraInfoFields {
+  /// The window of the images in the full resolution; all 0: the whole image.
+  struct Window {
+    std::int64_t x = 0, y = 0, width = 0, height = 0;
+    bool do_rectify = false;
+  };
+
+  std::int64_t width = 0, height = 0;
+  std::string distortion_model = {};
+  std::vector<double> d = {}, k = {}, r = {}, p = {};
+  std::int64_t binning_x = 0, binning_y = 0;  ///< 0 is 1
+  Window roi = {};
+  std::string frame_id = {};
+
+  /// Throws InputError that names the place of a field ("k", "roi.width").
+  std::function<void(const std::string& field, const std::string& what)> fail = {};
+};
+
+/// Returns the camera of the images as they come (read_camera_info).
+[[nodiscard]] Camera camera_of(const CameraInfoFields& info, bool rectified);
 
 /// Reads a ROS camera_info YAML file: a dump of sensor_msgs/CameraInfo (keys k, d, r, p or K, D, R,
 /// P; several documents must all be of the same camera) or the file that camera_calibration writes

@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/files/camera_info_fields-inl.hpp>
+#include <io/files/camera_info.hpp>
 
 namespace penumbra::io {
 namespace {

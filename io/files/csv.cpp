@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
+#include <type_traits>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/files/csv.hpp>
 #include <io/files/numbers.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::io {
 
@@ -41,5 +44,59 @@ bool CsvLines::next() {
   }
   return false;
 }
+
+FrameTable::FrameTable(const std::filesystem::path& file) : file_(file), text_(read_csv(file)) {
+  CsvLines lines(text_);
+  if (!lines.next()) throw InputError(file.string() + ": is empty; a header frame,... is wanted");
+  header_ = lines.cells();
+  header_line_ = lines.line();
+  if (header_[0] != "frame")
+    throw InputError(header_place() + "the first column is '" + printable(header_[0]) +
+                     "'; the header must be frame,... with commas between");
+  for (auto at = header_.begin(); at != header_.end(); ++at)
+    if (std::find(header_.begin(), at, *at) != at)
+      throw InputError(header_place() + "column '" + printable(*at) + "' is there twice; keep one");
+  while (lines.next()) {
+    const auto frame = parse_number<std::int64_t>(lines.cells()[0]);
+    // Ranges end at the next number, which must be valid too.
+    if (!frame || *frame < 0 || *frame == std::numeric_limits<std::int64_t>::max())
+      throw InputError(place(lines.line()) + "'" + printable(lines.cells()[0]) +
+                       "' is no frame number; a whole number from 0 is wanted");
+    rows_.push_back({lines.line(), *frame, lines.cells()});
+  }
+}
+
+std::optional<std::size_t> FrameTable::find(std::string_view column) const {
+  const auto found = std::find(header_.begin(), header_.end(), column);
+  if (found == header_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header_.begin());
+}
+
+std::size_t FrameTable::at(std::string_view column, const std::string& form) const {
+  if (const auto found = find(column)) return *found;
+  throw InputError(header_place() + "has no column '" + std::string(column) + "'; " + form);
+}
+
+std::string FrameTable::place(std::size_t line) const {
+  return file_.string() + ":" + std::to_string(line) + ": ";
+}
+
+void FrameTable::check_width(const Row& row) const {
+  if (row.cells.size() != header_.size())
+    throw InputError("has " + std::to_string(row.cells.size()) + " cells; the header has " +
+                     std::to_string(header_.size()));
+}
+
+template <typename T>
+T FrameTable::number(const Row& row, std::size_t column) const {
+  const std::string_view text = row.cells[column];
+  if (const auto value = parse_number<T>(text)) return *value;
+  throw InputError(
+      "column '" + printable(header_[column]) + "' " +
+      (text.empty() ? "is empty" : "is '" + printable(text) + "'") +
+      (std::is_integral_v<T> ? "; whole nanoseconds are wanted" : "; a finite number is wanted"));
+}
+template double FrameTable::number(const Row&, std::size_t) const;
+template std::int64_t FrameTable::number(const Row&, std::size_t) const;
 
 }  // namespace penumbra::io

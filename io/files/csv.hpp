@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +32,48 @@ class CsvLines {
   std::string_view rest_;
   std::size_t line_ = 0;
   std::vector<std::string_view> cells_;
+};
+
+/// A CSV file with a header "frame,..." of different names, and rows that begin with the number of
+/// a frame.
+class FrameTable {
+ public:
+  struct Row {
+    std::size_t line = 0;    ///< from 1
+    std::int64_t frame = 0;  ///< at least 0, less than the largest number
+    std::vector<std::string_view> cells;
+  };
+
+  /// Throws InputError that names file and line for another header or frame number.
+  explicit FrameTable(const std::filesystem::path& file);
+  FrameTable(const FrameTable&) = delete;
+  FrameTable& operator=(const FrameTable&) = delete;
+
+  [[nodiscard]] const std::vector<std::string_view>& header() const { return header_; }
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view column) const;
+
+  /// Throws InputError unless there is such a column. `form`: what the header must be.
+  [[nodiscard]] std::size_t at(std::string_view column, const std::string& form) const;
+
+  /// Returns "FILE:LINE: ".
+  [[nodiscard]] std::string place(std::size_t line) const;
+  [[nodiscard]] std::string header_place() const { return place(header_line_); }
+
+  /// Throws InputError, without the place, unless the row has as many cells as the header.
+  void check_width(const Row& row) const;
+
+  /// Returns the number in a cell: double or std::int64_t. Throws InputError, without the place, if
+  /// there is none.
+  template <typename T>
+  [[nodiscard]] T number(const Row& row, std::size_t column) const;
+
+ private:
+  std::filesystem::path file_;
+  std::string text_;
+  std::size_t header_line_ = 0;
+  std::vector<std::string_view> header_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace penumbra::io

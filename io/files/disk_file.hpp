@@ -6,9 +6,29 @@
 #include <filesystem>
 #include <string>
 
-#include <io/files/file_result.hpp>
+#include <penumbra/base/error.hpp>
 
 namespace penumbra::io {
+
+enum class FileStatus { ok, missing, bad };
+
+/// The outcome of reading a file. Readers of stream data return it and never throw for the file's
+/// content.
+struct FileResult {
+  FileStatus status = FileStatus::ok;
+  std::string message;  ///< one line that names the file; empty if ok
+
+  [[nodiscard]] bool ok() const { return status == FileStatus::ok; }
+
+  /// Throws InputError with the message unless ok.
+  void require() const {
+    if (!ok()) throw InputError(message);
+  }
+
+  [[nodiscard]] static FileResult bad(const std::filesystem::path& file, const std::string& what) {
+    return {FileStatus::bad, file.string() + ": " + what};
+  }
+};
 
 /// A regular file that is read from its start. Pipes and folders are refused, so that no read waits
 /// for ever.

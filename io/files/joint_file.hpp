@@ -13,18 +13,17 @@ namespace penumbra::io {
 
 /// One frame's row of a joint file.
 struct JointRow {
-  std::int64_t index = 0;  ///< the frame's number; at least 0
-  std::optional<std::int64_t>
-      stamp;  ///< nanoseconds, at least 0; not set where the file has no such column
-  std::vector<double> positions;  ///< order of Robot::variables(); empty if the row is at fault
-  std::string fault;  ///< why the row cannot be used, with file and line; empty if it can
+  std::int64_t index = 0;             ///< the frame's number; at least 0
+  std::optional<std::int64_t> stamp;  ///< nanoseconds, at least 0; nothing without that column
+  std::vector<double> positions;      ///< order of Robot::variables(); empty if the row is at fault
+  std::string fault;                  ///< why the row cannot be used, with file and line
 };
 
-/// Reads a joint file: a header "frame,[stamp,]NAME,..." with every variable of the robot once, in
-/// any order, then one row per frame, in the file's order. Columns of mimicking joints are passed
-/// over. A bad or empty cell makes its row faulty. Throws InputError with file and line for faults
-/// of the whole file: no rows; unknown, doubled or missing names; a frame number that is not a
-/// number or occurs twice; a negative stamp.
+/// Reads a joint file: a header "frame,NAME,..." with every variable of the robot once and perhaps
+/// "stamp", then one row per frame, in the file's order. Columns of mimicking joints are ignored. A
+/// bad or empty cell makes its row faulty. Throws InputError that names file and line for what
+/// makes the whole file unsure: no rows, unknown, doubled or missing names, an invalid or doubled
+/// frame number, a negative stamp.
 [[nodiscard]] std::vector<JointRow> read_joint_file(const std::filesystem::path& file,
                                                     const Robot& robot);
 

@@ -29,6 +29,18 @@ struct ShownImages {
   ImageView<const Rgb8> color;  ///< empty: depth is shown instead
 };
 
+/// Returns the colour of a label, distinguishable with any common colour blindness.
+[[nodiscard]] Rgb8 label_color(Label label);
+
+/// Returns the same colours by label, for label images; clear is black.
+[[nodiscard]] std::span<const Rgb8> label_palette();
+
+/// Draws the scene with labels, the robot's outline, and a legend with each label's pixels. Images
+/// have the geometry of the report's; at least one of them or the labels must not be empty. A
+/// message is cut after three lines. `out` gets their size; its buffer is reused if the size stays
+/// the same.
+void draw_overlay(const FrameReport& report, const ShownImages& images, Image<Rgb8>& out);
+
 /// Draws the augmented view of a frame: labels and targets over the colour image, or over depth.
 class OverlayPainter {
  public:

@@ -11,7 +11,7 @@
 
 #include <penumbra/base/image.hpp>
 
-#include <io/files/file_result.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/files/image_size.hpp>
 
 namespace penumbra::io {

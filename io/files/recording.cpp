@@ -59,18 +59,12 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   return options;
 }
 
-void refuse_depth_camera(const YamlNode& camera, const std::filesystem::path& folder) {
-  const YamlNode* info = camera.find("depth_info");
-  const YamlNode* pose = camera.find("depth_pose");
-  if (info == nullptr && pose == nullptr) return;
-  const YamlNode& named = info != nullptr ? *info : *pose;
-  if (info == nullptr || pose == nullptr)
-    named.fail("depth_info and depth_pose belong together; one of them is missing");
-  static_cast<void>(read_camera_info(file_of(*info, folder), true));
-  static_cast<void>(read_pose_csv(file_of(*pose, folder)));
-  named.fail(
-      "a depth camera of its own is not supported yet; give depth images that are aligned to the "
-      "colour image, and remove depth_info and depth_pose");
+void refuse_depth_camera(const YamlNode& camera) {
+  for (const char* key : {"depth_info", "depth_pose"})
+    if (const YamlNode* given = camera.find(key))
+      given->fail(
+          "a depth camera of its own is not supported yet; give depth images that are aligned to "
+          "the colour image, and remove depth_info and depth_pose");
 }
 
 int pixels_of(const YamlNode& node, int most) {
@@ -114,7 +108,7 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
 RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
   node.allow_only({"info", "parent", "pose", "sensor", "tolerance", "front_min_width",
                    "fringe_reach", "range", "rectified", "beyond", "depth_info", "depth_pose"});
-  refuse_depth_camera(node, folder);
+  refuse_depth_camera(node);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
   const std::filesystem::path info = file_of(node.at("info"), folder);

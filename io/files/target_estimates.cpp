@@ -5,7 +5,6 @@
 #include <span>
 
 #include <io/files/target_shapes.hpp>
-#include <io/files/target_values-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -47,17 +46,16 @@ EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
     node.fail("one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z] is wanted");
   const ReferenceFrame link = link_of(node, reader.context.robot);
   const bool is_pose = pose != nullptr;
-  const auto values = std::make_shared<FrameValues>(
-      is_pose ? reader.values(*pose, pose_format({"position_sigma", "orientation_sigma"}))
-              : reader.values(node.at("point"), fixed_format({"x", "y", "z"}, {"sigma"})));
   const auto make = [=](const FrameValue& value) { return estimate_of(value, is_pose, link); };
-  values->check_written([&](const FrameValue& value) { static_cast<void>(make(value)); });
+  const auto values =
+      reader.values(is_pose ? *pose : node.at("point"),
+                    is_pose ? pose_format({"position_sigma", "orientation_sigma"})
+                            : fixed_format({"x", "y", "z"}, {"sigma"}),
+                    [&](const FrameValue& value) { static_cast<void>(make(value)); });
   const auto of_frame = [=](std::int64_t index) {
     const FrameValue value = values->at(index);
-    if (!value.fault.empty() && value.place.empty())
-      return TargetEstimate{.value = std::monostate{}};
-    if (!value.fault.empty()) throw InputError(value.fault);
-    return at_place(value.place, [&] { return make(value); });
+    const bool is_missing = !value.fault.empty() && value.place.empty();
+    return is_missing ? TargetEstimate{.value = std::monostate{}} : made_of(value, make);
   };
   return {of_frame, is_pose};
 }

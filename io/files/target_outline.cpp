@@ -5,7 +5,7 @@
 #include <numbers>
 #include <variant>
 
-#include <io/files/target_outline.hpp>
+#include <io/files/target_overlay.hpp>
 
 namespace penumbra::io {
 namespace {

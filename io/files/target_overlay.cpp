@@ -13,7 +13,6 @@
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/files/bitmap_font.hpp>
-#include <io/files/target_outline.hpp>
 #include <io/files/target_overlay.hpp>
 
 namespace penumbra::io {

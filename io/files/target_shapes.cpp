@@ -16,7 +16,6 @@
 #include <io/files/names.hpp>
 #include <io/files/png.hpp>
 #include <io/files/target_shapes.hpp>
-#include <io/files/target_values-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -30,20 +29,23 @@ void check(const TargetShape& shape, const Intrinsics& images) {
     check_region(target->region, images.width(), images.height());
 }
 
+/// Returns a number above 0.
+double positive(const YamlNode& node) {
+  const double value = node.number();
+  if (value > 0.0) return value;
+  node.fail("is " + node.text() + "; a number above 0 is wanted");
+}
+
 /// Returns shapes made from a frame's numbers. The numbers in the YAML file are checked at once.
 ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const ValueFormat& format,
                       const MakeShape& make) {
-  auto values = std::make_shared<FrameValues>(reader.values(node, format));
-  const Intrinsics& images = reader.context.images;
-  values->check_written([&](const FrameValue& value) { check(make(value), images); });
-  const bool may_be_late = values->has_stamps();
-  return {
-      [=](std::int64_t index) {
-        const FrameValue value = values->at(index);
-        if (!value.fault.empty()) throw InputError(value.fault);
-        return ShapeSource::Given{at_place(value.place, [&] { return make(value); }), value.stamp};
-      },
-      may_be_late};
+  const auto values = reader.values(
+      node, format, [&](const FrameValue& value) { check(make(value), reader.context.images); });
+  return {[=](std::int64_t index) {
+            const FrameValue value = values->at(index);
+            return ShapeSource::Given{made_of(value, make), value.stamp};
+          },
+          values->has_stamps()};
 }
 
 Extent extent_of(const YamlNode& node) {
@@ -306,6 +308,15 @@ constexpr std::array<std::string_view, 6> common_keys{"name",       "frame_id", 
                                                       "thresholds", "handling", "estimate"};
 
 }  // namespace
+
+ReferenceFrame link_of(const YamlNode& node, const Robot& robot) {
+  const YamlNode* link = node.find("link");
+  if (link == nullptr) return {};
+  if (const auto index = robot.find_link(link->text()))
+    return ReferenceFrame::of_link(robot.links()[*index]);
+  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
+  link->fail("'" + link->text() + "' is no link of the robot" + near_names(link->text(), known));
+}
 
 bool names_pixels(const YamlNode& target) {
   return std::any_of(kinds().begin(), kinds().end(), [&](const ShapeKind& kind) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,8 +27,9 @@ struct TargetReader {
   ValueTables& tables;
 
   /// Reads the values of a key of this target.
-  [[nodiscard]] FrameValues values(const YamlNode& at, const ValueFormat& format) const {
-    return FrameValues::read(at, format, folder, name, tables);
+  [[nodiscard]] std::shared_ptr<FrameValues> values(const YamlNode& at, const ValueFormat& format,
+                                                    const FrameValues::Check& check) const {
+    return std::make_shared<FrameValues>(at, format, check, folder, name, tables);
   }
 };
 
@@ -42,6 +44,9 @@ struct ShapeSource {
   bool may_be_late = false;
   bool has_pose = false;  ///< with an orientation
 };
+
+/// Returns the frame of the key `link`; without it the camera's.
+[[nodiscard]] ReferenceFrame link_of(const YamlNode& node, const Robot& robot);
 
 /// Returns whether the target is given by pixels of an image.
 [[nodiscard]] bool names_pixels(const YamlNode& target);

@@ -18,12 +18,14 @@ namespace penumbra::io {
 
 /// The context of targets.
 struct TargetsContext {
+  static constexpr double default_history = 0.5;  ///< seconds
+
   const Robot& robot;                  ///< its links may be named
   ImageSpace image;                    ///< of the report
   Intrinsics images;                   ///< of the report's images
   bool is_bent;                        ///< the camera's raw images have lens distortion
   bool beyond_hides;                   ///< default of targets
-  double history = 0.5;                ///< seconds that frames are kept for late targets
+  double history = default_history;    ///< seconds that frames are kept for late targets
   std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
 };
 

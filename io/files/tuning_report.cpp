@@ -6,7 +6,7 @@
 
 #include <io/files/bitmap_font.hpp>
 #include <io/files/json-inl.hpp>
-#include <io/files/overlay.hpp>
+#include <io/files/overlay_painter.hpp>
 #include <io/files/tuning_report.hpp>
 
 namespace penumbra::io {
@@ -91,13 +91,9 @@ Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
                         ImageView<const Rgb8> color) {
   Image<Rgb8> image;
   const FringeFit& fringe = tuning.fringe;
-  draw_overlay({.color = color,
-                .depth = frame.depth.view(),
-                .labels = {},
-                .index = static_cast<std::int64_t>(frame.index),
-                .stamp = {},
-                .message = {}},
-               image);
+  FrameReport report;
+  report.index = frame.index;
+  draw_overlay(report, {frame.depth.view(), color}, image);
   for (int v = 0; v < image.height(); ++v)
     for (int u = 0; u < image.width(); ++u) {
       if (fringe.shown(u, v) != FringeFit::nothing)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <lz4frame.h>
+#include <zlib.h>
 #include <zstd.h>
 #include <zstd_errors.h>
 
@@ -32,9 +33,12 @@ std::uint64_t first_room(std::uint64_t compressed, std::uint64_t size) {
   return std::min(size, first_bytes + first_ratio * compressed);
 }
 
-void delete_lz4_reader(LZ4F_dctx* context) { LZ4F_freeDecompressionContext(context); }
-void delete_zstd_reader(ZSTD_DCtx* context) { ZSTD_freeDCtx(context); }
-void delete_zstd_writer(ZSTD_CCtx* context) { ZSTD_freeCCtx(context); }
+// Returns a context that is freed with its last owner.
+template <typename Context>
+std::shared_ptr<void> checked(Context* context, std::size_t (*free)(Context*)) {
+  if (context == nullptr) throw std::bad_alloc();
+  return std::shared_ptr<Context>(context, free);
+}
 
 std::string of_other_size(std::uint64_t size, std::string_view found) {
   return "decompresses to " + std::string(found) + " than the " + std::to_string(size) +
@@ -107,16 +111,6 @@ std::uint64_t most_decompressed(std::uint64_t compressed) {
   return std::clamp(most_ratio * compressed, unbacked_bytes, max_record_bytes);
 }
 
-struct Decompressor::Contexts {
-  std::unique_ptr<LZ4F_dctx, void (*)(LZ4F_dctx*)> lz4{nullptr, delete_lz4_reader};
-  std::unique_ptr<ZSTD_DCtx, void (*)(ZSTD_DCtx*)> zstd{nullptr, delete_zstd_reader};
-};
-
-Decompressor::Decompressor() : contexts_(std::make_unique<Contexts>()) {}
-Decompressor::~Decompressor() = default;
-Decompressor::Decompressor(Decompressor&&) noexcept = default;
-Decompressor& Decompressor::operator=(Decompressor&&) noexcept = default;
-
 std::string Decompressor::decompress(std::string_view compression, std::span<const std::byte> from,
                                      std::uint64_t size, std::vector<std::byte>& to) {
   if (size > most_decompressed(from.size()))
@@ -127,34 +121,18 @@ std::string Decompressor::decompress(std::string_view compression, std::span<con
     return {};
   }
   if (compression == to_string(Compression::zstd)) {
-    if (!contexts_->zstd) contexts_->zstd.reset(ZSTD_createDCtx());
-    if (!contexts_->zstd) throw std::bad_alloc();
-    return zstd_decompress(contexts_->zstd.get(), from, size, to);
+    if (!zstd_) zstd_ = checked(ZSTD_createDCtx(), ZSTD_freeDCtx);
+    return zstd_decompress(static_cast<ZSTD_DCtx*>(zstd_.get()), from, size, to);
   }
   if (compression == to_string(Compression::lz4)) {
-    if (!contexts_->lz4) {
-      LZ4F_dctx* created = nullptr;
-      if (LZ4F_isError(LZ4F_createDecompressionContext(&created, LZ4F_VERSION)) != 0)
-        throw std::bad_alloc();
-      contexts_->lz4.reset(created);
-    }
-    return lz4_decompress(contexts_->lz4.get(), from, size, to);
+    LZ4F_dctx* context = nullptr;
+    if (!lz4_ && LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) == 0)
+      lz4_ = checked(context, LZ4F_freeDecompressionContext);
+    if (!lz4_) throw std::bad_alloc();
+    return lz4_decompress(static_cast<LZ4F_dctx*>(lz4_.get()), from, size, to);
   }
   return "is compressed as '" + printable(compression) + "'; lz4, zstd and none are read";
 }
-
-struct Compressor::Contexts {
-  std::unique_ptr<ZSTD_CCtx, void (*)(ZSTD_CCtx*)> zstd{nullptr, delete_zstd_writer};
-};
-
-Compressor::Compressor(Compression compression)
-    : compression_(compression), contexts_(std::make_unique<Contexts>()) {
-  if (compression != Compression::zstd) return;
-  contexts_->zstd.reset(ZSTD_createCCtx());
-  if (!contexts_->zstd) throw std::bad_alloc();
-}
-
-Compressor::~Compressor() = default;
 
 void Compressor::compress(std::span<const std::byte> from, std::vector<std::byte>& to) {
   std::size_t result = 0;
@@ -164,13 +142,20 @@ void Compressor::compress(std::span<const std::byte> from, std::vector<std::byte
     result = LZ4F_compressFrame(to.data(), to.size(), from.data(), from.size(), nullptr);
     failed = LZ4F_isError(result) != 0;
   } else if (compression_ == Compression::zstd) {
+    if (!zstd_) zstd_ = checked(ZSTD_createCCtx(), ZSTD_freeCCtx);
     to.resize(ZSTD_compressBound(from.size()));
-    result = ZSTD_compressCCtx(contexts_->zstd.get(), to.data(), to.size(), from.data(),
-                               from.size(), zstd_level);
+    result = ZSTD_compressCCtx(static_cast<ZSTD_CCtx*>(zstd_.get()), to.data(), to.size(),
+                               from.data(), from.size(), zstd_level);
     failed = ZSTD_isError(result) != 0;
   }
   if (failed) throw std::runtime_error("a chunk could not be compressed");  // there is room
   to.resize(result);
+}
+
+std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before) {
+  if (bytes.empty()) return before;
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace penumbra::io::mcap

@@ -23,11 +23,6 @@ enum class Compression { none, lz4, zstd };
 
 class Decompressor {
  public:
-  Decompressor();
-  ~Decompressor();
-  Decompressor(Decompressor&&) noexcept;
-  Decompressor& operator=(Decompressor&&) noexcept;
-
   /// Decompresses LZ4 or Zstandard frames into `to`, which must become `size` bytes. Memory grows
   /// with the actual output, whatever `size` claims. Returns what is wrong, or an empty text.
   [[nodiscard]] std::string decompress(std::string_view compression,
@@ -35,25 +30,23 @@ class Decompressor {
                                        std::vector<std::byte>& to);
 
  private:
-  struct Contexts;
-  std::unique_ptr<Contexts> contexts_;
+  std::shared_ptr<void> lz4_, zstd_;  // contexts, made at the first use
 };
 
 class Compressor {
  public:
-  explicit Compressor(Compression compression);
-  ~Compressor();
-  Compressor(const Compressor&) = delete;
-  Compressor& operator=(const Compressor&) = delete;
+  explicit Compressor(Compression compression) : compression_(compression) {}
 
   /// Compresses bytes. The same input always gives the same output. Do not call it for
   /// Compression::none.
   void compress(std::span<const std::byte> from, std::vector<std::byte>& to);
 
  private:
-  struct Contexts;
   Compression compression_;
-  std::unique_ptr<Contexts> contexts_;
+  std::shared_ptr<void> zstd_;  // context, made at the first use
 };
+
+/// Returns zlib's CRC-32 of bytes that follow those with the CRC `before`.
+[[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace penumbra::io::mcap

@@ -6,12 +6,27 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <io/mcap/records.hpp>
 
 namespace penumbra::io::mcap {
+
+struct Message {
+  std::uint16_t channel = 0;  ///< id
+  std::uint32_t sequence = 0;
+  std::int64_t log_time = 0;      ///< time of recording, nanoseconds
+  std::int64_t publish_time = 0;  ///< nanoseconds
+  std::span<const std::byte> data;
+};
+
+/// A part of a file that is unreadable or wrong.
+struct Fault {
+  std::uint64_t offset = 0;  ///< offset in the file
+  std::string what;          ///< one line: the fault and what was left out
+};
 
 /// Reads an MCAP file: chunks that are uncompressed, lz4 or zstd, or no chunks; with or without
 /// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
@@ -24,8 +39,6 @@ class Reader {
   /// Throws InputError that names the file if it cannot be read or does not begin like MCAP.
   explicit Reader(const std::filesystem::path& file);
   ~Reader();
-  Reader(Reader&&) noexcept;
-  Reader& operator=(Reader&&) noexcept;
 
   [[nodiscard]] const std::string& profile() const;  ///< "ros2"
   [[nodiscard]] const std::string& library() const;  ///< the library that wrote the file

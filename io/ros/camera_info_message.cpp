@@ -4,7 +4,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/files/camera_info_fields-inl.hpp>
+#include <io/files/camera_info.hpp>
 #include <io/ros/camera_info_message.hpp>
 
 namespace penumbra::io {

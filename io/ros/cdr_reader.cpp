@@ -11,11 +11,10 @@ CdrReader::CdrReader(std::span<const std::byte> payload) {
   }
   const auto kind =
       std::to_integer<std::size_t>(payload[0]) << 8 | std::to_integer<std::size_t>(payload[1]);
-  if (kind > 1) {
-    fail("its encapsulation is " + std::to_string(kind) + "; 0 (CDR_BE) or 1 (CDR_LE) is wanted");
+  if (kind != 1) {
+    fail("its encapsulation is " + std::to_string(kind) + "; 1 (CDR_LE) is wanted");
     return;
   }
-  swaps_ = (kind == 1) != (std::endian::native == std::endian::little);
   bytes_ = payload.subspan(header_bytes);
 }
 

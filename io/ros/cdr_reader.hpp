@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -13,23 +12,10 @@
 
 namespace penumbra::io {
 
-/// Returns a number with its bytes in reverse order.
-template <typename T>
-[[nodiscard]] T byte_swapped(T value) {
-  if constexpr (sizeof(T) == 1) return value;
-  if constexpr (sizeof(T) == 2) {
-    const auto bits = std::bit_cast<std::uint16_t>(value);
-    return std::bit_cast<T>(static_cast<std::uint16_t>(bits << 8U | bits >> 8U));
-  }
-  std::array<std::byte, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  std::reverse(bytes.begin(), bytes.end());
-  std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
-}
+static_assert(std::endian::native == std::endian::little, "numbers are copied unchanged");
 
-/// Reads a payload in CDR as ROS 2 writes it (OMG's plain XCDR version 1: encapsulations CDR_BE and
-/// CDR_LE; others are faults). Numbers are aligned to their own size, counted from after the four
+/// Reads a payload in CDR as ROS 2 writes it (OMG's plain XCDR version 1, little endian; other
+/// encapsulations are faults). Numbers are aligned to their own size, counted from after the four
 /// bytes of encapsulation. After the first fault every value is 0 or empty.
 class CdrReader {
  public:
@@ -51,16 +37,13 @@ class CdrReader {
   /// Returns the payload's byte after the last value.
   [[nodiscard]] std::size_t at() const { return header_bytes + at_; }
 
-  /// Whether the payload's byte order differs from this machine's.
-  [[nodiscard]] bool swaps() const { return swaps_; }
-
   template <typename T>
   [[nodiscard]] T read() {
     const std::byte* from = take(sizeof(T), sizeof(T));
     if (from == nullptr) return T{};
     T value;
     std::memcpy(&value, from, sizeof(T));
-    return swaps_ ? byte_swapped(value) : value;
+    return value;
   }
 
   /// Reads `count` numbers.
@@ -72,7 +55,6 @@ class CdrReader {
       return;
     }
     std::memcpy(to, from, count * sizeof(T));
-    if (swaps_) std::transform(to, to + count, to, byte_swapped<T>);
   }
 
   [[nodiscard]] bool read_bool();
@@ -111,7 +93,6 @@ class CdrReader {
 
   std::span<const std::byte> bytes_;  // after the encapsulation
   std::size_t at_ = 0;
-  bool swaps_ = false;
   std::size_t fault_at_ = 0;
   std::string reason_;
   std::string path_;

@@ -19,16 +19,14 @@ namespace penumbra::io {
 class CdrWriter {
  public:
   /// Replaces the content of `bytes` by the start of a payload.
-  explicit CdrWriter(std::vector<std::byte>& bytes, std::endian order = std::endian::little)
-      : bytes_(bytes), swaps_(order != std::endian::native) {
+  explicit CdrWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {
     bytes_.assign(CdrReader::header_bytes, std::byte{0});
-    bytes_[1] = static_cast<std::byte>(order == std::endian::little ? 1 : 0);
+    bytes_[1] = std::byte{1};  // little endian
   }
 
   template <typename T>
   void write(T value) {
     align(sizeof(T));
-    if (swaps_) value = byte_swapped(value);
     append(&value, sizeof(T));
   }
 
@@ -37,8 +35,7 @@ class CdrWriter {
   void write_array(const T* from, std::size_t count) {
     if (count == 0) return;
     align(sizeof(T));
-    if (!swaps_) return append(from, count * sizeof(T));
-    for (std::size_t i = 0; i < count; ++i) write(from[i]);
+    append(from, count * sizeof(T));
   }
 
   void write_bool(bool value) { write(static_cast<std::uint8_t>(value ? 1 : 0)); }
@@ -68,7 +65,6 @@ class CdrWriter {
   }
 
   std::vector<std::byte>& bytes_;
-  bool swaps_;
 };
 
 }  // namespace penumbra::io

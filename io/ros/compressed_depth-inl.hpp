@@ -17,10 +17,6 @@ namespace penumbra::io {
 [[nodiscard]] std::optional<std::string> decode_compressed_depth(
     const CompressedImageMessage& message, DecodedDepth& depth);
 
-/// Reads a PNG of 16-bit grey as millimetres.
-[[nodiscard]] std::optional<std::string> decode_depth_png(std::span<const std::byte> png,
-                                                          DecodedDepth& depth);
-
 /// Unpacks depths that were packed with RVL (A. Wilson, "Fast lossless depth image compression",
 /// ISS 2017): runs of zeros and of differences, in groups of three bits. Returns what is wrong, or
 /// nothing. `packed` must hold all of `depths` and nothing more.

@@ -10,7 +10,6 @@
 
 #include <io/files/numbers.hpp>
 #include <io/files/printable.hpp>
-#include <io/ros/cdr_reader.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_limits-inl.hpp>
 
@@ -50,7 +49,6 @@ class NibbleReader {
         return 0;
       }
       std::memcpy(&word_, packed_.data(), sizeof(word_));
-      if constexpr (std::endian::native == std::endian::big) word_ = byte_swapped(word_);
       packed_ = packed_.subspan(sizeof(word_));
       left_ = word_nibbles;
     }
@@ -92,7 +90,7 @@ template <typename T>
 T little_endian(std::span<const std::byte> bytes, std::size_t at) {
   T value;
   std::memcpy(&value, bytes.data() + at, sizeof(T));
-  return std::endian::native == std::endian::little ? value : byte_swapped(value);
+  return value;
 }
 
 std::optional<std::string> unpack_rvl(std::span<const std::byte> bytes,
@@ -188,12 +186,6 @@ std::optional<std::string> decode_compressed_depth(const CompressedImageMessage&
     return "has no parameters by which 32FC1 was quantised";
   dequantise(depth.millimetres, parameters.quant_a, parameters.quant_b, depth.metres);
   depth.view = std::as_const(depth.metres).view();
-  return std::nullopt;
-}
-
-std::optional<std::string> decode_depth_png(std::span<const std::byte> png, DecodedDepth& depth) {
-  if (auto fault = decode_png(png, depth.millimetres)) return fault;
-  depth.view = std::as_const(depth.millimetres).view();
   return std::nullopt;
 }
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include <io/files/printable.hpp>
-#include <io/ros/cdr_reader.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_codec.hpp>
 #include <io/ros/image_limits-inl.hpp>
@@ -103,19 +102,23 @@ std::optional<std::string> check_layout(const ImageMessage& message, std::size_t
          " or more are wanted, one for each row";
 }
 
-bool is_swapped(const ImageMessage& message) {
-  return (message.is_bigendian != 0) != (std::endian::native == std::endian::big);
+template <typename T>
+T byte_swapped(T value) {
+  std::array<std::byte, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  std::reverse(bytes.begin(), bytes.end());
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return value;
 }
 
 template <typename T>
 void copy_rows(const ImageMessage& message, Image<T>& image) {
   resize_image(image, static_cast<int>(message.width), static_cast<int>(message.height));
-  const bool swapped = is_swapped(message);
   for (int v = 0; v < image.height(); ++v) {
     T* row = image.view().row(v);
     std::memcpy(row, message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
                 message.width * sizeof(T));
-    if (swapped) std::transform(row, row + message.width, row, byte_swapped<T>);
+    if (message.is_bigendian != 0) std::transform(row, row + message.width, row, byte_swapped<T>);
   }
 }
 
@@ -123,7 +126,7 @@ void copy_rows(const ImageMessage& message, Image<T>& image) {
 template <typename T>
 std::optional<ImageView<const T>> view_in_place(const ImageMessage& message) {
   const bool aligned = reinterpret_cast<std::uintptr_t>(message.data.data()) % alignof(T) == 0;
-  if (is_swapped(message) || !aligned || message.step % sizeof(T) != 0) return std::nullopt;
+  if (message.is_bigendian != 0 || !aligned || message.step % sizeof(T) != 0) return std::nullopt;
   return ImageView<const T>{reinterpret_cast<const T*>(message.data.data()),
                             static_cast<int>(message.width), static_cast<int>(message.height),
                             static_cast<std::ptrdiff_t>(message.step / sizeof(T))};
@@ -167,9 +170,12 @@ std::optional<std::string> decode_depth(const ImageMessage& message, DecodedDept
 std::optional<std::string> decode_depth(const CompressedImageMessage& message,
                                         DecodedDepth& depth) {
   depth.view = {};
-  return of_image("depth image", is_compressed_depth(message)
-                                     ? decode_compressed_depth(message, depth)
-                                     : decode_depth_png(message.data, depth));
+  if (is_compressed_depth(message))
+    return of_image("depth image", decode_compressed_depth(message, depth));
+  if (auto fault = decode_png(message.data, depth.millimetres))
+    return of_image("depth image", std::move(fault));
+  depth.view = std::as_const(depth.millimetres).view();
+  return std::nullopt;
 }
 
 std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8>& image) {
@@ -206,7 +212,6 @@ ImageMessage image_message(const MessageHeader& header, std::string_view encodin
   ImageMessage message{.header = header, .encoding = std::string(encoding)};
   message.width = static_cast<std::uint32_t>(image.width);
   message.height = static_cast<std::uint32_t>(image.height);
-  message.is_bigendian = std::endian::native == std::endian::big ? 1 : 0;
   message.step = message.width * static_cast<std::uint32_t>(sizeof(T));
   message.data = std::as_bytes(std::span(
       image.data, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)));

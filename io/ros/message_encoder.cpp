@@ -53,21 +53,21 @@ void write_value(CdrWriter& writer, const M& message) {
 }  // namespace
 
 template <typename M>
-void encode(const M& message, std::vector<std::byte>& payload, std::endian order) {
-  CdrWriter writer(payload, order);
+void encode(const M& message, std::vector<std::byte>& payload) {
+  CdrWriter writer(payload);
   write_value(writer, message);
 }
 
-template void encode(const ImageMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const CompressedImageMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const CameraInfoMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const JointStateMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const TfMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const StringMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const PoseStampedMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const PointCloud2Message&, std::vector<std::byte>&, std::endian);
-template void encode(const DiagnosticArrayMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const KeypointsMessage&, std::vector<std::byte>&, std::endian);
-template void encode(const TargetsMessage&, std::vector<std::byte>&, std::endian);
+template void encode(const ImageMessage&, std::vector<std::byte>&);
+template void encode(const CompressedImageMessage&, std::vector<std::byte>&);
+template void encode(const CameraInfoMessage&, std::vector<std::byte>&);
+template void encode(const JointStateMessage&, std::vector<std::byte>&);
+template void encode(const TfMessage&, std::vector<std::byte>&);
+template void encode(const StringMessage&, std::vector<std::byte>&);
+template void encode(const PoseStampedMessage&, std::vector<std::byte>&);
+template void encode(const PointCloud2Message&, std::vector<std::byte>&);
+template void encode(const DiagnosticArrayMessage&, std::vector<std::byte>&);
+template void encode(const KeypointsMessage&, std::vector<std::byte>&);
+template void encode(const TargetsMessage&, std::vector<std::byte>&);
 
 }  // namespace penumbra::io

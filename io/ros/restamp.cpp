@@ -63,8 +63,7 @@ std::ptrdiff_t count_headers(const MessageDefinition& definition) {
 }
 
 template <typename T>
-void put(std::span<std::byte> payload, std::size_t at, T value, bool swaps) {
-  if (swaps) value = byte_swapped(value);
+void put(std::span<std::byte> payload, std::size_t at, T value) {
   std::memcpy(payload.data() + at, &value, sizeof(T));
 }
 
@@ -90,13 +89,12 @@ std::optional<std::string> Restamper::apply(
   if (find_headers_ == nullptr) return std::nullopt;
   Headers headers;
   if (auto fault = find_headers_(payload, headers)) return fault;
-  const bool swaps = CdrReader(payload).swaps();
   for (const MessageHeader& header : headers) {
     if (header.stamp == 0) continue;
     const std::int64_t changed = change(header.stamp);
     if (changed <= 0 || changed / second > std::numeric_limits<std::int32_t>::max()) continue;
-    put(payload, header.stamp_at, static_cast<std::int32_t>(changed / second), swaps);
-    put(payload, header.stamp_at + 4, static_cast<std::uint32_t>(changed % second), swaps);
+    put(payload, header.stamp_at, static_cast<std::int32_t>(changed / second));
+    put(payload, header.stamp_at + 4, static_cast<std::uint32_t>(changed % second));
   }
   return std::nullopt;
 }

@@ -60,7 +60,6 @@ PointCloud2Message ResultMessages::points() {
   cloud.width = static_cast<std::uint32_t>(points_.points.size());
   cloud.fields = {
       {.name = "x", .offset = 0}, {.name = "y", .offset = 4}, {.name = "z", .offset = 8}};
-  cloud.is_bigendian = std::endian::native == std::endian::big;
   cloud.point_step = point_bytes;
   cloud.row_step = cloud.width * point_bytes;
   cloud.data = std::as_bytes(std::span(points_.points));

@@ -13,7 +13,7 @@
 #include <io/files/cloud_file.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
-#include <io/files/overlay.hpp>
+#include <io/files/overlay_painter.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/png.hpp>
 #include <io/run/output_folder.hpp>

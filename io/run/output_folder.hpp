@@ -10,7 +10,7 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
-#include <io/files/file_lock.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/run_output.hpp>
 #include <io/run/file_writers.hpp>

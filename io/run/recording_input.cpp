@@ -9,7 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/bag/bag_file.hpp>
+#include <io/bag/bag_reader.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/files/names.hpp>
 #include <io/run/run_input.hpp>

@@ -37,27 +37,6 @@ std::string marks_json(std::span<const TargetMark> marks) {
 
 }  // namespace
 
-/// A frame of the store.
-class FrameStore::StoredFrame final : public PacketFrame {
- public:
-  StoredFrame(const FrameStore& store, std::string report, const Entry& entry)
-      : store_(store), report_(std::move(report)), entry_(entry) {}
-
-  [[nodiscard]] std::string report() const override { return report_; }
-  [[nodiscard]] std::string poses() const override { return store_.spool_.read(entry_.poses); }
-  [[nodiscard]] std::optional<PartBytes> part(Part part) const override {
-    const Kept& kept = entry_.parts[static_cast<std::size_t>(part)];
-    if (kept.type == nullptr) return std::nullopt;
-    return PartBytes{kept.type, kept.width, kept.height,
-                     shared_bytes(store_.spool_.read(kept.place))};
-  }
-
- private:
-  const FrameStore& store_;
-  std::string report_;
-  Entry entry_;
-};
-
 FrameStore::FrameStore(const Rectification* rectification) : rectification_(rectification) {}
 
 void FrameStore::begin(const ReportHead& head) {
@@ -148,12 +127,19 @@ SharedBytes FrameStore::report(std::size_t from) const {
   return shared_bytes(report + (end_.empty() ? unfinished_report_end() : end_));
 }
 
-std::unique_ptr<PacketFrame> FrameStore::frame(std::size_t i) const {
-  const std::lock_guard lock(mutex_);
-  if (i >= entries_.size()) return nullptr;
-  const Entry& entry = entries_[i];
-  return std::make_unique<StoredFrame>(*this, text_.substr(entry.report_offset, entry.report_size),
-                                       entry);
+std::optional<PacketFrame> FrameStore::frame(std::size_t i) const {
+  std::unique_lock lock(mutex_);
+  if (i >= entries_.size()) return std::nullopt;
+  const Entry entry = entries_[i];
+  std::string report = text_.substr(entry.report_offset, entry.report_size);
+  lock.unlock();
+  return PacketFrame{
+      std::move(report), spool_.read(entry.poses),
+      [this, parts = entry.parts](Part part) -> std::optional<PartBytes> {
+        const Kept& kept = parts[static_cast<std::size_t>(part)];
+        if (kept.type == nullptr) return std::nullopt;
+        return PartBytes{kept.type, kept.width, kept.height, shared_bytes(spool_.read(kept.place))};
+      }};
 }
 
 std::vector<std::string> FrameStore::missing() const {

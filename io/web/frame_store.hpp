@@ -32,11 +32,10 @@ class FrameStore final : public FrameArchive, public RunOutput {
   [[nodiscard]] std::size_t size() const override;
   [[nodiscard]] bool is_complete() const override;
   [[nodiscard]] SharedBytes report(std::size_t from) const override;
-  [[nodiscard]] std::unique_ptr<PacketFrame> frame(std::size_t i) const override;
+  [[nodiscard]] std::optional<PacketFrame> frame(std::size_t i) const override;
   [[nodiscard]] std::vector<std::string> missing() const override;
 
  private:
-  class StoredFrame;
   /// The position, type and size of an image.
   struct Kept {
     SpoolPlace place;

@@ -64,8 +64,9 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
   if (keeps(Part::color)) raw_color_ = job.color;
 }
 
-std::string LiveFrame::poses() const {
-  return poses_json(T_root_link_, T_root_camera_, scene_->robot().links().size());
+PacketFrame LiveFrame::packet_frame() const {
+  return {report_, poses_json(T_root_link_, T_root_camera_, scene_->robot().links().size()),
+          [this](Part kind) { return part(kind); }};
 }
 
 std::optional<PartBytes> LiveFrame::part(Part part) const {
@@ -87,22 +88,16 @@ std::optional<PartBytes> LiveFrame::part(Part part) const {
   }
 }
 
-std::shared_ptr<const Image<Rgb8>> LiveFrame::color_pixels() const {
-  static_cast<void>(part(Part::color));
-  return pixels_;
-}
-
 void LiveFrame::decode_color() const {
   auto pixels = std::make_shared<Image<Rgb8>>();
   if (!raw_color_ || !io::decode_color(*raw_color_, scene_->camera, *pixels).empty()) return;
-  pixels_ = std::move(pixels);
-  color_ = {"image/jpeg", pixels_->width(), pixels_->height(), {}};
+  color_ = {"image/jpeg", pixels->width(), pixels->height(), {}, pixels};
   if (raw_color_->compressed && is_jpeg(raw_color_->compressed->data)) {
     color_->bytes = shared_bytes(text_of(raw_color_->compressed->data));
     return;
   }
   std::vector<std::byte> jpeg;
-  encode_jpeg(pixels_->view(), live_jpeg_quality, jpeg);
+  encode_jpeg(std::as_const(*pixels).view(), live_jpeg_quality, jpeg);
   color_->bytes = shared_bytes(text_of(jpeg));
 }
 

@@ -45,16 +45,14 @@ class LiveScene {
 
 /// The parts of a judged frame that pages need. Colour is decoded and depth converted to metres on
 /// demand.
-class LiveFrame final : public PacketFrame {
+class LiveFrame {
  public:
   /// Copies the parts in `kept`.
   LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
             const DepthView& depth, const FrameReport& report, const PartSet& kept);
 
-  [[nodiscard]] std::string report() const override { return report_; }
-  [[nodiscard]] std::string poses() const override;
-  [[nodiscard]] std::optional<PartBytes> part(Part part) const override;
-  [[nodiscard]] std::shared_ptr<const Image<Rgb8>> color_pixels() const override;
+  /// Returns the frame for packets. This must outlive it.
+  [[nodiscard]] PacketFrame packet_frame() const;
 
   /// Returns whether these parts were kept.
   [[nodiscard]] bool has_kept(const PartSet& parts) const { return (parts & ~kept_).none(); }
@@ -63,6 +61,7 @@ class LiveFrame final : public PacketFrame {
   [[nodiscard]] std::int64_t stamp() const { return stamp_; }
 
  private:
+  [[nodiscard]] std::optional<PartBytes> part(Part part) const;
   void decode_color() const;
   void convert_depth() const;
 
@@ -79,7 +78,6 @@ class LiveFrame final : public PacketFrame {
 
   mutable std::once_flag color_once_, depth_once_;
   mutable std::optional<PartBytes> color_, depth_;
-  mutable std::shared_ptr<const Image<Rgb8>> pixels_;
 };
 
 }  // namespace penumbra::io

@@ -109,8 +109,8 @@ class LiveView::Client final : public WebChannel {
                     {"diagnostics", json_of(moment.diagnostics)}};
     const LiveScene& scene = frame->scene();
     const bool has_cloud = needed_[static_cast<std::size_t>(Part::cloud)];
-    return make_packet(*frame, wanted_, has_cloud ? &scene.cloud() : nullptr, scene.version,
-                       ", \"live\": " + json_text(live));
+    return make_packet(frame->packet_frame(), wanted_, has_cloud ? &scene.cloud() : nullptr,
+                       scene.version, ", \"live\": " + json_text(live));
   }
 
  private:

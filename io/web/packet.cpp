@@ -36,6 +36,13 @@ std::optional<Part> part_of(std::string_view name) {
   return static_cast<Part>(found - part_names.begin());
 }
 
+/// Returns the pixels of Part::color, or null if there are none.
+std::shared_ptr<const Image<Rgb8>> color_pixels(const std::optional<PartBytes>& color) {
+  if (!color || color->pixels) return color ? color->pixels : nullptr;
+  auto image = std::make_shared<Image<Rgb8>>();
+  return decode_jpeg(std::as_bytes(std::span(*color->bytes)), *image) ? nullptr : image;
+}
+
 }  // namespace
 
 std::string_view to_string(Part part) { return part_names[static_cast<std::size_t>(part)]; }
@@ -58,16 +65,6 @@ std::optional<Wanted> parse_wanted(std::string_view parts, std::string_view step
   return wanted;
 }
 
-std::shared_ptr<const Image<Rgb8>> PacketFrame::color_pixels() const {
-  const auto file = part(Part::color);
-  if (!file) return nullptr;
-  auto image = std::make_shared<Image<Rgb8>>();
-  const auto bytes = std::as_bytes(std::span(*file->bytes));
-  const auto fault =
-      file->type == "image/png" ? decode_png(bytes, *image) : decode_jpeg(bytes, *image);
-  return fault ? nullptr : image;
-}
-
 PacketCloud::PacketCloud(const Camera& camera)
     : width_(camera.intrinsics.width()), height_(camera.intrinsics.height()) {
   rays_.reserve(2 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -87,7 +84,7 @@ std::optional<PartBytes> PacketCloud::make(const PacketFrame& frame, int step) c
   const std::size_t pixels = rays_.size() / 2;
   if (depth->bytes->size() != pixels * sizeof(float) || labels->bytes->size() != pixels)
     return std::nullopt;
-  const auto color = frame.color_pixels();
+  const auto color = color_pixels(frame.part(Part::color));
   const bool is_colored = color && color->width() == width_ && color->height() == height_;
 
   std::string bytes;
@@ -127,9 +124,9 @@ std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wan
              ", \"height\": " + std::to_string(part->height) + "}";
     packet.push_back(part->bytes);
   }
-  std::string json = "{\"frame\": " + frame.report() + ", \"server\": \"" + server_id() +
+  std::string json = "{\"frame\": " + frame.report + ", \"server\": \"" + server_id() +
                      "\", \"scene_version\": " + std::to_string(scene_version) + ", " +
-                     frame.poses() + ", \"parts\": [" + parts + "]" + std::string(more) + "}";
+                     frame.poses + ", \"parts\": [" + parts + "]" + std::string(more) + "}";
   const auto length = static_cast<std::uint32_t>(json.size());
   std::string head(sizeof length, '\0');
   std::memcpy(head.data(), &length, sizeof length);

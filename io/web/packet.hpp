@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,24 +40,15 @@ struct PartBytes {
   std::string type;  ///< image/jpeg, image/png, u8, u16, f32, xyzlrgb
   int width = 0, height = 0;
   SharedBytes bytes;
+  std::shared_ptr<const Image<Rgb8>> pixels = {};  ///< of Part::color, if it is decoded already
 };
 
 /// A judged frame.
-class PacketFrame {
- public:
-  PacketFrame() = default;
-  PacketFrame(const PacketFrame&) = delete;
-  PacketFrame& operator=(const PacketFrame&) = delete;
-  virtual ~PacketFrame() = default;
-
-  /// Returns the frame's object in report.json.
-  [[nodiscard]] virtual std::string report() const = 0;
-  /// "link_poses": [...], "camera_pose": ..., and "marks": [...] where targets can be outlined
-  [[nodiscard]] virtual std::string poses() const = 0;
+struct PacketFrame {
+  std::string report;  ///< the frame's object in report.json
+  std::string poses;   ///< of poses_json(), and "marks": [...] where targets can be outlined
   /// Returns a part other than Part::cloud, or nothing if the frame does not have it.
-  [[nodiscard]] virtual std::optional<PartBytes> part(Part part) const = 0;
-  /// Returns the pixels of Part::color, or null if there are none.
-  [[nodiscard]] virtual std::shared_ptr<const Image<Rgb8>> color_pixels() const;
+  std::function<std::optional<PartBytes>(Part)> part;
 };
 
 /// An archive of judged frames, which may still grow. Any thread may read the frames meanwhile.
@@ -72,9 +64,9 @@ class FrameArchive {
   [[nodiscard]] virtual bool is_complete() const = 0;
   /// Returns report.json so far, with the frames from index `from` on.
   [[nodiscard]] virtual SharedBytes report(std::size_t from) const = 0;
-  /// Returns frame i in the report's order, or null if it does not exist (yet). This must outlive
-  /// the frame.
-  [[nodiscard]] virtual std::unique_ptr<PacketFrame> frame(std::size_t i) const = 0;
+  /// Returns frame i in the report's order, or nothing if it does not exist (yet). This must
+  /// outlive the frame.
+  [[nodiscard]] virtual std::optional<PacketFrame> frame(std::size_t i) const = 0;
   /// Returns what cannot be shown and the command that provides it, one sentence each.
   [[nodiscard]] virtual std::vector<std::string> missing() const = 0;
 };

@@ -19,13 +19,6 @@ namespace {
 constexpr std::size_t name_digits = 6;
 constexpr std::array saved_kinds{Part::overlay, Part::labels, Part::links, Part::vdi};
 
-void read_frames(const Json& frames, RunReport& report) {
-  for (const Json& frame : frames) {
-    report.indices.push_back(frame.at("index"));
-    report.frames.push_back(json_text(frame));
-  }
-}
-
 /// Throws InputError for a file that is outside of the folder through a link.
 void check_is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
@@ -36,9 +29,10 @@ void check_is_inside(const std::filesystem::path& file, const std::filesystem::p
     throw InputError(file.string() + ": is outside of the run's folder and is not shown");
 }
 
-template <typename T>
-std::optional<PartBytes> bytes_of(const Image<T>& image, const FileResult& read, const char* type) {
-  if (!read.ok()) return std::nullopt;
+template <typename T, typename Read>
+std::optional<PartBytes> pixels_of(const std::filesystem::path& file, const char* type, Read read) {
+  Image<T> image;
+  if (!read(file, image, std::nullopt).ok()) return std::nullopt;
   std::string bytes(image.size() * sizeof(T), '\0');
   std::memcpy(bytes.data(), image.data(), bytes.size());
   return PartBytes{type, image.width(), image.height(), shared_bytes(std::move(bytes))};
@@ -47,21 +41,9 @@ std::optional<PartBytes> bytes_of(const Image<T>& image, const FileResult& read,
 std::optional<PartBytes> read_saved(const std::filesystem::path& file, Part part,
                                     const std::filesystem::path& folder) {
   check_is_inside(file, folder);
-  if (part == Part::labels) {
-    Image<std::uint8_t> image;
-    const FileResult read = read_png(file, image);
-    return bytes_of(image, read, "u8");
-  }
-  if (part == Part::links) {
-    Image<std::uint16_t> image;
-    const FileResult read = read_png(file, image);
-    return bytes_of(image, read, "u16");
-  }
-  if (part == Part::vdi) {
-    Image<float> image;
-    const FileResult read = read_npy(file, image);
-    return bytes_of(image, read, "f32");
-  }
+  if (part == Part::labels) return pixels_of<std::uint8_t>(file, "u8", read_png<std::uint8_t>);
+  if (part == Part::links) return pixels_of<std::uint16_t>(file, "u16", read_png<std::uint16_t>);
+  if (part == Part::vdi) return pixels_of<float>(file, "f32", read_npy);
   Image<Rgb8> image;
   if (!read_png(file, image).ok()) return std::nullopt;
   return PartBytes{"image/png", image.width(), image.height(),
@@ -77,7 +59,10 @@ RunReport RunReport::read(const std::filesystem::path& file) {
     report.input = json.at("input");
     if (json.at("settings").at("image") == "rectified") report.image = ImageSpace::rectified;
     for (const Json& link : json.at("links")) report.links.push_back(link);
-    read_frames(json.at("frames"), report);
+    for (const Json& frame : json.at("frames")) {
+      report.indices.push_back(frame.at("index"));
+      report.frames.push_back(json_text(frame));
+    }
     report.end = "\n],\n\"summary\": " + json_text(json.at("summary")) + "}\n";
     json.erase("frames");
     json.erase("summary");
@@ -90,31 +75,6 @@ RunReport RunReport::read(const std::filesystem::path& file) {
   }
   return report;
 }
-
-/// The saved images of a frame.
-class RunFolder::SavedFrame final : public PacketFrame {
- public:
-  SavedFrame(const RunFolder& folder, std::size_t i) : folder_(folder), i_(i) {}
-
-  [[nodiscard]] std::string report() const override { return folder_.report_.frames[i_]; }
-  [[nodiscard]] std::string poses() const override {
-    return poses_json({}, {}, folder_.report_.links.size());
-  }
-  [[nodiscard]] std::optional<PartBytes> part(Part part) const override {
-    if (!folder_.is_saved(part)) return std::nullopt;
-    return read_saved(file(part), part, folder_.folder_);
-  }
-
- private:
-  [[nodiscard]] std::filesystem::path file(Part part) const {
-    std::string name = std::to_string(folder_.report_.indices[i_]);
-    name.insert(0, name_digits - std::min(name.size(), name_digits), '0');
-    return folder_.folder_ / to_string(part) / (name + (part == Part::vdi ? ".npy" : ".png"));
-  }
-
-  const RunFolder& folder_;
-  std::size_t i_;
-};
 
 RunFolder::RunFolder(std::filesystem::path folder, RunReport report)
     : folder_(std::move(folder)), report_(std::move(report)) {}
@@ -139,9 +99,16 @@ SharedBytes RunFolder::report(std::size_t from) const {
   return shared_bytes(text + report_.end);
 }
 
-std::unique_ptr<PacketFrame> RunFolder::frame(std::size_t i) const {
-  if (i >= size()) return nullptr;
-  return std::make_unique<SavedFrame>(*this, i);
+std::optional<PacketFrame> RunFolder::frame(std::size_t i) const {
+  if (i >= size()) return std::nullopt;
+  return PacketFrame{report_.frames[i], poses_json({}, {}, report_.links.size()),
+                     [this, i](Part part) -> std::optional<PartBytes> {
+                       if (!is_saved(part)) return std::nullopt;
+                       std::string name = std::to_string(report_.indices[i]);
+                       name.insert(0, name_digits - std::min(name.size(), name_digits), '0');
+                       name += part == Part::vdi ? ".npy" : ".png";
+                       return read_saved(folder_ / to_string(part) / name, part, folder_);
+                     }};
 }
 
 std::vector<std::string> RunFolder::missing() const {

@@ -36,11 +36,10 @@ class RunFolder final : public FrameArchive {
   [[nodiscard]] std::size_t size() const override { return report_.frames.size(); }
   [[nodiscard]] bool is_complete() const override { return true; }
   [[nodiscard]] SharedBytes report(std::size_t from) const override;
-  [[nodiscard]] std::unique_ptr<PacketFrame> frame(std::size_t i) const override;
+  [[nodiscard]] std::optional<PacketFrame> frame(std::size_t i) const override;
   [[nodiscard]] std::vector<std::string> missing() const override;
 
  private:
-  class SavedFrame;
   [[nodiscard]] bool is_saved(Part part) const;
 
   std::filesystem::path folder_;

@@ -38,22 +38,6 @@ Spoil every_depth(int width, int height, T value) {
   };
 }
 
-std::string robot(const std::string& content) {
-  return "<robot name=\"tiny\">" + content + "</robot>";
-}
-std::string joint(const std::string& parent, const std::string& child, const std::string& type) {
-  return "<joint name=\"" + parent + "_" + child + "\" type=\"" + type + "\"><parent link=\"" +
-         parent + "\"/><child link=\"" + child + "\"/></joint>";
-}
-std::string link(const std::string& name) { return "<link name=\"" + name + "\"/>"; }
-
-std::string binary_stl(std::uint32_t triangles, std::size_t bytes) {
-  std::string stl(84 + 50 * static_cast<std::size_t>(triangles), '\0');
-  for (int i = 0; i < 4; ++i)
-    stl[80 + static_cast<std::size_t>(i)] = static_cast<char>((triangles >> (8 * i)) & 255U);
-  return stl.substr(0, bytes);
-}
-
 /// ASCII as a Windows editor saves it, with a byte order mark or without.
 std::string utf16(const std::string& text, bool with_mark) {
   std::string bytes = with_mark ? "\xFF\xFE" : "";
@@ -77,31 +61,17 @@ using BadInputTest = TinyTest;
 TEST(BadInput, Robots) {
   expect_all_refused({
       {take_away("tiny.urdf"), {"tiny.urdf"}},
-      {replace("tiny.urdf", ""), {"tiny.urdf"}},
-      {replace("tiny.urdf", "robot: tiny\n"), {"tiny.urdf"}},
       {replace("tiny.urdf", "<robot name=\"tiny\"><link name=\"base\">"), {"tiny.urdf"}},
       {replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)), {"tiny.urdf", "UTF-8"}},
       {replace("tiny.urdf",
                "<robot name=\"tiny\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">"
                "<xacro:include filename=\"a.xacro\"/><link name=\"base\"/></robot>"),
        {"tiny.urdf", "xacro"}},
-      {replace("tiny.urdf", robot("")), {"tiny.urdf", "link"}},
-      {replace("tiny.urdf", robot(link("base") + link("other"))), {"tiny.urdf", "base", "other"}},
-      {replace("tiny.urdf", robot(link("base") + link("b") + link("c") + joint("b", "c", "fixed") +
-                                  joint("c", "b", "fixed"))),
-       {"tiny.urdf"}},
-      {edit("tiny.urdf", "prismatic", "spherical"), {"tiny.urdf", "spherical"}},
       {edit("tiny.urdf", "xyz=\"0 0 1\"", "xyz=\"0 nan 1\""), {"tiny.urdf", "nan"}},
       {edit("tiny.urdf",
             "<collision><geometry><mesh filename=\"board.stl\"/></geometry></collision>", ""),
        {"no link is rendered"}},
       {take_away("board.stl"), {"board"}},
-      {replace("board.stl", ""), {"board.stl"}},
-      {replace("board.stl", binary_stl(12, 400)), {"board.stl"}},
-      {replace("board.stl", binary_stl(12, 83)), {"board.stl"}},
-      {replace("board.stl", board_stl().substr(0, 300)), {"board.stl"}},
-      {replace("board.stl", binary_stl(0, 84)), {"board.stl"}},
-      {edit("board.stl", "vertex -0.2", "vertex nan"), {"board.stl"}},
       {edit("board.stl", "vertex -0.2", "vertex 1e30"), {"board.stl"}},
   });
 }
@@ -111,19 +81,12 @@ TEST(BadInput, Recordings) {
   expect_all_refused({
       {[](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
       {take_away("recording.yaml"), {"recording.yaml"}},
-      {replace("recording.yaml", "robot: [\n"), {"recording.yaml"}},
       {edit("recording.yaml", "  parent:", "  perent:"), {"recording.yaml:", "perent"}},
-      {edit("recording.yaml", "  parent:", "  range: [3.0, 0.5]\n  parent:"), {"range"}},
       {edit("recording.yaml", "parent: base", "parent: bass"), {"recording.yaml", "bass"}},
       {edit("recording.yaml", "  urdf: tiny.urdf", "  urdf: tiny.urdf\n  ignore_links: ['*']"),
        {"no link is rendered"}},
       {take_away("camera_info.yaml"), {"camera_info.yaml"}},
-      {edit("camera_info.yaml", "k: [60.0", "k: [0.0"), {"camera_info.yaml"}},
-      {edit("camera_info.yaml", "k: [60.0", "k: [1e300"), {"camera_info.yaml"}},
       {edit("camera_info.yaml", "d: [0.0", "d: [-1e9"), {"camera_info.yaml", "reaches no pixel"}},
-      {edit("camera_info.yaml", "plumb_bob", "fishy"), {"fishy"}},
-      {edit("camera_pose.csv", "1,0,0,0", "2,0,0,0"), {"camera_pose.csv"}},
-      {edit("camera_pose.csv", "1,0,0,0", "1,0,0,1e300"), {"camera_pose.csv", "1000 km"}},
       {replace("camera_pose.csv", utf16(pose, false)), {"camera_pose.csv: is UTF-16", "UTF-8"}},
   });
 }
@@ -140,9 +103,6 @@ TEST(BadInput, Frames) {
   };
   expect_all_refused({
       {take_away("joint_states.csv"), {"joint_states.csv"}},
-      {replace("joint_states.csv", "frame,slide\n"), {"joint_states.csv"}},
-      {replace("joint_states.csv", "frame\n0\n"), {"joint_states.csv", "slide"}},
-      {replace("joint_states.csv", "frame,slide,elbow\n0,0,0\n"), {"joint_states.csv", "elbow"}},
       {replace("joint_states.csv", "frame,slide\n0,far\n1,near\n"), {"joint_states.csv", "far"}},
       {replace("joint_states.csv", std::string("frame,slide\n0,0.1\n\0", 19)),
        {"joint_states.csv:3", "'?'"}},
@@ -167,9 +127,7 @@ TEST_F(BadInputTest, Options) {
   const BadLines lines = {{{"--renderer", "auto"}, "cpu, gl, reference"},
                           {{"--geometry", "nice"}, "--geometry"},
                           {{"--tolerance", "0.1,0"}, "--tolerance"},
-                          {{"--tolerance", "a,b,c"}, "--tolerance"},
                           {{"--tolerance=-1,0,0"}, "-1"},
-                          {{"--front-min-width=-1"}, "--front-min-width"},
                           {{"--front-min-width", "64"}, "0 to 63"},
                           {{"--fringe-reach", "256"}, "--fringe-reach"},
                           {{"--sensor", "kinect"}, "kinect"},
@@ -187,7 +145,6 @@ TEST_F(BadInputTest, Options) {
                           {{"--targets", "t.yaml"}, "t.yaml"},
                           {{"--time-offset=-0.1"}, "--time-offset"},
                           {{"--frames", "1:4"}, "0 to 2"},
-                          {{"--frames", "2:2"}, "--frames"},
                           {{"--frames", "all"}, "--frames"},
                           {{"--speed"}, "(penumbra run --help lists the options)"},
                           {{"another"}, "another"}};

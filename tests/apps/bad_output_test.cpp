@@ -2,7 +2,7 @@
 // Folders that run may not write to, and what of earlier contents goes or stays.
 #include "fixtures.hpp"
 
-#include <io/files/file_lock.hpp>
+#include <io/files/pending_file.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -14,7 +14,7 @@
 #include <io/bag/bag_reader.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/pending_file.hpp>
-#include <io/mcap/crc32.hpp>
+#include <io/mcap/compression.hpp>
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::test {

@@ -153,42 +153,30 @@ void expect_refused(const std::string& text, std::initializer_list<Edit> edits,
 }
 
 TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
-  const std::string d = "d:\n- -0.3\n- 0.1\n- 0.001\n- -0.002\n- 0.0\n";
   expect_refused(info_text,
                  {{"k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n", "", "key 'k'"},
-                  {d.c_str(), "", "key 'd'"},
-                  {"height: 480\n", "", "key 'height'"},
-                  {"width: 640\n", "", "key 'width'"},
                   {"distortion_model: plumb_bob\n", "", "key 'distortion_model'"},
                   {"height: 480", "height: 480\nheigth: 480", "cam.yaml:7: heigth"},
                   {"height: 480", "height: 480\nheight: 480", "there already"},
                   {"width: 640", "width: 0", "cam.yaml:7: width"},
                   {"width: 640", "width: 99999999999", "cam.yaml:7: width"},
-                  {"width: 640", "width: 640.5", "whole number"},
                   {"plumb_bob", "division", "cam.yaml:8: distortion_model"},
                   {"plumb_bob", "equidistant", "cam.yaml:9: d"},
                   {"- -0.3", "- .nan", "cam.yaml:10: d[0]"},
-                  {"- -0.3", "- [1]", "cam.yaml:10: d[0]"},
                   {"k: [500.5", "k: [0.0", "cam.yaml:15: k: "},
-                  {"k: [500.5", "k: [-500.5", "fx = -500.5"},
                   {"k: [500.5", "k: [1, 500.5", "cam.yaml:15: k: has 10 values"},
                   {"k: [500.5, 0.0", "k: [500.5, 0.1", "skew"},
                   {"240.75, 0.0, 0.0, 1.0]", "240.75, 0.0, 0.0, 2.0]", "value 9"},
-                  {"240.75, 0.0, 0.0, 1.0]", "240.75, 0.5, 0.0, 1.0]", "value 7"},
                   {"k: [500.5", "K: [500.5, 0]\nk: [500.5", "keep one"},
-                  {"binning_x: 0", "binning_x: -2", "binning_x"},
                   {"binning_x: 0", "binning_x: 641", "cam.yaml:18: binning_x"},
-                  {"  width: 0", "  width: 700\n  height: 480\n", "'height'"},
                   {"  width: 0", "  width: 700", "cam.yaml:20: roi"},
                   {"  x_offset: 0", "  x_offset: 10", "region of interest"},
-                  {"do_rectify: false", "do_rectify: 2", "true or false"},
                   {"do_rectify: false", "do_rectify: false\n  angle: 3", "roi.angle"},
                   {"height: 480", "height: 480\nframe_id: other", "header.frame_id"}});
   expect_refused(calibration, {{"image_width: 640\n", "", "'image_width'"},
                                {"  rows: 3\n", "", "camera_matrix: key 'rows'"},
                                {"cols: 5", "cols: 4", "1 x 4"},
                                {"rows: 3", "rows: 4611686018427387905", "rows x"},
-                               {"rows: 3", "rows: -3", "-3"},
                                {"cols: 5", "cols: 5\n  dt: d", "dt"}});
 }
 

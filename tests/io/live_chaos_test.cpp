@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joint states that come late, out of order or never, publishers that stop: each label image is
-// that of the true pose at its stamp, or says that nothing is known.
+// Joint states that are late, out of order or lost, and publishers that stop: each label image
+// shows the true pose at its stamp, or is all unknown.
 #include "../support/random.hpp"
 #include "live_scene.hpp"
 
@@ -18,7 +18,7 @@ struct Event {
   std::function<void(LiveBench&)> tell;
 };
 
-/// What a camera at 30 Hz and a robot at 100 Hz say in `length`, as it arrives.
+/// The messages of a camera at 30 Hz and a robot at 100 Hz in `length`, in the order of arrival.
 class Script {
  public:
   explicit Script(std::mt19937_64& random) : random_(random) {}
@@ -91,7 +91,7 @@ TEST(LiveChaos, NoLabelImageIsOfAWrongPose) {
     for (const std::size_t dropped : counts.dropped) all += dropped;
     EXPECT_EQ(all, counts.received);
     EXPECT_EQ(counts.failed, 0U);
-    // Results are back within a second of the joint states' return.
+    // Results resume within a second after the joint states do.
     const bool is_back = std::any_of(bench.results.published.begin(), bench.results.published.end(),
                                      [&](const KeptResults::Published& one) {
                                        return one.result == io::Result::virtual_depth &&

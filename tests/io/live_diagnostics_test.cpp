@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of how it goes, and why nothing comes.
+// The diagnostics of live, for example why there are no results.
 #include "live_scene.hpp"
 
 #include <gtest/gtest.h>

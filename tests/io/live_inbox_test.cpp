@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is judged of messages as they come, driven by hand.
+// An inbox driven by hand: which images are judged, and how.
 #include "live_scene.hpp"
 #include "ros_images.hpp"
 
@@ -10,12 +10,12 @@ namespace {
 
 class LiveInboxTest : public testing::Test {
  protected:
-  /// Joint states around a stamp, which lies between two of them.
+  /// Publishes joint states before and after a stamp.
   void tell_joints_around(std::int64_t stamp) {
     bench_.tell_joints(stamp - 10 * milliseconds);
     bench_.tell_joints(stamp + 10 * milliseconds);
   }
-  /// An image whose pose is known, judged at once.
+  /// Judges an image whose pose is known.
   std::size_t judge(std::int64_t stamp) {
     tell_joints_around(stamp);
     bench_.tell_depth(stamp);
@@ -47,14 +47,14 @@ TEST_F(LiveInboxTest, JudgesAnImageAtItsStamp) {
 }
 
 TEST_F(LiveInboxTest, AnotherPoseWouldShow) {
-  // The oracle of these tests: 30 ms make other labels.
+  // Checks the oracle of these tests: labels of 30 ms later differ.
   const FrameReport& report = truth_.judge(start);
   const std::vector<std::uint8_t> labels(report.labels.data, report.labels.data + 64 * 48);
   const FrameReport& later = truth_.judge(start + 30 * milliseconds);
   EXPECT_NE(std::memcmp(labels.data(), later.labels.data, labels.size()), 0);
 }
 
-/// The board turns ever faster: held, of the latest state or gone on as before it is elsewhere.
+/// The board turns faster and faster, so that only interpolation gives the right pose.
 TEST_F(LiveInboxTest, APoseLiesBetweenTheStatesAroundItsStamp) {
   bench_.tell_all();
   for (const auto& [ms, angle] : {std::pair(-30, 0.0), {-20, 0.0}, {-10, 0.1}, {10, 0.5}})
@@ -66,7 +66,7 @@ TEST_F(LiveInboxTest, APoseLiesBetweenTheStatesAroundItsStamp) {
   ASSERT_EQ(bench_.work(), 1U);
   const auto labels = bench_.results.last<io::ImageMessage>(io::Result::labels);
   const auto is_turned = [&](double angle) {
-    const auto when = start + std::llround(angle / std::numbers::pi * 1e9);  // spin_at's pace
+    const auto when = start + std::llround(angle / std::numbers::pi * 1e9);  // spin_at's speed
     return std::memcmp(labels.data.data(), truth_.judge(when).labels.data, labels.data.size()) == 0;
   };
   EXPECT_TRUE(is_turned(0.3));
@@ -95,7 +95,7 @@ TEST_F(LiveInboxTest, WithoutJointStatesAllIsUnknown) {
   expect_nothing_trusted();
 }
 
-/// A joint_state_publisher whose sliders nobody moves.
+/// Returns a state of a joint_state_publisher whose sliders do not move.
 std::vector<std::byte> sliders(std::int64_t stamp) {
   return encoded(io::JointStateMessage{
       .header = {stamp, ""}, .names = {"spin"}, .positions = {spin_at(start) + 2.0}});
@@ -116,7 +116,7 @@ TEST_F(LiveInboxTest, TwoPublishersThatDisagreeAreNoPose) {
   for (const char* const part : {"'spin'", "publisher 1 of /joint_states (joint 'spin')",
                                  "publisher 2 of /joint_states (joint 'spin')"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
-  // The sliders end, and a second later all is well.
+  // The sliders stop. A second later the driver is believed.
   const std::int64_t later = start + seconds;
   for (std::int64_t t = start + 40 * milliseconds; t <= later + 20 * milliseconds;
        t += 20 * milliseconds)
@@ -133,7 +133,7 @@ TEST_F(LiveInboxTest, PublishersThatAgreeAndADriverThatStartsAgainAreWell) {
   std::size_t known = 0;
   for (std::int64_t ms = 0; ms < 2000; ms += 10) {
     const std::int64_t t = start + ms * milliseconds;
-    if (ms < 800 || ms > 900) bench_.tell_joints(t, ms < 800 ? 7 : 9);  // killed, and started again
+    if (ms < 800 || ms > 900) bench_.tell_joints(t, ms < 800 ? 7 : 9);  // killed and restarted
     if (ms % 50 == 0) bench_.tell_joints(t - 2 * milliseconds, 8);
     if (ms % 100 == 30) bench_.tell_depth(t - 5 * milliseconds);
     bench_.now += 10 * milliseconds;
@@ -176,7 +176,7 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   bench_.tell_all();
   bench_.tell_info(start);
   EXPECT_EQ(judge(start), 1U);
-  // An image of the old camera that waits when the new one is told is not judged by either.
+  // An image of the old camera that waits while the new one appears is judged by neither.
   bench_.tell_depth(start + 33 * milliseconds);
   bench_.tell_info(start + 66 * milliseconds, 90.0);
   EXPECT_EQ(bench_.work(), 0U);
@@ -203,7 +203,7 @@ TEST_F(LiveInboxTest, AnotherRobotIsDrawn) {
   const auto before = pixels();
   bench_.tell_robot(larger);
   judge(start + 33 * milliseconds);
-  EXPECT_EQ(status(), "ok") << "the static transforms are not told again";
+  EXPECT_EQ(status(), "ok") << "the static transforms are not published again";
   EXPECT_GT(pixels(), 3 * before);
 }
 
@@ -230,8 +230,8 @@ TEST_F(LiveInboxTest, ImagesOfAnotherFrameThanTheirCameraInfoAreRefused) {
   EXPECT_EQ(judge(start + 33 * milliseconds), 1U);
 }
 
-/// A camera that sends a camera_info with each image starts again as another one, whose camera_info
-/// is heard a second later than its images.
+/// A camera that sends a camera_info with each image is replaced by another one, whose camera_info
+/// arrives a second later than its images.
 TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   bench_.tell_all();
   const auto drive = [&](std::int64_t from, int images, double focal, std::uint64_t publisher) {
@@ -259,7 +259,7 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
   LiveTruth other({.focal = 90.0});
   EXPECT_EQ(expect_true_labels(bench_.results.published, other), 3U);
-  // Again, now by a clock that begins anew: what came before is later than all that comes.
+  // Again after the clock was reset: earlier stamps are larger than all later ones.
   bench_.results.published.clear();
   EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);
   EXPECT_EQ(drive(start - 899 * seconds, 3, 60.0, 3), 3U);
@@ -286,7 +286,7 @@ TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), judged);
 }
 
-/// Where the robot is known, but no depth: it is unknown there, and the rest is free of it.
+/// Where there is no depth, the robot is unknown and everything else is clear.
 TEST_F(LiveInboxTest, CompressedDepthIsJudgedAsWhatItHolds) {
   for (const bool rvl : {false, true}) {
     io::LiveOptions options = LiveBench::one_camera();
@@ -337,7 +337,7 @@ TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
     EXPECT_EQ(judge(stamp), "ok") << i;
   }
   EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 30U);
-  EXPECT_NE(judge(start + 10 * seconds), "ok") << "what was told last is no pose of now";
+  EXPECT_NE(judge(start + 10 * seconds), "ok") << "the last received pose is too old";
 }
 
 TEST(LiveTargets, ComeWithTheNextImage) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What live takes does not grow with what it was told: robots and cameras that change, targets
-// whose ids are new each time, frames of TF that nobody knew, messages that cannot be read.
+// The memory of live does not grow with its input: robots and cameras that change, targets with new
+// ids, unknown frames of TF, messages that cannot be decoded.
 #include "../support/process_memory.hpp"
 #include "../support/run_length.hpp"
 #include "live_scene.hpp"
@@ -14,8 +14,8 @@ namespace penumbra::test {
 namespace {
 
 constexpr std::int64_t period = 33 * milliseconds;
-/// Of the allocator's caches, which a larger robot's or image's buffers leave behind, MiB. A leak
-/// of 100 bytes for each image would be 9 MiB in the long run.
+/// The size of the allocator's caches that buffers of a larger robot or image leave behind, MiB. A
+/// leak of 100 bytes for each image would be 9 MiB in the long run.
 constexpr double memory_slack = 4.0;
 
 class LiveMemory : public testing::Test {
@@ -88,7 +88,7 @@ class LiveMemory : public testing::Test {
 
   LiveBench bench_{options()};
   std::string robot_ = live_urdf;
-  /// Of frames that TF tells: in the long run more than are kept, which are there after a tenth.
+  /// The number of frames of TF. The long run has more of them than are kept.
   std::size_t names_ = 400;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of live: two cameras, one robot, everything told at once.
+// The threads of live: two cameras and one robot, with all messages at once.
 #include "live_scene.hpp"
 
 #include <atomic>
@@ -16,7 +16,7 @@
 namespace penumbra::test {
 namespace {
 
-/// Results that another thread may look at.
+/// Results that another thread may read.
 class SharedResults final : public io::ResultSink {
  public:
   [[nodiscard]] bool wants(io::Result result) const override {

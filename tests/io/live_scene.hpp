@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A made-up robot and camera whose truth is in their stamps: a board that slides evenly before a
-// camera, and what both would say of it on ROS 2's topics.
+// A synthetic robot and camera whose true pose is a function of the stamp: a board that turns
+// before a camera, with the messages of both on ROS 2's topics.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace penumbra::test {
 
 inline constexpr std::int64_t milliseconds = 1'000'000;
 inline constexpr std::int64_t seconds = 1000 * milliseconds;
-inline constexpr std::int64_t start = 1000 * seconds;  // the board lies level then
+inline constexpr std::int64_t start = 1000 * seconds;  // the board is level then
 
 /// A camera of the scene.
 struct LiveLens {
@@ -42,7 +42,7 @@ struct LiveLens {
   }
 };
 
-/// Of the size of real ones, in which the board is as large as in the small one.
+/// A camera of realistic size. The board fills as much of its image as of the small one.
 inline constexpr LiveLens large_lens{
     .focal = 900.0, .width = 1280, .height = 720, .cx = 640.3, .cy = 359.7};
 
@@ -59,11 +59,11 @@ inline constexpr const char* live_urdf = R"(<robot name="tiny">
 </robot>
 )";
 
-/// How far the board has turned at a stamp, radians: evenly, so that what lies between two states
-/// is known, and by a pixel at its rim in some 20 ms.
+/// Returns the board's angle at a stamp, radians. Its speed is constant, so that poses between two
+/// states are known, and moves the rim by a pixel in about 20 ms.
 inline double spin_at(std::int64_t stamp) {
   constexpr std::int64_t turn = 2 * seconds;
-  // Whole turns go first: of the nanoseconds since 1970 a double would lose some hundred.
+  // Whole turns are removed first, because a double loses about 100 of the nanoseconds since 1970.
   const double part = static_cast<double>(stamp % turn) / static_cast<double>(turn);
   return std::remainder(2 * std::numbers::pi * part, 2 * std::numbers::pi);
 }
@@ -93,14 +93,15 @@ inline std::vector<std::byte> live_joints(std::int64_t stamp) {
       .header = {stamp, ""}, .names = {"spin"}, .positions = {spin_at(stamp)}});
 }
 
-/// A wall at 3 m: every pixel of the board is then beyond, so that labels say where it was drawn.
+/// Returns depth of a wall at 3 m. Each pixel of the board is beyond, so labels show where it was
+/// drawn.
 inline std::vector<std::byte> live_depth(std::int64_t stamp, const std::string& frame = "optical",
                                          const LiveLens& lens = {}) {
   const Image<std::uint16_t> wall(lens.width, lens.height, 3000);
   return encoded(io::image_message(io::MessageHeader{stamp, frame}, "16UC1", wall.view()));
 }
 
-/// Labels of the wall with the board where it is at a stamp.
+/// Returns the labels of the wall with the board at a stamp.
 class LiveTruth {
  public:
   explicit LiveTruth(const LiveLens& lens = {})
@@ -122,7 +123,7 @@ class LiveTruth {
   Pipeline pipeline_;
 };
 
-/// Keeps what is published.
+/// Keeps the published results.
 class KeptResults final : public io::ResultSink {
  public:
   struct Published {
@@ -131,7 +132,7 @@ class KeptResults final : public io::ResultSink {
     std::vector<std::byte> payload;
   };
   std::vector<Published> published;
-  std::map<io::Result, bool> wanted;  ///< all that are not named are
+  std::map<io::Result, bool> wanted;  ///< results that are not named are wanted
 
   [[nodiscard]] bool wants(io::Result result) const override {
     const auto found = wanted.find(result);
@@ -145,7 +146,7 @@ class KeptResults final : public io::ResultSink {
         std::count_if(published.begin(), published.end(),
                       [&](const Published& one) { return one.result == result; }));
   }
-  /// The last one of a kind.
+  /// Returns the last result of a kind.
   template <typename M>
   M last(io::Result result) {
     M message;
@@ -196,14 +197,14 @@ class LiveBench {
   }
   void tell_depth(std::int64_t stamp) { tell("/camera/depth/image_rect_raw", live_depth(stamp)); }
 
-  /// Robot, camera and mount.
+  /// Publishes robot, camera and mount.
   void tell_all() {
     tell_robot();
     tell_mount();
     tell_info(0);
   }
 
-  /// Judges what can be judged; answers how many.
+  /// Judges all images that can be judged. Returns their number.
   std::size_t work() {
     std::size_t judged = 0;
     for (; inbox.next(0, now, true, job); ++judged)
@@ -220,8 +221,8 @@ class LiveBench {
   KeptResults results;
 };
 
-/// Each published label image of `published` is the truth of its stamp, or says nothing. Answers
-/// how many say something.
+/// Expects each published label image to show the true pose at its stamp or to be all unknown.
+/// Returns the number of those that show a pose.
 inline std::size_t expect_true_labels(const std::vector<KeptResults::Published>& published,
                                       LiveTruth& truth) {
   std::size_t known = 0;

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/mcap/file_layout.hpp>
+#include <io/mcap/file_index.hpp>
 
 namespace penumbra::io::mcap {
 namespace {
@@ -73,7 +73,7 @@ TEST_P(McapDamage, EveryTruncationKeepsTheChunksBefore) {
   FaultLog faults;
   std::vector<std::pair<std::size_t, std::size_t>> whole_at;  // bytes of the file, messages in them
   std::size_t messages = 0;
-  for (const MessagePlace& place : read_layout(input, faults).places) {
+  for (const MessagePlace& place : read_index(input, faults).places) {
     const std::size_t end = place.offset + place.length;
     messages = read(whole_.substr(0, end)).messages.size();
     whole_at.emplace_back(end, messages);
@@ -109,8 +109,8 @@ TEST_P(McapDamage, ADamagedChunkIsOneFault) {
   InputFile input;
   input.open(file_).require();
   FaultLog faults;
-  const FileLayout layout = read_layout(input, faults);
-  for (const MessagePlace& place : layout.places) {
+  const FileIndex index = read_index(input, faults);
+  for (const MessagePlace& place : index.places) {
     std::string damaged = whole_;
     damaged[place.offset + place.length - 1] =
         static_cast<char>(damaged[place.offset + place.length - 1] ^ 0x40);

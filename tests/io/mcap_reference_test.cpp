@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/mcap/crc32.hpp>
+#include <io/mcap/compression.hpp>
 
 namespace penumbra::io::mcap {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <io/files/bitmap_font.hpp>
-#include <io/files/overlay.hpp>
+#include <io/files/overlay_painter.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -26,26 +26,24 @@ struct Scene {
     for (int v = height / 2; v < height / 2 + height / 4; ++v)
       for (int u = width / 2; u < width / 2 + width / 4; ++u)
         labels(u, v) = static_cast<std::uint8_t>(label);
-    for (std::size_t i = 0; i < labels.size(); ++i) ++view.pixels[labels.data()[i]];
-    view.labels = std::as_const(labels).view();
+    report.index = 3;
+    report.labels = std::as_const(labels).view();
   }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  [[nodiscard]] OverlayInput input() const {
-    return {std::as_const(color).view(), {}, view, 3, std::nullopt, {}};
-  }
+  [[nodiscard]] ShownImages images() const { return {{}, std::as_const(color).view()}; }
 
   Image<Rgb8> color;
   Image<std::uint8_t> labels;
-  LabelView view;
+  FrameReport report;
 };
 
 TEST(Overlay, BlendsTheLabelAndKeepsTheScene) {
   for (const Label label : {Label::front, Label::occluded, Label::unknown, Label::beyond}) {
     const Scene scene(640, 480, label);
     Image<Rgb8> out;
-    draw_overlay(scene.input(), out);
+    draw_overlay(scene.report, scene.images(), out);
     ASSERT_EQ(out.width(), 640);
     ASSERT_EQ(out.height(), 480);
     const Rgb8 inside = out(400, 300), wanted = label_color(label);
@@ -69,11 +67,8 @@ TEST(Overlay, ShowsDepthWithoutColor) {
   Image<std::uint16_t> millimetres(64, 480, 0);
   for (int v = 0; v < 480; ++v) millimetres(50, v) = 500, millimetres(51, v) = 2000;
   Image<Rgb8> of_metres, of_millimetres;
-  OverlayInput input;
-  input.depth = std::as_const(metres).view();
-  draw_overlay(input, of_metres);
-  input.depth = std::as_const(millimetres).view();
-  draw_overlay(input, of_millimetres);
+  draw_overlay({}, {std::as_const(metres).view(), {}}, of_metres);
+  draw_overlay({}, {std::as_const(millimetres).view(), {}}, of_millimetres);
   EXPECT_GT(of_metres(50, 400).r, of_metres(51, 400).r);
   EXPECT_GT(of_metres(51, 400).r, 0);
   for (int u = 52; u < 55; ++u) EXPECT_EQ(of_metres(u, 400), black) << u;
@@ -102,14 +97,13 @@ bool shows(const Image<Rgb8>& picture, std::string_view text) {
 TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
   Scene scene(320, 240, Label::unknown);
   scene.labels = Image<std::uint8_t>(320, 240, static_cast<std::uint8_t>(Label::unknown));
-  scene.view.labels = std::as_const(scene.labels).view();
-  scene.view.pixels = {0, 0, 0, scene.labels.size(), 0};
-  OverlayInput input = scene.input();
+  scene.report.labels = std::as_const(scene.labels).view();
+  scene.report.pixels.unknown = scene.labels.size();
   Image<Rgb8> out;
-  draw_overlay(input, out);
+  draw_overlay(scene.report, scene.images(), out);
   EXPECT_TRUE(shows(out, "robot 76800 px")) << "the test can read the legend";
-  input.pose_known = false;
-  draw_overlay(input, out);
+  scene.report.status = FrameStatus::missing_joints;
+  draw_overlay(scene.report, scene.images(), out);
   EXPECT_TRUE(shows(out, "robot: pose unknown"));
   EXPECT_TRUE(shows(out, "unknown  all pixels"));
   EXPECT_FALSE(shows(out, "robot 76800 px"));
@@ -122,17 +116,14 @@ TEST(Overlay, WorksAtAnySize) {
     Image<std::uint8_t> labels(width, height);
     for (std::size_t i = 0; i < labels.size(); ++i)
       labels.data()[i] = static_cast<std::uint8_t>(random() % label_count);
-    LabelView view;
-    view.labels = std::as_const(labels).view();
-    view.pixels = {1, 2, 3, 4, std::size_t{1} << 60};
-    OverlayInput input;
-    input.labels = view;
-    input.index = std::numeric_limits<std::int64_t>::max();
-    input.stamp = std::numeric_limits<std::int64_t>::min();
-    const std::string message(3000, '\xE9');
-    input.message = message;
+    FrameReport report;
+    report.labels = std::as_const(labels).view();
+    report.pixels.front = std::size_t{1} << 60;
+    report.index = std::numeric_limits<std::size_t>::max();
+    report.stamp = std::numeric_limits<std::int64_t>::min();
+    report.message = std::string(3000, '\xE9');
     Image<Rgb8> out;
-    draw_overlay(input, out);
+    draw_overlay(report, {}, out);
     EXPECT_EQ(out.width(), width);
     EXPECT_EQ(out.height(), height);
   }

@@ -15,44 +15,6 @@ namespace {
 
 using test::refusal;
 
-TEST(RosDefinition, ReadsEveryKindOfField) {
-  const MessageDefinition definition("own_msgs/msg/Kinds",
-                                     "# a comment\n"
-                                     "bool[] flags\r\n"
-                                     "byte one # why\n"
-                                     "\tchar  two\n"
-                                     "\n"
-                                     "float64[3] xyz [1.0, 2.0, 3.0]\n"
-                                     "int16[<=5] few\n"
-                                     "string<=10[<=3] names\n"
-                                     "string greeting \"a # b\"\n"
-                                     "Inner inner\n"
-                                     "other_msgs/Thing[2] things\n"
-                                     "time stamp\n"
-                                     "builtin_interfaces/Duration span\n"
-                                     "int32 MOST=7\n"
-                                     "string NAME = \"x=1\"  # the name\n"
-                                     "================\n"
-                                     "MSG: own_msgs/Inner\n"
-                                     "uint8 value 3\n"
-                                     "===============================\n"
-                                     "MSG: other_msgs/msg/Thing\n"
-                                     "string<=4 id\n"
-                                     "uint64 count");
-  const auto types = definition.types();
-  ASSERT_EQ(types.size(), 4U);
-  EXPECT_EQ(types[0].type, "own_msgs/Kinds");
-  EXPECT_EQ(types[0].fields,
-            (std::vector<std::string>{"bool[] flags", "byte one", "uint8 two", "float64[3] xyz",
-                                      "int16[<=5] few", "string<=10[<=3] names", "string greeting",
-                                      "own_msgs/Inner inner", "other_msgs/Thing[2] things",
-                                      "builtin_interfaces/Time stamp",
-                                      "builtin_interfaces/Duration span"}));
-  EXPECT_EQ(types[1].fields, std::vector<std::string>{"uint8 value"});
-  EXPECT_EQ(types[2].type, "other_msgs/Thing");
-  EXPECT_EQ(types[2].fields, (std::vector<std::string>{"string<=4 id", "uint64 count"}));
-}
-
 // ros_reference_test compares the fields' values.
 TEST(RosDefinition, LayoutsHaveTheFieldsOfTheirDefinitions) {
   test::for_each_sample([]<typename M>(const M&) {

@@ -36,7 +36,10 @@ class Laid {
     for (int v = 0; v < image.height(); ++v)
       for (int u = 0; u < image.width(); ++u) {
         T value = image(u, v);
-        if (big) value = byte_swapped(value);
+        if (big) {
+          auto* bytes = reinterpret_cast<std::byte*>(&value);
+          std::reverse(bytes, bytes + sizeof value);
+        }
         const std::size_t at =
             offset + step * static_cast<std::size_t>(v) + sizeof(T) * static_cast<std::size_t>(u);
         std::memcpy(memory_.data() + at, &value, sizeof(T));

@@ -26,44 +26,6 @@ M decoded(std::span<const std::byte> payload) {
   return message;
 }
 
-TEST(RosMessages, AreTheSameThereAndBackInBothByteOrders) {
-  test::for_each_sample([](const auto& message) {
-    using M = std::decay_t<decltype(message)>;
-    const auto little = encoded(message);
-    const auto big = encoded(message, std::endian::big);
-    EXPECT_EQ(little.size(), big.size());
-    EXPECT_EQ(little[1], std::byte{1});
-    EXPECT_EQ(big[1], std::byte{0});
-    EXPECT_NE(little, big);
-    // A rotation may differ in its last bit once.
-    const auto again = encoded(decoded<M>(little));
-    EXPECT_EQ(encoded(decoded<M>(again)), again) << message_type<M>();
-    EXPECT_EQ(encoded(decoded<M>(big)), again) << message_type<M>();
-    EXPECT_EQ(again.size(), little.size());
-  });
-}
-
-TEST(RosMessages, EveryFieldArrives) {
-  const auto joints = decoded<JointStateMessage>(encoded(sample<JointStateMessage>()));
-  EXPECT_EQ(joints.header.stamp, test::sample_header().stamp);
-  EXPECT_EQ(joints.header.frame_id, "camera/optical");
-  EXPECT_EQ(joints.names, (std::vector<std::string>{"elbow", "", "shoulder_pan"}));
-  EXPECT_EQ(joints.positions, (std::vector<double>{0.5, -1.25, 3}));
-  EXPECT_TRUE(joints.velocities.empty());
-  EXPECT_EQ(joints.efforts, (std::vector<double>{7, 8}));
-
-  const auto tf = decoded<TfMessage>(encoded(sample<TfMessage>()));
-  ASSERT_EQ(tf.transforms.size(), 2U);
-  EXPECT_EQ(tf.transforms[1].header.stamp, -1);
-  EXPECT_EQ(tf.transforms[0].child_frame_id, "tool");
-  EXPECT_TRUE(tf.transforms[0].T_parent_child.isApprox(test::sample_pose(), turn_rounding));
-
-  const auto info = decoded<CameraInfoMessage>(encoded(sample<CameraInfoMessage>()));
-  EXPECT_EQ(info.p, sample<CameraInfoMessage>().p);
-  EXPECT_EQ(info.roi.width, 4U);
-  EXPECT_TRUE(info.roi.do_rectify);
-}
-
 TEST(RosMessages, Detections) {
   const auto flat = decoded<Detection2DArrayMessage>(test::detection_2d_payload());
   ASSERT_EQ(flat.detections.size(), 1U);
@@ -131,11 +93,13 @@ TEST(RosMessages, EveryTruncationIsAFault) {
       EXPECT_EQ(fault.value_or("").find('\n'), std::string::npos);
     }
   };
-  for (const std::endian order : {std::endian::little, std::endian::big})
-    test::for_each_sample([&](const auto& message) {
-      using M = std::decay_t<decltype(message)>;
-      check(encoded(message, order), Decoder<M>(), M());
-    });
+  // What is whole is read as it was written. A rotation may differ in its last bit once.
+  test::for_each_sample([&](const auto& message) {
+    using M = std::decay_t<decltype(message)>;
+    check(encoded(message), Decoder<M>(), M());
+    const auto again = encoded(decoded<M>(encoded(message)));
+    EXPECT_EQ(encoded(decoded<M>(again)), again) << message_type<M>();
+  });
   check(test::detection_2d_payload(), Decoder<Detection2DArrayMessage>(),
         Detection2DArrayMessage());
   check(test::detection_3d_payload(), Decoder<Detection3DArrayMessage>(),
@@ -156,19 +120,14 @@ TEST(RosMessages, FaultsNameFieldAndByte) {
   EXPECT_HAS(*Decoder<TfMessage>().decode(payload, tf), "3 bytes are no CDR payload");
 }
 
-TEST(RosMessages, OtherEncapsulationsAreRefused) {
+TEST(RosMessages, WhatIsLeftOverOrNotLittleEndianIsAFault) {
   auto payload = encoded(sample<StringMessage>());
   StringMessage message;
-  const Decoder<StringMessage> decoder;
-  for (const int kind : {2, 3, 6, 7, 8, 9, 10, 11, 200}) {
-    payload[1] = static_cast<std::byte>(kind);
-    EXPECT_HAS(*decoder.decode(payload, message), "its encapsulation is ");
+  for (const int kind : {0, 2, 3, 6, 11, 200}) {
+    auto other = payload;
+    other[1] = static_cast<std::byte>(kind);
+    EXPECT_HAS(*Decoder<StringMessage>().decode(other, message), "its encapsulation is ");
   }
-}
-
-TEST(RosMessages, WhatIsLeftOverIsAFault) {
-  auto payload = encoded(sample<StringMessage>());
-  StringMessage message;
   const Decoder<StringMessage> decoder;
   for (int padding = 1; padding <= 3; ++padding) {
     payload.push_back(std::byte{0});
@@ -195,13 +154,6 @@ TEST(RosMessages, AbsurdCountsAllocateNothing) {
     }
   });
   EXPECT_EQ(shortage.asked(), 0U);
-}
-
-TEST(RosMessages, AStringWithoutItsEndIsAFault) {
-  auto payload = encoded(sample<StringMessage>());
-  payload.back() = std::byte{'x'};
-  StringMessage message;
-  EXPECT_HAS(*Decoder<StringMessage>().decode(payload, message), "without its end");
 }
 
 TEST(RosMessages, ARotationThatIsNoneIsNaN) {

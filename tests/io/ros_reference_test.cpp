@@ -204,16 +204,14 @@ std::vector<Json> wanted_messages() {
 
 TEST(RosReference, ReadsWhatWeWrite) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  for (const std::endian order : {std::endian::little, std::endian::big}) {
-    Exchange exchange;
-    test::for_each_sample([&](const auto& message) {
-      exchange.add(message_type<std::decay_t<decltype(message)>>(), encoded(message, order));
-    });
-    const Json read = exchange.answer_to("decode");
-    const auto wanted = wanted_messages();
-    ASSERT_EQ(read.size(), wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(read[i], wanted[i]);
-  }
+  Exchange exchange;
+  test::for_each_sample([&](const auto& message) {
+    exchange.add(message_type<std::decay_t<decltype(message)>>(), encoded(message));
+  });
+  const Json read = exchange.answer_to("decode");
+  const auto wanted = wanted_messages();
+  ASSERT_EQ(read.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(read[i], wanted[i]);
 }
 
 // Detections are put together by hand in our tests: here by a definition, by someone else.

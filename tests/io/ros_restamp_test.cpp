@@ -68,26 +68,6 @@ TEST(Restamp, LeavesNoStampAndTypesWithoutHeadersAlone) {
   EXPECT_FALSE(restamper<io::StringMessage>().has_headers());
 }
 
-TEST(Restamp, ReadsBigEndianPayloadsAsSuch) {
-  // std_msgs/Header: 1 s, 2 ns, "f"
-  std::vector<std::byte> payload(4 + 8 + 4 + 2);
-  payload[7] = std::byte{1};
-  payload[11] = std::byte{2};
-  payload[15] = std::byte{2};
-  payload[16] = std::byte{'f'};
-  const io::Restamper restamper("std_msgs/msg/Header", io::definition_of("std_msgs/msg/Header"));
-  ASSERT_EQ(restamper.apply(payload,
-                            [](std::int64_t stamp) {
-                              EXPECT_EQ(stamp, 1'000'000'002);
-                              return std::int64_t{0x0102'0304} * 1'000'000'000 + 0x0506;
-                            }),
-            std::nullopt);
-  EXPECT_EQ(payload[4], std::byte{1});
-  EXPECT_EQ(payload[7], std::byte{4});
-  EXPECT_EQ(payload[10], std::byte{5});
-  EXPECT_EQ(payload[11], std::byte{6});
-}
-
 TEST(Restamp, CutPayloadsAreFaultsOrWholeInTheirHeaders) {
   std::vector<std::byte> whole;
   io::encode(sample<io::JointStateMessage>(), whole);

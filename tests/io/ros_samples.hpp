@@ -153,9 +153,9 @@ void for_each_sample(const F& call) {
 }
 
 template <typename M>
-std::vector<std::byte> encoded(const M& message, std::endian order = std::endian::little) {
+std::vector<std::byte> encoded(const M& message) {
   std::vector<std::byte> payload;
-  io::encode(message, payload, order);
+  io::encode(message, payload);
   return payload;
 }
 

@@ -2,7 +2,6 @@
 """Python and the command line say the same."""
 
 import json
-import shutil
 import subprocess
 import sys
 
@@ -122,20 +121,3 @@ def test_python_m_penumbra_is_the_command_line(tmp_path):
         assert told.returncode == expected.returncode
         assert (told.stdout, told.stderr) == (expected.stdout, expected.stderr)
     assert python("inspect", "nothing.urdf").returncode == 2
-
-
-def test_the_same_is_noted(tmp_path):
-    folder = tmp_path / "degrees"
-    shutil.copytree(SHIPPED, folder)
-    joints = folder / "joint_states.csv"
-    head, *rows = joints.read_text().splitlines()
-    degrees = [",".join(row.split(",")[:2] + [str(57.3 * float(x)) for x in row.split(",")[2:]])
-               for row in rows]
-    joints.write_text("\n".join([head, *degrees]) + "\n")
-    run("run", folder, "-o", tmp_path / "out", "--targets", "none")
-    noted = json.loads((tmp_path / "out" / "report.json").read_text())["summary"]["notes"]
-    given = penumbra.open_input(folder)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
-    for frame in given:
-        pipeline.process(frame.frame)
-    assert list(pipeline.notes) == noted and any("radians" in note for note in noted)

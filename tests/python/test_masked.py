@@ -36,12 +36,6 @@ def test_masked_arrays_are_refused(name):
             call(np.ma.masked_array(valid, mask=mask))
 
 
-def test_masked_arrays_in_lists_are_refused():
-    masked = np.ma.masked_array(POSE, mask=POSE == 1)
-    with pytest.raises(TypeError, match="its mask would be lost"):
-        penumbra.PipelineConfig(T_parent_camera=list(masked))
-
-
 def test_other_arrays_are_taken():
     class Own(np.ndarray):
         """A subclass without a mask."""

@@ -126,35 +126,6 @@ def test_targets_of_a_file_last_until_the_next_frame(opened):
         opened.pipeline.process(frame)
 
 
-def test_targets_of_a_file_stay_while_a_frame_is_judged(opened):
-    file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
-                                     image=penumbra.ImageSpace.raw,
-                                     images=opened.pipeline.intrinsics, is_bent=False,
-                                     beyond_hides=True)
-    refused, done = [], threading.Event()
-
-    def read_on():
-        while not done.is_set():
-            try:
-                file.of_frame(1)
-            except ValueError as error:
-                refused.append(str(error))
-
-    thread = threading.Thread(target=read_on)
-    thread.start()
-    for _ in range(300):
-        try:
-            frame = opened.frames[0].frame.replace(targets=file.of_frame(0))
-            assert len(opened.pipeline.process(frame).targets) == 4
-        except ValueError as error:
-            refused.append(str(error))
-    done.set()
-    thread.join()
-    assert all("one thread at a time" in r or "another frame since" in r for r in refused)
-    frame = opened.frames[0].frame.replace(targets=file.of_frame(0))
-    assert len(opened.pipeline.process(frame).targets) == 4, "none is held for good"
-
-
 SLOW = dict(backend=penumbra.Backend.reference)
 
 

@@ -133,19 +133,6 @@ def test_robots_tell_of_their_parts(shipped):
     assert parsed.links == ("l",) and parsed.variables == ()
 
 
-def test_an_extra_mesh_is_drawn_with_its_link(tmp_path):
-    (tmp_path / "tool.stl").write_text(
-        "solid tool\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-        "endloop\nendfacet\nendsolid\n")
-    urdf = '<robot name="bare"><link name="base"/></robot>'
-    extra = [penumbra.ExtraMesh(link="base", mesh=tmp_path / "tool.stl")]
-    robot = penumbra.Robot.parse(urdf, tmp_path, penumbra.RobotOptions(extra=extra))
-    assert [link.triangles for link in robot.report] == [1]
-    lost = penumbra.RobotOptions(extra=[penumbra.ExtraMesh(link="hand", mesh="tool.stl")])
-    with pytest.raises(penumbra.InputError, match="hand"):
-        penumbra.Robot.parse(urdf, tmp_path, lost)
-
-
 def test_two_publishers_of_one_joint_are_compared(shipped):
     robot = shipped.robot
     buffer = penumbra.JointBuffer(robot)
@@ -182,22 +169,6 @@ def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
         assert link in report.targets[0].reason and "two tell it" in report.targets[0].reason
 
 
-def test_fringe_is_the_depth_that_the_sensor_carried_past_the_outline():
-    virtual = np.zeros((48, 96), np.float32)
-    virtual[10:40, 10:30] = 1
-    measured = np.full((48, 96), 3, np.float32)
-    measured[10:40, 10:50] = 1
-    for reach, expected in ((40, 20), (12, 12), (0, 0)):
-        rule = penumbra.LabelRule(fringe_reach=reach)
-        labels = penumbra.Classifier(96, 48, rule).classify(virtual, measured).labels
-        assert np.count_nonzero(labels[25] == penumbra.Label.fringe) == expected
-    with pytest.raises(penumbra.InputError, match="fringe_reach -1"):
-        penumbra.LabelRule(fringe_reach=-1).check()
-    with pytest.raises(penumbra.InputError, match="sensor 'kinect'"):
-        penumbra.LabelRule.for_sensor("kinect")
-    assert penumbra.LabelRule.for_sensor("none").fringe_reach == 0
-
-
 def test_points_without_the_robot(shipped):
     frame = shipped.frames[4]
     report = shipped.pipeline.process(frame.frame)
@@ -224,19 +195,6 @@ def test_points_without_the_robot(shipped):
     shipped.pipeline.process(frame.frame)
     with pytest.raises(ValueError, match="another frame"):
         report.filtered_depth()
-
-
-def test_metres_without_the_robot_are_nan(shipped):
-    frame = shipped.frames[4]
-    metres = frame.depth.astype(np.float32) * np.float32(0.001)
-    report = shipped.pipeline.process(frame.frame.replace(depth=metres))
-    filtered = report.filtered_depth()
-    trusted = np.isin(report.labels, [penumbra.Label.clear, penumbra.Label.front])
-    assert filtered.dtype == np.float32
-    assert np.array_equal(filtered, np.where(trusted, metres, np.nan), equal_nan=True)
-    assert len(report.points()) == np.count_nonzero(filtered > 0)
-    nothing = shipped.pipeline.process(frame.frame.replace(depth=None))
-    assert not nothing.filtered_depth().any() and len(nothing.points()) == 0
 
 
 def test_a_camera_comes_from_opencvs_matrix():

@@ -109,20 +109,3 @@ def test_defaults_are_those_of_cpp():
     with pytest.raises(TypeError):
         options.packages["b"] = "/"
     assert isinstance(options.ignore_links, tuple)
-
-
-def test_an_unknown_verdict_carries_what_is_known(opened):
-    frame = opened.frames[4]
-    report = opened.pipeline.process(frame.frame)
-    hidden, links = report.labels == penumbra.Label.occluded, report.link_image
-    u, v = next((u, v) for v in range(0, 470, 5) for u in range(0, 630, 5)
-                if hidden[v:v + 10, u:u + 10].all())
-    depth = frame.depth.copy()
-    depth[v:v + 10, u:u + 6] = 0  # the sensor measures nothing on 60 % of it
-    target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelBox(u, v, 10, 10)))
-    (said,) = opened.pipeline.process(frame.frame.replace(depth=depth, targets=[target])).targets
-    link = report.links[links[v, u + 9] - 1]
-    assert said.verdict is Verdict.unknown and said.reason
-    assert said.judgement.occluded == pytest.approx(0.4) and said.judgement.unknown == pytest.approx(0.6)
-    assert said.judgement.blame[0].link == link
-    assert link in repr(said) and "occluded=0.4" in repr(said) and said.reason in repr(said)

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <io/files/png.hpp>
-#include <io/mcap/crc32.hpp>
+#include <io/mcap/compression.hpp>
 #include <sim/recording_bag.hpp>
 
 namespace penumbra::test {
