@@ -6,7 +6,7 @@
 # The last line is "N passed, N failed[, N skipped]"; the exit status is 0 if none failed.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
-if [[ -z ${ROS_DISTRO:-} ]] || ! command -v colcon >/dev/null; then
+if [[ -z ${AMENT_PREFIX_PATH:-} ]] || ! command -v colcon >/dev/null; then
   echo "0 passed, 0 failed, 1 skipped: no ROS 2 is sourced, or there is no colcon"
   exit 0
 fi

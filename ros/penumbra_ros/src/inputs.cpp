@@ -70,8 +70,7 @@ void Inputs::find_type(std::size_t topic) {
   Link& link = links_[topic];
   const std::string published = published_type(link.topic.name);
   const auto types = penumbra::io::LiveInbox::target_types();
-  if (link.topic.type.empty() &&
-      std::find(types.begin(), types.end(), published) != types.end()) {
+  if (link.topic.type.empty() && std::find(types.begin(), types.end(), published) != types.end()) {
     link.topic.type = published;
     runner_.with_inbox([&](penumbra::io::LiveInbox& inbox) {
       inbox.set_type(topic, published);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "penumbra_node.hpp"
+
 #include <cstdio>
 #include <exception>
 #include <memory>
 
-#include <penumbra/base/error.hpp>
 #include <rclcpp/rclcpp.hpp>
 
-#include "penumbra_node.hpp"
+#include <penumbra/base/error.hpp>
 
 namespace {
 

@@ -38,10 +38,14 @@ std_msgs::msg::ColorRGBA color_of_link(std::size_t link) {
 
 std_msgs::msg::ColorRGBA color_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::visible: return color(0.1, 0.8, 0.2);
-    case Verdict::partial: return color(1.0, 0.6, 0.0);
-    case Verdict::hidden: return color(0.9, 0.1, 0.1);
-    default: return color(0.5, 0.5, 0.5);
+    case Verdict::visible:
+      return color(0.1, 0.8, 0.2);
+    case Verdict::partial:
+      return color(1.0, 0.6, 0.0);
+    case Verdict::hidden:
+      return color(0.9, 0.1, 0.1);
+    default:
+      return color(0.5, 0.5, 0.5);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "outputs.hpp"
 
+#include "markers.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -8,8 +10,6 @@
 #include <rclcpp/serialization.hpp>
 
 #include <io/ros/message_encoder.hpp>
-
-#include "markers.hpp"
 
 namespace penumbra_ros {
 namespace {
@@ -67,9 +67,8 @@ void Outputs::select(const std::set<std::string>& names) {
 }
 
 bool Outputs::is_selected(const char* name) const {
-  const auto found = std::find_if(output_names.begin(), output_names.end(), [&](const char* one) {
-    return std::string_view(one) == name;
-  });
+  const auto found = std::find_if(output_names.begin(), output_names.end(),
+                                  [&](const char* one) { return std::string_view(one) == name; });
   return selected_[static_cast<std::size_t>(found - output_names.begin())];
 }
 
@@ -100,8 +99,7 @@ void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::Dept
   publish_targets(job, report);
 }
 
-void Outputs::publish_camera_info(const penumbra::io::CameraInfoMessage& info,
-                                  std::int64_t stamp) {
+void Outputs::publish_camera_info(const penumbra::io::CameraInfoMessage& info, std::int64_t stamp) {
   penumbra::io::encode(info, payload_);
   auto message = deserialised<sensor_msgs::msg::CameraInfo>(payload_);
   message->header.stamp = rclcpp::Time(stamp);
@@ -122,8 +120,7 @@ void Outputs::publish_markers(const penumbra::io::AssembledFrame& job,
 
 void Outputs::publish_targets(const penumbra::io::AssembledFrame& job,
                               const penumbra::FrameReport& report) {
-  const bool has_listener =
-      is_selected("detections") && detections_->get_subscription_count() > 0;
+  const bool has_listener = is_selected("detections") && detections_->get_subscription_count() > 0;
   if (!has_listener && !frames_) return;
   auto detections = handled_detections(report, job.targets, frame_prefix_);
   if (frames_) frames_->sendTransform(frames_of(*detections));

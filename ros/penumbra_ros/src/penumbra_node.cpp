@@ -43,12 +43,11 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
         runner_.forget();
         response->success = true;
       });
-  enable_ = create_service<SetBool>(
-      "~/enable",
-      [this](const SetBool::Request::SharedPtr request, SetBool::Response::SharedPtr response) {
-        enable(request->data);
-        response->success = true;
-      });
+  enable_ = create_service<SetBool>("~/enable", [this](const SetBool::Request::SharedPtr request,
+                                                       SetBool::Response::SharedPtr response) {
+    enable(request->data);
+    response->success = true;
+  });
   on_change_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
   warn_of_unknown_parameters();
@@ -84,8 +83,8 @@ void PenumbraNode::enable(bool enabled) {
 }
 
 void PenumbraNode::check() {
-  if (runner_.has_failed() && failure_.wait_for(std::chrono::seconds(0)) !=
-                                  std::future_status::ready) {
+  if (runner_.has_failed() &&
+      failure_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     failed_.set_exception(runner_.fault());
     RCLCPP_FATAL(get_logger(), "nothing is judged any more; load the node again");
   }
@@ -113,8 +112,7 @@ void PenumbraNode::check() {
   }
 }
 
-void PenumbraNode::report(diagnostic_updater::DiagnosticStatusWrapper& status,
-                          std::size_t number) {
+void PenumbraNode::report(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t number) {
   if (statuses_.status.empty()) return status.summary(DiagnosticStatusMessage::stale, "starting");
   const DiagnosticStatusMessage& from = statuses_.status[number];
   status.summary(from.level, from.message);

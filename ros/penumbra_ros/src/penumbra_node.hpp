@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "inputs.hpp"
+#include "outputs.hpp"
+#include "settings.hpp"
+
 #include <future>
 #include <memory>
 
@@ -11,10 +15,6 @@
 
 #include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_runner.hpp>
-
-#include "inputs.hpp"
-#include "outputs.hpp"
-#include "settings.hpp"
 
 namespace penumbra_ros {
 

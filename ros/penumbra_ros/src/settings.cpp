@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings.hpp"
 
+#include "outputs.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include <io/assembly/bag_topics.hpp>
 #include <penumbra/base/error.hpp>
 
-#include "outputs.hpp"
+#include <io/assembly/bag_topics.hpp>
 
 namespace penumbra_ros {
 namespace {
@@ -59,8 +60,8 @@ class Declaration {
     const auto text = node_.declare_parameter(name, value, described);
     const auto found = of.find(text);
     if (found == of.end())
-      throw InputError("parameter '" + name + "' is '" + text +
-                       "'; it must be " + described.additional_constraints);
+      throw InputError("parameter '" + name + "' is '" + text + "'; it must be " +
+                       described.additional_constraints);
     return found->second;
   }
   /// Declares a list of "KEY=VALUE".
@@ -272,16 +273,17 @@ Settings declare_settings(rclcpp::Node& node) {
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
-  settings.reliable = declare("reliable", false,
-                              "request reliable QoS of images, joint states and TF; publishers with "
-                              "best effort are then not received");
+  settings.reliable =
+      declare("reliable", false,
+              "request reliable QoS of images, joint states and TF; publishers with "
+              "best effort are then not received");
   using penumbra::io::HiddenTargets;
-  settings.live.cameras[0].hidden_targets = declare.choice<HiddenTargets>(
-      "handling", "none",
-      {{"none", HiddenTargets::not_handled},
-       {"predict", HiddenTargets::predict},
-       {"hold", HiddenTargets::hold}},
-      "what happens to targets while they are hidden");
+  settings.live.cameras[0].hidden_targets =
+      declare.choice<HiddenTargets>("handling", "none",
+                                    {{"none", HiddenTargets::not_handled},
+                                     {"predict", HiddenTargets::predict},
+                                     {"hold", HiddenTargets::hold}},
+                                    "what happens to targets while they are hidden");
   settings.target_frames = declare("target_frames", false, "publish handled targets in TF");
   return settings;
 }

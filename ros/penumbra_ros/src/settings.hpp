@@ -7,8 +7,9 @@
 
 #include <rclcpp/rclcpp.hpp>
 
-#include <io/live/live_inbox.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/live/live_inbox.hpp>
 
 namespace penumbra_ros {
 

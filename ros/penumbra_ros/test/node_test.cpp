@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The node between a player of the shipped recording and subscribers.
+#include "penumbra_node.hpp"
+#include "player.hpp"
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -7,14 +10,11 @@
 #include <map>
 #include <mutex>
 
-#include <gtest/gtest.h>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
+#include <gtest/gtest.h>
 #include <rclcpp_components/node_factory.hpp>
 
 #include <io/files/png.hpp>
-
-#include "penumbra_node.hpp"
-#include "player.hpp"
 
 namespace penumbra_ros::test {
 namespace {
@@ -58,9 +58,8 @@ class NodeTest : public testing::Test {
     labels_ = player_->node->create_subscription<Image>(
         "/penumbra/labels", 10,
         [this](Image::ConstSharedPtr image) { received_[stamp_of(image->header)] = image; });
-    ASSERT_TRUE(spin_until([&] {
-      return player_->is_heard() && labels_->get_publisher_count() > 0;
-    }));
+    ASSERT_TRUE(
+        spin_until([&] { return player_->is_heard() && labels_->get_publisher_count() > 0; }));
     ASSERT_TRUE(spin_until([&] {
       later_ += 1'000'000'000;
       player_->play(0, later_);
@@ -103,9 +102,12 @@ class NodeTest : public testing::Test {
 };
 
 TEST_F(NodeTest, LabelsAreThoseOfTheCommandLine) {
-  const auto out = std::filesystem::temp_directory_path() / ("penumbra_" + std::to_string(getpid()));
+  const auto out =
+      std::filesystem::temp_directory_path() / ("penumbra_" + std::to_string(getpid()));
   ASSERT_EQ(std::system((PENUMBRA_PROGRAM " run " + example + " -o " + out.string() +
-                         " --save labels >/dev/null").c_str()), 0);
+                         " --save labels >/dev/null")
+                            .c_str()),
+            0);
   start();
   for (std::size_t i = 0; i < player_->reader.size(); ++i) {
     const auto labels = labels_of(i);
@@ -126,7 +128,8 @@ TEST_F(NodeTest, CameraInfoAndMarkersComeWithTheLabels) {
   visualization_msgs::msg::MarkerArray::ConstSharedPtr markers;
   auto listener = std::make_shared<rclcpp::Node>("listener");
   const auto infos = listener->create_subscription<sensor_msgs::msg::CameraInfo>(
-      "/penumbra/camera_info", 10, [&](sensor_msgs::msg::CameraInfo::ConstSharedPtr m) { info = m; });
+      "/penumbra/camera_info", 10,
+      [&](sensor_msgs::msg::CameraInfo::ConstSharedPtr m) { info = m; });
   const auto shown = listener->create_subscription<visualization_msgs::msg::MarkerArray>(
       "/penumbra/markers", 10,
       [&](visualization_msgs::msg::MarkerArray::ConstSharedPtr m) { markers = m; });
@@ -134,9 +137,8 @@ TEST_F(NodeTest, CameraInfoAndMarkersComeWithTheLabels) {
   start();
   const auto labels = labels_of(1);
   ASSERT_TRUE(labels);
-  ASSERT_TRUE(spin_until([&] {
-    return info && markers && stamp_of(info->header) == stamp_of(labels->header);
-  }));
+  ASSERT_TRUE(spin_until(
+      [&] { return info && markers && stamp_of(info->header) == stamp_of(labels->header); }));
   EXPECT_EQ(info->header.frame_id, labels->header.frame_id);
   EXPECT_EQ(info->width, labels->width);
   EXPECT_GT(markers->markers.size(), 1U);
@@ -161,8 +163,8 @@ TEST_F(NodeTest, RuleAndResultsChangeWhileItRuns) {
 
 TEST_F(NodeTest, ServicesResetAndDisable) {
   start();
-  const auto reset = call<std_srvs::srv::Trigger>(
-      "reset", std::make_shared<std_srvs::srv::Trigger::Request>());
+  const auto reset =
+      call<std_srvs::srv::Trigger>("reset", std::make_shared<std_srvs::srv::Trigger::Request>());
   ASSERT_TRUE(reset);
   EXPECT_TRUE(reset->success);
   EXPECT_TRUE(labels_of(1)) << "robot and camera are still known";

@@ -33,8 +33,8 @@ class Player {
     rclcpp::PublisherOptions latched_options;
     latched_options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
     const auto latched = rclcpp::QoS(1).transient_local();
-    description_ =
-        node->create_publisher<std_msgs::msg::String>("robot_description", latched, latched_options);
+    description_ = node->create_publisher<std_msgs::msg::String>("robot_description", latched,
+                                                                 latched_options);
     tf_ = node->create_publisher<tf2_msgs::msg::TFMessage>("/tf_static", latched, latched_options);
     joints_ = node->create_publisher<sensor_msgs::msg::JointState>("joint_states", 10);
     info_ = node->create_publisher<sensor_msgs::msg::CameraInfo>("depth/camera_info", 10);
