@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 
+#include <class_loader/class_loader.hpp>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
 #include <gtest/gtest.h>
 #include <rclcpp_components/node_factory.hpp>
@@ -117,7 +118,7 @@ TEST_F(NodeTest, LabelsAreThoseOfTheCommandLine) {
     penumbra::Image<std::uint8_t> expected;
     const auto read = penumbra::io::read_png(out / "labels" / name, expected);
     ASSERT_EQ(labels->encoding, "8UC1");
-    const auto* first = expected.view().data();
+    const auto* first = expected.view().data;
     EXPECT_TRUE(std::equal(labels->data.begin(), labels->data.end(), first)) << i;
   }
   std::filesystem::remove_all(out);
@@ -176,6 +177,29 @@ TEST_F(NodeTest, ServicesResetAndDisable) {
   ASSERT_TRUE(call<std_srvs::srv::SetBool>("enable", request));
   EXPECT_TRUE(spin_until([&] { return player_->is_heard(); }));
   EXPECT_TRUE(labels_of(3));
+}
+
+TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
+  std::string detected, frame;
+  auto listener = std::make_shared<rclcpp::Node>("listener");
+  const auto detections = listener->create_subscription<vision_msgs::msg::Detection3DArray>(
+      "/penumbra/detections", 10, [&](vision_msgs::msg::Detection3DArray::ConstSharedPtr array) {
+        if (!array->detections.empty()) detected = array->detections.front().id;
+      });
+  const auto transforms = listener->create_subscription<tf2_msgs::msg::TFMessage>(
+      "/tf", 100, [&](tf2_msgs::msg::TFMessage::ConstSharedPtr message) {
+        for (const auto& transform : message->transforms) frame = transform.child_frame_id;
+      });
+  executor_->add_node(listener);
+  start({{"target_topics", std::vector<std::string>{"/boxes"}},
+         {"handling", "hold"},
+         {"target_frames", true}});
+  EXPECT_TRUE(spin_until([&] {
+    static_cast<void>(labels_of(0));
+    return !detected.empty() && !frame.empty();
+  }));
+  EXPECT_EQ(detected, "/boxes/can");
+  EXPECT_EQ(frame, "boxes/can");
 }
 
 /// Keeps where the pixels of the judged images lie.

@@ -12,7 +12,7 @@
 #include <sensor_msgs/msg/joint_state.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <tf2_msgs/msg/tf_message.hpp>
-#include <vision_msgs/msg/detection3_d_array.hpp>
+#include <vision_msgs/msg/detection2_d_array.hpp>
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/recording.hpp>
@@ -39,7 +39,7 @@ class Player {
     joints_ = node->create_publisher<sensor_msgs::msg::JointState>("joint_states", 10);
     info_ = node->create_publisher<sensor_msgs::msg::CameraInfo>("depth/camera_info", 10);
     depth_ = node->create_publisher<Image>("depth/image", 10);
-    detections_ = node->create_publisher<vision_msgs::msg::Detection3DArray>("boxes", 10);
+    detections_ = node->create_publisher<vision_msgs::msg::Detection2DArray>("boxes", 10);
     std::ifstream urdf(recording.urdf);
     std_msgs::msg::String text;
     text.data.assign(std::istreambuf_iterator<char>(urdf), {});
@@ -95,9 +95,18 @@ class Player {
     image->height = info.height;
     image->encoding = "16UC1";
     image->step = 2 * image->width;
-    const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.view().data());
+    const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.view().data);
     image->data.assign(first, first + image->step * image->height);
     const void* address = image->data.data();
+    vision_msgs::msg::Detection2DArray boxes;
+    boxes.header = info.header;
+    auto& box = boxes.detections.emplace_back();  // of a can on the table
+    box.id = "can";
+    box.bbox.center.position.x = 479;
+    box.bbox.center.position.y = 221;
+    box.bbox.size_x = 38;
+    box.bbox.size_y = 98;
+    detections_->publish(boxes);
     depth_->publish(std::move(image));
     return address;
   }
@@ -114,7 +123,7 @@ class Player {
   rclcpp::Publisher<sensor_msgs::msg::JointState>::SharedPtr joints_;
   rclcpp::Publisher<sensor_msgs::msg::CameraInfo>::SharedPtr info_;
   rclcpp::Publisher<Image>::SharedPtr depth_;
-  rclcpp::Publisher<vision_msgs::msg::Detection3DArray>::SharedPtr detections_;
+  rclcpp::Publisher<vision_msgs::msg::Detection2DArray>::SharedPtr detections_;
 };
 
 }  // namespace penumbra_ros::test
