@@ -3,7 +3,18 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
-install(TARGETS penumbra EXPORT PenumbraTargets
+set(libraries penumbra)
+if(TARGET penumbra_live)
+  # Penumbra::live is for ros/penumbra_ros alone: its headers may change at any time.
+  list(APPEND libraries penumbra_live)
+  foreach(room files ros mcap bag assembly live)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_live/io
+      FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE
+      PATTERN "tuning_report.hpp" EXCLUDE)
+  endforeach()
+endif()
+install(TARGETS ${libraries} EXPORT PenumbraTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

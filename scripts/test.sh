@@ -75,6 +75,15 @@ run_tests() {
     "($((SECONDS - start)) s)"
 }
 
+# test_ros: builds and tests the packages of ros/, and adds their counts.
+test_ros() {
+  local log=build/test_ros.log p=0 f=1 s=0
+  scripts/test_ros.sh >"$log" 2>&1 || tail -n 30 "$log"
+  read -r p f s <<<"$(sed -nE '$s/^([0-9]+) passed, ([0-9]+) failed(, ([0-9]+) skipped)?.*/\1 \2 \4/p' "$log")"
+  passed=$((passed + ${p:-0})) failed=$((failed + ${f:-1})) skipped=$((skipped + ${s:-0}))
+  echo "== ROS 2 packages: $(tail -n 1 "$log")"
+}
+
 # fuzz NAME [SEEDS]: a minute of libFuzzer without crash, hang or great allocation.
 fuzz() {
   local folder=build/fuzz/found/$1
@@ -174,6 +183,7 @@ if $full; then
     echo "== benchmarks run: skipped: no data"
   fi
 fi
+test_ros
 $full || { page >build/release/page.log 2>&1 & page=$!; }
 asan_is_built=false tsan_is_built=false
 check "build (asan)" build asan all "${sanitizer_scope[@]}" "$asan_rooms" "$not_in_asan" \

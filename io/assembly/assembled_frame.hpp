@@ -25,12 +25,12 @@ namespace penumbra::io {
 /// read at any time; see FrameAssembler for the others.
 struct CameraSetup {
   CameraSetup(std::shared_ptr<PosedRobot> of, JudgedCameras cameras_, CameraMount where,
-              const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
+              const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop)
       : posed(std::move(of)),
         cameras(std::move(cameras_)),
         mount(std::move(where)),
         queue(posed->robot, posed->history, options, std::move(on_drop)),
-        targets(posed->robot, cameras.judged.frame_id, options.poses.frame_prefix) {}
+        targets(posed->robot, cameras.judged.frame_id, options.poses.frame_prefix, hidden) {}
 
   const std::shared_ptr<PosedRobot> posed;
   const JudgedCameras cameras;

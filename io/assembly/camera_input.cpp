@@ -193,7 +193,7 @@ std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, Came
     drop(static_cast<FrameDrop>(frame.reason));
   };
   return std::make_shared<CameraSetup>(robot_.posed(), std::move(cameras), std::move(mount), queue,
-                                       on_drop);
+                                       options_.hidden_targets, on_drop);
 }
 
 JudgedCameras CameraInput::find_cameras() const {

@@ -46,6 +46,7 @@ struct CameraInputOptions {
   double time_offset = 0.0;    ///< see FrameQueueOptions
   double max_wait = 0.2;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
+  HiddenTargets hidden_targets = HiddenTargets::not_handled;
   /// Given: every image becomes a frame, in order; one that is of another camera, or that has no
   /// pose or cannot be read, says so (DropPolicy::every). Nothing: the setup follows what is
   /// received, and the newest image is given (DropPolicy::newest).

@@ -57,6 +57,17 @@ void FrameAssembler::receive(std::size_t topic, const SerializedMessage& message
     cameras_[topics_[topic].camera]->take_unreadable(*fault, now);
 }
 
+void FrameAssembler::receive(std::size_t topic, const ImageMessage& image,
+                             std::shared_ptr<const void> owner, std::int64_t now) {
+  ++received_[topic];
+  take_image(topic, keep_image(image, std::move(owner)), now);
+}
+
+void FrameAssembler::forget() {
+  robot_.forget();
+  follow_robot();
+}
+
 void FrameAssembler::place(MadeRobot made) {
   robot_.place(std::move(made));
   follow_robot();
@@ -120,13 +131,16 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_images(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& image, const auto& message, std::int64_t now) {
-    CameraInput& camera = *cameras_[topics_[topic].camera];
-    KeptImage kept = keep_image(image, message.owner);
-    if (topics_[topic].role == TopicRole::depth)
-      camera.take_depth(std::move(kept), now);
-    else
-      camera.take_color(std::move(kept));
+    take_image(topic, keep_image(image, message.owner), now);
   });
+}
+
+void FrameAssembler::take_image(std::size_t topic, KeptImage image, std::int64_t now) {
+  CameraInput& camera = *cameras_[topics_[topic].camera];
+  if (topics_[topic].role == TopicRole::depth)
+    camera.take_depth(std::move(image), now);
+  else
+    camera.take_color(std::move(image));
 }
 
 void FrameAssembler::take_info(std::size_t topic, const CameraInfoMessage& info, std::int64_t now) {

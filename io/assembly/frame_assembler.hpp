@@ -53,6 +53,12 @@ class FrameAssembler {
 
   /// Receives a message of topics()[topic]. Messages that cannot be read are counted.
   void receive(std::size_t topic, const SerializedMessage& message, std::int64_t now);
+  /// Receives a decoded image. `owner` keeps its pixels alive; null: they are copied.
+  void receive(std::size_t topic, const ImageMessage& image, std::shared_ptr<const void> owner,
+               std::int64_t now);
+
+  /// Forgets all poses, targets and waiting images. The robot and the cameras stay.
+  void forget();
 
   /// Returns the robot to make, once, or null: a robot_description was received. Reading its meshes
   /// takes time, so that the caller chooses the thread. place() takes the made robot.
@@ -98,6 +104,7 @@ class FrameAssembler {
   [[nodiscard]] MessageHandler handler_of_images(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_targets_as(std::size_t topic);
+  void take_image(std::size_t topic, KeptImage image, std::int64_t now);
   void take_info(std::size_t topic, const CameraInfoMessage& info, std::int64_t now);
   void follow_robot();
 

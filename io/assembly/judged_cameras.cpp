@@ -36,11 +36,11 @@ JudgedCameras judged_cameras(const CameraEvidence& evidence) {
   check_frames(evidence);
   Camera depth = camera_of_images(evidence, evidence.depth);
   depth.frame_id = evidence.depth_frame;
-  if (!evidence.color) return {std::move(depth), std::nullopt};
+  if (!evidence.color) return {std::move(depth), std::nullopt, evidence.depth.info};
   Camera color = camera_of_images(evidence, *evidence.color);
   if (frame_name(color.frame_id) == frame_name(depth.frame_id))
-    return {std::move(depth), std::nullopt};
-  return {std::move(color), std::move(depth)};
+    return {std::move(depth), std::nullopt, evidence.depth.info};
+  return {std::move(color), std::move(depth), evidence.color->info};
 }
 
 bool is_same_camera(const CameraInfoMessage& a, const CameraInfoMessage& b) {

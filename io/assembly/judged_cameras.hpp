@@ -30,6 +30,7 @@ struct CameraEvidence {
 struct JudgedCameras {
   Camera judged;
   std::optional<Camera> depth;
+  CameraInfoMessage info = {};  ///< of `judged`, as received
 };
 
 /// Returns the cameras. Throws InputError that names the topic if camera_of refuses it, or if a

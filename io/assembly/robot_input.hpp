@@ -76,6 +76,10 @@ class RobotInput {
   void retry();
   /// Takes a made robot. Does nothing if another description was received since.
   void place(MadeRobot made);
+  /// Forgets the joint states and transforms, except static transforms.
+  void forget() {
+    if (posed_) replace(std::make_shared<PosedRobot>(posed_->robot, options_.compare_sources));
+  }
   /// Receives joint states. `source`: the publisher, see MessageSources.
   void take(const JointStateMessage& message, std::string_view source, std::int64_t now);
   void take(const TfMessage& message, bool is_static, std::string_view source, std::int64_t now);

@@ -41,12 +41,8 @@ std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::syste
 LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
                        const std::vector<ResultSink*>& sinks, RobotMaker maker,
                        std::chrono::milliseconds robot_retry)
-    : inbox_(options), maker_(std::move(maker)), robot_retry_(robot_retry) {
-  for (ResultSink* sink : sinks) {
-    CameraThread& camera = cameras_.emplace_back();
-    camera.sink = sink;
-    camera.worker = std::make_unique<LiveWorker>(config);
-  }
+    : inbox_(options), config_(config), maker_(std::move(maker)), robot_retry_(robot_retry) {
+  for (ResultSink* sink : sinks) cameras_.emplace_back().sink = sink;
 }
 
 void LiveRunner::start() {
@@ -76,6 +72,26 @@ void LiveRunner::receive(std::size_t topic, const SerializedMessage& message) {
   }
   if (has_order) ordered_.notify_all();
   changed_.notify_all();
+}
+
+void LiveRunner::receive(std::size_t topic, const ImageMessage& image,
+                         std::shared_ptr<const void> owner) {
+  {
+    const std::lock_guard lock(mutex_);
+    inbox_.receive(topic, image, std::move(owner), steady_now());
+  }
+  changed_.notify_all();
+}
+
+void LiveRunner::configure(const PipelineConfig& config) {
+  const std::lock_guard lock(mutex_);
+  config_ = config;
+  for (CameraThread& camera : cameras_) camera.has_config = false;
+}
+
+void LiveRunner::forget() {
+  const std::lock_guard lock(mutex_);
+  inbox_.forget();
 }
 
 void LiveRunner::make_robots() {
@@ -133,6 +149,8 @@ void LiveRunner::work(std::size_t camera) {
         continue;
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
+      if (!std::exchange(self.has_config, true))
+        self.worker = std::make_unique<LiveWorker>(config_);
       lock.unlock();
       WithoutOverlay without_overlay(*self.sink);
       ResultSink& sink = with_overlay ? *self.sink : without_overlay;

@@ -53,6 +53,13 @@ class LiveRunner {
 
   /// Receives a message. Any thread may call this.
   void receive(std::size_t topic, const SerializedMessage& message);
+  /// Receives a decoded image, as FrameAssembler does.
+  void receive(std::size_t topic, const ImageMessage& image, std::shared_ptr<const void> owner);
+
+  /// Judges later images by another configuration. Forgets verdicts and tracks.
+  void configure(const PipelineConfig& config);
+  /// Forgets poses, verdicts and tracks.
+  void forget();
 
   /// Calls `read` with the inbox while it does not change.
   template <typename F>
@@ -74,6 +81,7 @@ class LiveRunner {
     ResultSink* sink = nullptr;
     FrameWatcher* watcher = nullptr;
     std::unique_ptr<LiveWorker> worker;
+    bool has_config = false;        // whether the worker has config_; guarded by mutex_
     std::int64_t next_overlay = 0;  // earliest time; used by this thread only
     std::thread thread;
   };
@@ -85,6 +93,7 @@ class LiveRunner {
   std::mutex mutex_;
   std::condition_variable changed_, ordered_;
   LiveInbox inbox_;           // guarded by mutex_
+  PipelineConfig config_;     // likewise
   bool stopping_ = false;     // likewise
   std::exception_ptr fault_;  // likewise
   std::atomic<bool> has_failed_ = false;

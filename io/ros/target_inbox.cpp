@@ -25,6 +25,13 @@ std::string best_class(std::span<const HypothesisMessage> results) {
   return best == results.end() ? std::string() : best->hypothesis.class_id;
 }
 
+TargetHandling handling_of(const TargetShape& shape, HiddenTargets hidden) {
+  if (hidden == HiddenTargets::not_handled) return {};
+  if (hidden == HiddenTargets::hold) return PointTrackerConfig();
+  if (std::holds_alternative<BoxTarget>(shape)) return PoseTrackerConfig();
+  return PointTrackerConfig{.motion = PointMotion::constant_velocity};
+}
+
 Region region_of(const BoundingBox2D& box, std::vector<Eigen::Vector2d>& corners) {
   const Eigen::Vector2d& centre = box.centre.position;
   const Eigen::Vector2d half(box.size_x / 2, box.size_y / 2);
@@ -41,8 +48,8 @@ Region region_of(const BoundingBox2D& box, std::vector<Eigen::Vector2d>& corners
 }  // namespace
 
 TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
-                         std::string_view frame_prefix)
-    : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix) {}
+                         std::string_view frame_prefix, HiddenTargets hidden)
+    : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix), hidden_(hidden) {}
 
 TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
   by_name_.erase(one->name);
@@ -174,6 +181,8 @@ std::span<const Target> TargetInbox::take() {
       waiting.target.frame_id =
           waiting.image_frame == without_slash(camera_frame_) ? camera_frame_ : waiting.image_frame;
     waiting.target.fault = waiting.fault;
+    if (waiting.target.has_identity)
+      waiting.target.handling = handling_of(waiting.target.shape, hidden_);
     targets_.push_back(waiting.target);
   }
   return targets_;

@@ -17,6 +17,13 @@
 
 namespace penumbra::io {
 
+/// What happens to targets with an identity while they are hidden.
+enum class HiddenTargets {
+  not_handled,
+  predict,  ///< boxes as poses, others as points, each with its filtered velocity
+  hold      ///< the last trusted point
+};
+
 /// Makes targets from messages. A target keeps the stamp of its image, so that it is judged on the
 /// frame of that stamp even if it comes late.
 ///
@@ -34,8 +41,8 @@ class TargetInbox {
 
   /// `camera_frame`: of the judged images; `frame_prefix`: stands before link names in frames.
   /// `robot` must outlive this.
-  TargetInbox(const Robot& robot, std::string_view camera_frame,
-              std::string_view frame_prefix = {});
+  TargetInbox(const Robot& robot, std::string_view camera_frame, std::string_view frame_prefix = {},
+              HiddenTargets hidden = HiddenTargets::not_handled);
 
   /// Adds a detector's boxes: regions of the visible part (Extent::modal).
   void add(const std::string& topic, const Detection2DArrayMessage& message);
@@ -85,6 +92,7 @@ class TargetInbox {
 
   const Robot& robot_;
   std::string camera_frame_, frame_prefix_;
+  HiddenTargets hidden_;
   std::map<std::string, std::int64_t> newest_;  // stamp of each topic
   std::string_view topic_;                      // of the current message, newest_'s
   List waiting_;                                // since the last take()

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch file's restarts, with stand-ins for ROS 2's launch (Humble's names and arguments)."""
+"""The launch file's arguments and restarts, with stand-ins for ROS 2's launch."""
 import importlib.util
+import pathlib
 import sys
 import types
 from types import SimpleNamespace as Context
+
+import yaml
 
 
 def stand_in(name, **members):
@@ -22,37 +25,58 @@ class Configuration:
         self.name = name
 
     def perform(self, context):
-        return {"program": "penumbra", "depth_topic": "/d", "arguments": "--pose 'a b'"}[self.name]
+        return context.launch_configurations[self.name]
 
 
 def launch_file(path):
     stand_in("launch", LaunchDescription=lambda entities: entities)
-    stand_in("launch.actions", ExecuteProcess=Action, TimerAction=Action, OpaqueFunction=Action,
+    stand_in("launch.actions", TimerAction=Action, OpaqueFunction=Action,
              DeclareLaunchArgument=lambda name, **arguments: Action(name=name, **arguments))
     stand_in("launch.substitutions", LaunchConfiguration=Configuration)
-    spec = importlib.util.spec_from_file_location("live_launch", path)
+    stand_in("launch_ros.actions", Node=Action, LoadComposableNodes=Action)
+    stand_in("launch_ros.descriptions", ComposableNode=Action)
+    spec = importlib.util.spec_from_file_location("penumbra_launch", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module
+    return module.generate_launch_description()
 
 
-def main(path):
-    running, ending = Context(is_shutdown=False), Context(is_shutdown=True)
-    start = launch_file(path).generate_launch_description()[-1].function
-    [process] = start(running)
-    command = ["penumbra", "live", "--depth-topic", "/d", "--pose", "a b"]
-    assert process.cmd == command, process.cmd
-    assert not getattr(process, "respawn", False), "respawn asks for no exit status"
+def refuses(function, *arguments):
+    try:
+        function(*arguments)
+    except RuntimeError:
+        return True
+    return False
+
+
+def main(package):
+    *declared, start = launch_file(package / "launch/penumbra.launch.py")
+    defaults = {argument.name: argument.default_value for argument in declared}
+
+    def context(is_shutdown=False, **given):
+        return Context(is_shutdown=is_shutdown, launch_configurations={**defaults, **given})
+
+    running, ending = context(camera="/c", targets="/a,/b"), context(is_shutdown=True)
+    [process] = start.function(running)
+    [topics] = process.parameters
+    assert topics["depth_topic"] == "/c/depth/image_rect_raw", topics
+    assert topics["target_topics"] == ["/a", "/b"], topics
+    assert refuses(start.function, context(kamera="/c")), "an unknown argument"
     for _ in range(2):  # the process that was started again, too
-        for status in (0, 2):
-            assert not process.on_exit(Context(returncode=status), running), status
+        assert not process.on_exit(Context(returncode=0), running)
+        assert refuses(process.on_exit, Context(returncode=2), running), "launch shows the failure"
         for status in (1, -6, -9):
             [timer] = process.on_exit(Context(returncode=status), running)
             [again] = timer.actions
-            assert timer.period > 0 and again.cmd == command
+            assert timer.period > 0 and again.parameters == process.parameters
             assert not process.on_exit(Context(returncode=status), ending), "it would not end"
         process = again
+    [loading] = start.function(context(container="/cell"))
+    assert loading.target_container == "/cell"
+    assert loading.composable_node_descriptions[0].plugin == "penumbra_ros::PenumbraNode"
+    for file in ("config/penumbra.yaml", "rviz/penumbra.rviz"):
+        assert yaml.safe_load((package / file).read_text())
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(pathlib.Path(sys.argv[1]))

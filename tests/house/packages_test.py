@@ -1,10 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS packages' package.xml, read as ROS's own build tools read them."""
+"""The package.xml files and the workspace, read as ROS's own build tools read them."""
+import pathlib
+import shutil
+import subprocess
 import sys
+import tempfile
 
 from catkin_pkg.package import parse_package
 
-for folder in sys.argv[1:]:
+root = pathlib.Path(sys.argv[1])
+folders = [root, *sorted(file.parent for file in root.glob("ros/*/package.xml"))]
+names = []
+for folder in folders:
     package = parse_package(folder)
     package.validate()
     assert package.licenses == ["Apache-2.0"], package.licenses
+    names.append(package.name)
+assert names == ["penumbra", "penumbra_msgs", "penumbra_ros"], names
+
+# colcon does not look for packages inside of a package, so docs/ros2.md names both folders.
+if not shutil.which("colcon"):
+    print("skipped: no colcon")
+    sys.exit(77)
+with tempfile.TemporaryDirectory() as workspace:
+    listed = subprocess.run(["colcon", "--log-base", workspace, "list", "--names-only",
+                             "--base-paths", root, root / "ros"],
+                            capture_output=True, text=True, check=True).stdout.split()
+assert listed == names, listed

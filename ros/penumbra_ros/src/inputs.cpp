@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inputs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <string_view>
+
+#include <geometry_msgs/msg/pose_stamped.hpp>
+#include <penumbra_msgs/msg/keypoints.hpp>
+#include <sensor_msgs/msg/camera_info.hpp>
+#include <sensor_msgs/msg/compressed_image.hpp>
+#include <sensor_msgs/msg/image.hpp>
+#include <sensor_msgs/msg/joint_state.hpp>
+#include <std_msgs/msg/string.hpp>
+#include <tf2_msgs/msg/tf_message.hpp>
+#include <vision_msgs/msg/detection2_d_array.hpp>
+#include <vision_msgs/msg/detection3_d_array.hpp>
+
+namespace penumbra_ros {
+namespace {
+
+using penumbra::io::TopicRole;
+using sensor_msgs::msg::Image;
+
+constexpr std::size_t image_depth = 8;     // images that are not read yet: 0.25 s on a busy machine
+constexpr std::size_t state_depth = 1000;  // joint states and transforms: a second of them
+
+bool is_image(TopicRole role) { return role == TopicRole::depth || role == TopicRole::color; }
+
+std::span<const std::byte> bytes_of(const rclcpp::SerializedMessage& message) {
+  const rcl_serialized_message_t& rcl = message.get_rcl_serialized_message();
+  return std::as_bytes(std::span(rcl.buffer, rcl.buffer_length));
+}
+
+/// Returns a number that differs between publishers.
+std::uint64_t publisher_of(const rclcpp::MessageInfo& info) {
+  const auto& gid = info.get_rmw_message_info().publisher_gid.data;
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(gid), sizeof(gid)});
+}
+
+/// Returns a message that refers to the data of `image`.
+penumbra::io::ImageMessage image_message(const Image& image) {
+  return {.header = {rclcpp::Time(image.header.stamp).nanoseconds(), image.header.frame_id},
+          .height = image.height,
+          .width = image.width,
+          .encoding = image.encoding,
+          .is_bigendian = image.is_bigendian,
+          .step = image.step,
+          .data = std::as_bytes(std::span(image.data))};
+}
+
+}  // namespace
+
+Inputs::Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner, bool reliable)
+    : node_(node), runner_(runner), reliable_(reliable) {
+  runner.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
+    for (const penumbra::io::InputTopic& topic : inbox.topics())
+      links_.push_back({topic, nullptr, {}});
+    return true;
+  });
+}
+
+std::string Inputs::published_type(const std::string& topic) const {
+  const auto publishers = node_.get_publishers_info_by_topic(topic);
+  return publishers.empty() ? "" : publishers.front().topic_type();
+}
+
+void Inputs::find_type(std::size_t topic) {
+  Link& link = links_[topic];
+  const std::string published = published_type(link.topic.name);
+  const auto types = penumbra::io::LiveInbox::target_types();
+  if (link.topic.type.empty() && std::find(types.begin(), types.end(), published) != types.end()) {
+    link.topic.type = published;
+    runner_.with_inbox([&](penumbra::io::LiveInbox& inbox) {
+      inbox.set_type(topic, published);
+      return true;
+    });
+  }
+  link.state.other_type = published == link.topic.type ? "" : published;
+}
+
+void Inputs::follow(bool with_color, bool with_depth) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    find_type(i);
+    Link& link = links_[i];
+    const TopicRole role = link.topic.role;
+    const bool is_wanted = !link.topic.type.empty() && (role != TopicRole::color || with_color) &&
+                           (role != TopicRole::depth || with_depth);
+    if (is_wanted && !link.subscription) link.subscription = subscribe(i);
+    if (!is_wanted) link.subscription.reset();
+  }
+}
+
+std::vector<penumbra::io::LiveLink> Inputs::links() const {
+  std::vector<penumbra::io::LiveLink> links;
+  for (const Link& link : links_) {
+    links.push_back(link.state);
+    links.back().is_open = link.subscription != nullptr;
+    if (link.subscription)
+      links.back().publishers = static_cast<int>(link.subscription->get_publisher_count());
+  }
+  return links;
+}
+
+rclcpp::QoS Inputs::qos_of(std::size_t topic) const {
+  const penumbra::io::InputTopic& of = links_[topic].topic;
+  rclcpp::QoS qos(is_image(of.role) ? image_depth : state_depth);
+  if (!reliable_ && !of.latched) qos.best_effort();
+  if (of.latched) qos.transient_local();
+  return qos;
+}
+
+rclcpp::SubscriptionOptions Inputs::options_of(std::size_t topic) {
+  rclcpp::SubscriptionOptions options;
+  options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
+  options.event_callbacks.incompatible_qos_callback =
+      [this, topic](rclcpp::QOSRequestedIncompatibleQoSInfo& info) {
+        const bool is_reliability = info.last_policy_kind == RMW_QOS_POLICY_RELIABILITY;
+        links_[topic].state.refused_because = is_reliability ? "reliability" : "durability";
+      };
+  return options;
+}
+
+template <typename M>
+rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_serialised(std::size_t topic) {
+  auto options = options_of(topic);
+  options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+  return node_.create_subscription<M>(
+      links_[topic].topic.name, qos_of(topic),
+      [this, topic](std::shared_ptr<const rclcpp::SerializedMessage> message,
+                    const rclcpp::MessageInfo& info) {
+        runner_.receive(topic, {bytes_of(*message), message, publisher_of(info)});
+      },
+      options);
+}
+
+// Images are received as such, because a driver in the same process hands them over without a copy.
+rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_images(std::size_t topic) {
+  return node_.create_subscription<Image>(
+      links_[topic].topic.name, qos_of(topic),
+      [this, topic](Image::ConstSharedPtr image) {
+        runner_.receive(topic, image_message(*image), image);
+      },
+      options_of(topic));
+}
+
+rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
+  using Subscribe = rclcpp::SubscriptionBase::SharedPtr (Inputs::*)(std::size_t);
+  static const std::map<std::string, Subscribe> by_type{
+      {"std_msgs/msg/String", &Inputs::subscribe_serialised<std_msgs::msg::String>},
+      {"sensor_msgs/msg/JointState", &Inputs::subscribe_serialised<sensor_msgs::msg::JointState>},
+      {"tf2_msgs/msg/TFMessage", &Inputs::subscribe_serialised<tf2_msgs::msg::TFMessage>},
+      {"sensor_msgs/msg/CameraInfo", &Inputs::subscribe_serialised<sensor_msgs::msg::CameraInfo>},
+      {"sensor_msgs/msg/Image", &Inputs::subscribe_images},
+      {"sensor_msgs/msg/CompressedImage",
+       &Inputs::subscribe_serialised<sensor_msgs::msg::CompressedImage>},
+      {"vision_msgs/msg/Detection2DArray",
+       &Inputs::subscribe_serialised<vision_msgs::msg::Detection2DArray>},
+      {"vision_msgs/msg/Detection3DArray",
+       &Inputs::subscribe_serialised<vision_msgs::msg::Detection3DArray>},
+      {"penumbra_msgs/msg/Keypoints", &Inputs::subscribe_serialised<penumbra_msgs::msg::Keypoints>},
+      {"geometry_msgs/msg/PoseStamped",
+       &Inputs::subscribe_serialised<geometry_msgs::msg::PoseStamped>}};
+  return (this->*by_type.at(links_[topic].topic.type))(topic);
+}
+
+}  // namespace penumbra_ros

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <rclcpp/rclcpp.hpp>
+
+#include <io/live/live_diagnostics.hpp>
+#include <io/live/live_runner.hpp>
+
+namespace penumbra_ros {
+
+/// Hands received messages to a runner. Use it from the node's default callback group.
+class Inputs {
+ public:
+  /// `reliable`: requests reliable publishers of all topics. Both others must outlive this.
+  Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner, bool reliable);
+
+  /// Subscribes to what is needed now: target topics once their type is known, colour images if
+  /// `with_color`, depth images if `with_depth`.
+  void follow(bool with_color, bool with_depth);
+
+  /// Returns the state of each of the runner's topics.
+  [[nodiscard]] std::vector<penumbra::io::LiveLink> links() const;
+
+ private:
+  struct Link {
+    penumbra::io::InputTopic topic;
+    rclcpp::SubscriptionBase::SharedPtr subscription;  // null: not subscribed to
+    penumbra::io::LiveLink state;
+  };
+
+  [[nodiscard]] std::string published_type(const std::string& topic) const;
+  void find_type(std::size_t topic);
+  [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe(std::size_t topic);
+  template <typename M>
+  [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_serialised(std::size_t topic);
+  [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_images(std::size_t topic);
+  [[nodiscard]] rclcpp::SubscriptionOptions options_of(std::size_t topic);
+  [[nodiscard]] rclcpp::QoS qos_of(std::size_t topic) const;
+
+  rclcpp::Node& node_;
+  penumbra::io::LiveRunner& runner_;
+  bool reliable_;
+  std::vector<Link> links_;  // of each topic
+};
+
+}  // namespace penumbra_ros

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <image_transport/image_transport.hpp>
+#include <penumbra_msgs/msg/targets.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <sensor_msgs/msg/camera_info.hpp>
+#include <sensor_msgs/msg/compressed_image.hpp>
+#include <sensor_msgs/msg/point_cloud2.hpp>
+#include <tf2_ros/transform_broadcaster.h>
+#include <vision_msgs/msg/detection3_d_array.hpp>
+#include <visualization_msgs/msg/marker_array.hpp>
+
+#include <io/assembly/result_encoder.hpp>
+#include <io/live/frame_watcher.hpp>
+
+namespace penumbra_ros {
+
+/// Names of the results below "~/": those of penumbra::io::Result in its order, then ours.
+inline constexpr std::array<const char*, 10> output_names = {
+    "virtual_depth", "labels",  "mask",        "filtered_depth", "points",
+    "targets",       "overlay", "camera_info", "markers",        "detections"};
+
+/// Publishes the results that have subscribers. The camera's thread calls wants(), write() and
+/// take(); the other functions are for any thread.
+class Outputs final : public penumbra::io::ResultSink, public penumbra::io::FrameWatcher {
+ public:
+  /// `target_frames`: publishes targets in TF. `frame_prefix`: of link names in TF.
+  Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix);
+
+  /// Limits the results to these names.
+  void select(const std::set<std::string>& names);
+
+  [[nodiscard]] bool wants(penumbra::io::Result result) const override;
+  void write(penumbra::io::Result result, std::int64_t stamp,
+             std::span<const std::byte> payload) override;
+
+  [[nodiscard]] bool wants_color() const override { return false; }
+  void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& depth,
+            const penumbra::FrameReport& report) override;
+
+ private:
+  [[nodiscard]] bool is_selected(const char* name) const;
+  void publish_camera_info(const penumbra::io::CameraInfoMessage& info, std::int64_t stamp);
+  void publish_markers(const penumbra::io::AssembledFrame& job,
+                       const penumbra::FrameReport& report);
+  void publish_targets(const penumbra::io::AssembledFrame& job,
+                       const penumbra::FrameReport& report);
+
+  std::string frame_prefix_;
+  std::array<std::atomic<bool>, output_names.size()> selected_ = {};
+  std::map<penumbra::io::Result, image_transport::Publisher> images_;
+  rclcpp::Publisher<sensor_msgs::msg::PointCloud2>::SharedPtr points_;
+  rclcpp::Publisher<penumbra_msgs::msg::Targets>::SharedPtr targets_;
+  rclcpp::Publisher<sensor_msgs::msg::CompressedImage>::SharedPtr overlay_;
+  rclcpp::Publisher<sensor_msgs::msg::CameraInfo>::SharedPtr camera_info_;
+  rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr markers_;
+  rclcpp::Publisher<vision_msgs::msg::Detection3DArray>::SharedPtr detections_;
+  std::unique_ptr<tf2_ros::TransformBroadcaster> frames_;  // null: no targets in TF
+  std::vector<std::byte> payload_;
+  std::shared_ptr<const penumbra::io::CameraSetup> shown_;  // whose robot the markers show
+  std::size_t viewers_ = 0;                                 // of the markers
+};
+
+}  // namespace penumbra_ros

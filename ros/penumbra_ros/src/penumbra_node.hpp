@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "inputs.hpp"
+#include "outputs.hpp"
+#include "settings.hpp"
+
+#include <future>
+#include <memory>
+
+#include <diagnostic_updater/diagnostic_updater.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <std_srvs/srv/set_bool.hpp>
+#include <std_srvs/srv/trigger.hpp>
+
+#include <io/live/diagnostic_changes.hpp>
+#include <io/live/live_runner.hpp>
+
+namespace penumbra_ros {
+
+/// Labels the depth images of one camera.
+class PenumbraNode : public rclcpp::Node {
+ public:
+  /// Throws an exception with one line for a parameter or file that is invalid.
+  explicit PenumbraNode(const rclcpp::NodeOptions& options = rclcpp::NodeOptions());
+  ~PenumbraNode() override { runner_.stop(); }
+
+  /// Returns a future of the exception that ended the judging, for example of the graphics device.
+  [[nodiscard]] std::shared_future<void> failure() const { return failure_; }
+
+ private:
+  rcl_interfaces::msg::SetParametersResult change(const Changes& changes);
+  void enable(bool enabled);
+  void check();
+  void warn_of_unknown_parameters();
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t number);
+
+  Settings settings_;
+  Outputs outputs_;
+  penumbra::io::LiveRunner runner_;
+  Inputs inputs_;
+  bool enabled_ = true;
+  std::promise<void> failed_;
+  std::shared_future<void> failure_ = failed_.get_future();
+  penumbra::io::LiveDiagnostics diagnostics_;
+  penumbra::io::DiagnosticArrayMessage statuses_;  // of the last check: robot and camera
+  penumbra::io::DiagnosticChanges changes_;
+  diagnostic_updater::Updater updater_;
+  rclcpp::TimerBase::SharedPtr timer_;
+  rclcpp::Service<std_srvs::srv::Trigger>::SharedPtr reset_;
+  rclcpp::Service<std_srvs::srv::SetBool>::SharedPtr enable_;
+  OnSetParametersCallbackHandle::SharedPtr on_change_;
+};
+
+}  // namespace penumbra_ros

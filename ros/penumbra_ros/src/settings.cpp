@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "settings.hpp"
+
+#include "outputs.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/bag_topics.hpp>
+
+namespace penumbra_ros {
+namespace {
+
+using penumbra::InputError;
+using rcl_interfaces::msg::ParameterDescriptor;
+using Texts = std::vector<std::string>;
+
+/// Seconds for which frames are stored for late targets.
+constexpr double target_history = 0.5;
+
+constexpr bool changeable = true;
+
+/// Declares parameters. They are read-only if they are not declared as `changeable`.
+class Declaration {
+ public:
+  explicit Declaration(rclcpp::Node& node) : node_(node) {}
+
+  template <typename T>
+  T operator()(const std::string& name, const T& value, const std::string& description,
+               bool can_change = false) {
+    return node_.declare_parameter(name, value, descriptor(description, can_change));
+  }
+  std::int64_t integer(const std::string& name, std::int64_t value, std::int64_t least,
+                       std::int64_t most, const std::string& description, bool can_change = false) {
+    ParameterDescriptor described = descriptor(description, can_change);
+    described.integer_range.resize(1);
+    described.integer_range[0].from_value = least;
+    described.integer_range[0].to_value = most;
+    return node_.declare_parameter(name, value, described);
+  }
+  double number(const std::string& name, double value, double least, double most,
+                const std::string& description) {
+    ParameterDescriptor described = descriptor(description, false);
+    described.floating_point_range.resize(1);
+    described.floating_point_range[0].from_value = least;
+    described.floating_point_range[0].to_value = most;
+    return node_.declare_parameter(name, value, described);
+  }
+  template <typename T>
+  T choice(const std::string& name, const std::string& value, const std::map<std::string, T>& of,
+           const std::string& description) {
+    ParameterDescriptor described = descriptor(description, false);
+    for (const auto& [text, meaning] : of)
+      described.additional_constraints +=
+          (described.additional_constraints.empty() ? "one of " : ", ") + text;
+    const auto text = node_.declare_parameter(name, value, described);
+    const auto found = of.find(text);
+    if (found == of.end())
+      throw InputError("parameter '" + name + "' is '" + text + "'; it must be " +
+                       described.additional_constraints);
+    return found->second;
+  }
+  /// Declares a list of "KEY=VALUE".
+  std::map<std::string, std::string> pairs(const std::string& name,
+                                           const std::string& description) {
+    std::map<std::string, std::string> pairs;
+    for (const std::string& text : (*this)(name, Texts{}, description)) {
+      const auto mark = text.find('=');
+      if (mark == 0 || mark == std::string::npos)
+        throw InputError("parameter '" + name + "': '" + text + "' is not of the form NAME=VALUE");
+      pairs[text.substr(0, mark)] = text.substr(mark + 1);
+    }
+    return pairs;
+  }
+
+ private:
+  static ParameterDescriptor descriptor(const std::string& description, bool can_change) {
+    ParameterDescriptor described;
+    described.description = description;
+    described.read_only = !can_change;
+    return described;
+  }
+
+  rclcpp::Node& node_;
+};
+
+template <typename T>
+T value_of(const rclcpp::Node& node, const Changes& changes, const std::string& name) {
+  for (const rclcpp::Parameter& change : changes)
+    if (change.get_name() == name) return change.get_value<T>();
+  return node.get_parameter(name).get_value<T>();
+}
+
+double to_number(const std::string& name, const std::string& text) {
+  try {
+    std::size_t read = 0;
+    const double number = std::stod(text, &read);
+    if (read == text.size()) return number;
+  } catch (const std::logic_error&) {
+  }
+  throw InputError("parameter '" + name + "': '" + text + "' is not a number");
+}
+
+std::string resolved(rclcpp::Node& node, const std::string& topic) {
+  return node.get_node_topics_interface()->resolve_topic_name(topic);
+}
+
+std::vector<std::string> resolved(rclcpp::Node& node, Texts topics) {
+  for (std::string& topic : topics) topic = resolved(node, topic);
+  return topics;
+}
+
+penumbra::RobotOptions declare_robot(Declaration& declare) {
+  using penumbra::Geometry;
+  penumbra::RobotOptions robot;
+  for (const auto& [name, folder] : declare.pairs(
+           "packages",
+           "NAME=DIR: where package://NAME is, if the ament index does not have the package"))
+    robot.packages[name] = folder;
+  robot.geometry = declare.choice<Geometry>(
+      "geometry", "collision", {{"collision", Geometry::collision}, {"visual", Geometry::visual}},
+      "geometry of the URDF that is drawn");
+  robot.geometry_fallback =
+      declare("geometry_fallback", false, "draw links that have only the other geometry with that");
+  robot.allow_missing_meshes = declare(
+      "allow_missing_meshes", false, "go on without meshes that cannot be read; results name them");
+  robot.ignore_links = declare("ignore_links", Texts{}, "patterns of links that are not drawn");
+  robot.only_links = declare("only_links", Texts{}, "if not empty: patterns of the links drawn");
+  for (const auto& [link, metres] :
+       declare.pairs("margins", "LINK=METRES: by how much links are drawn larger; patterns"))
+    robot.margins[link] = to_number("margins", metres);
+  for (const auto& [link, mesh] :
+       declare.pairs("extra", "LINK=FILE: meshes that links carry and the URDF lacks"))
+    robot.extra.push_back({link, mesh});
+  return robot;
+}
+
+void declare_poses(Declaration& declare, penumbra::io::LiveOptions& live,
+                   penumbra::io::CameraInputOptions& camera) {
+  using penumbra::PoseSource;
+  live.poses = camera.poses = declare.choice<PoseSource>(
+      "poses", "joints",
+      {{"joints", PoseSource::joints}, {"tf", PoseSource::transforms}, {"both", PoseSource::both}},
+      "where the poses of the links come from");
+  live.robot.compare_sources = !declare(
+      "first_publisher", false, "do not compare several publishers of one joint or transform");
+  penumbra::io::BagOptions mount;
+  const auto set = [&](auto& option, const char* name, const char* description) {
+    if (const auto text = declare(name, std::string(), description); !text.empty()) option = text;
+  };
+  mount.frame_prefix =
+      declare("frame_prefix", std::string(), "before link names in TF, as robot_state_publisher's");
+  set(mount.camera_frame, "camera_frame", "frame of the images in TF, in place of their frame_id");
+  set(mount.parent, "parent", "link that carries the camera; empty: the first above its frame");
+  set(mount.pose, "pose",
+      "file with the 4x4 pose of the optical frame in the parent link, metres, in place of TF's");
+  camera.mount = penumbra::io::mount_options(mount);
+  camera.time_offset = declare.number("time_offset", 0.0, -10.0, 10.0,
+                                      "seconds added to image stamps before poses are looked up");
+  camera.max_frames = static_cast<std::size_t>(
+      declare.integer("queue", 8, 1, 1000, "images that may wait for their pose"));
+}
+
+void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live,
+                    penumbra::io::CameraInputOptions& camera) {
+  live.description_topic = resolved(node, "robot_description");
+  live.transform_topic = resolved(node, "/tf");
+  live.static_transform_topic = resolved(node, "/tf_static");
+  live.joint_topics =
+      resolved(node, declare("joint_topics", Texts{"joint_states"}, "topics of joint states"));
+  live.target_topics = resolved(
+      node, declare("target_topics", Texts{},
+                    "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge"));
+  camera.depth_topic = resolved(
+      node, declare("depth_topic", std::string("depth/image"),
+                    "depth images; a name that ends in /compressed or /compressedDepth is a "
+                    "CompressedImage"));
+  const auto info = declare("camera_info_topic", std::string(), "empty: next to the depth images");
+  camera.info_is_named = !info.empty();
+  camera.info_topic = info.empty() ? penumbra::io::camera_info_topic(camera.depth_topic) : info;
+  camera.info_topic = resolved(node, camera.info_topic);
+  const auto color = declare("color_topic", std::string(),
+                             "judge in this camera's image: depth is brought there by TF");
+  if (!color.empty()) {
+    camera.color_topic = resolved(node, color);
+    camera.color_info_topic = resolved(node, penumbra::io::camera_info_topic(camera.color_topic));
+  }
+  camera.is_rectified = declare(
+      "rectified", false, "the images have no lens distortion, as those called image_rect...");
+}
+
+void declare_rule(Declaration& declare) {
+  declare("sensor", std::string(),
+          "realsense_d4xx (the default), zed, tof, structured_light or none: sets tolerance and "
+          "fringe_reach",
+          changeable);
+  declare("tolerance", std::vector<double>{},
+          "A, B, C: depth that differs by less than A + B z + C z^2 metres is the same; empty: the "
+          "sensor's",
+          changeable);
+  declare.integer("front_min_width", -1, -1, penumbra::LabelRule::max_width,
+                  "front regions narrower than so many pixels become occluded; 0: off, -1: default",
+                  changeable);
+  declare.integer("fringe_reach", -1, -1, penumbra::LabelRule::max_fringe_reach,
+                  "pixels by which the sensor carries the robot's depth past its outline; 0: off, "
+                  "-1: the sensor's",
+                  changeable);
+  declare("labels", std::string("full"), "full or paper (constant 0.01 m, no clean-up)",
+          changeable);
+}
+
+}  // namespace
+
+penumbra::LabelRule read_rule(const rclcpp::Node& node, const Changes& changes) {
+  using penumbra::LabelRule;
+  const auto labels = value_of<std::string>(node, changes, "labels");
+  if (labels != "full" && labels != "paper")
+    throw InputError("parameter 'labels' is '" + labels + "'; it must be one of full, paper");
+  LabelRule rule = labels == "paper" ? LabelRule::paper() : LabelRule();
+  if (const auto sensor = value_of<std::string>(node, changes, "sensor"); !sensor.empty()) {
+    const LabelRule of_sensor = LabelRule::for_sensor(sensor);
+    rule.tolerance = of_sensor.tolerance;
+    rule.fringe_reach = of_sensor.fringe_reach;
+  }
+  const auto abc = value_of<std::vector<double>>(node, changes, "tolerance");
+  if (!abc.empty() && abc.size() != 3)
+    throw InputError("parameter 'tolerance' has " + std::to_string(abc.size()) +
+                     " numbers; it must have three: A, B, C");
+  if (!abc.empty()) rule.tolerance = {abc[0], abc[1], abc[2]};
+  const auto width = value_of<std::int64_t>(node, changes, "front_min_width");
+  if (width >= 0) rule.front_min_width = static_cast<int>(width);
+  const auto reach = value_of<std::int64_t>(node, changes, "fringe_reach");
+  if (reach >= 0) rule.fringe_reach = static_cast<int>(reach);
+  rule.check();
+  return rule;
+}
+
+std::set<std::string> read_publish(const rclcpp::Node& node, const Changes& changes) {
+  const auto names = value_of<Texts>(node, changes, "publish");
+  for (const std::string& name : names)
+    if (std::find(output_names.begin(), output_names.end(), name) == output_names.end())
+      throw InputError("parameter 'publish': there is no result '" + name + "'");
+  return {names.begin(), names.end()};
+}
+
+Settings declare_settings(rclcpp::Node& node) {
+  Declaration declare(node);
+  Settings settings;
+  penumbra::io::CameraInputOptions camera;
+  settings.live.robot.robot = declare_robot(declare);
+  declare_topics(node, declare, settings.live, camera);
+  declare_poses(declare, settings.live, camera);
+  settings.live.cameras = {std::move(camera)};
+  const auto urdf = declare("robot", std::string(), "URDF file, in place of robot_description");
+  if (!urdf.empty())
+    settings.live.robot.given = penumbra::Robot::load(urdf, settings.live.robot.robot);
+
+  using penumbra::Backend;
+  settings.pipeline.backend = declare.choice<Backend>(
+      "renderer", "cpu",
+      {{"cpu", Backend::cpu}, {"gl", Backend::gl}, {"reference", Backend::reference}},
+      "renderer of the virtual depth");
+  settings.pipeline.renderer.threads =
+      static_cast<int>(declare.integer("threads", 1, 1, 64, "threads of the cpu renderer"));
+  if (!settings.live.target_topics.empty()) settings.pipeline.target_history = target_history;
+  declare_rule(declare);
+  settings.pipeline.rule = read_rule(node);
+
+  declare("publish", Texts(output_names.begin(), output_names.end()),
+          "results to publish; those without a subscriber are not computed", changeable);
+  settings.publish = read_publish(node);
+  settings.reliable =
+      declare("reliable", false,
+              "request reliable QoS of images, joint states and TF; publishers with "
+              "best effort are then not received");
+  using penumbra::io::HiddenTargets;
+  settings.live.cameras[0].hidden_targets =
+      declare.choice<HiddenTargets>("handling", "none",
+                                    {{"none", HiddenTargets::not_handled},
+                                     {"predict", HiddenTargets::predict},
+                                     {"hold", HiddenTargets::hold}},
+                                    "what happens to targets while they are hidden");
+  settings.target_frames = declare("target_frames", false, "publish handled targets in TF");
+  return settings;
+}
+
+}  // namespace penumbra_ros

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node between a player of the shipped recording and subscribers.
+#include "penumbra_node.hpp"
+#include "player.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include <class_loader/class_loader.hpp>
+#include <diagnostic_msgs/msg/diagnostic_array.hpp>
+#include <gtest/gtest.h>
+#include <rclcpp_components/node_factory.hpp>
+
+#include <io/files/png.hpp>
+
+namespace penumbra_ros::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string example = PENUMBRA_EXAMPLE;
+
+rclcpp::NodeOptions options(const std::vector<rclcpp::Parameter>& more = {}) {
+  std::vector<rclcpp::Parameter> parameters{
+      {"packages", std::vector<std::string>{"arm_description=" + example + "/arm_description"}}};
+  parameters.insert(parameters.end(), more.begin(), more.end());
+  return rclcpp::NodeOptions().parameter_overrides(parameters).use_intra_process_comms(true);
+}
+
+class NodeTest : public testing::Test {
+ protected:
+  NodeTest() {
+    rclcpp::init(0, nullptr);
+    executor_ = std::make_unique<rclcpp::executors::SingleThreadedExecutor>();
+  }
+  ~NodeTest() override {
+    executor_.reset();
+    rclcpp::shutdown();
+  }
+
+  /// Spins until `done`. Returns whether it is.
+  template <typename F>
+  bool spin_until(const F& done, std::chrono::seconds at_most = 20s) {
+    const auto end = std::chrono::steady_clock::now() + at_most;
+    while (!done() && std::chrono::steady_clock::now() < end) executor_->spin_once(10ms);
+    return done();
+  }
+
+  /// Starts a node and a player, and plays frames until the first labels arrive.
+  void start(const std::vector<rclcpp::Parameter>& parameters = {}) {
+    player_ = std::make_unique<Player>(example, true);
+    node_ = std::make_shared<PenumbraNode>(options(parameters));
+    executor_->add_node(player_->node);
+    executor_->add_node(node_);
+    labels_ = player_->node->create_subscription<Image>(
+        "/penumbra/labels", 10,
+        [this](Image::ConstSharedPtr image) { received_[stamp_of(image->header)] = image; });
+    ASSERT_TRUE(
+        spin_until([&] { return player_->is_heard() && labels_->get_publisher_count() > 0; }));
+    ASSERT_TRUE(spin_until([&] {
+      later_ += 1'000'000'000;
+      player_->play(0, later_);
+      return spin_until([&] { return !received_.empty(); }, 1s);
+    })) << "no labels";
+  }
+
+  /// Plays a frame and returns its labels, or null.
+  Image::ConstSharedPtr labels_of(std::size_t index) {
+    later_ += 1'000'000'000;
+    penumbra::io::FrameData data;
+    player_->reader.read(index, false, data);
+    const std::int64_t stamp = *data.stamp + later_;
+    player_->play(index, later_);
+    spin_until([&] { return received_.count(stamp) > 0; }, 5s);
+    return received_.count(stamp) > 0 ? received_[stamp] : nullptr;
+  }
+
+  static std::int64_t stamp_of(const std_msgs::msg::Header& header) {
+    return rclcpp::Time(header.stamp).nanoseconds();
+  }
+
+  template <typename S>
+  typename S::Response::SharedPtr call(const std::string& name,
+                                       const typename S::Request::SharedPtr& request) {
+    auto client = player_->node->create_client<S>("/penumbra/" + name);
+    if (!spin_until([&] { return client->service_is_ready(); })) return nullptr;
+    auto answer = client->async_send_request(request);
+    if (!spin_until([&] { return answer.wait_for(0s) == std::future_status::ready; }))
+      return nullptr;
+    return answer.get();
+  }
+
+  std::unique_ptr<rclcpp::executors::SingleThreadedExecutor> executor_;
+  std::unique_ptr<Player> player_;
+  std::shared_ptr<PenumbraNode> node_;
+  rclcpp::Subscription<Image>::SharedPtr labels_;
+  std::map<std::int64_t, Image::ConstSharedPtr> received_;  // by stamp
+  std::int64_t later_ = 0;
+};
+
+TEST_F(NodeTest, LabelsAreThoseOfTheCommandLine) {
+  const auto out =
+      std::filesystem::temp_directory_path() / ("penumbra_" + std::to_string(getpid()));
+  ASSERT_EQ(std::system((PENUMBRA_PROGRAM " run " + example + " -o " + out.string() +
+                         " --save labels >/dev/null")
+                            .c_str()),
+            0);
+  start();
+  for (std::size_t i = 0; i < player_->reader.size(); ++i) {
+    const auto labels = labels_of(i);
+    ASSERT_TRUE(labels) << i;
+    char name[16];
+    std::snprintf(name, sizeof(name), "%06d.png", static_cast<int>(player_->reader.index(i)));
+    penumbra::Image<std::uint8_t> expected;
+    const auto read = penumbra::io::read_png(out / "labels" / name, expected);
+    ASSERT_EQ(labels->encoding, "8UC1");
+    const auto* first = expected.view().data;
+    EXPECT_TRUE(std::equal(labels->data.begin(), labels->data.end(), first)) << i;
+  }
+  std::filesystem::remove_all(out);
+}
+
+TEST_F(NodeTest, CameraInfoAndMarkersComeWithTheLabels) {
+  sensor_msgs::msg::CameraInfo::ConstSharedPtr info;
+  visualization_msgs::msg::MarkerArray::ConstSharedPtr markers;
+  auto listener = std::make_shared<rclcpp::Node>("listener");
+  const auto infos = listener->create_subscription<sensor_msgs::msg::CameraInfo>(
+      "/penumbra/camera_info", 10,
+      [&](sensor_msgs::msg::CameraInfo::ConstSharedPtr m) { info = m; });
+  const auto shown = listener->create_subscription<visualization_msgs::msg::MarkerArray>(
+      "/penumbra/markers", 10,
+      [&](visualization_msgs::msg::MarkerArray::ConstSharedPtr m) { markers = m; });
+  executor_->add_node(listener);
+  start();
+  const auto labels = labels_of(1);
+  ASSERT_TRUE(labels);
+  ASSERT_TRUE(spin_until(
+      [&] { return info && markers && stamp_of(info->header) == stamp_of(labels->header); }));
+  EXPECT_EQ(info->header.frame_id, labels->header.frame_id);
+  EXPECT_EQ(info->width, labels->width);
+  EXPECT_GT(markers->markers.size(), 1U);
+}
+
+TEST_F(NodeTest, RuleAndResultsChangeWhileItRuns) {
+  start();
+  const auto before = labels_of(3);
+  ASSERT_TRUE(before);
+  EXPECT_TRUE(node_->set_parameter({"tolerance", std::vector<double>{0.2, 0, 0}}).successful);
+  const auto after = labels_of(3);
+  ASSERT_TRUE(after);
+  EXPECT_NE(before->data, after->data);
+  EXPECT_FALSE(node_->set_parameter({"tolerance", std::vector<double>{0.2}}).successful);
+  EXPECT_FALSE(node_->set_parameter({"front_min_width", 1000}).successful);
+  EXPECT_FALSE(node_->set_parameter({"sensor", "eye"}).successful);
+  EXPECT_FALSE(node_->set_parameter({"geometry", "visual"}).successful) << "read-only";
+  EXPECT_FALSE(node_->set_parameter({"publish", std::vector<std::string>{"label"}}).successful);
+  EXPECT_TRUE(node_->set_parameter({"publish", std::vector<std::string>{"mask"}}).successful);
+  EXPECT_FALSE(labels_of(4));
+}
+
+TEST_F(NodeTest, ServicesResetAndDisable) {
+  start();
+  const auto reset =
+      call<std_srvs::srv::Trigger>("reset", std::make_shared<std_srvs::srv::Trigger::Request>());
+  ASSERT_TRUE(reset);
+  EXPECT_TRUE(reset->success);
+  EXPECT_TRUE(labels_of(1)) << "robot and camera are still known";
+  auto request = std::make_shared<std_srvs::srv::SetBool::Request>();
+  request->data = false;
+  ASSERT_TRUE(call<std_srvs::srv::SetBool>("enable", request));
+  EXPECT_FALSE(labels_of(2));
+  request->data = true;
+  ASSERT_TRUE(call<std_srvs::srv::SetBool>("enable", request));
+  EXPECT_TRUE(spin_until([&] { return player_->is_heard(); }));
+  EXPECT_TRUE(labels_of(3));
+}
+
+TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
+  std::string detected, frame;
+  auto listener = std::make_shared<rclcpp::Node>("listener");
+  const auto detections = listener->create_subscription<vision_msgs::msg::Detection3DArray>(
+      "/penumbra/detections", 10, [&](vision_msgs::msg::Detection3DArray::ConstSharedPtr array) {
+        if (!array->detections.empty()) detected = array->detections.front().id;
+      });
+  const auto transforms = listener->create_subscription<tf2_msgs::msg::TFMessage>(
+      "/tf", 100, [&](tf2_msgs::msg::TFMessage::ConstSharedPtr message) {
+        for (const auto& transform : message->transforms) frame = transform.child_frame_id;
+      });
+  executor_->add_node(listener);
+  start({{"target_topics", std::vector<std::string>{"/boxes"}},
+         {"handling", "hold"},
+         {"target_frames", true}});
+  EXPECT_TRUE(spin_until([&] {
+    static_cast<void>(labels_of(0));
+    return !detected.empty() && !frame.empty();
+  }));
+  EXPECT_EQ(detected, "/boxes/can");
+  EXPECT_EQ(frame, "boxes/can");
+}
+
+/// Keeps where the pixels of the judged images lie.
+class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra::io::ResultSink {
+ public:
+  [[nodiscard]] bool wants_color() const override { return false; }
+  void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& /*depth*/,
+            const penumbra::FrameReport& /*report*/) override {
+    address = job.image.image->data.data();
+  }
+  [[nodiscard]] bool wants(penumbra::io::Result /*result*/) const override { return false; }
+  void write(penumbra::io::Result /*result*/, std::int64_t /*stamp*/,
+             std::span<const std::byte> /*payload*/) override {}
+
+  std::atomic<const void*> address = nullptr;
+};
+
+TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
+  Player player(example, true);
+  const auto node = std::make_shared<rclcpp::Node>("penumbra", options());
+  const Settings settings = declare_settings(*node);
+  AddressWatcher watcher;
+  penumbra::io::LiveRunner runner(settings.live, settings.pipeline, {&watcher});
+  runner.watch(0, watcher);
+  Inputs inputs(*node, runner, false);
+  inputs.follow(false, true);
+  runner.start();
+  executor_->add_node(node);
+  executor_->add_node(player.node);
+  ASSERT_TRUE(spin_until([&] { return player.is_heard(); }));
+  std::int64_t later = 0;
+  const void* published = nullptr;
+  EXPECT_TRUE(spin_until([&] {
+    published = player.play(0, later += 1'000'000'000);
+    return spin_until([&] { return watcher.address != nullptr; }, 1s);
+  }));
+  EXPECT_EQ(watcher.address.load(), published);
+  runner.stop();
+}
+
+TEST_F(NodeTest, DiagnosticsSayWhatIsMissing) {
+  std::string message;
+  auto listener = std::make_shared<rclcpp::Node>("listener");
+  const auto subscription = listener->create_subscription<diagnostic_msgs::msg::DiagnosticArray>(
+      "/diagnostics", 10, [&](diagnostic_msgs::msg::DiagnosticArray::ConstSharedPtr array) {
+        for (const auto& status : array->status)
+          if (status.name == "penumbra: camera") message = status.message;
+      });
+  node_ = std::make_shared<PenumbraNode>(options());
+  executor_->add_node(listener);
+  executor_->add_node(node_);
+  EXPECT_TRUE(spin_until([&] { return message.find("no depth images") == 0; })) << message;
+}
+
+TEST_F(NodeTest, IsAComponent) {
+  class_loader::ClassLoader loader("libpenumbra_component.so");
+  const auto factory = loader.createInstance<rclcpp_components::NodeFactory>(
+      "rclcpp_components::NodeFactoryTemplate<penumbra_ros::PenumbraNode>");
+  EXPECT_NO_THROW(factory->create_node_instance(options()));
+}
+
+TEST(Node, RefusesWhatItDoesNotUnderstandInOneLine) {
+  for (const std::string arguments :
+       {"--fast", "--ros-args -p geometry:=both", "--ros-args -p robot:=/none.urdf",
+        "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p front_min_width:=-5"}) {
+    const std::string command = PENUMBRA_NODE " " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string text;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 2) << arguments;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra_ros::test
