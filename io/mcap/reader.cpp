@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint64_t latest_time = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t version_byte = 5;
-constexpr std::size_t most_kept = std::size_t{64} << 20;  // bytes that are reused
+constexpr std::size_t most_kept = std::size_t{64} << 20;     // bytes that are reused
+constexpr std::uint64_t most_held = std::uint64_t{2} << 30;  // bytes of overlapping chunks
 
 void check_magic(const InputFile& input, const std::filesystem::path& file) {
   std::array<std::byte, magic_bytes.size()> start{};
@@ -58,7 +59,7 @@ bool is_later(const std::unique_ptr<LoadedChunk>& a, const std::unique_ptr<Loade
 }
 
 struct Reader::State {
-  explicit State(const std::filesystem::path& file) {
+  explicit State(const std::filesystem::path& file) : name(file.string()) {
     input.open(file).require();
     check_magic(input, file);
     index = read_index(input, faults);
@@ -75,6 +76,7 @@ struct Reader::State {
   bool advance();
   void push(std::unique_ptr<LoadedChunk> chunk);
   void release(std::unique_ptr<LoadedChunk> chunk) {
+    held -= chunk->records.size();
     if (chunk->records.capacity() <= most_kept) spare = std::move(chunk);
   }
 
@@ -87,6 +89,7 @@ struct Reader::State {
   void take_message(LoadedChunk& chunk, std::span<const std::byte> content);
   void check_count();
 
+  std::string name;
   InputFile input;
   FaultLog faults;
   FileIndex index;
@@ -95,6 +98,7 @@ struct Reader::State {
   LoadedChunks open;                     // a heap with the earliest message first
   std::unique_ptr<LoadedChunk> current;  // of the last returned message
   std::unique_ptr<LoadedChunk> spare;    // whose memory is reused
+  std::uint64_t held = 0;                // bytes of chunks in memory but for `spare`
   std::uint64_t last_time = 0;
   Decompressor decompressor;
   std::vector<std::byte> compressed;
@@ -135,6 +139,11 @@ std::unique_ptr<LoadedChunk> Reader::State::load(const MessagePlace& place) {
   chunk->messages.clear();
   chunk->next = 0;
   const std::string fault = load_records(place, chunk->records);
+  held += chunk->records.size();
+  if (held > most_held)
+    throw InputError(name +
+                     ": its chunks overlap in time, and more than 2 GiB of them would be held in "
+                     "memory; sort its messages by time: mcap sort");
   if (compressed.capacity() > most_kept) compressed = {};
   if (!fault.empty()) {
     faults.add(place.offset, fault + "; its messages are left out");

@@ -32,8 +32,8 @@ struct Fault {
 /// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
 /// chunk and a truncation is a fault.
 ///
-/// Memory holds the chunks that overlap in time. It follows the actual content of the file, not the
-/// sizes that it claims.
+/// Memory holds the chunks that overlap in time, at most 2 GiB. It follows the actual content of the
+/// file, not the sizes that it claims. Messages outside of chunks have no checksum.
 class Reader {
  public:
   /// Throws InputError that names the file if it cannot be read or does not begin like MCAP.
@@ -53,6 +53,7 @@ class Reader {
 
   /// Reads the next message by log time, then in the file's order. Its data is valid until the next
   /// call. Returns false at the end. Messages of undefined channels are left out, which is a fault.
+  /// Throws InputError if more than 2 GiB of chunks overlap in time.
   bool next(Message& message);
 
   /// Returns the faults found so far, in the order of discovery. The list is complete at the end.
