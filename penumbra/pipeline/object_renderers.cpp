@@ -7,7 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/target_views-inl.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra {
 namespace {

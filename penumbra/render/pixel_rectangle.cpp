@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra {
 

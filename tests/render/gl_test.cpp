@@ -10,7 +10,7 @@
 
 #include <penumbra/render/gl/egl_context.hpp>
 #include <penumbra/render/gl/gl_calls.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -141,19 +141,18 @@ class ModalBench {
     judge_.begin({{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}});
     for (const Case& one : cases) {
       memories_[one.name] = {};
-      EXPECT_EQ(judge_.judge(target_of(one, one.before), memories_[one.name]).verdict,
-                Verdict::visible)
+      EXPECT_EQ(judge_.judge(target_of(one.before), memories_[one.name]).verdict, Verdict::visible)
           << one.name;
     }
   }
 
   void judge(const Case& one, Tally& tally) {
-    TargetView target = target_of(one, one.seen);
+    TargetView target = target_of(one.seen);
     if (one.way == moved) target.motion = Eigen::Vector2d(-one.du, -one.dv);
     tally.add(one, judge_.judge(target, memories_[one.name]).verdict);
   }
 
-  static TargetView target_of(const Case& one, const Mask& mask) {
+  static TargetView target_of(const Mask& mask) {
     TargetView target;
     target.region = PixelMask{mask.view()};
     target.extent = Extent::modal;

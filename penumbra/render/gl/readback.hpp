@@ -7,7 +7,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra::gl {
 

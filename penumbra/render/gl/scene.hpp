@@ -11,7 +11,7 @@
 
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::gl {

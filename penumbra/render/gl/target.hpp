@@ -2,7 +2,7 @@
 #pragma once
 
 #include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/pixel_rectangle-inl.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra::gl {
 
