@@ -69,10 +69,8 @@ struct ImageResult {
   py::object array;
 };
 using DepthResult = ImageResult<std::uint16_t, float>;
-/// Likewise of shape (H, W, 3), uint8: red, green, blue.
-struct ColorResult {
-  py::object array;
-};
+/// The same with shape (H, W, 3), uint8: red, green, blue.
+using ColorResult = Shown<"Annotated[NDArray[uint8], '(H, W, 3)']">;
 
 /// Returns an array on an image that `owner` keeps, or a copy if there is no owner. If `T` is
 /// const, it cannot be written to.
@@ -102,13 +100,6 @@ class ReadImage {
 
  private:
   mutable py::object array_;
-};
-
-/// Name of an argument, as a template's parameter.
-template <std::size_t N>
-struct Name {
-  char text[N]{};
-  constexpr Name(const char (&from)[N]) { std::copy_n(from, N, text); }  // NOLINT
 };
 
 /// An argument that is an image of one of some pixel types.
@@ -189,37 +180,23 @@ struct type_caster<penumbra::python::ImageResult<T...>>
     return image.array.inc_ref();
   }
 };
-template <>
-struct type_caster<penumbra::python::ColorResult>
-    : penumbra::python::ValueCaster<penumbra::python::ColorResult> {
-  static constexpr auto name = const_name("Annotated[NDArray[uint8], '(H, W, 3)']");
-  static handle cast(const penumbra::python::ColorResult& image, return_value_policy /*policy*/,
-                     handle /*parent*/) {
-    return image.array.inc_ref();
-  }
-};
-
 template <penumbra::python::Name Argument, typename... T>
-struct type_caster<penumbra::python::ImageArgument<Argument, T...>> {
-  using Image = penumbra::python::ImageArgument<Argument, T...>;
-  Image value;
-  template <typename U>
-  using cast_op_type = movable_cast_op_type<U>;
-  operator Image*() { return &value; }                // NOLINT(google-explicit-constructor)
-  operator Image&() { return value; }                 // NOLINT(google-explicit-constructor)
-  operator Image&&() && { return std::move(value); }  // NOLINT(google-explicit-constructor)
-
+struct type_caster<penumbra::python::ImageArgument<Argument, T...>>
+    : penumbra::python::ValueCaster<penumbra::python::ImageArgument<Argument, T...>> {
   static constexpr auto name = penumbra::python::image_text<T...>();
 
   bool load(handle source, bool /*convert*/) {
     static constexpr penumbra::python::PixelType types[] = {penumbra::python::pixel_type<T>...};
     const std::size_t type = penumbra::python::check_image(source, Argument.text, types);
-    value.array = reinterpret_borrow<array>(source);
+    this->value.array = reinterpret_borrow<array>(source);
     std::size_t i = 0;
-    ((type == i++ ? void(value.view = penumbra::python::view_of<T>(value.array)) : void()), ...);
+    ((type == i++ ? void(this->value.view = penumbra::python::view_of<T>(this->value.array))
+                  : void()),
+     ...);
     return true;
   }
-  static handle cast(const Image& image, return_value_policy /*policy*/, handle /*parent*/) {
+  static handle cast(const penumbra::python::ImageArgument<Argument, T...>& image,
+                     return_value_policy /*policy*/, handle /*parent*/) {
     return image.array.inc_ref();
   }
 };

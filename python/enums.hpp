@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <pybind11/pybind11.h>
+#include <python/values.hpp>
 
 #include <penumbra/camera/distortion.hpp>
 #include <penumbra/labels/labels.hpp>
@@ -34,18 +34,11 @@ struct EnumClass {
 
 /// To and from the members of EnumClass<E>; anything else is refused.
 template <typename E>
-struct EnumCaster {
-  E value{};
-  template <typename T>
-  using cast_op_type = pybind11::detail::cast_op_type<T>;
-  operator E&() { return value; }                 // NOLINT(google-explicit-constructor)
-  operator E&&() && { return std::move(value); }  // NOLINT(google-explicit-constructor)
-  operator E*() { return &value; }                // NOLINT(google-explicit-constructor)
-
+struct EnumCaster : ValueCaster<E> {
   bool load(pybind11::handle source, bool /*convert*/) {
     for (const auto& member : EnumClass<E>::members) {
       if (member.object != source.ptr()) continue;
-      value = member.value;
+      this->value = member.value;
       return true;
     }
     return false;

@@ -21,14 +21,14 @@ void bind_joint_answers(py::module_& m) {
 
   py::class_<JointGap> gap(m, "JointGap",
                            "A variable that has no position at the stamp asked for.");
-  show_fields(gap, Field{"variable", &JointGap::variable, "Index into Robot.variables."},
-              Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
-              Field{"last_seen", &JointGap::last_seen,
-                    "Stamp of its latest state at or before, nanoseconds, or None."},
-              Field{"jump", &JointGap::jump,
-                    "Rad or m between two states next to the stamp, more than the joint can move."},
-              Field{"source", &JointGap::source,
-                    "The publisher that is believed, if there are several."});
+  show_fields(
+      gap, Field{"variable", &JointGap::variable, "Index into Robot.variables."},
+      Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
+      Field{"last_seen", &JointGap::last_seen,
+            "Stamp of its latest state at or before, nanoseconds, or None."},
+      Field{"jump", &JointGap::jump,
+            "Rad or m between two states next to the stamp, more than the joint can move."},
+      Field{"source", &JointGap::source, "The publisher that is believed, if there are several."});
 
   py::class_<JointDispute> dispute(m, "JointDispute",
                                    "A variable for which two publishers differ near a stamp.");

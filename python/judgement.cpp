@@ -61,7 +61,8 @@ void bind_reports(py::module_& m) {
               Field{"orientation", &H::orientation,
                     "Quaternion x, y, z, w; None if lost, or handled as a point."},
               Field{"sigma", &H::sigma, "Metres: along the most uncertain direction."});
-  py::class_<OwnedTargetReport> report(m, "TargetReport", "The verdict on a target, and what it is based on.");
+  py::class_<OwnedTargetReport> report(m, "TargetReport",
+                                       "The verdict on a target, and what it is based on.");
   using R = OwnedTargetReport;
   show_fields(
       report, Field{"name", &R::name, "Its name."},

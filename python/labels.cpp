@@ -114,7 +114,8 @@ void bind_classifier(py::module_& m) {
            py::arg("height"), py::arg("rule"), py::arg("isa") = std::string(),
            "isa: a SIMD target by name, or empty: the best one. Raises InputError for "
            "a rule or a size out of bounds.")
-      // The first overload takes results of a renderer only; everything else gets the array's errors.
+      // The first overload takes results of a renderer only; everything else gets the array's
+      // errors.
       .def("classify", &classify_rendered, py::arg("virtual_depth"), py::arg("measured"),
            "Labels every pixel. virtual_depth: metres, 0 where no robot is; measured: millimetres "
            "(uint16) or metres (float32).")

@@ -21,14 +21,7 @@ struct RecordedFrame {
 [[nodiscard]] RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
                                      OwnedTargets targets);
 
-/// Python's own iterator over what has __getitem__.
-class FrameIterator : public py::object {
-  PYBIND11_OBJECT_DEFAULT(FrameIterator, py::object, is_any)
-};
+/// Python's own iterator over objects with __getitem__.
+using FrameIterator = Shown<"Iterator[penumbra.RecordedFrame]">;
 
 }  // namespace penumbra::python
-
-template <>
-struct pybind11::detail::handle_type_name<penumbra::python::FrameIterator> {
-  static constexpr auto name = const_name("Iterator[penumbra.RecordedFrame]");
-};

@@ -5,21 +5,15 @@
 #include <string>
 #include <vector>
 
-#include <pybind11/pybind11.h>
+#include <python/values.hpp>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {
 
-inline bool is_any(const PyObject* object) { return object != nullptr; }
-
-class VertexArray : public pybind11::object {
-  PYBIND11_OBJECT_DEFAULT(VertexArray, pybind11::object, is_any)
-};
-class TriangleArray : public pybind11::object {
-  PYBIND11_OBJECT_DEFAULT(TriangleArray, pybind11::object, is_any)
-};
+using VertexArray = Shown<"Annotated[NDArray[float32], '(N, 3)']">;
+using TriangleArray = Shown<"Annotated[NDArray[uint32], '(M, 3)']">;
 
 /// A mesh of Python's, and what keeps it.
 struct Mesh {
@@ -37,16 +31,3 @@ struct OwnedBody {
 [[nodiscard]] std::string no_variable(const Robot& robot, const std::string& name);
 
 }  // namespace penumbra::python
-
-namespace pybind11::detail {
-
-template <>
-struct handle_type_name<penumbra::python::VertexArray> {
-  static constexpr auto name = const_name("Annotated[NDArray[float32], '(N, 3)']");
-};
-template <>
-struct handle_type_name<penumbra::python::TriangleArray> {
-  static constexpr auto name = const_name("Annotated[NDArray[uint32], '(M, 3)']");
-};
-
-}  // namespace pybind11::detail

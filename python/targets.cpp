@@ -89,8 +89,7 @@ void bind_thresholds(py::module_& m) {
       Field{"others_hide", &T::others_hide, "What others than the robot hide counts, too."},
       Field{"point_min_pixels", &T::point_min_pixels, "Trusted depths that a point needs."},
       Field{"point_min_fraction", &T::point_min_fraction, "And their share of the pixels inside."});
-  thresholds.def("check", &T::check,
-                 "Raises InputError, with the values, for invalid fractions.");
+  thresholds.def("check", &T::check, "Raises InputError, with the values, for invalid fractions.");
 }
 
 void bind_image_shapes(py::module_& m) {

@@ -16,16 +16,10 @@
 
 namespace penumbra::python {
 
-/// Arguments that are looked at when they have come.
-class MaskSource : public py::object {
-  PYBIND11_OBJECT_DEFAULT(MaskSource, py::object, is_any)
-};
-class CornerSource : public py::object {
-  PYBIND11_OBJECT_DEFAULT(CornerSource, py::object, is_any)
-};
-class ValueSource : public py::object {
-  PYBIND11_OBJECT_DEFAULT(ValueSource, py::object, is_any)
-};
+// Arguments that are checked after the call.
+using MaskSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[bool_]], '(H, W)']">;
+using CornerSource = Shown<"Annotated[NDArray[float64], '(N, 2)']">;
+using ValueSource = Shown<"Annotated[NDArray[float64], '(4, 4) or (3,)']">;
 
 struct Polygon {
   std::vector<Eigen::Vector2d> corners;
@@ -124,21 +118,3 @@ class SourceTargets {
 };
 
 }  // namespace penumbra::python
-
-namespace pybind11::detail {
-
-template <>
-struct handle_type_name<penumbra::python::MaskSource> {
-  static constexpr auto name =
-      const_name("Annotated[Union[NDArray[uint8], NDArray[bool_]], '(H, W)']");
-};
-template <>
-struct handle_type_name<penumbra::python::CornerSource> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N, 2)']");
-};
-template <>
-struct handle_type_name<penumbra::python::ValueSource> {
-  static constexpr auto name = const_name("Annotated[NDArray[float64], '(4, 4) or (3,)']");
-};
-
-}  // namespace pybind11::detail

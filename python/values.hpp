@@ -17,6 +17,20 @@ namespace penumbra::python {
 
 namespace py = pybind11;
 
+/// A text as a template's parameter.
+template <std::size_t N>
+struct Name {
+  char text[N]{};
+  constexpr Name(const char (&from)[N]) { std::copy_n(from, N, text); }  // NOLINT
+};
+
+/// Any object. Signatures show its type as `Type`.
+template <Name Type>
+class Shown : public py::object {
+  static bool is_any(PyObject* object) { return object != nullptr; }
+  PYBIND11_OBJECT_DEFAULT(Shown, py::object, is_any)
+};
+
 /// Poses as an array of shape (N, 4, 4).
 using Poses = std::vector<Eigen::Isometry3d>;
 
@@ -100,6 +114,11 @@ struct ArrayCaster : ValueCaster<T> {
 }  // namespace penumbra::python
 
 namespace pybind11::detail {
+
+template <penumbra::python::Name Type>
+struct handle_type_name<penumbra::python::Shown<Type>> {
+  static constexpr auto name = const_name(Type.text);
+};
 
 template <int rows, int columns, int options>
 struct type_caster<Eigen::Matrix<double, rows, columns, options, rows, columns>>

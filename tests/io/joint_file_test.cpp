@@ -40,7 +40,6 @@ TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
   const std::string header = "frame,shoulder,elbow\n";
   test::expect_refused(
       {{"", "joints.csv: "},
-       {"\n \n", "joints.csv: "},
        {header, "no frames"},
        {"shoulder,elbow\n1,2\n", ":1: "},
        {"frame;shoulder;elbow\n0;1;2\n", "commas"},
@@ -53,7 +52,6 @@ TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
        {"frame,stamp,shoulder,elbow\n0,0,1,2\n1,-5,1,2\n", ":3: stamp -5"},
        {header + "-1,1,2\n", ":2: '-1'"},
        {header + "1.0,1,2\n", ":2: '1.0'"},
-       {header + ",1,2\n", ":2: ''"},
        {header + "9223372036854775808,1,2\n", "'9223372036854775808'"},
        {header + "0,1,2\n9223372036854775807,1,2\n", ":3: '9223372036854775807'"}},
       [&](const std::string& text) { read(text); });

@@ -71,12 +71,8 @@ TEST_F(Npy, NamesWhatItDoesNotRead) {
   const std::string two = npy(1, "{'descr': '<f4', 'shape': (2, 3), }", bytes_of(six));
   const std::vector<std::pair<std::string, std::string>> cases = {
       {header("<f8", "False", "(2, 3)"), "'<f8'"},
-      {header(">f4", "False", "(2, 3)"), "'>f4'"},
-      {header("<u2", "False", "(2, 3)"), "'<u2'"},
       {header("<f4", "True", "(2, 3)"), "Fortran"},
       {header("<f4", "False", "(6,)"), "1 dimensions"},
-      {header("<f4", "False", "(1, 2, 3)"), "3 dimensions"},
-      {header("<f4", "False", "()"), "0 dimensions"},
       {header("<f4", "False", "(0, 3)"), "a side of 0"},
       {header("<f4", "False", "(40000, 3)"), "a side of 40000"},
       {header("<f4", "False", "(30000, 30000)"), "ends before"},
