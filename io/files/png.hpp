@@ -22,8 +22,8 @@ struct Rgb8 {
 };
 
 /// Reads a PNG file. Reuses the buffer of `image` if the size stays the same. Returns a fault of
-/// the file (missing, truncated, damaged, another pixel format, another size than wanted); `image` is
-/// then unspecified. Allocates no more than the file can hold.
+/// the file (missing, truncated, damaged, another pixel format, another size than wanted); `image`
+/// is then unspecified. Allocates no more than the file can hold.
 ///
 /// T: uint16 for 16-bit grey, uint8 for 8-bit grey or the indices of an 8-bit palette. Depths and
 /// labels must not be converted, so other depths, colour, alpha and transparency are faults. Rgb8
