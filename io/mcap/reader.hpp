@@ -32,8 +32,8 @@ struct Fault {
 /// index and summary; also unfinished or damaged files. Every readable part is read. Each damaged
 /// chunk and a truncation is a fault.
 ///
-/// Memory holds the chunks that overlap in time, at most 2 GiB. It follows the actual content of the
-/// file, not the sizes that it claims. Messages outside of chunks have no checksum.
+/// Memory holds the chunks that overlap in time, at most 2 GiB. It follows the actual content of
+/// the file, not the sizes that it claims. Messages outside of chunks have no checksum.
 class Reader {
  public:
   /// Throws InputError that names the file if it cannot be read or does not begin like MCAP.

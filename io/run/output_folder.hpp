@@ -10,8 +10,8 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
-#include <io/files/pending_file.hpp>
 #include <io/files/overlay_painter.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/files/run_output.hpp>
 #include <io/run/file_writers.hpp>
 #include <io/web/key_frames.hpp>

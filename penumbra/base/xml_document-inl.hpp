@@ -23,8 +23,8 @@ struct XmlElement {
   [[nodiscard]] const std::string* attribute(std::string_view key) const;
 };
 
-/// Reads well-formed XML with one root element, nested no deeper than tinyxml2 allows. Throws InputError with
-/// `file` and the line.
+/// Reads well-formed XML with one root element, nested no deeper than tinyxml2 allows. Throws
+/// InputError with `file` and the line.
 [[nodiscard]] XmlElement read_xml(std::string_view xml, const std::string& file);
 
 }  // namespace penumbra::detail

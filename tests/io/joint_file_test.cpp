@@ -38,23 +38,22 @@ TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
 
 TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
   const std::string header = "frame,shoulder,elbow\n";
-  test::expect_refused(
-      {{"", "joints.csv: "},
-       {header, "no frames"},
-       {"shoulder,elbow\n1,2\n", ":1: "},
-       {"frame;shoulder;elbow\n0;1;2\n", "commas"},
-       {"frame,shoulder\n0,1\n", "'elbow'"},
-       {"frame,shoulder,elbw,elbow\n0,1,2,3\n", "'elbw'"},
-       {"frame,shoulder,elbow,flange\n0,1,2,3\n", "'flange'"},
-       {"frame,shoulder,elbow,\n0,1,2,\n", "''"},
-       {"frame,shoulder,elbow,shoulder\n0,1,2,3\n", "'shoulder' is there twice"},
-       {header + "0,1,2\n1,1,2\n0,1,2\n", ":4: frame 0"},
-       {"frame,stamp,shoulder,elbow\n0,0,1,2\n1,-5,1,2\n", ":3: stamp -5"},
-       {header + "-1,1,2\n", ":2: '-1'"},
-       {header + "1.0,1,2\n", ":2: '1.0'"},
-       {header + "9223372036854775808,1,2\n", "'9223372036854775808'"},
-       {header + "0,1,2\n9223372036854775807,1,2\n", ":3: '9223372036854775807'"}},
-      [&](const std::string& text) { read(text); });
+  test::expect_refused({{"", "joints.csv: "},
+                        {header, "no frames"},
+                        {"shoulder,elbow\n1,2\n", ":1: "},
+                        {"frame;shoulder;elbow\n0;1;2\n", "commas"},
+                        {"frame,shoulder\n0,1\n", "'elbow'"},
+                        {"frame,shoulder,elbw,elbow\n0,1,2,3\n", "'elbw'"},
+                        {"frame,shoulder,elbow,flange\n0,1,2,3\n", "'flange'"},
+                        {"frame,shoulder,elbow,\n0,1,2,\n", "''"},
+                        {"frame,shoulder,elbow,shoulder\n0,1,2,3\n", "'shoulder' is there twice"},
+                        {header + "0,1,2\n1,1,2\n0,1,2\n", ":4: frame 0"},
+                        {"frame,stamp,shoulder,elbow\n0,0,1,2\n1,-5,1,2\n", ":3: stamp -5"},
+                        {header + "-1,1,2\n", ":2: '-1'"},
+                        {header + "1.0,1,2\n", ":2: '1.0'"},
+                        {header + "9223372036854775808,1,2\n", "'9223372036854775808'"},
+                        {header + "0,1,2\n9223372036854775807,1,2\n", ":3: '9223372036854775807'"}},
+                       [&](const std::string& text) { read(text); });
 }
 
 TEST_F(JointFile, SurvivesDamage) {
