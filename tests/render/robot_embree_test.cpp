@@ -9,6 +9,8 @@
 
 #include <iostream>
 
+#include <penumbra/pipeline/pipeline.hpp>
+
 namespace penumbra::test {
 namespace {
 
