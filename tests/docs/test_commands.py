@@ -25,7 +25,7 @@ NOT_RUN = {
     r"ctest --preset": "these tests",
     r"python3 -m venv|~/penumbra-python/bin/pip": "a wheel: tests/python/test_wheel.py",
     r"build/dev/bench/": "a benchmark on real recordings",
-    r"ros2 ": "ROS 2's own",
+    r"ros2 |rviz2 |colcon |rosdep |git clone |sudo apt ": "ROS 2's own: scripts/test_ros.sh",
     r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",
     r"sudo sysctl|echo net\.core": "the machine's settings",
 }

@@ -166,6 +166,7 @@ class TargetSearch : public testing::Test {
   TargetThresholds thresholds;
   double most = 0;  // that may be hidden of what is visible
   bool has_depth = false;
+  std::array<TargetMemory, ways> memories;
   std::array<Moving, ways> last{};                    // where it was when it was last visible
   std::array<bool, ways> was_whole{};                 // when it was visible
   std::array<std::size_t, ways> visible{}, behind{};  // verdicts; truths: hidden by more than that
@@ -186,7 +187,7 @@ TargetView TargetSearch::view(Way way, const World& world, const Truth& truth) {
 
 void TargetSearch::judge(Way way, const World& world, const Truth& truth, TargetJudge& judge) {
   const TargetView target = view(way, world, truth);
-  const Verdict verdict = judge.judge(target).verdict;
+  const Verdict verdict = judge.judge(target, memories[way]).verdict;
   const bool is_seen = verdict == Verdict::visible || verdict == Verdict::partial;
   behind[way] += truth.share() > most ? 1 : 0;
   if (!world.is_there && target.expected_depth) {
@@ -211,6 +212,7 @@ void TargetSearch::run(World world) {
   has_depth = with(0.5);
   const int gap = with(0.3) ? number(1, wide_gap) : 0;
   was_whole.fill(false);
+  memories.fill({});
   last.fill(world.object);
   TargetJudge judge_all(TargetFrame::camera(), rule, 2);
   for (int i = 0; i < frames; ++i) {
