@@ -125,10 +125,10 @@ struct BagHelp {
   std::string poses = "joints, else tf";                  ///< default of --poses
 };
 
-/// How frames are judged: renderer, geometry, tolerance, labels.
+/// How run, tune, view and live judge frames: renderer, geometry, tolerance, labels.
 void add_judging(CLI::App& app, io::JudgingOptions& judging,
                  const std::string& geometry_default = "the recording's, else collision");
-/// Which topics are used, and values that they lack.
+/// Which topics run, tune, view and live use, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
 /// Refuses options that the chosen renderer does not use.

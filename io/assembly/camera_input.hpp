@@ -47,9 +47,9 @@ struct CameraInputOptions {
   double max_wait = 0.2;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
   HiddenTargets hidden_targets = HiddenTargets::not_handled;
-  /// Given: every image becomes a frame, in order; one that is of another camera, or that has no
-  /// pose or cannot be read, says so (DropPolicy::every). Nothing: the setup follows what is
-  /// received, and the newest image is given (DropPolicy::newest).
+  /// Set for bags: every image becomes a frame; one of another camera, without a pose or unreadable
+  /// says so (DropPolicy::every). Not set for live topics: the setup follows what is received, and
+  /// the newest image is given (DropPolicy::newest).
   std::optional<KnownCamera> known = {};
 };
 

@@ -18,13 +18,15 @@
 
 namespace penumbra::io {
 
-/// One recorded frame. Its buffers can be reused for the next.
+/// One frame of a recording or bag. Its buffers can be reused for the next. A bag's frame has no
+/// positions, and depth and colour only if pictures are wanted.
 struct FrameData {
   std::int64_t index = 0;
-  std::optional<std::int64_t> stamp;     ///< nanoseconds
-  FrameStatus status = FrameStatus::ok;  ///< or missing_joints, missing_depth, bad_depth
-  std::string message;                   ///< one line that names the file; empty if ok
-  std::vector<double> positions;         ///< order of Robot::variables(); empty if missing_joints
+  std::optional<std::int64_t> stamp;  ///< nanoseconds
+  FrameStatus status =
+      FrameStatus::ok;            ///< a recording's: missing_joints, missing_depth, bad_depth
+  std::string message;            ///< one line that names the file; empty if ok
+  std::vector<double> positions;  ///< order of Robot::variables(); empty if missing_joints
   std::variant<Image<std::uint16_t>, Image<float>> depth;  ///< valid unless missing or bad
   Image<Rgb8> color;          ///< empty if not wanted, not recorded or not usable
   std::string color_message;  ///< why a recorded colour image is not usable; empty if it is

@@ -71,6 +71,9 @@ struct Tolerance {
 /// of all these blocks become fringe if they differ from their block's depth by at most 2
 /// fringe_step e(d(s)). A real object at the robot's depth that touches its outline is fringe up to
 /// fringe_reach; one image cannot tell them apart.
+///
+/// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
+/// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order.
 struct LabelRule {
   static constexpr int cell = 4;                ///< pixels
   static constexpr int max_width = 63;          ///< pixels, of front_min_width

@@ -9,8 +9,6 @@
 
 #include <iostream>
 
-#include <penumbra/pipeline/pipeline.hpp>
-
 namespace penumbra::test {
 namespace {
 
@@ -53,7 +51,7 @@ ViewKind kind_of(int view) {
 /// Compares every backend's images of one random camera.
 void compare_views(std::mt19937_64& random, const Robot& robot, std::vector<Agreement>& totals) {
   const std::vector<BackendChoice> choices = usable_backend_choices(1);
-  const std::vector<Body> bodies = bodies_of(robot);
+  const std::vector<Body> bodies = link_bodies(robot);
   const Intrinsics intrinsics = random_intrinsics(random, 640, 480);
   std::vector<std::unique_ptr<DepthRenderer>> renderers;
   renderers.reserve(choices.size());

@@ -96,6 +96,13 @@ Robot load_robot(const std::string& name, Geometry geometry) {
   return Robot::load(folder / (name + ".urdf"), options);
 }
 
+std::vector<Body> link_bodies(const Robot& robot) {
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < robot.links().size(); ++i)
+    bodies.push_back({robot.links()[i], robot.meshes(i)});
+  return bodies;
+}
+
 Intrinsics random_intrinsics(std::mt19937_64& random, int width, int height) {
   const double fx = uniform(random, 0.5, 1.6) * width;
   const double fy = fx * uniform(random, 0.9, 1.1);

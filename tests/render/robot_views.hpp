@@ -16,6 +16,10 @@ namespace penumbra::test {
 /// Loads "ur5e" or "xarm7" from the data folder.
 [[nodiscard]] Robot load_robot(const std::string& name, Geometry geometry);
 
+/// One body per link, without the pipeline, which a tree for the renderer's tests leaves out. Valid
+/// as long as the robot.
+[[nodiscard]] std::vector<Body> link_bodies(const Robot& robot);
+
 /// Where a random camera stands.
 enum class ViewKind {
   outside,      ///< 0.6 m to 2.5 m away

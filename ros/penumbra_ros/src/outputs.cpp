@@ -96,7 +96,7 @@ void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::Dept
   if (is_selected("camera_info") && camera_info_->get_subscription_count() > 0)
     publish_camera_info(job.setup->cameras.info, *report.stamp);
   if (is_selected("markers")) publish_markers(job, report);
-  publish_targets(job, report);
+  publish_detections(job, report);
 }
 
 void Outputs::publish_camera_info(const penumbra::io::CameraInfoMessage& info, std::int64_t stamp) {
@@ -118,8 +118,8 @@ void Outputs::publish_markers(const penumbra::io::AssembledFrame& job,
     markers_->publish(std::move(markers));
 }
 
-void Outputs::publish_targets(const penumbra::io::AssembledFrame& job,
-                              const penumbra::FrameReport& report) {
+void Outputs::publish_detections(const penumbra::io::AssembledFrame& job,
+                                 const penumbra::FrameReport& report) {
   const bool has_listener = is_selected("detections") && detections_->get_subscription_count() > 0;
   if (!has_listener && !frames_) return;
   auto detections = handled_detections(report, job.targets, frame_prefix_);

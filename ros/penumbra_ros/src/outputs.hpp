@@ -51,8 +51,8 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
   void publish_camera_info(const penumbra::io::CameraInfoMessage& info, std::int64_t stamp);
   void publish_markers(const penumbra::io::AssembledFrame& job,
                        const penumbra::FrameReport& report);
-  void publish_targets(const penumbra::io::AssembledFrame& job,
-                       const penumbra::FrameReport& report);
+  void publish_detections(const penumbra::io::AssembledFrame& job,
+                          const penumbra::FrameReport& report);
 
   std::string frame_prefix_;
   std::array<std::atomic<bool>, output_names.size()> selected_ = {};
