@@ -31,7 +31,8 @@ set(public_headers
   labels/labels.hpp targets/target.hpp targets/target_judge.hpp
   tracking/trackers.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp
-  pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp)
+  pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp
+  calibration/calibration.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}

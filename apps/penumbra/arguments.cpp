@@ -112,6 +112,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   LiveArguments live;
   ViewArguments view;
   TuneArguments tune;
+  CalibrateArguments calibrate;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -130,6 +131,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add("run", "label every frame of a recording or bag", run, add_run, check_run);
   add("tune", "measure the sensor: tolerance, fringe, missing parts of the URDF", tune, add_tune,
       check_tune);
+  add("calibrate", "find the camera's pose from the robot that it sees", calibrate, add_calibrate,
+      check_calibrate);
   add("render", "render one virtual depth image", render, add_render,
       [](const CLI::App&, const RenderArguments& given) {
         check_renderer(given.backend, given.renderer);
@@ -153,8 +156,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   for (const auto& [command, made] : commands)
     if (command->parsed()) return made();
   throw InputError(
-      "a command is needed: run, tune, render, inspect, doctor, simulate, topics, play, "
-      "live or view (penumbra --help tells more)");
+      "a command is needed: run, tune, calibrate, render, inspect, doctor, simulate, topics, "
+      "play, live or view (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

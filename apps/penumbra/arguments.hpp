@@ -14,6 +14,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/dds/participant.hpp>
+#include <io/run/calibration_input.hpp>
 #include <io/run/judging.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/web/web_server.hpp>
@@ -51,6 +52,14 @@ struct InspectArguments {
 struct TuneArguments {
   io::JudgingOptions judging;  ///< with the current rule
   std::filesystem::path output;
+};
+
+struct CalibrateArguments {
+  io::CalibrationInputOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::optional<std::filesystem::path> initial;
+  bool search = false;
+  bool joint_offsets = false;
 };
 
 struct TopicsArguments {
@@ -118,7 +127,7 @@ struct ViewArguments {
 
 using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
                              SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
-                             ViewArguments, TuneArguments>;
+                             ViewArguments, TuneArguments, CalibrateArguments>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

@@ -12,6 +12,7 @@ inline constexpr const char* main_examples = R"(
 Examples:
   penumbra run recording/ -o out             label every frame of a recording
   penumbra tune recording/ -o tuned          measure your sensor: tolerance, fringe, missing tools
+  penumbra calibrate recording/ -o pose      find the camera's pose from the robot that it sees
   penumbra render --robot arm.urdf --camera camera_info.yaml --pose pose.csv -o vdi.npy
   penumbra inspect arm.urdf                  list which links of a URDF are drawn, and why not
   penumbra doctor                            what this machine offers: SIMD, OpenGL, versions
@@ -59,6 +60,20 @@ stays) and extra_LINK.stl for each link with an extra part.
 Examples:
   penumbra tune recording/ -o tuned
   penumbra tune bag.mcap -o tuned --package ur_description=/opt/ur_description)";
+
+inline constexpr const char* calibrate_examples = R"(
+Finds the pose of a depth camera from the robot that it sees, without markers. The camera is fixed in
+the cell, or to a link of the robot. Ten poses of the arm, near and far, left and right, are enough.
+Prints the pose in several forms and how far off it may be. If the frames show too little, or not
+this robot, it says so and what to record, with exit status 2.
+OUT gets camera_pose.csv (only a good one), calibration.json (all numbers) and calibration.png: a
+frame's depth with the robot's outline before (red) and after (green).
+With --masks the pose is that of the colour image.
+
+Examples:
+  penumbra calibrate recording/ -o calibrated
+  penumbra calibrate recording/ --initial rough_pose.csv -o calibrated
+  penumbra calibrate bag.mcap --search -o calibrated)";
 
 inline constexpr const char* view_examples = R"(
 Judges a recording or a bag as run does, and serves a page that shows the result meanwhile: robot,

@@ -137,6 +137,7 @@ void check_renderer(Backend backend, const RendererOptions& options);
 // The options of the commands.
 void add_run(CLI::App& app, RunArguments& run);
 void add_tune(CLI::App& app, TuneArguments& tune);
+void add_calibrate(CLI::App& app, CalibrateArguments& calibrate);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
@@ -145,6 +146,7 @@ void add_live(CLI::App& app, LiveArguments& live);
 // Each refuses options of its command that exclude each other, and derives the rest from them.
 void check_run(const CLI::App& app, RunArguments& run);
 void check_tune(const CLI::App& app, TuneArguments& tune);
+void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate);
 void check_view(const CLI::App& app, ViewArguments& view);
 void check_live(const CLI::App& app, const LiveArguments& live);
 

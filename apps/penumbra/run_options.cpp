@@ -81,13 +81,18 @@ void check_targets(const io::JudgingOptions& judging) {
         "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
+/// Notes which option of bags was given.
+void check_input(const CLI::App& app, io::InputOptions& input) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0 && option->get_group() == BagHelp().group)
+      input.bag_option = option->get_name();
+}
+
 /// Checks what run, tune and view have in common.
 void check_judging(const CLI::App& app, io::JudgingOptions& judging) {
   check_renderer(judging.backend, judging.renderer);
   check_targets(judging);
-  for (const CLI::Option* option : app.get_options())
-    if (option->count() > 0 && option->get_group() == BagHelp().group)
-      judging.input.bag_option = option->get_name();
+  check_input(app, judging.input);
 }
 
 }  // namespace
@@ -178,6 +183,28 @@ void add_tune(CLI::App& app, TuneArguments& tune) {
   add_bag(app, tune.judging.input.bag);
 }
 
+void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
+  app.footer(calibrate_examples);
+  io::InputOptions& input = calibrate.input.input;
+  add_input(app, input);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", calibrate.output);
+  add_text(app, "--initial",
+           "first guess of the camera's pose, 4x4, at most 100 mm and 10 degrees off; default: the "
+           "input's own",
+           "FILE", calibrate.initial);
+  app.add_flag("--search", calibrate.search, "find the camera without a first guess");
+  add_text(app, "--masks",
+           "images that are not 0 where the colour image shows the robot, as mask_%d.png",
+           "PATTERN", calibrate.input.masks);
+  app.add_flag("--joint-offsets", calibrate.joint_offsets,
+               "estimate the zero offset of each joint, too");
+  add_geometry(app, input.geometry, "the recording's, else collision");
+  add_extra(app, input.extra);
+  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_frames(app, input.frames);
+  add_bag(app, input.bag);
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_input(app, run.judging.input);
@@ -212,6 +239,12 @@ void check_tune(const CLI::App& app, TuneArguments& tune) {
   tune.judging.input.with_color = true;  // for the picture
   tune.judging.no_targets = true;
   tune.judging.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
+}
+
+void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
+  check_input(app, calibrate.input.input);
+  if (calibrate.search && calibrate.initial)
+    throw InputError("--search: --initial is given too; leave one of them out");
 }
 
 void check_run(const CLI::App& app, RunArguments& run) {

@@ -48,4 +48,12 @@ void print_notes(std::span<const std::string> notes) {
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }
 
+void make_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw InputError("--output: " + folder.string() + ": cannot be used as output folder (" +
+                     (error ? error.message() : "it is a file") + "); choose another");
+}
+
 }  // namespace penumbra::app

@@ -5,7 +5,6 @@
 #include <span>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -105,20 +104,12 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
             << options << '\n';
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error))
-    throw InputError("--output: " + folder.string() + ": cannot be used as output folder (" +
-                     (error ? error.message() : "it is a file") + "); choose another");
-}
-
 }  // namespace
 
 int execute(const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
   io::Judging judging(arguments.judging, print_line);
-  make_folder(folder);
+  make_output_folder(folder);
   const Pipeline& pipeline = judging.pipeline();
   KeptFrames kept(pipeline.rule().range);
   {

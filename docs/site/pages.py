@@ -3,7 +3,7 @@
 
 PAGES = {
     "Start": ["getting-started", "method"],
-    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning"],
+    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "calibration"],
     "Details": ["recording", "tracking", "time"],
     "Figures": ["performance", "experiments"],
     "Reference": ["architecture"],

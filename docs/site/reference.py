@@ -24,6 +24,7 @@ HEADERS = {
     "Labels and verdicts": ["labels/labels.hpp", "targets/target.hpp",
                             "targets/target_judge.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
+    "Calibration": ["calibration/calibration.hpp"],
     "Images, meshes, errors": ["base/image.hpp", "mesh/triangle_mesh.hpp",
                                "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <sstream>
 #include <string>
 
 #include <Eigen/SVD>
@@ -6,6 +7,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/files/csv.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/printable.hpp>
@@ -69,6 +71,12 @@ Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file) {
   pose.linear() = nearest;
   pose.translation() = position;
   return pose;
+}
+
+void write_pose_csv(const std::filesystem::path& file, const Eigen::Isometry3d& pose) {
+  std::ostringstream text;
+  text << pose.matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, ",", "\n")) << '\n';
+  write_file(file, text.str().data(), text.str().size());
 }
 
 }  // namespace penumbra::io

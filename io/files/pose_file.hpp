@@ -12,4 +12,7 @@ namespace penumbra::io {
 /// InputError for anything else.
 [[nodiscard]] Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file);
 
+/// Writes a pose that read_pose_csv reads. Throws InputError if the file cannot be written.
+void write_pose_csv(const std::filesystem::path& file, const Eigen::Isometry3d& pose);
+
 }  // namespace penumbra::io

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <utility>
 
-#include <io/files/bitmap_font.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/files/overlay_painter.hpp>
+#include <io/files/picture.hpp>
 #include <io/files/tuning_report.hpp>
 
 namespace penumbra::io {
@@ -15,8 +15,6 @@ namespace {
 constexpr Rgb8 removed_color{0, 200, 80};
 constexpr Rgb8 left_color{230, 30, 30};
 constexpr Rgb8 outline_color{255, 255, 255};
-constexpr Rgb8 shadow_color{0, 0, 0};
-constexpr int rows_per_letter = 360;  // image rows for which letters grow by their own size
 
 Json fringe_json(const FringeFit& fringe) {
   Json left = Json::array();
@@ -48,24 +46,6 @@ std::string percent(double share) {
   return text.data();
 }
 
-void draw_line(const std::string& text, Rgb8 color, int line, Image<Rgb8>& image) {
-  const int scale = std::max(1, image.height() / rows_per_letter);
-  const int size = BitmapFont::height * scale, left = 2 * size;
-  const int top = image.height() - (3 - line) * (size + scale) - size;
-  BitmapFont::fill(size / 2, top, size - scale, color, image);
-  for (const int shift : {-1, 1})
-    for (const int other : {-1, 1})
-      BitmapFont::draw(text, left + shift, top + other, scale, shadow_color, image);
-  BitmapFont::draw(text, left, top, scale, outline_color, image);
-}
-
-bool is_outline(const Image<float>& depth, int u, int v) {
-  const auto is_robot = [&](int x, int y) { return depth(x, y) > 0.0f; };
-  return is_robot(u, v) && ((u > 0 && !is_robot(u - 1, v)) || (v > 0 && !is_robot(u, v - 1)) ||
-                            (u + 1 < depth.width() && !is_robot(u + 1, v)) ||
-                            (v + 1 < depth.height() && !is_robot(u, v + 1)));
-}
-
 }  // namespace
 
 std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frames,
@@ -95,18 +75,17 @@ Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
   report.index = frame.index;
   draw_overlay(report, {frame.depth.view(), color}, image);
   for (int v = 0; v < image.height(); ++v)
-    for (int u = 0; u < image.width(); ++u) {
+    for (int u = 0; u < image.width(); ++u)
       if (fringe.shown(u, v) != FringeFit::nothing)
         image(u, v) = fringe.shown(u, v) == FringeFit::left ? left_color : removed_color;
-      if (is_outline(frame.virtual_depth, u, v)) image(u, v) = outline_color;
-    }
+  draw_outline(frame.virtual_depth.view(), outline_color, image);
   const std::string reach = std::to_string(fringe.reach);
-  draw_line("removed by fringe_reach " + reach + "; without it " +
-                percent(fringe.left_over.front()) + " of the arm's points stay",
-            removed_color, 0, image);
+  draw_legend("removed by fringe_reach " + reach + "; without it " +
+                  percent(fringe.left_over.front()) + " of the arm's points stay",
+              removed_color, 0, 3, image);
   const double left = fringe.left_over[static_cast<std::size_t>(fringe.reach / FringeFit::step)];
-  draw_line("stays with it: " + percent(left), left_color, 1, image);
-  draw_line("outline of the URDF", outline_color, 2, image);
+  draw_legend("stays with it: " + percent(left), left_color, 1, 3, image);
+  draw_legend("outline of the URDF", outline_color, 2, 3, image);
   return image;
 }
 

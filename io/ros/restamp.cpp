@@ -12,29 +12,29 @@ namespace {
 
 using Payload = std::span<const std::byte>;
 using Headers = std::vector<MessageHeader>;
-using Fault = std::optional<std::string>;
+using StampFault = std::optional<std::string>;
 
 constexpr std::int64_t second = 1'000'000'000;
 
-Fault find_first(Payload payload, Headers& headers) {
+StampFault find_first(Payload payload, Headers& headers) {
   CdrReader reader(payload);
   const std::int64_t seconds = reader.read<std::int32_t>();
   const auto rest = reader.read<std::uint32_t>();
   headers.push_back({.stamp = seconds * second + rest, .stamp_at = CdrReader::header_bytes});
-  return reader.ok() ? std::nullopt : Fault(reader.fault());
+  return reader.ok() ? std::nullopt : StampFault(reader.fault());
 }
 
-Fault find_of_transforms(Payload payload, Headers& headers) {
+StampFault find_of_transforms(Payload payload, Headers& headers) {
   TfMessage message;
-  Fault fault = Decoder<TfMessage>().decode(payload, message);
+  StampFault fault = Decoder<TfMessage>().decode(payload, message);
   for (const TransformMessage& transform : message.transforms) headers.push_back(transform.header);
   return fault;
 }
 
 template <typename DetectionArray>
-Fault find_of_detections(Payload payload, Headers& headers) {
+StampFault find_of_detections(Payload payload, Headers& headers) {
   DetectionArray message;
-  Fault fault = Decoder<DetectionArray>().decode(payload, message);
+  StampFault fault = Decoder<DetectionArray>().decode(payload, message);
   headers.push_back(message.header);
   for (const auto& detection : message.detections) headers.push_back(detection.header);
   return fault;

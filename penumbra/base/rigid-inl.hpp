@@ -15,4 +15,12 @@ namespace penumbra {
          R.determinant() > 0.0;
 }
 
+/// Returns how far two poses differ, metres; a turn counts as the way of a point 10 cm away.
+[[nodiscard]] inline double pose_difference(const Eigen::Isometry3d& a,
+                                            const Eigen::Isometry3d& b) {
+  constexpr double lever = 0.1;
+  return (a.translation() - b.translation()).norm() +
+         lever * Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
 }  // namespace penumbra

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <meshoptimizer.h>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text-inl.hpp>
 #include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/simplified.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
 #include <penumbra/mesh/surface_patches-inl.hpp>
 #include <penumbra/mesh/weld.hpp>
@@ -249,19 +249,6 @@ Grid grid_for(double margin, const Eigen::AlignedBox3d& bounds) {
   return {bounds.min() - Vector3d::Constant(2.0 * cell), cell, level};
 }
 
-TriangleMesh simplified(TriangleMesh mesh) {
-  if (mesh.triangles.empty()) return mesh;
-  const std::size_t stride = sizeof(Eigen::Vector3f);
-  const float* const positions = mesh.vertices.front().data();
-  std::uint32_t* const corners = mesh.triangles.front().data();
-  const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), stride);
-  const std::size_t count =
-      meshopt_simplify(corners, corners, 3 * mesh.triangles.size(), positions, mesh.vertices.size(),
-                       stride, 0, static_cast<float>(simplification) / scale);
-  mesh.triangles.resize(count / 3);
-  return mesh;
-}
-
 TriangleMesh offset_patch(const PreparedMesh& mesh, std::size_t number, double margin) {
   const SurfacePatch& patch = mesh.patches[number];
   const auto& [facing, holes] = mesh.orientations()[number];
@@ -281,7 +268,8 @@ TriangleMesh offset_patch(const PreparedMesh& mesh, std::size_t number, double m
   const Eigen::AlignedBox3d bounds(patch.bounds.min() - growth, patch.bounds.max() + growth);
   const Grid grid = grid_for(margin, bounds);
   return simplified(
-      LevelSurface(faces, solid, grid).find(bounds.sizes().maxCoeff() + 4.0 * grid.cell));
+      LevelSurface(faces, solid, grid).find(bounds.sizes().maxCoeff() + 4.0 * grid.cell),
+      simplification);
 }
 
 }  // namespace

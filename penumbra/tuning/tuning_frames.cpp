@@ -3,18 +3,13 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/tuning/tuning_frames.hpp>
 
 namespace penumbra {
 namespace {
 
-constexpr double lever = 0.1;           // metres for a rotation of 1 rad
 constexpr double still_camera = 0.002;  // metres
-
-double difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return (a.translation() - b.translation()).norm() +
-         lever * Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
-}
 
 Image<float> measured(const DepthView& view, const DepthRange& range) {
   return std::visit(
@@ -49,7 +44,7 @@ void TuningFrames::add(const FrameReport& report) {
   }
   ++good_;
   if (!T_root_camera_) T_root_camera_ = report.T_root_camera;
-  if (difference(*T_root_camera_, *report.T_root_camera) > still_camera)
+  if (pose_difference(*T_root_camera_, *report.T_root_camera) > still_camera)
     throw InputError("frame " + std::to_string(report.index) +
                      ": the camera moves relative to the robot's root; tune needs a camera that "
                      "does not move relative to it");
@@ -85,7 +80,8 @@ bool TuningFrames::differs(const TuningFrame& frame, std::span<const TuningFrame
   return std::all_of(from.begin(), from.end(), [&](const TuningFrame& other) {
     double most_moved = 0.0;
     for (std::size_t i = 0; i < frame.T_camera_link.size(); ++i)
-      most_moved = std::max(most_moved, difference(frame.T_camera_link[i], other.T_camera_link[i]));
+      most_moved =
+          std::max(most_moved, pose_difference(frame.T_camera_link[i], other.T_camera_link[i]));
     return most_moved >= motion_;
   });
 }

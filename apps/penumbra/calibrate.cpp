@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/calibration/calibration.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/files/calibration_report.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/png.hpp>
+#include <io/files/pose_file.hpp>
+#include <io/run/calibration_input.hpp>
+
+namespace penumbra::app {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+/// The value and twice its standard deviation.
+std::string plus_minus(const Estimate& estimate, double scale, int digits) {
+  return fixed(scale * estimate.value, digits) + " +- " +
+         fixed(2.0 * scale * estimate.sigma, digits);
+}
+
+std::string joined(const auto& values, int digits, const char* separator) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : separator) + fixed(value, digits);
+  return text;
+}
+
+void print_fit(const Calibration& found, const Robot& robot) {
+  std::cout << "position within " << fixed(1e3 * found.position_error(), 1)
+            << " mm, rotation within " << fixed(degrees * found.rotation_error(), 2)
+            << " degrees (95 %)\n"
+            << "depth: measured = " << plus_minus(found.depth_scale, 100.0, 2) << " % + "
+            << plus_minus(found.depth_offset, 1e3, 1)
+            << " mm more than true; the robot's picture is " << plus_minus(found.outline, 1.0, 1)
+            << " px larger\n";
+  if (found.shift_right)
+    std::cout << "the pose is that of the colour image: the depth image lies "
+              << plus_minus(*found.shift_right, 1.0, 1) << " px to its right and "
+              << plus_minus(*found.shift_down, 1.0, 1) << " px below; overlap with the masks "
+              << fixed(100.0 * found.mask_overlap, 1) << " %\n";
+  for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
+    std::cout << "  " << robot.variables()[j] << ": "
+              << plus_minus(found.joint_offsets[j], degrees, 2) << " degrees\n";
+  std::vector<std::vector<std::string>> rows{{"frame", "agrees", "surface", "edge"}};
+  for (const FrameFit& frame : found.frames)
+    rows.push_back({std::to_string(frame.index) + (frame.used ? "" : " (left out)"),
+                    fixed(100.0 * frame.agreeing, 0) + " %", fixed(1e3 * frame.residual, 1) + " mm",
+                    fixed(frame.outline, 1) + " px"});
+  print_table(std::move(rows));
+}
+
+void print_pose(const Calibration& found, const std::string& parent, const std::string& frame) {
+  const Eigen::Isometry3d& T = found.T_parent_camera;
+  const Eigen::Quaterniond q(T.linear());
+  const std::string xyz = joined(T.translation(), 5, " ");
+  std::cout << "\n4x4, optical frame in " << parent << ", metres:\n";
+  for (int row = 0; row < 4; ++row)
+    std::cout << "  " << joined(T.matrix().row(row), 6, ", ") << '\n';
+  std::cout << "xyz: " << xyz << "\nquaternion xyzw: " << joined(q.coeffs(), 6, " ")
+            << "\nROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
+            << " --y " << fixed(T(1, 3), 5) << " --z " << fixed(T(2, 3), 5) << " --qx "
+            << fixed(q.x(), 6) << " --qy " << fixed(q.y(), 6) << " --qz " << fixed(q.z(), 6)
+            << " --qw " << fixed(q.w(), 6) << " --frame-id " << parent << " --child-frame-id "
+            << (frame.empty() ? "camera_optical_frame" : frame) << '\n';
+}
+
+}  // namespace
+
+int execute(const CalibrateArguments& arguments) {
+  if (!arguments.output.empty()) make_output_folder(arguments.output);
+  const io::CalibrationInput input = [&] {
+    Progress progress(0);
+    return io::read_calibration_input(arguments.input, print_line, [&] { progress.step(); });
+  }();
+  print_notes(input.notes);
+  const Robot& robot = input.input.robot;
+  CalibrationOptions options{.camera_parent = input.input.config.camera_parent,
+                             .initial = input.input.config.T_parent_camera,
+                             .joint_offsets = arguments.joint_offsets};
+  if (arguments.initial) options.initial = io::read_pose_csv(*arguments.initial);
+  if (arguments.search) options.initial.reset();
+  std::cout << input.frames.size() << " of " << input.seen
+            << " frames have different poses of the robot\n";
+  const Calibration found = calibrate(input.frames, input.camera, robot, options);
+  print_notes(found.notes);
+  if (!arguments.output.empty()) {
+    const std::string json = io::calibration_json(found, robot, options.camera_parent) + "\n";
+    io::write_file(arguments.output / "calibration.json", json.data(), json.size());
+    io::write_png(arguments.output / "calibration.png",
+                  io::draw_calibration(input.frames.front(), input.camera, robot,
+                                       options.camera_parent, options.initial, found)
+                      .view());
+  }
+  if (!found.is_good()) {
+    std::string why;
+    for (const std::string& fault : found.faults) why += (why.empty() ? "" : "; ") + fault;
+    throw InputError(arguments.input.input.path.string() + ": not calibrated: " + why);
+  }
+  print_fit(found, robot);
+  const std::string parent =
+      options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
+  print_pose(found, parent, input.input.camera.frame_id);
+  if (arguments.output.empty()) return 0;
+  io::write_pose_csv(arguments.output / "camera_pose.csv", found.T_parent_camera);
+  std::cout << "recording.yaml:\ncamera:\n  parent: " << parent
+            << "\n  pose: " << (arguments.output / "camera_pose.csv").string() << '\n';
+  return 0;
+}
+
+}  // namespace penumbra::app

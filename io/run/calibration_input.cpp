@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/rectification.hpp>
+
+#include <io/files/frame_pattern.hpp>
+#include <io/files/image_size.hpp>
+#include <io/files/png.hpp>
+#include <io/run/calibration_input.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr double still = 0.01;  // metres per second of any link's origin
+
+/// The fastest link's speed since the frame before, m/s; none without stamps.
+class Speed {
+ public:
+  std::optional<double> of(const Frame& frame, const std::vector<Eigen::Isometry3d>& poses) {
+    std::optional<double> speed;
+    if (frame.stamp && before_ && *frame.stamp > *before_) {
+      double most = 0.0;
+      for (std::size_t i = 0; i < poses.size(); ++i)
+        most = std::max(most, (poses[i].translation() - poses_[i].translation()).norm());
+      speed = most / (1e-9 * static_cast<double>(*frame.stamp - *before_));
+    }
+    before_ = frame.stamp;
+    poses_ = poses;
+    return speed;
+  }
+
+ private:
+  std::optional<std::int64_t> before_;
+  std::vector<Eigen::Isometry3d> poses_;
+};
+
+Image<float> metres(const DepthView& view, const DepthRange& range) {
+  return std::visit(
+      [&](const auto& depth) {
+        Image<float> out(depth.width, depth.height);
+        for (int v = 0; v < depth.height; ++v)
+          for (int u = 0; u < depth.width; ++u)
+            if (const float z = metres_of(depth(u, v)); z >= range.near && z <= range.far)
+              out(u, v) = z;
+        return out;
+      },
+      view);
+}
+
+template <typename T>
+Image<T> rectified_copy(const std::optional<Rectification>& lens, const Image<T>& raw) {
+  Image<T> image;
+  return copy_of(rectified(lens ? &*lens : nullptr, raw.view(), image));
+}
+
+}  // namespace
+
+CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
+                                        const LineSink& print, const std::function<void()>& step) {
+  RunInput input = open_input(options.input, print);
+  std::optional<Rectification> lens;
+  if (!input.camera.distortion.is_none()) lens.emplace(input.camera);
+  const Intrinsics camera = lens ? lens->pinhole() : input.camera.intrinsics;
+  std::optional<FramePattern> masks;
+  const auto& path = options.input.path;
+  if (options.masks)
+    masks.emplace(*options.masks, std::filesystem::is_directory(path) ? path : path.parent_path());
+
+  const Robot& robot = input.robot;
+  const auto source = input.frames(robot);
+  FrameData data;
+  Frame frame;
+  CalibrationFrames resting, all;
+  Speed speed;
+  std::size_t seen = 0, faulty = 0;
+  std::string fault;
+  while (source->next(data, frame)) {
+    ++seen;
+    step();
+    CalibrationFrame kept{.index = frame.index.value_or(seen - 1),
+                          .depth = {},
+                          .mask = {},
+                          .joints = {},
+                          .T_root_link = {}};
+    const bool has_depth = std::visit([](const auto& view) { return !view.empty(); }, frame.depth);
+    const bool has_joints = frame.joints.status == JointStatus::ok &&
+                            frame.joints.positions.size() == robot.variables().size();
+    if (frame.source_status != FrameStatus::ok || !has_depth ||
+        (frame.T_root_link.empty() && !has_joints)) {
+      if (faulty++ == 0)
+        fault = "frame " + std::to_string(kept.index) + ": " +
+                (frame.source_message.empty() ? std::string("no joints or no depth")
+                                              : std::string(frame.source_message));
+      continue;
+    }
+    kept.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+    if (kept.T_root_link.empty()) {
+      kept.joints.assign(frame.joints.positions.begin(), frame.joints.positions.end());
+      kept.T_root_link.resize(robot.links().size());
+      robot.forward_kinematics(kept.joints, kept.T_root_link);
+    }
+    const std::optional<double> now = speed.of(frame, kept.T_root_link);
+    const bool rests = !now || *now <= still;
+    if (!all.wants(kept.T_root_link) && !(rests && resting.wants(kept.T_root_link))) continue;
+    kept.depth = rectified_copy(lens, metres(frame.depth, input.camera.range));
+    if (masks) {
+      Image<std::uint8_t> mask;
+      const auto file = masks->file(static_cast<std::int64_t>(kept.index));
+      if (const FileResult read = read_png(
+              file, mask,
+              ImageSize{input.camera.intrinsics.width(), input.camera.intrinsics.height()});
+          !read.ok())
+        throw InputError("--masks: " + read.message);
+      kept.mask = rectified_copy(lens, mask);
+    }
+    if (rests) resting.add(kept);
+    all.add(std::move(kept));
+  }
+
+  CalibrationInput result{.input = std::move(input),
+                          .camera = camera,
+                          .frames = {},
+                          .seen = seen,
+                          .notes = source->notes()};
+  const bool rested = resting.frames().size() >= CalibrationFrames::least;
+  const auto chosen = (rested ? resting : all).frames();
+  result.frames.assign(chosen.begin(), chosen.end());
+  if (!rested && resting.frames().size() < chosen.size())
+    result.notes.push_back(
+        "the arm moves in most frames: joint states that are early or late move the result; let it "
+        "stand still at some ten poses");
+  if (faulty > 0)
+    result.notes.push_back(std::to_string(faulty) + " of " + std::to_string(seen) +
+                           " frames cannot be used; the first is " + fault);
+  return result;
+}
+
+}  // namespace penumbra::io

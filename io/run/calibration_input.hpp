@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/calibration/calibration.hpp>
+
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+
+/// What is calibrated with.
+struct CalibrationInputOptions {
+  InputOptions input;
+  /// Name pattern of images that are not 0 where the robot is, beside the recording.yaml or bag.
+  std::optional<std::string> masks;
+};
+
+/// The chosen frames of an input.
+struct CalibrationInput {
+  RunInput input;
+  Intrinsics camera;  ///< of the frames' images, which are free of distortion
+  std::vector<CalibrationFrame> frames;
+  std::size_t seen = 0;            ///< frames of the input
+  std::vector<std::string> notes;  ///< a line each
+};
+
+/// Reads an input and keeps frames between which the robot moves, those in which it stands still
+/// before the others. Calls `step` after each frame. Throws InputError that names the file; a
+/// frame's own faults are notes.
+[[nodiscard]] CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
+                                                      const LineSink& print,
+                                                      const std::function<void()>& step);
+
+}  // namespace penumbra::io

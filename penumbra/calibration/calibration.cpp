@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/pipeline/pose_stage-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+using calibration::Model;
+using calibration::Observer;
+using calibration::PoseSearch;
+using calibration::Refined;
+using calibration::State;
+using calibration::Unknowns;
+
+constexpr std::size_t searched = 6;        // frames on which poses are tried
+constexpr double least_agreeing = 0.6;     // of the robot's measured pixels
+constexpr double elsewhere = 0.7;          // of the frames' median share that agrees
+constexpr double largest_position = 0.02;  // metres, half axis of the 95 % region
+constexpr double largest_rotation = 0.02;  // rad
+constexpr double chi = 2.7955;             // square root of the 95 % quantile of chi^2 (3)
+
+double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
+  return most;
+}
+
+double longest_axis(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  return chi * std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
+}
+
+std::string number(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+Estimate estimate(double value, const Refined& fit, int unknown) {
+  return {value, std::sqrt(fit.covariance(unknown, unknown))};
+}
+
+using FramePointers = std::vector<const CalibrationFrame*>;
+
+void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
+                 const CalibrationOptions& options) {
+  if (frames.size() < CalibrationFrames::least)
+    throw InputError("calibration needs " + std::to_string(CalibrationFrames::least) +
+                     " frames or more with different poses of the robot, and has " +
+                     std::to_string(frames.size()) +
+                     ": record the arm in some ten poses, with links near and far, left and right");
+  for (const CalibrationFrame& frame : frames) {
+    if (frame.depth.width() != camera.width() || frame.depth.height() != camera.height())
+      throw InputError("frame " + std::to_string(frame.index) + ": its depth image is " +
+                       std::to_string(frame.depth.width()) + "x" +
+                       std::to_string(frame.depth.height()) + ", the camera's are " +
+                       std::to_string(camera.width()) + "x" + std::to_string(camera.height()));
+    if (!frame.mask.empty() &&
+        (frame.mask.width() != camera.width() || frame.mask.height() != camera.height()))
+      throw InputError("frame " + std::to_string(frame.index) +
+                       ": its mask is not of the camera's size");
+    if (options.joint_offsets && frame.joints.empty())
+      throw InputError("frame " + std::to_string(frame.index) +
+                       ": has no joint positions (its poses are from TF); leave joint offsets out");
+  }
+}
+
+/// One refinement on the frames that fit.
+class Calibrator {
+ public:
+  Calibrator(std::span<const CalibrationFrame> frames, const Intrinsics& camera, const Robot& robot,
+             const CalibrationOptions& options)
+      : frames_(frames),
+        camera_(camera),
+        robot_(robot),
+        options_(options),
+        parent_(find_camera_parent(robot, options.camera_parent)),
+        model_(robot, parent_) {
+    unknowns_.has_shift = std::all_of(frames.begin(), frames.end(),
+                                      [](const auto& frame) { return !frame.mask.empty(); });
+    unknowns_.joint_count = options.joint_offsets ? robot.variables().size() : 0;
+    for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
+  }
+
+  Calibration run() {
+    Observer observer(model_, camera_, unknowns_);
+    const Refined fit = best_fit(observer);
+    Calibration result = result_of(fit);
+    for (const CalibrationFrame& frame : frames_) {
+      result.frames.push_back(observer.fit(frame, fit.state));
+      result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
+    }
+    if (unknowns_.has_shift) {
+      std::size_t both = 0, either = 0;
+      for (const CalibrationFrame& frame : frames_)
+        observer.overlap(frame, fit.state, both, either);
+      result.mask_overlap =
+          static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+    }
+    judge(result, observer, fit);
+    return result;
+  }
+
+ private:
+  Refined best_fit(Observer& observer) {
+    FramePointers some;  // spread over all frames
+    for (std::size_t i = 0; i < std::min(searched, used_.size()); ++i)
+      some.push_back(used_[i * used_.size() / std::min(searched, used_.size())]);
+    PoseSearch search(model_, camera_, some, parent_ == 0, options_.seed);
+    State start;
+    start.joint_offsets.resize(unknowns_.joint_count);
+    std::vector<Eigen::Isometry3d> candidates;
+    if (options_.initial)
+      candidates = {*options_.initial, search.near(*options_.initial)};
+    else
+      candidates = search.everywhere();
+    std::optional<Refined> best;
+    double best_score = 0.0;
+    for (const Eigen::Isometry3d& candidate : candidates) {
+      start.T_parent_camera = candidate;
+      Refined fit = calibration::refine(observer, unknowns_, used_, start);
+      const double score = search.score(fit.state);
+      if (best && score <= best_score) continue;
+      best_score = score;
+      best = std::move(fit);
+    }
+    if (leave_out(observer, best->state))
+      best = calibration::refine(observer, unknowns_, used_, best->state);
+    return *std::move(best);
+  }
+
+  /// Leaves out frames in which the robot is elsewhere than its joints say.
+  bool leave_out(Observer& observer, const State& state) {
+    std::vector<double> agreeing;
+    for (const CalibrationFrame* frame : used_)
+      agreeing.push_back(observer.fit(*frame, state).agreeing);
+    std::vector<double> sorted = agreeing;
+    std::sort(sorted.begin(), sorted.end());
+    const double least = elsewhere * sorted[sorted.size() / 2];
+    FramePointers good;
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      if (agreeing[i] >= least) good.push_back(used_[i]);
+    if (good.size() == used_.size() || good.size() < CalibrationFrames::least) return false;
+    used_ = good;
+    return true;
+  }
+
+  [[nodiscard]] Calibration result_of(const Refined& fit) const {
+    Calibration result;
+    result.T_parent_camera = fit.state.T_parent_camera;
+    result.covariance = fit.covariance.topLeftCorner<6, 6>();
+    result.depth_offset = estimate(fit.state.depth_offset, fit, Unknowns::depth_offset);
+    result.depth_scale = estimate(fit.state.depth_scale, fit, Unknowns::depth_scale);
+    result.outline = estimate(fit.state.outline, fit, Unknowns::outline);
+    if (unknowns_.has_shift) {
+      result.shift_right = estimate(fit.state.depth_shift.x(), fit, Unknowns::shift);
+      result.shift_down = estimate(fit.state.depth_shift.y(), fit, Unknowns::shift + 1);
+    }
+    for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
+      result.joint_offsets.push_back(
+          estimate(fit.state.joint_offsets[j], fit, unknowns_.joints() + static_cast<int>(j)));
+    result.link_residuals = fit.link_residuals;
+    return result;
+  }
+
+  void judge(Calibration& result, Observer& /*observer*/, const Refined& fit) const {
+    double agreeing = 0.0;
+    for (const FrameFit& frame : result.frames) {
+      if (frame.used)
+        agreeing += frame.agreeing / static_cast<double>(used_.size());
+      else
+        result.notes.push_back("frame " + std::to_string(frame.index) + " is left out: only " +
+                               number(100.0 * frame.agreeing, 0) +
+                               " % of the robot's pixels show it where its joints say");
+    }
+    if (!fit.covariance.allFinite() || !(agreeing >= least_agreeing)) {
+      result.faults.push_back(
+          "only " + number(100.0 * agreeing, 0) +
+          " % of the robot's pixels show it at its depth: the robot is not in view, the URDF is "
+          "not this robot's, the joints are of other times, or the first guess is too far off");
+      return;
+    }
+    if (result.position_error() > largest_position || result.rotation_error() > largest_rotation)
+      result.faults.push_back("the pose is known to " + number(1e3 * result.position_error(), 0) +
+                              " mm and " +
+                              number(result.rotation_error() * 180.0 / 3.14159265358979, 1) +
+                              " degrees only: record more poses of the robot");
+  }
+
+  std::span<const CalibrationFrame> frames_;
+  const Intrinsics& camera_;
+  const Robot& robot_;
+  const CalibrationOptions& options_;
+  std::size_t parent_;
+  Model model_;
+  Unknowns unknowns_;
+  FramePointers used_;
+};
+
+}  // namespace
+
+double Calibration::position_error() const {
+  return longest_axis(covariance.bottomRightCorner<3, 3>());
+}
+
+double Calibration::rotation_error() const {
+  return longest_axis(covariance.topLeftCorner<3, 3>());
+}
+
+bool CalibrationFrames::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
+  return std::all_of(frames_.begin(), frames_.end(), [&](const CalibrationFrame& frame) {
+    return moved(frame.T_root_link, T_root_link) >= motion_;
+  });
+}
+
+void CalibrationFrames::add(CalibrationFrame frame) {
+  ++seen_;
+  if (!wants(frame.T_root_link)) return;
+  frames_.push_back(std::move(frame));
+  while (frames_.size() > most) {
+    motion_ *= 1.5;
+    std::vector<CalibrationFrame> all;
+    all.swap(frames_);
+    for (CalibrationFrame& kept : all)
+      if (wants(kept.T_root_link)) frames_.push_back(std::move(kept));
+  }
+}
+
+Calibration calibrate(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
+                      const Robot& robot, const CalibrationOptions& options) {
+  check_input(frames, camera, options);
+  return Calibrator(frames, camera, robot, options).run();
+}
+
+}  // namespace penumbra

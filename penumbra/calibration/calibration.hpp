@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/robot/robot.hpp>
+
+namespace penumbra {
+
+/// What calibration needs of a frame.
+struct CalibrationFrame {
+  std::size_t index = 0;
+  Image<float> depth;          ///< measured by a pinhole camera, metres; 0: no measurement
+  Image<std::uint8_t> mask;    ///< not 0 where the colour image shows the robot; empty: not known
+  std::vector<double> joints;  ///< order of Robot::variables(); empty if the poses are from TF
+  std::vector<Eigen::Isometry3d> T_root_link;
+};
+
+struct CalibrationOptions {
+  std::string camera_parent;  ///< link that carries the camera; empty: the root
+  /// The camera's pose in that link, at most 100 mm and 10 degrees off; null: it is searched for.
+  std::optional<Eigen::Isometry3d> initial;
+  bool joint_offsets = false;  ///< estimate the zero offsets of the joints, too
+  std::uint64_t seed = 1;      ///< of the poses that are tried
+};
+
+/// A small motion of the camera in its own frame: rotation (rad) in x, y, z, then translation (m).
+using PoseCovariance = Eigen::Matrix<double, 6, 6>;
+
+/// How well the robot fits a frame.
+struct FrameFit {
+  std::size_t index = 0;  ///< CalibrationFrame::index
+  bool used = true;       ///< false: the robot is elsewhere than its joints say
+  double agreeing = 0.0;  ///< share of the robot's measured pixels at its depth
+  double residual = 0.0;  ///< median distance of measured points from the robot's surface, metres
+  double outline = 0.0;   ///< median distance of the depth's edge from the outline, pixels
+};
+
+/// A value and its standard deviation.
+struct Estimate {
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+struct Calibration {
+  Eigen::Isometry3d T_parent_camera;
+  /// Of T_parent_camera, the larger of two: from the residuals' correlation, and from what the pose
+  /// is without each frame in turn.
+  PoseCovariance covariance;
+  Estimate depth_offset;  ///< metres: measured = true (1 + depth_scale) + depth_offset
+  Estimate depth_scale;
+  Estimate outline;  ///< pixels by which the sensor's picture of the robot is larger
+  /// Pixels by which the depth image lies to the right of and below the colour image; only with
+  /// masks, and then the pose is that of the colour image.
+  std::optional<Estimate> shift_right, shift_down;
+  std::vector<Estimate> joint_offsets;  ///< order of Robot::variables(), rad or m; empty: not asked
+  std::vector<FrameFit> frames;
+  std::vector<double> link_residuals;  ///< signed medians by link, metres; NaN: not seen
+  double mask_overlap = 0.0;           ///< intersection over union with the masks; 0 without masks
+
+  /// Why the pose must not be used and what to record instead, a line each; empty: it is good.
+  std::vector<std::string> faults;
+  std::vector<std::string> notes;  ///< frames that were left out, motions that would add most
+
+  [[nodiscard]] bool is_good() const { return faults.empty(); }
+  /// Half of the longest axis of the 95 % ellipsoid of the camera's position (m) and rotation
+  /// (rad).
+  [[nodiscard]] double position_error() const;
+  [[nodiscard]] double rotation_error() const;
+};
+
+/// Chooses frames between which the robot moves.
+class CalibrationFrames {
+ public:
+  static constexpr std::size_t least = 3;
+  static constexpr std::size_t most = 20;
+  static constexpr double least_motion = 0.03;  ///< metres that one link moves, at least
+
+  /// Keeps the frame if a link moved since every kept frame; thins out when there are too many.
+  void add(CalibrationFrame frame);
+  [[nodiscard]] std::span<const CalibrationFrame> frames() const { return frames_; }
+  [[nodiscard]] std::size_t seen() const { return seen_; }
+  /// Whether add() would keep a frame with these poses.
+  [[nodiscard]] bool wants(std::span<const Eigen::Isometry3d> T_root_link) const;
+
+ private:
+  std::size_t seen_ = 0;
+  double motion_ = least_motion;
+  std::vector<CalibrationFrame> frames_;
+};
+
+/// Estimates a depth camera's pose from the robot that it sees. The camera is fixed to the root or
+/// to any link of the robot. Throws InputError for fewer frames than CalibrationFrames::least and
+/// for images of another size than the camera's; any other failure is Calibration::faults.
+[[nodiscard]] Calibration calibrate(std::span<const CalibrationFrame> frames,
+                                    const Intrinsics& camera, const Robot& robot,
+                                    const CalibrationOptions& options);
+
+}  // namespace penumbra

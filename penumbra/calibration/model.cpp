@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include <penumbra/calibration/problem-inl.hpp>
+
+namespace penumbra::calibration {
+
+Eigen::Isometry3d motion(const Twist& twist) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const double angle = twist.head<3>().norm();
+  if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, twist.head<3>() / angle).matrix();
+  T.translation() = twist.tail<3>();
+  return T;
+}
+
+void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
+  state.T_parent_camera = state.T_parent_camera * motion(by.head<6>());
+  state.T_parent_camera.linear() =
+      Eigen::Quaterniond(state.T_parent_camera.linear()).normalized().toRotationMatrix();
+  state.depth_offset += by[depth_offset];
+  state.depth_scale += by[depth_scale];
+  state.outline += by[outline];
+  if (has_shift) state.depth_shift += by.segment<2>(shift);
+  for (std::size_t j = 0; j < joint_count; ++j)
+    state.joint_offsets[j] += by[joints() + static_cast<int>(j)];
+}
+
+Eigen::VectorXd Unknowns::values(const State& state) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(size());
+  all[depth_offset] = state.depth_offset;
+  all[depth_scale] = state.depth_scale;
+  all[outline] = state.outline;
+  if (has_shift) all.segment<2>(shift) = state.depth_shift;
+  for (std::size_t j = 0; j < joint_count; ++j)
+    all[joints() + static_cast<int>(j)] = state.joint_offsets[j];
+  return all;
+}
+
+Eigen::VectorXd Unknowns::prior_sigmas() const {
+  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // joints: rad or m
+  sigmas.head<6>().setConstant(std::numeric_limits<double>::infinity());
+  sigmas[depth_offset] = 0.005;
+  sigmas[depth_scale] = 0.005;
+  sigmas[outline] = 10.0;
+  if (has_shift) sigmas.segment<2>(shift).setConstant(10.0);
+  return sigmas;
+}
+
+std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& frame,
+                                                    const State& state) const {
+  std::vector<Eigen::Isometry3d> poses = frame.T_root_link;
+  if (!state.joint_offsets.empty()) {
+    std::vector<double> joints = frame.joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] += state.joint_offsets[j];
+    robot_.forward_kinematics(joints, poses);
+  }
+  const Eigen::Isometry3d T_camera_root = (poses[parent_] * state.T_parent_camera).inverse();
+  for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
+  return poses;
+}
+
+std::vector<std::vector<Twist>> Model::joint_twists(const CalibrationFrame& frame,
+                                                    const State& state) const {
+  constexpr double step = 1e-5;  // rad or m; far above rounding, far below any curvature
+  std::vector<std::vector<Twist>> twists(state.joint_offsets.size());
+  const std::vector<Eigen::Isometry3d> at = T_camera_link(frame, state);
+  for (std::size_t j = 0; j < twists.size(); ++j) {
+    State moved = state;
+    moved.joint_offsets[j] += step;
+    const std::vector<Eigen::Isometry3d> then = T_camera_link(frame, moved);
+    for (std::size_t link = 0; link < at.size(); ++link) {
+      const Eigen::Isometry3d T = then[link] * at[link].inverse();
+      const Eigen::AngleAxisd turn(T.linear());
+      twists[j].emplace_back();
+      twists[j].back() << turn.angle() * turn.axis() / step, T.translation() / step;
+    }
+  }
+  return twists;
+}
+
+}  // namespace penumbra::calibration

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+namespace penumbra::calibration {
+namespace {
+
+constexpr int columns = 320;              // residuals are taken from about so many columns
+constexpr double least_cosine = 0.35;     // of the angle between ray and normal
+constexpr float continuous = 0.02f;       // metres between neighbours of one surface
+constexpr float before_edge = 0.05f;      // metres nearer than the robot's outline that are robot
+constexpr float behind_edge = 0.02f;      // the same, farther
+constexpr float background = 0.10f;       // metres behind the outline, at least
+constexpr int run = 4, least_of_run = 3;  // pixels on each side of an edge that must agree
+constexpr int most_missing = 4;           // pixels without measurement at an edge
+constexpr int mask_reach = 40;            // pixels
+constexpr double agreeing_depth = 0.02;   // metres
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+/// A frame with its robot rendered at a state.
+struct Observer::View {
+  const CalibrationFrame& frame;
+  std::uint32_t number;
+  const State& state;
+  VirtualDepthView robot;
+  std::vector<std::vector<Twist>> joint_twists;
+
+  [[nodiscard]] bool is_inside(int u, int v) const {
+    return u >= 0 && v >= 0 && u < robot.depth.width && v < robot.depth.height;
+  }
+  /// The measured depth at a pixel of the rendered image; 0: none. It lies at the pixel + rest().
+  [[nodiscard]] float measured(int u, int v) const {
+    const int x = u - static_cast<int>(std::lround(state.depth_shift.x()));
+    const int y = v - static_cast<int>(std::lround(state.depth_shift.y()));
+    if (!is_inside(x, y)) return 0.0f;
+    const float z = frame.depth(x, y);
+    return z > 0.0f ? state.corrected(z) : 0.0f;
+  }
+  [[nodiscard]] Eigen::Vector2d rest() const {
+    return state.depth_shift - state.depth_shift.array().round().matrix();
+  }
+};
+
+Observer::Observer(const Model& model, const Intrinsics& camera, const Unknowns& unknowns)
+    : model_(model),
+      camera_(camera),
+      unknowns_(unknowns),
+      stride_(std::max(1, (camera.width() + columns / 2) / columns)),
+      margin_(std::max(2, camera.width() / 200)),
+      renderer_(make_depth_renderer(Backend::cpu, camera, bodies_of(model.robot()))) {}
+
+VirtualDepthView Observer::render(const CalibrationFrame& frame, const State& state) {
+  return renderer_->render(model_.T_camera_link(frame, state));
+}
+
+void Observer::observe(const CalibrationFrame& frame, std::size_t number, const State& state,
+                       const Reach& reach, Residuals& out) {
+  const View view{.frame = frame,
+                  .number = static_cast<std::uint32_t>(number),
+                  .state = state,
+                  .robot = render(frame, state),
+                  .joint_twists = model_.joint_twists(frame, state)};
+  add_surface(view, reach, out);
+  add_outlines(view, reach, out);
+}
+
+/// `gradient` is the residual's derivative by a motion of its link in the camera's frame. The
+/// camera moves by the opposite.
+void Observer::add_row(const View& view, const Residual& residual, const Twist& gradient,
+                       Residuals& out) const {
+  out.list.push_back(residual);
+  out.rows.resize(out.rows.size() + static_cast<std::size_t>(unknowns_.size()), 0.0);
+  double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
+  for (int i = 0; i < 6; ++i) row[i] = -gradient[i];
+  for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
+    row[unknowns_.joints() + static_cast<int>(j)] =
+        gradient.dot(view.joint_twists[j][residual.link]);
+}
+
+void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
+  const auto& z = view.robot.depth;
+  const auto& links = view.robot.links;
+  const auto point = [&](int u, int v) -> Eigen::Vector3d { return camera_.ray(u, v) * z(u, v); };
+  for (int v = margin_; v + margin_ < z.height; v += stride_)
+    for (int u = margin_; u + margin_ < z.width; u += stride_) {
+      const float expected = z(u, v);
+      if (!(expected > 0.0f)) continue;
+      const auto is_near = [&](int du, int dv) {
+        return std::abs(z(u + du, v + dv) - expected) < continuous;
+      };
+      if (!(is_near(-margin_, 0) && is_near(margin_, 0) && is_near(0, -margin_) &&
+            is_near(0, margin_)))
+        continue;
+      const float measured = view.measured(u, v);
+      if (!(measured > 0.0f) || std::abs(measured - expected) > reach.depth) continue;
+      bool is_smooth = true;
+      for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+        is_smooth &= links(u + du, v + dv) == links(u, v) && is_near(du, dv);
+      if (!is_smooth) continue;
+      const Eigen::Vector3d normal =
+          (point(u + 1, v) - point(u - 1, v)).cross(point(u, v + 1) - point(u, v - 1)).normalized();
+      const Eigen::Vector3d ray = camera_.ray(u, v);
+      const double along = normal.dot(ray);
+      if (!(std::abs(along) > least_cosine * ray.norm())) continue;
+      const Eigen::Vector3d p = ray * expected;
+      Twist gradient;
+      gradient << -p.cross(normal), -normal;
+      const Eigen::Vector2d sideways(measured / camera_.fx() * normal.x(),
+                                     measured / camera_.fy() * normal.y());
+      add_row(view,
+              {.kind = Kind::surface,
+               .link = static_cast<std::uint16_t>(links(u, v) - 1),
+               .frame = view.number,
+               .value = (measured - expected) * along + view.rest().dot(sideways)},
+              gradient, out);
+      double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
+      row[Unknowns::depth_offset] = -along;
+      row[Unknowns::depth_scale] = -measured * along;
+      if (unknowns_.has_shift) Eigen::Map<Eigen::Vector2d>(row + Unknowns::shift) = sideways;
+    }
+}
+
+void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out) const {
+  const auto& z = view.robot.depth;
+  constexpr int around = 3;  // pixels of the window that gives the outline's direction
+  const auto robot = [&](int u, int v) { return z(u, v) > 0.0f; };
+
+  for (int v = around; v + around < z.height; ++v)
+    for (int u = around; u + around < z.width; ++u) {
+      if (!robot(u, v) ||
+          (robot(u - 1, v) && robot(u + 1, v) && robot(u, v - 1) && robot(u, v + 1)) ||
+          (u + v) % stride_ != 0)
+        continue;
+      Eigen::Vector2d inwards = Eigen::Vector2d::Zero();
+      for (int dv = -around; dv <= around; ++dv)
+        for (int du = -around; du <= around; ++du)
+          if (robot(u + du, v + dv)) inwards += Eigen::Vector2d(du, dv);
+      if (inwards.norm() < around * around) continue;  // a tip, or a thin part
+      const Eigen::Vector2d normal = -inwards.normalized();
+      const float edge = z(u, v);
+
+      // What is on the normal at each step: 1 robot's depth or mask, 0 none, -1 not measured or
+      // something else; nothing is looked at past another part of the robot.
+      const auto step_of = [&](const auto& sample, int radius) -> std::optional<double> {
+        std::optional<double> best;
+        for (int last = -radius; last <= radius; ++last) {
+          if (sample(last) != 1) continue;
+          int next = last + 1;
+          while (next - last <= most_missing && sample(next) < 0) ++next;
+          int robots = 0, others = 0;  // with what is before and behind the step
+          for (int i = 0; i < run; ++i) {
+            robots += sample(last - i);
+            others += sample(next + i) == 0;
+          }
+          const bool is_step = robots >= least_of_run && others >= least_of_run;
+          const double at = 0.5 * (last + next) - 0.5;
+          if (is_step && (!best || std::abs(at) < std::abs(*best))) best = at;
+        }
+        return best;
+      };
+      const auto pixel = [&](int step) {
+        return std::pair{static_cast<int>(std::lround(u + step * normal.x())),
+                         static_cast<int>(std::lround(v + step * normal.y()))};
+      };
+      const auto is_free = [&](int step) {
+        const auto [x, y] = pixel(step);
+        return view.is_inside(x, y) && (step <= 1 || !robot(x, y));
+      };
+      const auto depth_at = [&](int step) {
+        const auto [x, y] = pixel(step);
+        if (!is_free(step)) return -1;
+        const float d = view.measured(x, y);
+        if (!(d > 0.0f) || d < edge - before_edge) return -1;
+        return d <= edge + behind_edge ? 1 : d > edge + background ? 0 : -1;
+      };
+      const auto mask_at = [&](int step) {
+        const auto [x, y] = pixel(step);
+        return !is_free(step) ? -1 : view.frame.mask(x, y) != 0 ? 1 : 0;
+      };
+
+      const Eigen::Vector3d p = camera_.ray(u, v) * edge;
+      Eigen::Matrix<double, 2, 3> projection;
+      projection << camera_.fx() / p.z(), 0.0, -camera_.fx() * p.x() / (p.z() * p.z()), 0.0,
+          camera_.fy() / p.z(), -camera_.fy() * p.y() / (p.z() * p.z());
+      const Eigen::Vector3d by_point = -(normal.transpose() * projection).transpose();
+      Twist gradient;
+      gradient << p.cross(by_point), by_point;
+      const auto add = [&](Kind kind, double value) {
+        add_row(view,
+                {.kind = kind,
+                 .link = static_cast<std::uint16_t>(view.robot.links(u, v) - 1),
+                 .frame = view.number,
+                 .value = value},
+                gradient, out);
+        return out.rows.data() + out.rows.size() - unknowns_.size();
+      };
+      if (const auto step = step_of(depth_at, static_cast<int>(reach.pixels))) {
+        double* const row = add(Kind::edge, *step + view.rest().dot(normal) - view.state.outline);
+        row[Unknowns::outline] = -1.0;
+        if (unknowns_.has_shift) Eigen::Map<Eigen::Vector2d>(row + Unknowns::shift) = normal;
+      }
+      if (!view.frame.mask.empty())
+        if (const auto step = step_of(mask_at, mask_reach)) add(Kind::mask, *step);
+    }
+}
+
+FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
+  const VirtualDepthView robot = render(frame, state);
+  const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .joint_twists = {}};
+  std::size_t measured = 0, agreeing = 0;
+  for (int v = 0; v < robot.depth.height; v += stride_)
+    for (int u = 0; u < robot.depth.width; u += stride_) {
+      const float expected = robot.depth(u, v);
+      const float d = expected > 0.0f ? view.measured(u, v) : 0.0f;
+      if (!(d > 0.0f)) continue;
+      ++measured;
+      agreeing += std::abs(d - expected) < agreeing_depth;
+    }
+  Residuals residuals;
+  observe(frame, 0, state, {.depth = agreeing_depth, .pixels = 12.0}, residuals);
+  std::array<std::vector<double>, kinds> sizes;
+  for (const Residual& residual : residuals.list)
+    sizes[static_cast<std::size_t>(residual.kind)].push_back(std::abs(residual.value));
+  return {.index = frame.index,
+          .used = true,
+          .agreeing =
+              measured == 0 ? 0.0 : static_cast<double>(agreeing) / static_cast<double>(measured),
+          .residual = median(sizes[static_cast<std::size_t>(Kind::surface)]),
+          .outline = median(sizes[static_cast<std::size_t>(Kind::edge)])};
+}
+
+void Observer::overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
+                       std::size_t& either) {
+  const VirtualDepthView robot = render(frame, state);
+  for (int v = 0; v < robot.depth.height; ++v)
+    for (int u = 0; u < robot.depth.width; ++u) {
+      const bool rendered = robot.depth(u, v) > 0.0f, seen = frame.mask(u, v) != 0;
+      both += rendered && seen;
+      either += rendered || seen;
+    }
+}
+
+}  // namespace penumbra::calibration

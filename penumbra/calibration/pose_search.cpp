@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/mesh/simplified.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+namespace penumbra::calibration {
+namespace {
+
+constexpr int small_width = 128;            // pixels
+constexpr double coarse = 0.004;            // metres by which meshes are simplified
+constexpr double wide = 0.05;               // metres between measured and virtual depth that agree
+constexpr double sharp = 0.02;              // the same at the end
+constexpr float before_background = 0.05f;  // metres nearer than the background: something moved
+constexpr float noise_of_square = 0.03f;    // metres per square metre of depth
+
+constexpr double worst_score = -2.0;
+constexpr double occluded = 0.3;  // cost of a pixel with something before the robot
+constexpr double missed = 0.5;    // cost of a pixel with something that moved and is not the robot
+
+// The cross-entropy method (Rubinstein 1999).
+constexpr int population = 120;
+constexpr std::size_t elite = 15;
+
+Image<float> made_small(const Image<float>& depth, const Intrinsics& small) {
+  const int block = depth.width() / small.width();
+  Image<float> out(small.width(), small.height());
+  for (int v = 0; v < small.height(); ++v)
+    for (int u = 0; u < small.width(); ++u)
+      for (int i = 0; i < block * block && out(u, v) == 0.0f; ++i) {
+        const int at = (i + block * block / 2) % (block * block);
+        out(u, v) = depth(u * block + at % block, v * block + at / block);
+      }
+  return out;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
+                       std::span<const CalibrationFrame* const> frames, bool camera_is_fixed,
+                       std::uint64_t seed)
+    : model_(model),
+      small_([&] {
+        const int block = std::max(1, camera.width() / small_width);
+        return camera.binned(block, std::min(block, camera.height()));
+      }()),
+      seed_(seed),
+      tolerance_(wide) {
+  for (const CalibrationFrame* frame : frames)
+    frames_.push_back({frame, made_small(frame->depth, small_),
+                       Image<std::uint8_t>(small_.width(), small_.height())});
+  if (camera_is_fixed) {
+    find_moved();
+    find_anchors();
+  }
+  const Robot& robot = model.robot();
+  for (std::size_t link = 0; link < robot.links().size(); ++link) {
+    std::vector<PreparedMesh>& meshes = meshes_.emplace_back();
+    for (const PreparedMesh& mesh : robot.meshes(link))
+      meshes.emplace_back(simplified(mesh, coarse));
+  }
+  std::vector<Body> bodies;
+  for (const auto& meshes : meshes_) bodies.push_back({"", meshes});
+  renderer_ = make_depth_renderer(Backend::cpu, small_, bodies);
+}
+
+/// The background is the median depth; the noise of stereo cameras grows with the depth's square.
+void PoseSearch::find_moved() {
+  std::vector<float> depths;
+  for (int v = 0; v < small_.height(); ++v)
+    for (int u = 0; u < small_.width(); ++u) {
+      depths.clear();
+      for (const Small& small : frames_)
+        if (small.depth(u, v) > 0.0f) depths.push_back(small.depth(u, v));
+      if (depths.size() < CalibrationFrames::least) continue;
+      const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+      std::nth_element(depths.begin(), middle, depths.end());
+      const float limit = *middle - before_background - noise_of_square * *middle * *middle;
+      for (Small& small : frames_)
+        small.moved(u, v) = small.depth(u, v) > 0.0f && small.depth(u, v) < limit;
+    }
+}
+
+/// Where the moving part of the robot is: the mean of what moved in the image, and of the links.
+void PoseSearch::find_anchors() {
+  const auto report = model_.robot().report();
+  std::vector<bool> moves(report.size());
+  for (const Small& small : frames_)
+    for (std::size_t link = 0; link < report.size(); ++link)
+      moves[link] = moves[link] ||
+                    (report[link].drawn && !small.frame->T_root_link[link].isApprox(
+                                               frames_.front().frame->T_root_link[link], 0.02));
+  for (const Small& small : frames_) {
+    Anchor anchor;
+    double pixels = 0.0, links = 0.0;
+    for (int v = 0; v < small_.height(); ++v)
+      for (int u = 0; u < small_.width(); ++u) {
+        if (small.moved(u, v) == 0) continue;
+        anchor.in_camera += small_.ray(u, v) * small.depth(u, v);
+        pixels += 1.0;
+      }
+    for (std::size_t link = 0; link < report.size(); ++link) {
+      if (!moves[link]) continue;
+      anchor.in_root += small.frame->T_root_link[link] * report[link].bounds.center();
+      links += 1.0;
+    }
+    if (pixels == 0.0 || links == 0.0) continue;
+    anchors_.push_back({anchor.in_camera / pixels, anchor.in_root / links});
+  }
+}
+
+double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera) {
+  State state;
+  state.T_parent_camera = T_parent_camera;
+  return score(state);
+}
+
+double PoseSearch::score(const State& state) {
+  double sum = 0.0, most = 0.0;
+  const auto tolerance = static_cast<float>(tolerance_);
+  for (const Small& small : frames_) {
+    const VirtualDepthView robot = renderer_->render(model_.T_camera_link(*small.frame, state));
+    for (int v = 0; v < small_.height(); ++v)
+      for (int u = 0; u < small_.width(); ++u) {
+        const float expected = robot.depth(u, v);
+        const float measured = small.depth(u, v) > 0.0f ? state.corrected(small.depth(u, v)) : 0.0f;
+        if (expected > 0.0f) {
+          most += 1.0;
+          if (!(measured > 0.0f)) continue;
+          if (measured > expected + tolerance)
+            sum -= 1.0;
+          else if (measured < expected - tolerance)
+            sum -= occluded;
+          else
+            sum += 1.0;
+        } else if (small.moved(u, v) != 0) {
+          most += 1.0;
+          sum -= missed;
+        }
+      }
+  }
+  // A robot out of view, or a speck, is as bad as one in free space.
+  const double least =
+      0.01 * small_.width() * small_.height() * static_cast<double>(frames_.size());
+  return (sum - std::max(0.0, least - most)) / std::max(most, least);
+}
+
+/// A normal distribution of small motions in the camera's frame, which stay within `bounds`.
+Eigen::Isometry3d PoseSearch::climb(Eigen::Isometry3d mean, const Twist& sigma, int rounds,
+                                    const Bounds& bounds) {
+  std::mt19937_64 random(seed_++);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix<double, 6, 6> factor = sigma.asDiagonal();
+  struct Tried {
+    double score;
+    Twist twist;
+  };
+  double best_score = score(mean);
+  Eigen::Isometry3d best = mean;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Tried> tried;
+    for (int i = 0; i < population; ++i) {
+      Twist twist;
+      for (double& value : twist) value = normal(random);
+      twist = factor * twist;
+      const Eigen::Isometry3d pose = mean * motion(twist);
+      tried.push_back({bounds.hold(pose) ? score(pose) : worst_score, twist});
+    }
+    std::partial_sort(tried.begin(), tried.begin() + elite, tried.end(),
+                      [](const Tried& a, const Tried& b) { return a.score > b.score; });
+    if (tried.front().score > best_score) {
+      best_score = tried.front().score;
+      best = mean * motion(tried.front().twist);
+    }
+    Twist centre = Twist::Zero();
+    for (std::size_t i = 0; i < elite; ++i) centre += tried[i].twist / elite;
+    Eigen::Matrix<double, 6, 6> covariance =
+        Eigen::Matrix<double, 6, 6>::Identity() * 1e-7;  // (0.3 mm, 0.02 degrees)^2
+    for (std::size_t i = 0; i < elite; ++i)
+      covariance += (tried[i].twist - centre) * (tried[i].twist - centre).transpose() / elite;
+    factor = covariance.llt().matrixL();
+    mean = mean * motion(centre);
+  }
+  return best;
+}
+
+Eigen::Isometry3d PoseSearch::near(const Eigen::Isometry3d& start) {
+  Twist sigma;
+  sigma << Eigen::Vector3d::Constant(0.1), Eigen::Vector3d::Constant(0.06);
+  tolerance_ = 2.0 * wide;
+  const Bounds bounds{start};
+  Eigen::Isometry3d pose = climb(start, sigma, 8, bounds);
+  tolerance_ = wide;
+  pose = climb(pose, 0.5 * sigma, 8, bounds);
+  tolerance_ = sharp;
+  return climb(pose, 0.15 * sigma, 6, bounds);
+}
+
+/// A guess: any rotation, and the translation that brings what moved to where the robot moved. A
+/// camera on a moving link is near that link.
+Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random) const {
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d xyz = any();
+  T.linear() = Eigen::Quaterniond(normal(random), xyz.x(), xyz.y(), xyz.z()).normalized().matrix();
+  if (anchors_.empty()) {
+    T.translation() = 0.15 * any();
+    return T;
+  }
+  for (const Anchor& anchor : anchors_)
+    T.translation() += (anchor.in_root - T.linear() * anchor.in_camera) / anchors_.size();
+  T.translation() += 0.05 * any();
+  return T;
+}
+
+std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
+  constexpr std::size_t guesses = 6000, tried = 24, kept = 4;
+  struct Candidate {
+    double score;
+    Eigen::Isometry3d pose;
+  };
+  std::vector<Candidate> candidates;
+  const auto keep_best = [&](std::size_t count) {
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    candidates.resize(std::min(candidates.size(), count));
+  };
+  std::mt19937_64 random(seed_++);
+  tolerance_ = 2.0 * wide;
+  for (std::size_t i = 0; i < guesses; ++i) {
+    const Eigen::Isometry3d pose = guess(random);
+    candidates.push_back({score(pose), pose});
+  }
+  keep_best(tried);
+  Twist sigma;
+  sigma << Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Constant(0.1);
+  tolerance_ = wide;
+  for (Candidate& candidate : candidates) {
+    candidate.pose = climb(candidate.pose, sigma, 6, {});
+    candidate.score = score(candidate.pose);
+  }
+  keep_best(kept);
+  std::vector<Eigen::Isometry3d> poses;
+  for (const Candidate& candidate : candidates) poses.push_back(near(candidate.pose));
+  return poses;
+}
+
+}  // namespace penumbra::calibration

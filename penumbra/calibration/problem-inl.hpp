@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/calibration/calibration.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+
+namespace penumbra::calibration {
+
+using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then translation (m)
+
+/// Returns the small motion.
+[[nodiscard]] Eigen::Isometry3d motion(const Twist& twist);
+
+/// What is estimated.
+struct State {
+  Eigen::Isometry3d T_parent_camera;
+  double depth_offset = 0.0;  ///< metres
+  double depth_scale = 0.0;
+  double outline = 0.0;                                   ///< pixels
+  Eigen::Vector2d depth_shift = Eigen::Vector2d::Zero();  ///< pixels, of depth against the masks
+  std::vector<double> joint_offsets;                      ///< empty: not estimated
+
+  /// Returns the true depth where the sensor measures `depth`.
+  [[nodiscard]] float corrected(float depth) const {
+    return static_cast<float>((depth - depth_offset) / (1.0 + depth_scale));
+  }
+};
+
+/// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
+/// scale, outline, then the depth's shift and the joints' offsets where they are estimated.
+struct Unknowns {
+  static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
+  bool has_shift = false;
+  std::size_t joint_count = 0;
+
+  [[nodiscard]] int joints() const { return has_shift ? shift + 2 : shift; }
+  [[nodiscard]] int size() const { return joints() + static_cast<int>(joint_count); }
+  void step(State& state, const Eigen::VectorXd& by) const;
+  [[nodiscard]] Eigen::VectorXd values(const State& state) const;  ///< 0 for the pose
+  /// Standard deviations of what is expected before anything is measured; infinite for the pose.
+  [[nodiscard]] Eigen::VectorXd prior_sigmas() const;
+};
+
+enum class Kind : std::uint8_t {
+  surface,  ///< distance of a measured point from the robot's surface along its normal, metres
+  edge,     ///< distance of the depth's step from the rendered outline, pixels
+  mask      ///< the same of the mask's border
+};
+constexpr std::size_t kinds = 3;
+
+/// A residual. Its derivatives by all unknowns are in Residuals::rows.
+struct Residual {
+  Kind kind;
+  std::uint16_t link;
+  std::uint32_t frame;
+  double value;
+};
+
+struct Residuals {
+  std::vector<Residual> list;
+  std::vector<double> rows;  ///< Unknowns::size() each
+};
+
+/// How far from the expected place something is looked for.
+struct Reach {
+  double depth;   ///< metres between measured and virtual depth
+  double pixels;  ///< between the rendered outline and the edge
+};
+
+/// The pose of every link in the camera, for any state.
+class Model {
+ public:
+  Model(const Robot& robot, std::size_t parent) : robot_(robot), parent_(parent) {}
+
+  [[nodiscard]] std::vector<Eigen::Isometry3d> T_camera_link(const CalibrationFrame& frame,
+                                                             const State& state) const;
+  /// How each link moves in the camera's frame with each joint's offset: by joint, then by link.
+  [[nodiscard]] std::vector<std::vector<Twist>> joint_twists(const CalibrationFrame& frame,
+                                                             const State& state) const;
+  [[nodiscard]] const Robot& robot() const { return robot_; }
+
+ private:
+  const Robot& robot_;
+  std::size_t parent_;
+};
+
+/// Compares frames with the rendered robot.
+class Observer {
+ public:
+  Observer(const Model& model, const Intrinsics& camera, const Unknowns& unknowns);
+
+  /// Adds the frame's residuals at a state.
+  void observe(const CalibrationFrame& frame, std::size_t number, const State& state,
+               const Reach& reach, Residuals& out);
+
+  /// Returns how well the robot fits the frame.
+  [[nodiscard]] FrameFit fit(const CalibrationFrame& frame, const State& state);
+  /// Adds the pixels in which robot and mask are both, and in which one of them is.
+  void overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
+               std::size_t& either);
+  [[nodiscard]] const Model& model() const { return model_; }
+
+ private:
+  struct View;  // one frame at one state
+  void add_surface(const View& view, const Reach& reach, Residuals& out) const;
+  void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
+  void add_row(const View& view, const Residual& residual, const Twist& gradient,
+               Residuals& out) const;
+  [[nodiscard]] VirtualDepthView render(const CalibrationFrame& frame, const State& state);
+
+  const Model& model_;
+  Intrinsics camera_;
+  Unknowns unknowns_;
+  int stride_;
+  int margin_;  // pixels from the outline inside which depth is not compared
+  std::unique_ptr<DepthRenderer> renderer_;
+};
+
+/// The result of refine().
+struct Refined {
+  State state;
+  Eigen::MatrixXd covariance;   ///< of all unknowns
+  Eigen::MatrixXd information;  ///< of all unknowns, without priors
+  std::vector<double> link_residuals;
+  double surface_sigma = 0.0;  ///< metres
+};
+
+/// Robust least squares from `start`, whose pose is a few centimetres and degrees off at most.
+[[nodiscard]] Refined refine(Observer& observer, const Unknowns& unknowns,
+                             std::span<const CalibrationFrame* const> frames, State start);
+
+/// Rates camera poses on small images: agreement of measured and virtual depth, against what was
+/// measured behind the robot's surface and what moved and is not the robot.
+class PoseSearch {
+ public:
+  PoseSearch(const Model& model, const Intrinsics& camera,
+             std::span<const CalibrationFrame* const> frames, bool camera_is_fixed,
+             std::uint64_t seed);
+
+  /// Returns the score: at most 1 if all of the robot's pixels agree.
+  [[nodiscard]] double score(const Eigen::Isometry3d& T_parent_camera);
+  [[nodiscard]] double score(const State& state);
+  /// Returns the best pose near `start`: within 100 mm and 10 degrees.
+  [[nodiscard]] Eigen::Isometry3d near(const Eigen::Isometry3d& start);
+  /// Returns candidates from everywhere, the best first.
+  [[nodiscard]] std::vector<Eigen::Isometry3d> everywhere();
+
+ private:
+  struct Small {
+    const CalibrationFrame* frame;
+    Image<float> depth;
+    Image<std::uint8_t> moved;  // 1: nearer than the background
+  };
+  struct Anchor {
+    Eigen::Vector3d in_camera = Eigen::Vector3d::Zero(), in_root = Eigen::Vector3d::Zero();
+  };
+  void find_moved();
+  void find_anchors();
+  [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random) const;
+  /// How far from a first guess a pose may be.
+  struct Bounds {
+    std::optional<Eigen::Isometry3d> around;
+    [[nodiscard]] bool hold(const Eigen::Isometry3d& pose) const {
+      return !around ||
+             ((pose.translation() - around->translation()).norm() < 0.13 &&
+              Eigen::AngleAxisd(around->linear().transpose() * pose.linear()).angle() < 0.22);
+    }
+  };
+  [[nodiscard]] Eigen::Isometry3d climb(Eigen::Isometry3d mean, const Twist& sigma, int rounds,
+                                        const Bounds& bounds);
+
+  const Model& model_;
+  Intrinsics small_;
+  std::vector<Small> frames_;
+  std::vector<Anchor> anchors_;                    // by frame; empty for a camera on a moving link
+  std::vector<std::vector<PreparedMesh>> meshes_;  // of each link, simplified
+  std::unique_ptr<DepthRenderer> renderer_;
+  std::uint64_t seed_;
+  double tolerance_;  // metres
+};
+
+}  // namespace penumbra::calibration
