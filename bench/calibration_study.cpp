@@ -42,6 +42,8 @@ struct Setup {
   bool object = false;        ///< something stands before the arm
   double missing = 0.0;       ///< share of the depth image without measurement
   bool wrong_joints = false;  ///< of one frame
+  double speed = 0.0;         ///< of the arm's tip, m/s, root mean square; 0: it stands
+  double late = 0.0;          ///< seconds from an image's stamp to when it was taken
 };
 
 struct RobotChoice {
@@ -88,6 +90,7 @@ class Cell {
 
   std::vector<CalibrationFrame> frames() {
     std::vector<CalibrationFrame> all;
+    if (setup_.speed > 0.0) return moving_frames();
     while (all.size() < setup_.frames) {
       CalibrationFrame frame;
       frame.index = all.size();
@@ -172,6 +175,48 @@ class Cell {
     return seen > links.width * links.height / 10;
   }
 
+  /// Every joint swings; poses are known at the times of 30 images per second.
+  std::vector<CalibrationFrame> moving_frames() {
+    constexpr double amplitude = 0.35, period = 1.0 / 30.0;  // rad, seconds
+    constexpr int around = 4;                                // images before and after
+    std::vector<double> centre = pose(), phases, rates;
+    for (std::size_t i = 0; i < choice_.centre.size(); ++i) {
+      phases.push_back(random_.uniform(0.0, 6.28));
+      rates.push_back(random_.uniform(0.7, 1.3));
+    }
+    double pace = 1.0;
+    const auto at = [&](double t) {
+      std::vector<double> joints = centre;
+      for (std::size_t i = 0; i < phases.size(); ++i)
+        joints[i] += amplitude * std::sin(pace * rates[i] * t + phases[i]);
+      return joints;
+    };
+    const auto tip = [&](double t) -> Eigen::Vector3d {
+      return arm_.link_pose(at(t), choice_.flange).translation();
+    };
+    double squares = 0.0;
+    for (int i = 0; i < 200; ++i)
+      squares += ((tip(0.1 * i + 0.01) - tip(0.1 * i)) / 0.01).squaredNorm();
+    pace = setup_.speed / std::sqrt(squares / 200.0);
+    std::vector<CalibrationFrame> all;
+    while (all.size() < setup_.frames) {
+      CalibrationFrame frame;
+      frame.index = all.size();
+      const double stamp = 1.7 / pace * static_cast<double>(all.size());
+      frame.joints = at(stamp + setup_.late);
+      draw(frame);
+      frame.joints = at(stamp);
+      frame.T_root_link.resize(robot().links().size());
+      for (int k = -around; k <= around; ++k) {
+        robot().forward_kinematics(at(stamp + period * k), frame.T_root_link);
+        frame.nearby.push_back({period * k, frame.T_root_link});
+      }
+      frame.T_root_link = frame.nearby[around].T_root_link;
+      all.push_back(std::move(frame));
+    }
+    return all;
+  }
+
   void draw(CalibrationFrame& frame) {
     std::vector<Eigen::Isometry3d> parts(5, Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_root_camera =
@@ -211,6 +256,7 @@ struct Outcome {
   double position = 0.0, rotation = 0.0;  ///< metres and rad
   double mahalanobis = 0.0;               ///< squared, of the six
   double seconds = 0.0;
+  double late = 0.0, late_sigma = 0.0;  ///< error of the time offset, and what is stated, seconds
 };
 
 Outcome calibrated(const RobotChoice& robot, const Setup& setup, std::uint64_t seed) {
@@ -220,11 +266,16 @@ Outcome calibrated(const RobotChoice& robot, const Setup& setup, std::uint64_t s
   if (setup.on_hand) options.camera_parent = robot.flange;
   if (!setup.search) options.initial = cell.off();
   options.seed = seed;
+  options.time_offset = setup.speed > 0.0;
   const auto start = std::chrono::steady_clock::now();
   const Calibration found = calibrate(frames, Cell::intrinsics(), cell.robot(), options);
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.refused = !found.is_good();
+  if (found.time_offset) {
+    outcome.late = found.time_offset->value - setup.late;
+    outcome.late_sigma = found.time_offset->sigma;
+  }
   const Eigen::Isometry3d error = found.T_parent_camera.inverse() * cell.truth();
   const Eigen::AngleAxisd turn(error.linear());
   Eigen::Matrix<double, 6, 1> twist;
@@ -274,6 +325,36 @@ std::vector<std::string> run(const RobotChoice& robot, const Setup& setup, std::
           number(quantile(position, 0.95), 2),
           number(quantile(rotation, 0.95), 3),
           number(100.0 * held / std::max<double>(1.0, static_cast<double>(position.size())), 0),
+          number(quantile(seconds, 0.5), 1)};
+}
+
+const std::vector<std::string> time_heads{"robot, moving",    "right",       "refused",
+                                          "median error, ms", "largest, ms", "within 2 sigma, %",
+                                          "seconds"};
+
+/// Time offsets from -80 to 80 ms, by the seed.
+std::vector<std::string> run_moving(const RobotChoice& robot, double speed, std::uint64_t seeds) {
+  std::vector<double> errors, seconds;
+  int refused = 0, held = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const double late = -0.08 + 0.16 * static_cast<double>((seed * 7) % 31) / 30.0;
+    const Outcome outcome =
+        calibrated(robot, {.name = "", .frames = 20, .speed = speed, .late = late}, seed);
+    seconds.push_back(outcome.seconds);
+    if (outcome.refused) {
+      ++refused;
+      continue;
+    }
+    errors.push_back(1e3 * std::abs(outcome.late));
+    held += std::abs(outcome.late) < 2.0 * outcome.late_sigma;
+  }
+  const double count = std::max<double>(1.0, static_cast<double>(errors.size()));
+  return {robot.name + ", " + number(speed, 1) + " m/s",
+          std::to_string(errors.size()),
+          std::to_string(refused),
+          number(quantile(errors, 0.5), 2),
+          number(quantile(errors, 1.0), 2),
+          number(100.0 * held / count, 0),
           number(quantile(seconds, 0.5), 1)};
 }
 
@@ -379,18 +460,23 @@ int study_all(int argc, char** argv) {
   }
   const std::uint64_t seeds = argc > 2 ? std::stoull(argv[2]) : 30;
   const std::string only = argc > 3 ? argv[3] : "";
-  std::vector<std::vector<std::string>> rows{heads};
-  for (const RobotChoice& robot : robots)
+  std::vector<std::vector<std::string>> rows{heads}, time_rows{time_heads};
+  const auto add = [](auto& to, std::vector<std::string> row) {
+    for (const std::string& cell : row) std::cout << cell << "  ";
+    std::cout << std::endl;
+    to.push_back(std::move(row));
+  };
+  for (const RobotChoice& robot : robots) {
+    if (robot.name.find(only) == std::string::npos) continue;
     for (const Setup& setup : setups)
-      if (robot.name.find(only) != std::string::npos &&
-          setup.name.find(wanted) != std::string::npos) {
-        rows.push_back(run(robot, setup, seeds));
-        for (const std::string& cell : rows.back()) std::cout << cell << "  ";
-        std::cout << std::endl;
-      }
+      if (setup.name.find(wanted) != std::string::npos) add(rows, run(robot, setup, seeds));
+    for (const double speed : {0.2, 0.5, 1.0})
+      if (std::string("moving").find(wanted) != std::string::npos)
+        add(time_rows, run_moving(robot, speed, seeds));
+  }
   if (wanted.empty() && only.empty())
     update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
-                "calibration_study", table(rows));
+                "calibration_study", table(rows) + "\n" + table(time_rows));
   return 0;
 }
 

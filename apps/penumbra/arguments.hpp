@@ -59,7 +59,7 @@ struct CalibrateArguments {
   std::filesystem::path output;  ///< empty: nothing is written
   std::optional<std::filesystem::path> initial;
   bool search = false;
-  bool joint_offsets = false;
+  bool joint_offsets = false;  ///< the time offset is in `input`
 };
 
 struct TopicsArguments {

@@ -51,6 +51,10 @@ void print_fit(const Calibration& found, const Robot& robot) {
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
     std::cout << "  " << robot.variables()[j] << ": "
               << plus_minus(found.joint_offsets[j], degrees, 2) << " degrees\n";
+  if (found.time_offset)
+    std::cout << "time offset: " << plus_minus(*found.time_offset, 1e3, 1)
+              << " ms: run with --time-offset " << fixed(found.time_offset->value, 4) << '\n';
+  std::cout << found.advice << '\n';
   std::vector<std::vector<std::string>> rows{{"frame", "agrees", "surface", "edge"}};
   for (const FrameFit& frame : found.frames)
     rows.push_back({std::to_string(frame.index) + (frame.used ? "" : " (left out)"),
@@ -86,7 +90,8 @@ int execute(const CalibrateArguments& arguments) {
   const Robot& robot = input.input.robot;
   CalibrationOptions options{.camera_parent = input.input.config.camera_parent,
                              .initial = input.input.config.T_parent_camera,
-                             .joint_offsets = arguments.joint_offsets};
+                             .joint_offsets = arguments.joint_offsets,
+                             .time_offset = arguments.input.time_offset};
   if (arguments.initial) options.initial = io::read_pose_csv(*arguments.initial);
   if (arguments.search) options.initial.reset();
   std::cout << input.frames.size() << " of " << input.seen

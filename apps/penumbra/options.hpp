@@ -123,6 +123,7 @@ struct BagHelp {
   std::string group = "Of bags";
   std::string joints = "/joint_states, or the only one";  ///< default of --joint-topic
   std::string poses = "joints, else tf";                  ///< default of --poses
+  bool time_offset = true;                                ///< has --time-offset S
 };
 
 /// How run, tune, view and live judge frames: renderer, geometry, tolerance, labels.

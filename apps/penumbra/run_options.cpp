@@ -133,14 +133,15 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   add_text(app, "--pose",
            "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
            bag.pose);
-  add_number(app, "--time-offset",
-             "added to the images' stamps before poses are looked up; default 0", "S",
-             bag.time_offset, -10.0, 10.0);
   app.add_flag("--first-publisher", bag.first_publisher,
                "do not compare several publishers of one joint or transform: use the first one "
                "heard; default: where they disagree, the pose is unknown");
   app.add_flag("--rectified", bag.rectified,
                "the images are free of distortion already, as those called image_rect... are");
+  if (help.time_offset)
+    add_number(app, "--time-offset",
+               "added to the images' stamps before poses are looked up; default 0", "S",
+               bag.time_offset, -10.0, 10.0);
   const auto options = app.get_options();
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(help.group);
 }
@@ -198,11 +199,13 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
            "PATTERN", calibrate.input.masks);
   app.add_flag("--joint-offsets", calibrate.joint_offsets,
                "estimate the zero offset of each joint, too");
+  app.add_flag("--time-offset", calibrate.input.time_offset,
+               "estimate the time between images and poses, too, from frames of a moving arm");
   add_geometry(app, input.geometry, "the recording's, else collision");
   add_extra(app, input.extra);
   add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
   add_frames(app, input.frames);
-  add_bag(app, input.bag);
+  add_bag(app, input.bag, {.time_offset = false});
 }
 
 void add_run(CLI::App& app, RunArguments& run) {

@@ -51,6 +51,7 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
   Json json = {{"good", found.is_good()},
                {"faults", found.faults},
                {"notes", found.notes},
+               {"advice", found.advice},
                {"camera_parent", camera_parent.empty() ? robot.links().front() : camera_parent},
                {"T_parent_camera", rows_of(found.T_parent_camera.matrix())},
                {"covariance", rows_of(found.covariance)},
@@ -62,6 +63,7 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
                {"frames", std::move(frames)},
                {"link_residuals_m", std::move(links)}};
   if (!joints.empty()) json["joint_offsets"] = std::move(joints);
+  if (found.time_offset) json["time_offset_s"] = estimate_json(*found.time_offset);
   if (found.shift_right)
     json["masks"] = {{"overlap", found.mask_overlap},
                      {"depth_shift_right_px", estimate_json(*found.shift_right)},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,7 +16,9 @@
 namespace penumbra::io {
 namespace {
 
-constexpr double still = 0.01;  // metres per second of any link's origin
+constexpr double still = 0.01;   // metres per second of any link's origin
+constexpr double moving = 0.05;  // the same, at least, to tell the time offset
+constexpr double nearby = 0.15;  // seconds of poses before and after an image
 
 /// The fastest link's speed since the frame before, m/s; none without stamps.
 class Speed {
@@ -36,6 +40,20 @@ class Speed {
   std::optional<std::int64_t> before_;
   std::vector<Eigen::Isometry3d> poses_;
 };
+
+/// The links' poses at the times of all images.
+using Trajectory = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
+
+/// Adds the poses around its image to a frame; none where they do not reach far enough.
+void add_nearby(const Trajectory& trajectory, std::int64_t stamp, CalibrationFrame& frame) {
+  for (const auto& [time, poses] : trajectory) {
+    const double seconds = 1e-9 * static_cast<double>(time - stamp);
+    if (std::abs(seconds) <= nearby) frame.nearby.push_back({seconds, poses});
+  }
+  constexpr double least = 0.1;
+  if (frame.nearby.front().seconds > -least || frame.nearby.back().seconds < least)
+    frame.nearby.clear();
+}
 
 Image<float> metres(const DepthView& view, const DepthRange& range) {
   return std::visit(
@@ -74,6 +92,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   FrameData data;
   Frame frame;
   CalibrationFrames resting, all;
+  Trajectory trajectory;
+  std::map<std::size_t, std::int64_t> stamps;  // of kept frames
   Speed speed;
   std::size_t seen = 0, faulty = 0;
   std::string fault;
@@ -84,7 +104,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                           .depth = {},
                           .mask = {},
                           .joints = {},
-                          .T_root_link = {}};
+                          .T_root_link = {},
+                          .nearby = {}};
     const bool has_depth = std::visit([](const auto& view) { return !view.empty(); }, frame.depth);
     const bool has_joints = frame.joints.status == JointStatus::ok &&
                             frame.joints.positions.size() == robot.variables().size();
@@ -104,6 +125,13 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     }
     const std::optional<double> now = speed.of(frame, kept.T_root_link);
     const bool rests = !now || *now <= still;
+    if (options.time_offset) {
+      if (!frame.stamp)
+        throw InputError(path.string() + ": has no stamps: a time offset cannot be estimated");
+      trajectory.emplace_back(*frame.stamp, kept.T_root_link);
+      if (!now || *now < moving) continue;
+      stamps[kept.index] = *frame.stamp;
+    }
     if (!all.wants(kept.T_root_link) && !(rests && resting.wants(kept.T_root_link))) continue;
     kept.depth = rectified_copy(lens, metres(frame.depth, input.camera.range));
     if (masks) {
@@ -125,10 +153,15 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                           .frames = {},
                           .seen = seen,
                           .notes = source->notes()};
-  const bool rested = resting.frames().size() >= CalibrationFrames::least;
+  const bool rested = !options.time_offset && resting.frames().size() >= CalibrationFrames::least;
   const auto chosen = (rested ? resting : all).frames();
   result.frames.assign(chosen.begin(), chosen.end());
-  if (!rested && resting.frames().size() < chosen.size())
+  if (options.time_offset) {
+    for (CalibrationFrame& kept : result.frames)
+      add_nearby(trajectory, stamps.at(kept.index), kept);
+    std::erase_if(result.frames, [](const auto& kept) { return kept.nearby.empty(); });
+  }
+  if (!rested && !options.time_offset && resting.frames().size() < chosen.size())
     result.notes.push_back(
         "the arm moves in most frames: joint states that are early or late move the result; let it "
         "stand still at some ten poses");

@@ -19,6 +19,7 @@ struct CalibrationInputOptions {
   InputOptions input;
   /// Name pattern of images that are not 0 where the robot is, beside the recording.yaml or bag.
   std::optional<std::string> masks;
+  bool time_offset = false;  ///< choose moving frames, and give them the poses around them
 };
 
 /// The chosen frames of an input.
@@ -31,8 +32,8 @@ struct CalibrationInput {
 };
 
 /// Reads an input and keeps frames between which the robot moves, those in which it stands still
-/// before the others. Calls `step` after each frame. Throws InputError that names the file; a
-/// frame's own faults are notes.
+/// before the others, or only moving ones for the time offset. Calls `step` after each frame.
+/// Throws InputError that names the file; a frame's own faults are notes.
 [[nodiscard]] CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                                                       const LineSink& print,
                                                       const std::function<void()>& step);

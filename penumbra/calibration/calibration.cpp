@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -25,8 +26,8 @@ using calibration::Unknowns;
 constexpr std::size_t searched = 6;        // frames on which poses are tried
 constexpr double least_agreeing = 0.6;     // of the robot's measured pixels
 constexpr double elsewhere = 0.7;          // of the frames' median share that agrees
-constexpr double largest_position = 0.02;  // metres, half axis of the 95 % region
-constexpr double largest_rotation = 0.02;  // rad
+constexpr double largest_position = 0.03;  // metres, half axis of the 95 % region
+constexpr double largest_rotation = 0.03;  // rad
 constexpr double chi = 2.7955;             // square root of the 95 % quantile of chi^2 (3)
 
 double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
@@ -54,6 +55,8 @@ using FramePointers = std::vector<const CalibrationFrame*>;
 
 void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
                  const CalibrationOptions& options) {
+  if (options.time_offset && options.joint_offsets)
+    throw InputError("joint offsets and the time offset are estimated one at a time");
   if (frames.size() < CalibrationFrames::least)
     throw InputError("calibration needs " + std::to_string(CalibrationFrames::least) +
                      " frames or more with different poses of the robot, and has " +
@@ -72,6 +75,9 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
     if (options.joint_offsets && frame.joints.empty())
       throw InputError("frame " + std::to_string(frame.index) +
                        ": has no joint positions (its poses are from TF); leave joint offsets out");
+    if (options.time_offset && frame.nearby.empty())
+      throw InputError("frame " + std::to_string(frame.index) +
+                       ": has no poses before and after it; leave the time offset out");
   }
 }
 
@@ -88,6 +94,7 @@ class Calibrator {
         model_(robot, parent_) {
     unknowns_.has_shift = std::all_of(frames.begin(), frames.end(),
                                       [](const auto& frame) { return !frame.mask.empty(); });
+    unknowns_.has_time = options.time_offset;
     unknowns_.joint_count = options.joint_offsets ? robot.variables().size() : 0;
     for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
   }
@@ -107,7 +114,8 @@ class Calibrator {
       result.mask_overlap =
           static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
     }
-    judge(result, observer, fit);
+    judge(result, fit);
+    if (result.is_good()) result.advice = advice(result, observer, fit.state);
     return result;
   }
 
@@ -117,8 +125,6 @@ class Calibrator {
     for (std::size_t i = 0; i < std::min(searched, used_.size()); ++i)
       some.push_back(used_[i * used_.size() / std::min(searched, used_.size())]);
     PoseSearch search(model_, camera_, some, parent_ == 0, options_.seed);
-    State start;
-    start.joint_offsets.resize(unknowns_.joint_count);
     std::vector<Eigen::Isometry3d> candidates;
     if (options_.initial)
       candidates = {*options_.initial, search.near(*options_.initial)};
@@ -126,9 +132,8 @@ class Calibrator {
       candidates = search.everywhere();
     std::optional<Refined> best;
     double best_score = 0.0;
-    for (const Eigen::Isometry3d& candidate : candidates) {
-      start.T_parent_camera = candidate;
-      Refined fit = calibration::refine(observer, unknowns_, used_, start);
+    for (const State& candidate : starts_of(candidates, search)) {
+      Refined fit = calibration::refine(observer, unknowns_, used_, candidate);
       const double score = search.score(fit.state);
       if (best && score <= best_score) continue;
       best_score = score;
@@ -137,6 +142,28 @@ class Calibrator {
     if (leave_out(observer, best->state))
       best = calibration::refine(observer, unknowns_, used_, best->state);
     return *std::move(best);
+  }
+
+  /// With the time offset: the poses at the offset that suits each best.
+  [[nodiscard]] std::vector<State> starts_of(const std::vector<Eigen::Isometry3d>& poses,
+                                             PoseSearch& search) const {
+    constexpr std::array offsets{0.0, -0.08, -0.04, 0.04, 0.08};  // seconds
+    std::vector<State> starts;
+    for (const Eigen::Isometry3d& pose : poses) {
+      State best{.T_parent_camera = pose,
+                 .joint_offsets = std::vector<double>(unknowns_.joint_count)};
+      double best_score = search.score(best);
+      for (const double offset : offsets) {
+        State other = best;
+        other.time_offset = offset;
+        const double score = unknowns_.has_time ? search.score(other) : 0.0;
+        if (!unknowns_.has_time || score <= best_score) continue;
+        best_score = score;
+        best = std::move(other);
+      }
+      starts.push_back(std::move(best));
+    }
+    return starts;
   }
 
   /// Leaves out frames in which the robot is elsewhere than its joints say.
@@ -169,11 +196,59 @@ class Calibrator {
     for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
       result.joint_offsets.push_back(
           estimate(fit.state.joint_offsets[j], fit, unknowns_.joints() + static_cast<int>(j)));
+    if (unknowns_.has_time)
+      result.time_offset = estimate(fit.state.time_offset, fit, unknowns_.time());
     result.link_residuals = fit.link_residuals;
     return result;
   }
 
-  void judge(Calibration& result, Observer& /*observer*/, const Refined& fit) const {
+  /// Names the direction that is known least, and the joints that tell most about it when they
+  /// turn: by what a frame would then add to the information in that direction.
+  [[nodiscard]] std::string advice(const Calibration& result, Observer& observer,
+                                   const State& state) const {
+    constexpr std::array axes{"to its right", "down", "along its view"};
+    const Eigen::SelfAdjointEigenSolver<PoseCovariance> all(result.covariance);
+    const calibration::Twist weakest = all.eigenvectors().col(5);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> position(
+        result.covariance.bottomRightCorner<3, 3>());
+    Eigen::Index axis = 0;
+    position.eigenvectors().col(2).cwiseAbs().maxCoeff(&axis);
+    std::string text = std::string("the camera's position is known least ") +
+                       axes.at(static_cast<std::size_t>(axis));
+    const std::vector<std::string> joints = telling_joints(observer, state, weakest);
+    if (joints.size() < 2) return text;
+    return text + "; more poses in which " + joints[0] + " and " + joints[1] +
+           " turn would add most";
+  }
+
+  [[nodiscard]] std::vector<std::string> telling_joints(Observer& observer, const State& state,
+                                                        const calibration::Twist& weakest) const {
+    constexpr double turn = 0.6;  // rad
+    std::vector<std::pair<double, std::string>> gains;
+    for (const Joint& joint : robot_.joints()) {
+      if (joint.mimics || used_[0]->joints.empty() ||
+          (joint.type != JointType::revolute && joint.type != JointType::continuous))
+        continue;
+      double gain = 0.0;
+      for (const double by : {-turn, turn}) {
+        CalibrationFrame frame;
+        frame.joints = used_[used_.size() / 2]->joints;
+        double& position = frame.joints[*joint.variable];
+        position = std::clamp(position + by, joint.lower.value_or(position + by),
+                              joint.upper.value_or(position + by));
+        frame.T_root_link.resize(robot_.links().size());
+        robot_.forward_kinematics(frame.joints, frame.T_root_link);
+        gain = std::max(gain, observer.information(frame, state, weakest));
+      }
+      gains.emplace_back(-gain, joint.name);
+    }
+    std::sort(gains.begin(), gains.end());
+    std::vector<std::string> names;
+    for (const auto& [gain, name] : gains) names.push_back(name);
+    return names;
+  }
+
+  void judge(Calibration& result, const Refined& fit) const {
     double agreeing = 0.0;
     for (const FrameFit& frame : result.frames) {
       if (frame.used)

@@ -17,6 +17,12 @@
 
 namespace penumbra {
 
+/// The robot's poses before or after an image.
+struct NearbyPoses {
+  double seconds = 0.0;  ///< after the image
+  std::vector<Eigen::Isometry3d> T_root_link;
+};
+
 /// What calibration needs of a frame.
 struct CalibrationFrame {
   std::size_t index = 0;
@@ -24,6 +30,8 @@ struct CalibrationFrame {
   Image<std::uint8_t> mask;    ///< not 0 where the colour image shows the robot; empty: not known
   std::vector<double> joints;  ///< order of Robot::variables(); empty if the poses are from TF
   std::vector<Eigen::Isometry3d> T_root_link;
+  /// In time's order, this frame's own among them; only for CalibrationOptions::time_offset.
+  std::vector<NearbyPoses> nearby;
 };
 
 struct CalibrationOptions {
@@ -31,6 +39,7 @@ struct CalibrationOptions {
   /// The camera's pose in that link, at most 100 mm and 10 degrees off; null: it is searched for.
   std::optional<Eigen::Isometry3d> initial;
   bool joint_offsets = false;  ///< estimate the zero offsets of the joints, too
+  bool time_offset = false;    ///< estimate the time between images and poses, too; not with joints
   std::uint64_t seed = 1;      ///< of the poses that are tried
 };
 
@@ -64,13 +73,16 @@ struct Calibration {
   /// masks, and then the pose is that of the colour image.
   std::optional<Estimate> shift_right, shift_down;
   std::vector<Estimate> joint_offsets;  ///< order of Robot::variables(), rad or m; empty: not asked
+  /// Seconds to add to an image's stamp before poses are looked up.
+  std::optional<Estimate> time_offset;
   std::vector<FrameFit> frames;
   std::vector<double> link_residuals;  ///< signed medians by link, metres; NaN: not seen
   double mask_overlap = 0.0;           ///< intersection over union with the masks; 0 without masks
 
   /// Why the pose must not be used and what to record instead, a line each; empty: it is good.
   std::vector<std::string> faults;
-  std::vector<std::string> notes;  ///< frames that were left out, motions that would add most
+  std::vector<std::string> notes;  ///< frames that were left out
+  std::string advice;              ///< what is known least, and which joints' motion would add most
 
   [[nodiscard]] bool is_good() const { return faults.empty(); }
   /// Half of the longest axis of the 95 % ellipsoid of the camera's position (m) and rotation

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include <penumbra/calibration/problem-inl.hpp>
@@ -23,6 +25,7 @@ void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
   if (has_shift) state.depth_shift += by.segment<2>(shift);
   for (std::size_t j = 0; j < joint_count; ++j)
     state.joint_offsets[j] += by[joints() + static_cast<int>(j)];
+  if (has_time) state.time_offset += by[time()];
 }
 
 Eigen::VectorXd Unknowns::values(const State& state) const {
@@ -33,6 +36,7 @@ Eigen::VectorXd Unknowns::values(const State& state) const {
   if (has_shift) all.segment<2>(shift) = state.depth_shift;
   for (std::size_t j = 0; j < joint_count; ++j)
     all[joints() + static_cast<int>(j)] = state.joint_offsets[j];
+  if (has_time) all[time()] = state.time_offset;
   return all;
 }
 
@@ -43,12 +47,38 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
   sigmas[depth_scale] = 0.005;
   sigmas[outline] = 10.0;
   if (has_shift) sigmas.segment<2>(shift).setConstant(10.0);
+  if (has_time) sigmas[time()] = 0.1;
   return sigmas;
 }
 
+namespace {
+
+/// The poses at a time after the image; beyond the first and last the nearest.
+std::vector<Eigen::Isometry3d> poses_at(std::span<const NearbyPoses> nearby, double seconds) {
+  const auto after = std::find_if(nearby.begin(), nearby.end(),
+                                  [&](const auto& poses) { return poses.seconds >= seconds; });
+  if (after == nearby.begin()) return after->T_root_link;
+  const auto before = std::prev(after);
+  if (after == nearby.end()) return before->T_root_link;
+  const double fraction = (seconds - before->seconds) / (after->seconds - before->seconds);
+  std::vector<Eigen::Isometry3d> poses = before->T_root_link;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Isometry3d& next = after->T_root_link[i];
+    poses[i].translation() += fraction * (next.translation() - poses[i].translation());
+    poses[i].linear() = Eigen::Quaterniond(poses[i].linear())
+                            .slerp(fraction, Eigen::Quaterniond(next.linear()))
+                            .toRotationMatrix();
+  }
+  return poses;
+}
+
+}  // namespace
+
 std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& frame,
                                                     const State& state) const {
-  std::vector<Eigen::Isometry3d> poses = frame.T_root_link;
+  std::vector<Eigen::Isometry3d> poses = state.time_offset == 0.0 || frame.nearby.empty()
+                                             ? frame.T_root_link
+                                             : poses_at(frame.nearby, state.time_offset);
   if (!state.joint_offsets.empty()) {
     std::vector<double> joints = frame.joints;
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j] += state.joint_offsets[j];
@@ -59,20 +89,22 @@ std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& fram
   return poses;
 }
 
-std::vector<std::vector<Twist>> Model::joint_twists(const CalibrationFrame& frame,
-                                                    const State& state) const {
-  constexpr double step = 1e-5;  // rad or m; far above rounding, far below any curvature
-  std::vector<std::vector<Twist>> twists(state.joint_offsets.size());
+std::vector<std::vector<Twist>> Model::link_twists(const CalibrationFrame& frame,
+                                                   const State& state,
+                                                   const Unknowns& unknowns) const {
+  constexpr double step = 1e-5;  // rad, m or s; far above rounding, far below any curvature
+  std::vector<std::vector<Twist>> twists;
   const std::vector<Eigen::Isometry3d> at = T_camera_link(frame, state);
-  for (std::size_t j = 0; j < twists.size(); ++j) {
+  for (int i = unknowns.joints(); i < unknowns.size(); ++i) {
     State moved = state;
-    moved.joint_offsets[j] += step;
+    unknowns.step(moved, step * Eigen::VectorXd::Unit(unknowns.size(), i));
     const std::vector<Eigen::Isometry3d> then = T_camera_link(frame, moved);
+    twists.emplace_back();
     for (std::size_t link = 0; link < at.size(); ++link) {
       const Eigen::Isometry3d T = then[link] * at[link].inverse();
       const Eigen::AngleAxisd turn(T.linear());
-      twists[j].emplace_back();
-      twists[j].back() << turn.angle() * turn.axis() / step, T.translation() / step;
+      twists.back().emplace_back();
+      twists.back().back() << turn.angle() * turn.axis() / step, T.translation() / step;
     }
   }
   return twists;

@@ -36,7 +36,7 @@ struct Observer::View {
   std::uint32_t number;
   const State& state;
   VirtualDepthView robot;
-  std::vector<std::vector<Twist>> joint_twists;
+  std::vector<std::vector<Twist>> link_twists;
 
   [[nodiscard]] bool is_inside(int u, int v) const {
     return u >= 0 && v >= 0 && u < robot.depth.width && v < robot.depth.height;
@@ -72,7 +72,7 @@ void Observer::observe(const CalibrationFrame& frame, std::size_t number, const 
                   .number = static_cast<std::uint32_t>(number),
                   .state = state,
                   .robot = render(frame, state),
-                  .joint_twists = model_.joint_twists(frame, state)};
+                  .link_twists = model_.link_twists(frame, state, unknowns_)};
   add_surface(view, reach, out);
   add_outlines(view, reach, out);
 }
@@ -85,9 +85,9 @@ void Observer::add_row(const View& view, const Residual& residual, const Twist& 
   out.rows.resize(out.rows.size() + static_cast<std::size_t>(unknowns_.size()), 0.0);
   double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
   for (int i = 0; i < 6; ++i) row[i] = -gradient[i];
-  for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
-    row[unknowns_.joints() + static_cast<int>(j)] =
-        gradient.dot(view.joint_twists[j][residual.link]);
+  for (int i = unknowns_.joints(); i < unknowns_.size(); ++i)
+    row[i] = gradient.dot(
+        view.link_twists[static_cast<std::size_t>(i - unknowns_.joints())][residual.link]);
 }
 
 void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
@@ -219,7 +219,7 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
 
 FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
   const VirtualDepthView robot = render(frame, state);
-  const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .joint_twists = {}};
+  const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .link_twists = {}};
   std::size_t measured = 0, agreeing = 0;
   for (int v = 0; v < robot.depth.height; v += stride_)
     for (int u = 0; u < robot.depth.width; u += stride_) {
@@ -240,6 +240,31 @@ FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
               measured == 0 ? 0.0 : static_cast<double>(agreeing) / static_cast<double>(measured),
           .residual = median(sizes[static_cast<std::size_t>(Kind::surface)]),
           .outline = median(sizes[static_cast<std::size_t>(Kind::edge)])};
+}
+
+double Observer::information(const CalibrationFrame& frame, const State& state,
+                             const Twist& direction) {
+  constexpr std::array<double, kinds> sigmas{0.003, 1.0, 1.0};  // metres, pixels, pixels
+  CalibrationFrame seen = frame;
+  const VirtualDepthView robot = render(frame, state);
+  seen.depth = Image<float>(robot.depth.width, robot.depth.height);
+  for (int v = 0; v < robot.depth.height; ++v)
+    for (int u = 0; u < robot.depth.width; ++u) seen.depth(u, v) = robot.depth(u, v);
+  State exact = state;  // the sensor measures what is rendered
+  exact.depth_offset = exact.depth_scale = exact.outline = 0.0;
+  exact.depth_shift.setZero();
+  exact.time_offset = 0.0;
+  Residuals residuals;
+  observe(seen, 0, exact, {.depth = agreeing_depth, .pixels = 2.0}, residuals);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < residuals.list.size(); ++i) {
+    const double* const row =
+        residuals.rows.data() + i * static_cast<std::size_t>(unknowns_.size());
+    const double change = Eigen::Map<const Twist>(row).dot(direction) /
+                          sigmas[static_cast<std::size_t>(residuals.list[i].kind)];
+    sum += change * change;
+  }
+  return sum;
 }
 
 void Observer::overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,

@@ -29,6 +29,7 @@ struct State {
   double outline = 0.0;                                   ///< pixels
   Eigen::Vector2d depth_shift = Eigen::Vector2d::Zero();  ///< pixels, of depth against the masks
   std::vector<double> joint_offsets;                      ///< empty: not estimated
+  double time_offset = 0.0;                               ///< seconds from an image to its poses
 
   /// Returns the true depth where the sensor measures `depth`.
   [[nodiscard]] float corrected(float depth) const {
@@ -37,14 +38,17 @@ struct State {
 };
 
 /// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
-/// scale, outline, then the depth's shift and the joints' offsets where they are estimated.
+/// scale, outline, then the depth's shift, the joints' offsets and the time offset where they are
+/// estimated.
 struct Unknowns {
   static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
   bool has_shift = false;
   std::size_t joint_count = 0;
+  bool has_time = false;
 
   [[nodiscard]] int joints() const { return has_shift ? shift + 2 : shift; }
-  [[nodiscard]] int size() const { return joints() + static_cast<int>(joint_count); }
+  [[nodiscard]] int time() const { return joints() + static_cast<int>(joint_count); }
+  [[nodiscard]] int size() const { return time() + (has_time ? 1 : 0); }
   void step(State& state, const Eigen::VectorXd& by) const;
   [[nodiscard]] Eigen::VectorXd values(const State& state) const;  ///< 0 for the pose
   /// Standard deviations of what is expected before anything is measured; infinite for the pose.
@@ -84,9 +88,11 @@ class Model {
 
   [[nodiscard]] std::vector<Eigen::Isometry3d> T_camera_link(const CalibrationFrame& frame,
                                                              const State& state) const;
-  /// How each link moves in the camera's frame with each joint's offset: by joint, then by link.
-  [[nodiscard]] std::vector<std::vector<Twist>> joint_twists(const CalibrationFrame& frame,
-                                                             const State& state) const;
+  /// How each link moves in the camera's frame with the unknowns that move links apart from the
+  /// camera, from Unknowns::joints() on: by unknown, then by link.
+  [[nodiscard]] std::vector<std::vector<Twist>> link_twists(const CalibrationFrame& frame,
+                                                            const State& state,
+                                                            const Unknowns& unknowns) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
 
  private:
@@ -105,6 +111,9 @@ class Observer {
 
   /// Returns how well the robot fits the frame.
   [[nodiscard]] FrameFit fit(const CalibrationFrame& frame, const State& state);
+  /// What a frame with these joints would tell about the pose in a direction, in any unit.
+  [[nodiscard]] double information(const CalibrationFrame& frame, const State& state,
+                                   const Twist& direction);
   /// Adds the pixels in which robot and mask are both, and in which one of them is.
   void overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
                std::size_t& either);
@@ -129,10 +138,8 @@ class Observer {
 /// The result of refine().
 struct Refined {
   State state;
-  Eigen::MatrixXd covariance;   ///< of all unknowns
-  Eigen::MatrixXd information;  ///< of all unknowns, without priors
+  Eigen::MatrixXd covariance;  ///< of all unknowns
   std::vector<double> link_residuals;
-  double surface_sigma = 0.0;  ///< metres
 };
 
 /// Robust least squares from `start`, whose pose is a few centimetres and degrees off at most.

@@ -20,9 +20,10 @@ constexpr double small_turn = 2e-6, small_shift = 2e-6;  // rad and metres: conv
 constexpr double to_sigma = 1.4826;    // of a median absolute residual, for normal residuals
 constexpr double tukey_width = 4.685;  // sigmas; 95 % efficient for normal residuals
 constexpr std::array<double, kinds> least_sigma{0.0005, 0.5, 0.5};  // metres, pixels, pixels
-/// Standard deviation of what is counted in millimetres or pixels. A flat surface or a straight
-/// edge is off by that as a whole, which its own residuals do not show.
-constexpr double rounding = 0.2887;  // steps: 1 / sqrt(12)
+/// Depth is counted in millimetres, edges in pixels. A flat surface or a straight edge is off by a
+/// part of a step as a whole, which its own residuals do not show: 1 / sqrt(12) along the image's
+/// axes, less where it is oblique.
+constexpr double rounding = 0.15;  // steps, standard deviation
 constexpr std::array<double, kinds> rounded{0.001 * rounding, rounding, rounding};
 constexpr double same_view = 0.01;  // metres that a link moves in the camera, at most
 
@@ -47,7 +48,6 @@ struct Equations {
   std::vector<Part> parts;  // by frame, then link; empty: nothing seen
   Matrix information;       // of all
   Vector gradient;
-  double surface_sigma = 0.0;
 };
 
 /// What is wrong together, by frame, then link: a view of a link, which its mesh, its joint and the
@@ -137,7 +137,6 @@ Equations equations_of(const Residuals& residuals, int size, const std::vector<s
   for (std::size_t k = 0; k < kinds; ++k) correlations[k] = correlation(sums, k);
 
   Equations all;
-  all.surface_sigma = sigmas[static_cast<std::size_t>(Kind::surface)];
   all.information = Matrix::Zero(size, size);
   all.gradient = Vector::Zero(size);
   all.parts.resize(views.size());
@@ -166,8 +165,7 @@ Equations equations_of(const Residuals& residuals, int size, const std::vector<s
 }
 
 /// The covariance by the jackknife (Efron 1982): how far the solution moves without each group of
-/// parts, in one step from all of them. `groups` names each part's. Its factor (n - 1) / n is left
-/// out, which makes few groups count for less.
+/// parts, in one step from all of them. `groups` names each part's.
 Matrix jackknife(const Equations& equations, const Vector& prior,
                  const std::vector<std::size_t>& groups) {
   const Matrix information = equations.information + Matrix(prior.asDiagonal());
@@ -182,14 +180,16 @@ Matrix jackknife(const Equations& equations, const Vector& prior,
   for (const auto& [group, part] : left_out) unseen += part.steps * part.steps.transpose();
   const Matrix inverse = information.inverse();
   Matrix covariance = inverse * unseen * inverse;
+  const auto count = static_cast<double>(left_out.size());
   for (const auto& [group, part] : left_out) {
     const Vector moved = (information - part.information).ldlt().solve(part.gradient);
-    covariance += moved * moved.transpose();
+    covariance += (count - 1.0) / count * moved * moved.transpose();
   }
   return covariance;
 }
 
-/// The larger, in each unknown, of leaving out views and of leaving out frames.
+/// The larger, in each unknown, of leaving out views and of leaving out frames. With few frames it
+/// is wider, as the variance of Student's t is with as many degrees of freedom.
 Matrix covariance_of(const Equations& equations, const Vector& prior,
                      const std::vector<std::size_t>& views, std::size_t links) {
   std::vector<std::size_t> frames;
@@ -200,7 +200,8 @@ Matrix covariance_of(const Equations& equations, const Vector& prior,
           .max(1.0)
           .sqrt()
           .matrix();
-  return scale.asDiagonal() * by_view * scale.asDiagonal();
+  const auto freedoms = static_cast<double>(views.size() / links);
+  return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
 }
 
 std::vector<double> medians_by_link(const Residuals& residuals, std::size_t links) {
@@ -224,11 +225,7 @@ Refined refine(Observer& observer, const Unknowns& unknowns,
   const std::size_t links = observer.model().robot().links().size();
   const std::vector<std::size_t> views = views_of(observer.model(), frames);
   const Vector prior = unknowns.prior_sigmas().array().square().inverse().matrix();
-  Refined result{.state = std::move(start),
-                 .covariance = {},
-                 .information = {},
-                 .link_residuals = {},
-                 .surface_sigma = 0.0};
+  Refined result{.state = std::move(start), .covariance = {}, .link_residuals = {}};
   Reach reach = first_reach;
   Residuals residuals;
   Equations equations;
@@ -250,10 +247,8 @@ Refined refine(Observer& observer, const Unknowns& unknowns,
     reach.depth = std::max(last_reach.depth, narrowing * reach.depth);
     reach.pixels = std::max(last_reach.pixels, narrowing * reach.pixels);
   }
-  result.information = equations.information;
   result.covariance = covariance_of(equations, prior, views, links);
   result.link_residuals = medians_by_link(residuals, links);
-  result.surface_sigma = equations.surface_sigma;
   return result;
 }
 
