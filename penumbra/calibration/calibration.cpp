@@ -23,7 +23,7 @@ using calibration::Refined;
 using calibration::State;
 using calibration::Unknowns;
 
-constexpr std::size_t searched = 6;        // frames on which poses are tried
+constexpr std::size_t searched = 10;       // frames on which poses are tried
 constexpr double least_agreeing = 0.6;     // of the robot's measured pixels
 constexpr double elsewhere = 0.7;          // of the frames' median share that agrees
 constexpr double largest_position = 0.03;  // metres, half axis of the 95 % region

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -113,16 +114,17 @@ void PoseSearch::find_anchors() {
   }
 }
 
-double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera) {
+double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera, std::size_t every_frame) {
   State state;
   state.T_parent_camera = T_parent_camera;
-  return score(state);
+  return score(state, every_frame);
 }
 
-double PoseSearch::score(const State& state) {
+double PoseSearch::score(const State& state, std::size_t every_frame) {
   double sum = 0.0, most = 0.0;
   const auto tolerance = static_cast<float>(tolerance_);
-  for (const Small& small : frames_) {
+  for (std::size_t k = 0; k < frames_.size(); k += every_frame) {
+    const Small& small = frames_[k];
     const VirtualDepthView robot = renderer_->render(model_.T_camera_link(*small.frame, state));
     for (int v = 0; v < small_.height(); ++v)
       for (int u = 0; u < small_.width(); ++u) {
@@ -145,7 +147,7 @@ double PoseSearch::score(const State& state) {
   }
   // A robot out of view, or a speck, is as bad as one in free space.
   const double least =
-      0.01 * small_.width() * small_.height() * static_cast<double>(frames_.size());
+      0.01 * small_.width() * small_.height() * static_cast<double>(frames_.size() / every_frame);
   return (sum - std::max(0.0, least - most)) / std::max(most, least);
 }
 
@@ -200,8 +202,9 @@ Eigen::Isometry3d PoseSearch::near(const Eigen::Isometry3d& start) {
   return climb(pose, 0.15 * sigma, 6, bounds);
 }
 
-/// A guess: any rotation, and the translation that brings what moved to where the robot moved. A
-/// camera on a moving link is near that link.
+/// A guess: any rotation, or every other time that of a camera upright in the root link, as most
+/// are; and the translation that brings what moved to where the robot moved. A camera on a moving
+/// link is near that link.
 Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random) const {
   std::normal_distribution<double> normal;
   const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
@@ -212,14 +215,23 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random) const {
     T.translation() = 0.15 * any();
     return T;
   }
+  if (random() % 2 == 0) {
+    std::uniform_real_distribution<double> around(-std::numbers::pi, std::numbers::pi);
+    std::uniform_real_distribution<double> tilt(-1.4, 0.5);  // rad, upwards
+    T.linear() =
+        (Eigen::AngleAxisd(around(random), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(tilt(random) - 0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(0.2 * normal(random), Eigen::Vector3d::UnitZ()))
+            .toRotationMatrix();
+  }
   for (const Anchor& anchor : anchors_)
     T.translation() += (anchor.in_root - T.linear() * anchor.in_camera) / anchors_.size();
-  T.translation() += 0.05 * any();
+  T.translation() += 0.15 * any();
   return T;
 }
 
 std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
-  constexpr std::size_t guesses = 6000, tried = 24, kept = 4;
+  constexpr std::size_t guesses = 20000, few_frames = 3, tried = 32, kept = 4;
   struct Candidate {
     double score;
     Eigen::Isometry3d pose;
@@ -232,9 +244,10 @@ std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
   };
   std::mt19937_64 random(seed_++);
   tolerance_ = 2.0 * wide;
+  const std::size_t every_frame = std::max<std::size_t>(1, frames_.size() / few_frames);
   for (std::size_t i = 0; i < guesses; ++i) {
     const Eigen::Isometry3d pose = guess(random);
-    candidates.push_back({score(pose), pose});
+    candidates.push_back({score(pose, every_frame), pose});
   }
   keep_best(tried);
   Twist sigma;

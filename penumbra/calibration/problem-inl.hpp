@@ -155,8 +155,8 @@ class PoseSearch {
              std::uint64_t seed);
 
   /// Returns the score: at most 1 if all of the robot's pixels agree.
-  [[nodiscard]] double score(const Eigen::Isometry3d& T_parent_camera);
-  [[nodiscard]] double score(const State& state);
+  [[nodiscard]] double score(const State& state, std::size_t every_frame = 1);
+  [[nodiscard]] double score(const Eigen::Isometry3d& T_parent_camera, std::size_t every_frame = 1);
   /// Returns the best pose near `start`: within 100 mm and 10 degrees.
   [[nodiscard]] Eigen::Isometry3d near(const Eigen::Isometry3d& start);
   /// Returns candidates from everywhere, the best first.
