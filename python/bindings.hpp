@@ -42,6 +42,7 @@ void bind_report(py::module_& m);
 void bind_pipeline(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_input(py::module_& m);
+void bind_calibration(py::module_& m);
 
 }  // namespace penumbra::python
 

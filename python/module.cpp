@@ -24,4 +24,5 @@ PYBIND11_MODULE(_core, m) {
   bind_pipeline(m);
   bind_recording(m);
   bind_input(m);
+  bind_calibration(m);
 }

@@ -79,3 +79,9 @@ def test_batch_folder_judges_all_and_tells_what_fails(tmp_path):
     done = subprocess.run([sys.executable, EXAMPLES / "batch_folder.py", tmp_path / "in",
                            tmp_path / "out"], capture_output=True, text=True)
     assert done.returncode == 2 and "joint_states.csv" in done.stderr and "1 of 2" in done.stdout
+
+
+def test_calibrate_writes_the_pose(tmp_path):
+    assert "within" in run("calibrate.py", SHIPPED, tmp_path / "pose.csv")
+    found = np.loadtxt(tmp_path / "pose.csv", delimiter=",")
+    assert np.allclose(found, Opened(SHIPPED).recording.camera.T_parent_camera, atol=0.01)

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/frame.hpp>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/calibration/calibration.hpp>
+
+namespace penumbra::python {
+
+namespace {
+
+using MaskArgument = ImageArgument<"masks", std::uint8_t>;
+
+template <typename T, typename To, typename From>
+Image<T> copied_image(const ImageView<const From>& view, To to) {
+  Image<T> image(view.width, view.height);
+  for (int v = 0; v < view.height; ++v)
+    for (int u = 0; u < view.width; ++u) image(u, v) = to(view(u, v));
+  return image;
+}
+
+CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
+                                   const Robot& robot) {
+  const std::string name = "frames[" + std::to_string(number) + "]";
+  if (!owned.depth) throw py::value_error(name + ": has no depth image");
+  OwnedFrame::Parts parts;
+  const Frame frame = owned.view(robot, parts);
+  CalibrationFrame result;
+  result.index = owned.index.value_or(number);
+  result.depth = std::visit(
+      [](const auto& view) {
+        return copied_image<float>(view, [](auto pixel) { return metres_of(pixel); });
+      },
+      owned.depth->view);
+  result.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+  if (!result.T_root_link.empty()) return result;
+  if (frame.joints.positions.size() != robot.variables().size())
+    throw py::value_error(name + ": needs " + std::to_string(robot.variables().size()) +
+                          " joint positions");
+  result.joints.assign(frame.joints.positions.begin(), frame.joints.positions.end());
+  result.T_root_link.resize(robot.links().size());
+  robot.forward_kinematics(result.joints, result.T_root_link);
+  return result;
+}
+
+Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrinsics& camera,
+                             const Robot& robot, const std::optional<Eigen::Isometry3d>& initial,
+                             const std::string& camera_parent,
+                             const std::vector<MaskArgument>& masks, bool joint_offsets,
+                             std::uint64_t seed) {
+  if (!masks.empty() && masks.size() != frames.size())
+    throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
+                          " frames; got " + std::to_string(masks.size()));
+  std::vector<CalibrationFrame> all;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    all.push_back(calibration_frame(frames[i], i, robot));
+    if (!masks.empty())
+      all.back().mask = copied_image<std::uint8_t>(std::get<0>(masks[i].view),
+                                                   [](std::uint8_t pixel) { return pixel; });
+  }
+  const py::gil_scoped_release others;
+  return calibrate(all, camera, robot,
+                   {.camera_parent = camera_parent,
+                    .initial = initial,
+                    .joint_offsets = joint_offsets,
+                    .time_offset = false,
+                    .seed = seed});
+}
+
+}  // namespace
+
+void bind_calibration(py::module_& m) {
+  py::class_<Estimate> estimate(m, "Estimate", "A value and its standard deviation.");
+  show_fields(estimate, Field{"value", &Estimate::value, "The value."},
+              Field{"sigma", &Estimate::sigma, "Its standard deviation."});
+  py::class_<FrameFit> fit(m, "FrameFit", "How well the robot fits a frame.");
+  show_fields(
+      fit, Field{"index", &FrameFit::index, "The frame's index."},
+      Field{"used", &FrameFit::used, "False: the robot is elsewhere than its joints say."},
+      Field{"agreeing", &FrameFit::agreeing, "Share of the robot's measured pixels at its depth."},
+      Field{"residual", &FrameFit::residual,
+            "Median distance of measured points from the robot's surface, metres."},
+      Field{"outline", &FrameFit::outline,
+            "Median distance of the depth's edge from the outline, pixels."});
+  using C = Calibration;
+  py::class_<C> calibration(m, "Calibration", "A camera's pose, and how good it is.");
+  show_properties(
+      calibration,
+      Field{"T_parent_camera", &C::T_parent_camera,
+            "Pose of the optical frame in the parent link, metres."},
+      Field{"covariance", &C::covariance,
+            "Of a small motion of the camera in its own frame: rotation (rad), then translation "
+            "(m)."},
+      Field{"depth_offset", &C::depth_offset,
+            "Metres: measured = true (1 + depth_scale) + depth_offset."},
+      Field{"depth_scale", &C::depth_scale, "See depth_offset."},
+      Field{"outline", &C::outline, "Pixels by which the sensor's picture of the robot is larger."},
+      Field{
+          "shift_right", &C::shift_right,
+          "Pixels by which the depth image lies to the right of the colour image; None: no masks."},
+      Field{"shift_down", &C::shift_down, "The same, below."},
+      Field{"joint_offsets", &C::joint_offsets,
+            "In the order of Robot.variables, rad or m; empty: not asked."},
+      Field{"frames", &C::frames, "By frame."},
+      Field{"link_residuals", &C::link_residuals,
+            "Signed median residuals by link, metres; nan: not seen."},
+      Field{"mask_overlap", &C::mask_overlap, "Intersection over union with the masks."},
+      Field{"faults", &C::faults,
+            "Why the pose must not be used and what to record instead; empty: it is good."},
+      Field{"notes", &C::notes, "Frames that were left out."},
+      Field{"advice", &C::advice, "What is known least, and which joints' motion would add most."},
+      Field{"is_good", &C::is_good, "Whether there are no faults."},
+      Field{"position_error", &C::position_error,
+            "Half of the longest axis of the 95 % ellipsoid of the position, metres."},
+      Field{"rotation_error", &C::rotation_error, "The same of the rotation, rad."});
+  bind_repr(calibration, {"is_good", "position_error", "rotation_error"});
+  m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
+        py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
+        py::arg("masks") = std::vector<MaskArgument>(), py::arg("joint_offsets") = false,
+        py::arg("seed") = 1,
+        "Estimates a depth camera's pose from the robot that it sees. frames: three or more, with "
+        "depth and joints (or T_root_link), between which the robot moves. camera: of images "
+        "without distortion. initial: a guess of the camera's pose in its parent link, at most "
+        "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
+        "the colour image shows the robot. Raises InputError for too few frames; any other failure "
+        "is Calibration.faults.");
+}
+
+}  // namespace penumbra::python

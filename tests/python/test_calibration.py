@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A camera's pose from the frames of the shipped recording, whose true pose is in it."""
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED
+
+GIVEN = penumbra.open_input(SHIPPED)
+FRAMES = [frame.frame for frame in GIVEN]
+TRUTH = GIVEN.config.T_parent_camera
+
+
+def calibrated(frames, initial, **options):
+    return penumbra.calibrate(frames, GIVEN.camera.intrinsics, GIVEN.robot, initial, **options)
+
+
+def test_a_rough_guess_ends_at_the_true_pose():
+    rough = TRUTH.copy()
+    rough[:3, 3] += [0.05, -0.04, 0.04]
+    found = calibrated(FRAMES, rough)
+    assert found.is_good and found.faults == ()
+    error = np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3])
+    assert error < found.position_error < 0.01
+    assert len(found.frames) == len(FRAMES) and all(fit.agreeing > 0.6 for fit in found.frames)
+    assert found.covariance.shape == (6, 6)
+
+
+def test_faults_are_told():
+    wall = [frame.replace(depth=np.full_like(frame.depth, 3000)) for frame in FRAMES]
+    found = calibrated(wall, TRUTH)
+    assert not found.is_good and "not in view" in found.faults[0]
+    with pytest.raises(penumbra.InputError, match="3 frames"):
+        calibrated(FRAMES[:2], TRUTH)
+    with pytest.raises(ValueError, match="masks"):
+        calibrated(FRAMES, TRUTH, masks=[np.zeros((480, 640), np.uint8)])
+    with pytest.raises(ValueError, match=r"frames\[1\]: has no depth"):
+        calibrated([FRAMES[0], penumbra.Frame(None, None), FRAMES[1]], TRUTH)
