@@ -23,12 +23,12 @@ using calibration::Refined;
 using calibration::State;
 using calibration::Unknowns;
 
-constexpr std::size_t searched = 10;       // frames on which poses are tried
-constexpr double least_agreeing = 0.6;     // of the robot's measured pixels
-constexpr double elsewhere = 0.7;          // of the frames' median share that agrees
-constexpr double largest_position = 0.03;  // metres, half axis of the 95 % region
-constexpr double largest_rotation = 0.03;  // rad
-constexpr double chi = 2.7955;             // square root of the 95 % quantile of chi^2 (3)
+constexpr std::size_t searched = 10;      // frames on which poses are tried
+constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
+constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
+constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
+constexpr double widest_rotation = 0.03;  // rad
+constexpr double chi = 2.7955;            // square root of the 95 % quantile of chi^2 (3)
 
 double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
   double most = 0.0;
@@ -265,7 +265,7 @@ class Calibrator {
           "not this robot's, the joints are of other times, or the first guess is too far off");
       return;
     }
-    if (result.position_error() > largest_position || result.rotation_error() > largest_rotation)
+    if (result.position_error() > widest_position || result.rotation_error() > widest_rotation)
       result.faults.push_back("the pose is known to " + number(1e3 * result.position_error(), 0) +
                               " mm and " +
                               number(result.rotation_error() * 180.0 / 3.14159265358979, 1) +

@@ -62,7 +62,7 @@ PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
     std::vector<PreparedMesh>& meshes = meshes_.emplace_back();
     for (const PreparedMesh& mesh : robot.meshes(link))
-      meshes.emplace_back(simplified(mesh, coarse));
+      meshes.emplace_back(simplified(TriangleMesh(mesh), coarse));
   }
   std::vector<Body> bodies;
   for (const auto& meshes : meshes_) bodies.push_back({"", meshes});
@@ -146,8 +146,8 @@ double PoseSearch::score(const State& state, std::size_t every_frame) {
       }
   }
   // A robot out of view, or a speck, is as bad as one in free space.
-  const double least =
-      0.01 * small_.width() * small_.height() * static_cast<double>(frames_.size() / every_frame);
+  const double least = 0.01 * small_.width() * small_.height() *
+                       static_cast<double>(frames_.size()) / static_cast<double>(every_frame);
   return (sum - std::max(0.0, least - most)) / std::max(most, least);
 }
 

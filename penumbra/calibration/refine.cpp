@@ -200,7 +200,7 @@ Matrix covariance_of(const Equations& equations, const Vector& prior,
           .max(1.0)
           .sqrt()
           .matrix();
-  const auto freedoms = static_cast<double>(views.size() / links);
+  const auto freedoms = static_cast<double>(views.size()) / static_cast<double>(links);
   return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
 }
 

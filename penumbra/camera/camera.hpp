@@ -24,11 +24,12 @@ struct Camera {
   DepthRange range;
   std::string frame_id;  ///< the optical frame; may be empty
 
-  /// Throws InputError, with the values, unless 0 <= near < far.
-  void check() const {
+  /// Returns itself. Throws InputError, with the values, unless 0 <= near < far.
+  const Camera& check() const {
     if (!(range.near >= 0 && range.near < range.far))
       throw InputError("camera: the range from " + std::to_string(range.near) + " to " +
                        std::to_string(range.far) + " metres must be 0 <= near < far");
+    return *this;
   }
 };
 

@@ -59,16 +59,11 @@ void splat(const Box& box, T depth, ImageView<T> out) {
     for (int u = box.u0; u < box.u1; ++u) put(out.row(v)[u]);
 }
 
-Camera checked_camera(const Camera& camera) {
-  camera.check();
-  return camera;
-}
-
 }  // namespace
 
 DepthRegistration::DepthRegistration(const Camera& from, const Camera& to)
-    : from_(checked_camera(from)),
-      to_(checked_camera(to)),
+    : from_(from.check()),
+      to_(to.check()),
       rays_x_(from.intrinsics.width() + 2 + block, from.intrinsics.height() + 2, unreachable),
       rays_y_(rays_x_),
       slope_u_(static_cast<float>(max_slope / from.intrinsics.fx())),

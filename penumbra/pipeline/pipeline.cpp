@@ -32,11 +32,6 @@ Robot checked(Robot robot) {
                    "ignore_links and only_links do not remove");
 }
 
-Camera checked(const Camera& camera) {
-  camera.check();
-  return camera;
-}
-
 std::optional<Rectification> rectification_of(const Camera& camera) {
   if (camera.distortion.is_none()) return std::nullopt;
   return std::optional<Rectification>(std::in_place, camera);
@@ -83,7 +78,7 @@ struct Pipeline::State {
 
 Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig& config)
     : robot(checked(std::move(robot_))),
-      camera(checked(camera_)),
+      camera(camera_.check()),
       rectification(rectification_of(camera)),
       missing_links(missing_links_of(robot)),
       poses(robot, config, missing_links),

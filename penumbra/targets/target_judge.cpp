@@ -15,11 +15,6 @@
 namespace penumbra {
 namespace {
 
-Camera checked_camera(const Camera& camera) {
-  camera.check();
-  return camera;
-}
-
 LabelRule checked_rule(const LabelRule& rule) {
   rule.check();
   return rule;
@@ -115,7 +110,7 @@ struct TargetJudge::State {
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
                           ImageView<const std::uint8_t> unseen)
-    : camera(checked_camera(camera_)),
+    : camera(camera_.check()),
       rule(checked_rule(label_rule)),
       frame({}, rule, !unseen.empty()),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),

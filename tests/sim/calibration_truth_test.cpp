@@ -32,7 +32,8 @@ struct Seen {
                             .depth = Image<float>(frame.depth.width(), frame.depth.height()),
                             .mask = {},
                             .joints = frame.joints,
-                            .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size())};
+                            .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size()),
+                            .nearby = {}};
       std::transform(frame.depth.data(), frame.depth.data() + frame.depth.size(), kept.depth.data(),
                      [](std::uint16_t z) { return metres_of(z); });
       robot().forward_kinematics(kept.joints, kept.T_root_link);

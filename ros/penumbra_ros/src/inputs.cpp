@@ -52,23 +52,27 @@ penumbra::io::ImageMessage image_message(const Image& image) {
 
 }  // namespace
 
-Inputs::Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner, bool reliable)
-    : node_(node), runner_(runner), reliable_(reliable) {
+Inputs::Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner)
+    : node_(node), runner_(runner) {
   runner.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     for (const penumbra::io::InputTopic& topic : inbox.topics())
-      links_.push_back({topic, nullptr, {}});
+      links_.push_back({.topic = topic, .subscription = nullptr, .state = {}});
     return true;
   });
 }
 
-std::string Inputs::published_type(const std::string& topic) const {
-  const auto publishers = node_.get_publishers_info_by_topic(topic);
-  return publishers.empty() ? "" : publishers.front().topic_type();
-}
-
-void Inputs::find_type(std::size_t topic) {
+void Inputs::find_publishers(std::size_t topic) {
   Link& link = links_[topic];
-  const std::string published = published_type(link.topic.name);
+  const auto publishers = node_.get_publishers_info_by_topic(link.topic.name);
+  const std::string published = publishers.empty() ? "" : publishers.front().topic_type();
+  const bool is_reliable =
+      std::all_of(publishers.begin(), publishers.end(), [](const auto& publisher) {
+        return publisher.qos_profile().reliability() == rclcpp::ReliabilityPolicy::Reliable;
+      });
+  if (!publishers.empty() && is_reliable != link.is_reliable) {
+    link.is_reliable = is_reliable;
+    link.subscription.reset();
+  }
   const auto types = penumbra::io::LiveInbox::target_types();
   if (link.topic.type.empty() && std::find(types.begin(), types.end(), published) != types.end()) {
     link.topic.type = published;
@@ -82,7 +86,7 @@ void Inputs::find_type(std::size_t topic) {
 
 void Inputs::follow(bool with_color, bool with_depth) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    find_type(i);
+    find_publishers(i);
     Link& link = links_[i];
     const TopicRole role = link.topic.role;
     const bool is_wanted = !link.topic.type.empty() && (role != TopicRole::color || with_color) &&
@@ -106,7 +110,7 @@ std::vector<penumbra::io::LiveLink> Inputs::links() const {
 rclcpp::QoS Inputs::qos_of(std::size_t topic) const {
   const penumbra::io::InputTopic& of = links_[topic].topic;
   rclcpp::QoS qos(is_image(of.role) ? image_depth : state_depth);
-  if (!reliable_ && !of.latched) qos.best_effort();
+  if (!links_[topic].is_reliable && !of.latched) qos.best_effort();
   if (of.latched) qos.transient_local();
   return qos;
 }

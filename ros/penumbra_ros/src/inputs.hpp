@@ -15,11 +15,12 @@ namespace penumbra_ros {
 /// Hands received messages to a runner. Use it from the node's default callback group.
 class Inputs {
  public:
-  /// `reliable`: requests reliable publishers of all topics. Both others must outlive this.
-  Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner, bool reliable);
+  /// Both must outlive this.
+  Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner);
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
-  /// `with_color`, depth images if `with_depth`.
+  /// `with_color`, depth images if `with_depth`. Reliable where all publishers offer that: of large
+  /// images most are lost otherwise.
   void follow(bool with_color, bool with_depth);
 
   /// Returns the state of each of the runner's topics.
@@ -29,11 +30,11 @@ class Inputs {
   struct Link {
     penumbra::io::InputTopic topic;
     rclcpp::SubscriptionBase::SharedPtr subscription;  // null: not subscribed to
+    bool is_reliable = false;                          // all of its publishers are
     penumbra::io::LiveLink state;
   };
 
-  [[nodiscard]] std::string published_type(const std::string& topic) const;
-  void find_type(std::size_t topic);
+  void find_publishers(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe(std::size_t topic);
   template <typename M>
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_serialised(std::size_t topic);
@@ -43,7 +44,6 @@ class Inputs {
 
   rclcpp::Node& node_;
   penumbra::io::LiveRunner& runner_;
-  bool reliable_;
   std::vector<Link> links_;  // of each topic
 };
 

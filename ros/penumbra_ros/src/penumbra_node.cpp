@@ -30,7 +30,7 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
       settings_(declare_settings(*this)),
       outputs_(*this, settings_.target_frames, settings_.live.cameras[0].mount.frame_prefix),
       runner_(settings_.live, settings_.pipeline, {&outputs_}),
-      inputs_(*this, runner_, settings_.reliable),
+      inputs_(*this, runner_),
       diagnostics_(LiveRunner::steady_now(), {.name = get_name()}),
       updater_(this) {
   outputs_.select(settings_.publish);

@@ -273,10 +273,6 @@ Settings declare_settings(rclcpp::Node& node) {
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
-  settings.reliable =
-      declare("reliable", false,
-              "request reliable QoS of images, joint states and TF; publishers with "
-              "best effort are then not received");
   using penumbra::io::HiddenTargets;
   settings.live.cameras[0].hidden_targets =
       declare.choice<HiddenTargets>("handling", "none",

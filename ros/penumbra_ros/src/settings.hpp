@@ -18,7 +18,6 @@ struct Settings {
   penumbra::io::LiveOptions live;  ///< one camera
   penumbra::PipelineConfig pipeline;
   std::set<std::string> publish;  ///< names of results
-  bool reliable = false;          ///< requests reliable inputs
   bool target_frames = false;     ///< publishes targets in TF
 };
 

@@ -224,7 +224,7 @@ TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   AddressWatcher watcher;
   penumbra::io::LiveRunner runner(settings.live, settings.pipeline, {&watcher});
   runner.watch(0, watcher);
-  Inputs inputs(*node, runner, false);
+  Inputs inputs(*node, runner);
   inputs.follow(false, true);
   runner.start();
   executor_->add_node(node);
@@ -238,6 +238,24 @@ TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   }));
   EXPECT_EQ(watcher.address.load(), published);
   runner.stop();
+}
+
+TEST_F(NodeTest, ImagesAreReliableWhereAllPublishersAre) {
+  auto drivers = std::make_shared<rclcpp::Node>("drivers");
+  node_ = std::make_shared<PenumbraNode>(options());
+  executor_->add_node(drivers);
+  executor_->add_node(node_);
+  const auto asks_for = [&](rclcpp::ReliabilityPolicy policy) {
+    return spin_until([&] {
+      const auto asking = drivers->get_subscriptions_info_by_topic("/depth/image");
+      return asking.size() == 1 && asking[0].qos_profile().reliability() == policy;
+    });
+  };
+  const auto reliable = drivers->create_publisher<Image>("/depth/image", 10);
+  EXPECT_TRUE(asks_for(rclcpp::ReliabilityPolicy::Reliable));
+  const auto best_effort =
+      drivers->create_publisher<Image>("/depth/image", rclcpp::SensorDataQoS());
+  EXPECT_TRUE(asks_for(rclcpp::ReliabilityPolicy::BestEffort));
 }
 
 TEST_F(NodeTest, DiagnosticsSayWhatIsMissing) {
