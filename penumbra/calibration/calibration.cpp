@@ -244,6 +244,7 @@ class Calibrator {
     }
     std::sort(gains.begin(), gains.end());
     std::vector<std::string> names;
+    names.reserve(gains.size());
     for (const auto& [gain, name] : gains) names.push_back(name);
     return names;
   }

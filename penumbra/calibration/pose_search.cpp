@@ -62,7 +62,7 @@ PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
     std::vector<PreparedMesh>& meshes = meshes_.emplace_back();
     for (const PreparedMesh& mesh : robot.meshes(link))
-      meshes.emplace_back(simplified(TriangleMesh(mesh), coarse));
+      meshes.emplace_back(simplified(static_cast<const TriangleMesh&>(mesh), coarse));
   }
   std::vector<Body> bodies;
   for (const auto& meshes : meshes_) bodies.push_back({"", meshes});
@@ -259,6 +259,7 @@ std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
   }
   keep_best(kept);
   std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(candidates.size());
   for (const Candidate& candidate : candidates) poses.push_back(near(candidate.pose));
   return poses;
 }
