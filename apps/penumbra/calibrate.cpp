@@ -14,9 +14,9 @@
 #include <apps/penumbra/text.hpp>
 #include <io/files/calibration_report.hpp>
 #include <io/files/disk_file.hpp>
-#include <io/files/png.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/run/calibration_input.hpp>
+#include <io/web/calibration_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -101,10 +101,13 @@ int execute(const CalibrateArguments& arguments) {
   if (!arguments.output.empty()) {
     const std::string json = io::calibration_json(found, robot, options.camera_parent) + "\n";
     io::write_file(arguments.output / "calibration.json", json.data(), json.size());
-    io::write_png(arguments.output / "calibration.png",
-                  io::draw_calibration(input.frames.front(), input.camera, robot,
-                                       options.camera_parent, options.initial, found)
-                      .view());
+    const std::string page = io::calibration_page({.input = arguments.input.input.path.string(),
+                                                   .frames = input.frames,
+                                                   .camera = input.camera,
+                                                   .robot = robot,
+                                                   .options = options},
+                                                  found);
+    io::write_file(arguments.output / "report.html", page.data(), page.size());
   }
   if (!found.is_good()) {
     std::string why;

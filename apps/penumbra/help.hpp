@@ -66,8 +66,8 @@ Finds the pose of a depth camera from the robot that it sees, without markers. T
 the cell, or to a link of the robot. Ten poses of the arm, near and far, left and right, are enough.
 Prints the pose in several forms and how far off it may be. If the frames show too little, or not
 this robot, it says so and what to record, with exit status 2.
-OUT gets camera_pose.csv (only a good one), calibration.json (all numbers) and calibration.png: a
-frame's depth with the robot's outline before (red) and after (green).
+OUT gets camera_pose.csv (only a good one), calibration.json (all numbers) and report.html: the
+result, residuals by frame and by link, and pictures before and after.
 With --masks the pose is that of the colour image.
 
 Examples:

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/render/depth_renderer.hpp>
-
 #include <io/files/calibration_report.hpp>
 #include <io/files/json-inl.hpp>
-#include <io/files/overlay_painter.hpp>
-#include <io/files/picture.hpp>
 
 namespace penumbra::io {
 namespace {
-
-constexpr Rgb8 before_color{230, 30, 30};
-constexpr Rgb8 found_color{0, 220, 80};
 
 Json estimate_json(const Estimate& estimate) {
   return {{"value", estimate.value}, {"sigma", estimate.sigma}};
@@ -69,31 +60,6 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
                      {"depth_shift_right_px", estimate_json(*found.shift_right)},
                      {"depth_shift_down_px", estimate_json(*found.shift_down)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
-Image<Rgb8> draw_calibration(const CalibrationFrame& frame, const Intrinsics& camera,
-                             const Robot& robot, const std::string& camera_parent,
-                             const std::optional<Eigen::Isometry3d>& before,
-                             const Calibration& found) {
-  Image<Rgb8> image;
-  FrameReport report;
-  report.index = frame.index;
-  draw_overlay(report, {frame.depth.view(), {}}, image);
-  const auto renderer = make_depth_renderer(Backend::cpu, camera, bodies_of(robot));
-  const std::size_t parent = camera_parent.empty() ? 0 : *robot.find_link(camera_parent);
-  const auto draw = [&](const Eigen::Isometry3d& T_parent_camera, Rgb8 color) {
-    std::vector<Eigen::Isometry3d> poses = frame.T_root_link;
-    const Eigen::Isometry3d T_camera_root = (poses[parent] * T_parent_camera).inverse();
-    for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
-    draw_outline(renderer->render(poses).depth, color, image);
-  };
-  if (before) {
-    draw(*before, before_color);
-    draw_legend("before", before_color, 0, 2, image);
-  }
-  draw(found.T_parent_camera, found_color);
-  draw_legend("calibrated", found_color, 1, 2, image);
-  return image;
 }
 
 }  // namespace penumbra::io

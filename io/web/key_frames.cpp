@@ -20,14 +20,6 @@ std::vector<std::string> state_of(const FrameReport& report) {
   return state;
 }
 
-/// Returns a picture that is embedded in a page: "data:image/jpeg;base64,...".
-std::string picture_uri(ImageView<const Rgb8> image) {
-  constexpr int quality = 80;
-  std::vector<std::byte> jpeg;
-  encode_jpeg(image, quality, jpeg);
-  return "data:image/jpeg;base64," + base64(jpeg);
-}
-
 void append_frame(std::string& json, std::size_t frame, const std::string& picture) {
   json += (json.size() > 1 ? ",\n" : "") + std::string("{\"index\": ") + std::to_string(frame) +
           ", \"image\": \"" + picture + "\"}";
@@ -49,6 +41,13 @@ std::string base64(std::span<const std::byte> bytes) {
       text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
   }
   return text;
+}
+
+std::string picture_uri(ImageView<const Rgb8> image) {
+  constexpr int quality = 80;
+  std::vector<std::byte> jpeg;
+  encode_jpeg(image, quality, jpeg);
+  return "data:image/jpeg;base64," + base64(jpeg);
 }
 
 void KeyFrames::add(const FrameReport& report, ImageView<const Rgb8> overlay) {

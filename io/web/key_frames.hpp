@@ -17,6 +17,9 @@ namespace penumbra::io {
 /// Encodes bytes by RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
+/// Returns a picture that is embedded in a page: "data:image/jpeg;base64,...".
+[[nodiscard]] std::string picture_uri(ImageView<const Rgb8> image);
+
 /// The frames that a report shows: the first, the last, and those where a verdict or the frame's
 /// status changes. If there are more than most_frames, those closest to their predecessors are left
 /// out.

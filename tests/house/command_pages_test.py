@@ -23,7 +23,7 @@ def completed(*words):
 
 
 commands = re.findall(r"^  ([a-z]+) {2,}", help_of().split("Subcommands:")[1], re.MULTILINE)
-assert len(commands) == 10, commands
+assert "run" in commands and "calibrate" in commands, commands
 assert set(commands) <= set(completed("penumbra", "")), completed("penumbra", "")
 zsh = (folder / "zsh/site-functions/_penumbra").read_text()
 for command in commands:
