@@ -117,7 +117,8 @@ rclcpp::QoS Inputs::qos_of(std::size_t topic) const {
 
 rclcpp::SubscriptionOptions Inputs::options_of(std::size_t topic) {
   rclcpp::SubscriptionOptions options;
-  options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
+  // Reliability is the publishers'.
+  options.qos_overriding_options = {{rclcpp::QosPolicyKind::History, rclcpp::QosPolicyKind::Depth}};
   options.event_callbacks.incompatible_qos_callback =
       [this, topic](rclcpp::QOSRequestedIncompatibleQoSInfo& info) {
         const bool is_reliability = info.last_policy_kind == RMW_QOS_POLICY_RELIABILITY;
