@@ -54,6 +54,14 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
   inputs_.follow(false, enabled_);
   timer_ = create_wall_timer(check_period, [this] { check(); });
   runner_.start();
+  // Nothing can be published once the context is shut down.
+  before_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback(
+      [this] { runner_.stop(); });
+}
+
+PenumbraNode::~PenumbraNode() {
+  get_node_base_interface()->get_context()->remove_pre_shutdown_callback(before_shutdown_);
+  runner_.stop();
 }
 
 void PenumbraNode::warn_of_unknown_parameters() {

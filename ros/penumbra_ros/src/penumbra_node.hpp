@@ -23,7 +23,7 @@ class PenumbraNode : public rclcpp::Node {
  public:
   /// Throws an exception with one line for a parameter or file that is invalid.
   explicit PenumbraNode(const rclcpp::NodeOptions& options = rclcpp::NodeOptions());
-  ~PenumbraNode() override { runner_.stop(); }
+  ~PenumbraNode() override;
 
   /// Returns a future of the exception that ended the judging, for example of the graphics device.
   [[nodiscard]] std::shared_future<void> failure() const { return failure_; }
@@ -50,6 +50,7 @@ class PenumbraNode : public rclcpp::Node {
   rclcpp::Service<std_srvs::srv::Trigger>::SharedPtr reset_;
   rclcpp::Service<std_srvs::srv::SetBool>::SharedPtr enable_;
   OnSetParametersCallbackHandle::SharedPtr on_change_;
+  rclcpp::PreShutdownCallbackHandle before_shutdown_;
 };
 
 }  // namespace penumbra_ros
