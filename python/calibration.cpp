@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/watch.hpp>
 
 namespace penumbra::python {
 
@@ -115,6 +116,27 @@ void bind_calibration(py::module_& m) {
             "Half of the longest axis of the 95 % ellipsoid of the position, metres."},
       Field{"rotation_error", &C::rotation_error, "The same of the rotation, rad."});
   bind_repr(calibration, {"is_good", "position_error", "rotation_error"});
+  using D = Drift;
+  py::class_<D> drift(m, "Drift", "How far a camera is from its calibration.");
+  show_properties(
+      drift, Field{"is_known", &D::is_known, "Whether the robot was seen in enough poses."},
+      Field{"T_calibrated_camera", &D::T_calibrated_camera,
+            "The camera's pose in its calibrated frame, metres."},
+      Field{"covariance", &D::covariance,
+            "Of a small motion of the camera in its own frame: rotation (rad), then translation "
+            "(m)."},
+      Field{"time_offset", &D::time_offset,
+            "Seconds to add to an image's stamp before poses are looked up."},
+      Field{"has_moved", &D::has_moved, "Farther than 2 mm or 0.1 degrees, and not by chance."},
+      Field{"bumped_at", &D::bumped_at, "Index of the frame at which it moved suddenly, or None."},
+      Field{"seen_through", &D::seen_through,
+            "Share of the robot's pixels in which the sensor sees past its surface."},
+      Field{"position", &D::position, "Metres."}, Field{"rotation", &D::rotation, "Rad."},
+      Field{"position_error", &D::position_error,
+            "Half of the longest axis of the 95 % ellipsoid of the position, metres."},
+      Field{"rotation_error", &D::rotation_error, "The same of the rotation, rad."},
+      Field{"message", &D::message, "One line if the camera has moved; else empty."});
+  bind_repr(drift, {"is_known", "has_moved", "position", "position_error"});
   m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
         py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
         py::arg("masks") = std::vector<MaskArgument>(), py::arg("joint_offsets") = false,

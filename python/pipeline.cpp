@@ -47,6 +47,7 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
     report = &self->pipeline.process(view);
     self->sequence->add(*report, view.joints.positions);
     self->missing_parts->add(*report);
+    self->watch.add(*report);
   }
   return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
@@ -92,6 +93,9 @@ void bind_pipeline(py::module_& m) {
           "notes", [](State& s) { return Frozen<std::string>{notes(s)}; },
           "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
           "prints it: for example, degrees for radians or millimetres for metres.");
+  pipeline.def_property_readonly(
+      "drift", [](const State& s) { return s.watch.drift(); },
+      "How far the camera has moved from its calibration, by the frames so far.");
   const auto of = [](auto member) {
     return [member](const State& s) { return std::invoke(member, s.pipeline); };
   };

@@ -23,7 +23,8 @@ PipelineState::PipelineState(const Robot& robot, const Camera& camera, const Pip
     : pipeline(robot, camera, config),
       depth_size(camera.intrinsics),
       image(config.image),
-      cloud_maker(judged_camera(camera, pipeline)) {
+      cloud_maker(judged_camera(camera, pipeline)),
+      watch(judged_camera(camera, pipeline)) {
   begin_sequence();
 }
 
@@ -37,6 +38,8 @@ std::vector<std::string> PipelineState::notes() const {
   std::vector<std::string> notes(of_robot.begin(), of_robot.end());
   for (auto& line : sequence->lines()) notes.push_back(line);
   for (auto& line : missing_parts->lines()) notes.push_back(line);
+  if (std::string moved = watch.drift().message(); !moved.empty())
+    notes.push_back(std::move(moved));
   return notes;
 }
 

@@ -10,6 +10,7 @@
 #include <python/arrays.hpp>
 #include <python/judgement.hpp>
 
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/tuning/missing_parts.hpp>
@@ -33,6 +34,7 @@ struct PipelineState {
   CloudMaker cloud_maker;
   std::optional<io::SequenceNotes> sequence;
   std::optional<MissingParts> missing_parts;
+  CalibrationWatch watch;
   std::uint64_t calls = 0;
   OneThread thread;
 };

@@ -47,6 +47,7 @@ void check_remaps(const io::NameResolver& names,
 io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResolver& names) {
   const io::BagOptions& topics = arguments.judging.input.bag;
   io::LiveOptions options;
+  options.drift = arguments.judging.drift;
   options.robot.robot.packages = topics.packages;
   arguments.judging.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;

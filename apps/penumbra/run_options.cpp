@@ -33,11 +33,25 @@ void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
              });
 }
 
-Tolerance to_tolerance(const std::string& text) {
-  std::vector<double> abc;
+/// Returns the numbers between commas; nothing if they are not `count`.
+std::vector<double> to_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
   for (const std::string& part : split(text, ','))
-    if (const auto number = io::parse_number<double>(part)) abc.push_back(*number);
-  if (abc.size() != 3 || std::count(text.begin(), text.end(), ',') != 2)
+    if (const auto number = io::parse_number<double>(part)) numbers.push_back(*number);
+  if (numbers.size() != count || split(text, ',').size() != count) numbers.clear();
+  return numbers;
+}
+
+DriftLimits to_drift_limits(const std::string& text) {
+  const std::vector<double> limits = to_numbers(text, 2);
+  if (limits.empty() || limits[0] <= 0.0 || limits[1] <= 0.0)
+    refuse_option("--drift-limits", text, "MM,DEGREES: two numbers above 0");
+  return {.position = 1e-3 * limits[0], .rotation = limits[1] * std::numbers::pi / 180.0};
+}
+
+Tolerance to_tolerance(const std::string& text) {
+  const std::vector<double> abc = to_numbers(text, 3);
+  if (abc.empty())
     refuse_option("--tolerance", text, "A,B,C: three numbers, of e(z) = A + B z + C z^2 in metres");
   return {abc[0], abc[1], abc[2]};
 }
@@ -168,6 +182,9 @@ void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& 
                static_cast<void>(LabelRule::for_sensor(text));
                rule.sensor = text;
              });
+  add_option(app, "--drift-limits",
+             "how far a camera may be from its calibration without a note; default 2,0.1",
+             "MM,DEGREES", [&](const std::string& text) { judging.drift = to_drift_limits(text); });
   add_choice<bool>(app, "--labels",
                    "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
                    "--tolerance, --front-min-width and --fringe-reach override",

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::io {
@@ -26,5 +27,8 @@ inline std::string json_text(const Json& json) {
 
 /// Returns "renderer" of report.json.
 [[nodiscard]] Json renderer_json(const RendererInfo& info);
+
+/// Returns "calibration" of reports and summaries; null while nothing is known.
+[[nodiscard]] Json drift_json(const Drift& drift);
 
 }  // namespace penumbra::io

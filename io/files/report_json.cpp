@@ -209,10 +209,15 @@ Json summary_json(const Statistics& statistics, std::span<const std::string> mis
   Json targets = Json::array();
   for (const TargetStatistics& target : statistics.targets())
     targets.push_back(target_summary_json(target));
-  return {{"frames", statistics.frames()},        {"bad_frames", statistics.bad_frames()},
-          {"timing_ms", std::move(timing)},       {"pixels", pixels_json(statistics.pixels())},
-          {"faults", faults_json(statistics)},    {"targets", std::move(targets)},
-          {"missing_links", list(missing_links)}, {"notes", list(notes)}};
+  return {{"frames", statistics.frames()},
+          {"bad_frames", statistics.bad_frames()},
+          {"timing_ms", std::move(timing)},
+          {"pixels", pixels_json(statistics.pixels())},
+          {"faults", faults_json(statistics)},
+          {"targets", std::move(targets)},
+          {"missing_links", list(missing_links)},
+          {"calibration", drift_json(statistics.drift())},
+          {"notes", list(notes)}};
 }
 
 Json link_json(const LinkReport& link) {
@@ -247,6 +252,20 @@ Json joint_json(const Robot& robot, const Joint& joint) {
 }
 
 }  // namespace
+
+Json drift_json(const Drift& drift) {
+  if (!drift.is_known) return nullptr;
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  const auto rounded = [](double value) { return std::round(1e3 * value) / 1e3; };
+  return {{"moved_mm", rounded(1e3 * drift.position())},
+          {"moved_error_mm", rounded(1e3 * drift.position_error())},
+          {"turned_degrees", rounded(degrees * drift.rotation())},
+          {"turned_error_degrees", rounded(degrees * drift.rotation_error())},
+          {"time_offset_ms", rounded(1e3 * drift.time_offset.value)},
+          {"time_offset_error_ms", rounded(2e3 * drift.time_offset.sigma)},
+          {"has_moved", drift.has_moved},
+          {"bumped_at", or_null(drift.bumped_at)}};
+}
 
 Json renderer_json(const RendererInfo& info) {
   return {{"backend", to_string(info.backend)},

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra::io {
@@ -67,6 +68,7 @@ struct TargetStatistics {
 class Statistics {
  public:
   void add(const FrameReport& report);
+  void set_drift(const Drift& drift) { drift_ = drift; }
 
   [[nodiscard]] std::size_t frames() const { return frames_; }
   [[nodiscard]] std::size_t bad_frames() const;
@@ -82,6 +84,9 @@ class Statistics {
   /// Returns the targets in the order of their first frames.
   [[nodiscard]] const std::vector<TargetStatistics>& targets() const { return targets_; }
 
+  /// Returns how far the camera has moved from its calibration.
+  [[nodiscard]] const Drift& drift() const { return drift_; }
+
   /// Returns milliseconds of one of `stages`; nothing if it never ran.
   [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
 
@@ -96,6 +101,7 @@ class Statistics {
   std::vector<TargetStatistics> targets_;
   std::unordered_map<std::string, std::size_t> target_places_;
   std::array<std::vector<double>, stages.size()> times_;
+  Drift drift_;
 };
 
 }  // namespace penumbra::io

@@ -120,6 +120,11 @@ void add_tally(Status& status, const LiveTally& tally) {
       add(status, "last " + std::string(stage.name), decimal(*time, " ms"));
 }
 
+void add_drift(Status& status, const Drift& drift) {
+  const Json json = drift_json(drift);
+  for (const auto& [key, value] : json.items()) add(status, "calibration " + key, value.dump());
+}
+
 /// Adds the renderer, with the names of report.json.
 void add_renderer(Status& status, const RendererInfo& renderer) {
   const Json json = renderer_json(renderer);
@@ -194,7 +199,10 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
   if (now - *tally.last_published > patience)
     return {Status::error,
             "nothing was published for " + seconds_since(*tally.last_published, now)};
-  if (tally.last.status == FrameStatus::ok) return {};
+  if (tally.last.status == FrameStatus::ok) {
+    const std::string moved = tally.last.drift.message();
+    return {moved.empty() ? Status::ok : Status::warn, moved};
+  }
   const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
   return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
 }
@@ -243,6 +251,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
         camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
   if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
+  add_drift(status, inbox.tally(number).last.drift);
   add_tally(status, inbox.tally(number));
   if (camera.camera_changes() > 0)
     add_count(status, "camera_info changed", camera.camera_changes());

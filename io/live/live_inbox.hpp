@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
@@ -26,6 +27,7 @@ struct LiveOptions {
   std::string static_transform_topic = "/tf_static";
   std::vector<std::string> target_topics = {};
   std::vector<CameraInputOptions> cameras = {};
+  DriftLimits drift = {};  ///< beyond which a camera's motion is a warning
 };
 
 /// The outcome of judging a frame.
@@ -36,6 +38,7 @@ struct LiveOutcome {
   std::string message;               ///< one line; empty for the status ok
   std::size_t unjudged_targets = 0;  ///< targets of an image that could not be judged
   StageTimes timing;
+  Drift drift;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
   std::optional<RendererInfo> renderer;  ///< the renderer used; nothing if it could not be made

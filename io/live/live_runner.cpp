@@ -150,7 +150,7 @@ void LiveRunner::work(std::size_t camera) {
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       if (!std::exchange(self.has_config, true))
-        self.worker = std::make_unique<LiveWorker>(config_);
+        self.worker = std::make_unique<LiveWorker>(config_, inbox_.options().drift);
       lock.unlock();
       WithoutOverlay without_overlay(*self.sink);
       ResultSink& sink = with_overlay ? *self.sink : without_overlay;

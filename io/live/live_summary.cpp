@@ -37,6 +37,7 @@ Json camera_json(const CameraInput& camera, const LiveTally& tally, const Writte
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
           {"stamps_of_another_clock", tally.beyond_clock},
           {"camera_info_changes", camera.camera_changes()},
+          {"calibration", drift_json(tally.last.drift)},
           {"targets_not_judged",
            {{"replaced", targets.replaced},
             {"discarded", targets.discarded},

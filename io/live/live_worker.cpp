@@ -16,10 +16,12 @@ PipelineConfig config_of(const CameraSetup& setup, PipelineConfig config) {
 
 }  // namespace
 
-LiveWorker::Tools::Tools(const CameraSetup& setup, const PipelineConfig& config)
+LiveWorker::Tools::Tools(const CameraSetup& setup, const PipelineConfig& config,
+                         const DriftLimits& limits)
     : pipeline(setup.posed->robot, setup.cameras.judged, config_of(setup, config)),
       encoder(setup.cameras.judged, setup.posed->robot.links().front()),
-      depth(setup.cameras) {}
+      depth(setup.cameras),
+      watch(setup.cameras.judged, limits) {}
 
 bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
   if (setup == setup_) return tools_ != nullptr;
@@ -27,7 +29,7 @@ bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
   setup_ = setup;
   fault_.clear();
   try {
-    tools_ = std::make_unique<Tools>(*setup, config_);
+    tools_ = std::make_unique<Tools>(*setup, config_, limits_);
   } catch (const InputError& error) {
     fault_ = error.what();
   }
@@ -52,10 +54,12 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
                          {frame.targets, tools_->pipeline.robot(), job.setup->cameras.judged},
                          sink);
   if (watcher != nullptr) watcher->take(job, frame.depth, report);
+  tools_->watch.add(report);
   outcome.is_published = true;
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;
+  outcome.drift = tools_->watch.drift();
   outcome.renderer = tools_->pipeline.renderer();
   return outcome;
 }

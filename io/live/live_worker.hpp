@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/assembly/depth_input.hpp>
@@ -18,7 +19,8 @@ namespace penumbra::io {
 class LiveWorker {
  public:
   /// `config`: the camera's pose and parent are replaced by those of each setup.
-  explicit LiveWorker(PipelineConfig config) : config_(std::move(config)) {}
+  explicit LiveWorker(PipelineConfig config, const DriftLimits& limits = {})
+      : config_(std::move(config)), limits_(limits) {}
 
   /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
   /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
@@ -28,16 +30,18 @@ class LiveWorker {
  private:
   /// The objects made for a setup.
   struct Tools {
-    Tools(const CameraSetup& setup, const PipelineConfig& config);
+    Tools(const CameraSetup& setup, const PipelineConfig& config, const DriftLimits& limits);
     Pipeline pipeline;
     ResultEncoder encoder;
     DepthInput depth;
+    CalibrationWatch watch;
   };
 
   [[nodiscard]] bool follow(const std::shared_ptr<CameraSetup>& setup);
   void show_color(const AssembledFrame& job, bool wanted);
 
   PipelineConfig config_;
+  DriftLimits limits_;
   std::shared_ptr<CameraSetup> setup_;
   std::unique_ptr<Tools> tools_;
   std::string fault_;    // why `tools_` is null

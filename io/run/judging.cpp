@@ -90,6 +90,7 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
                                                RunResult& result) {
   SequenceNotes sequence(pipeline_.robot(), {.image = options_.image});
   MissingParts missing(pipeline_.robot(), pipeline_.rule().fringe_reach);
+  CalibrationWatch watch(camera_, options_.drift);
   FrameData data;
   Frame frame;
   try {
@@ -99,6 +100,7 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
       result.statistics.add(report);
       sequence.add(report, frame.joints.positions);
       missing.add(report);
+      watch.add(report);
       if (!data.color_message.empty() && result.frames_without_color++ == 0)
         result.first_without_color = data.color_message;
       output.save(report, data, {frame.targets, pipeline_.robot(), camera_});
@@ -111,6 +113,9 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
   }
   std::vector<std::string> notes = sequence.lines();
   append(notes, missing.lines());
+  result.statistics.set_drift(watch.drift());
+  if (std::string moved = watch.drift().message(); !moved.empty())
+    notes.push_back(std::move(moved));
   return notes;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -38,6 +39,7 @@ struct JudgingOptions {
   RendererOptions renderer;
   RuleOptions rule;
   ImageSpace image = ImageSpace::raw;
+  DriftLimits drift = {};                        ///< beyond which a camera's motion is a note
   std::optional<std::filesystem::path> targets;  ///< in place of the recording's
   bool no_targets = false;                       ///< not the recording's either
 };

@@ -28,17 +28,11 @@ constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 constexpr double widest_rotation = 0.03;  // rad
-constexpr double chi = 2.7955;            // square root of the 95 % quantile of chi^2 (3)
 
 double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
   double most = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
   return most;
-}
-
-double longest_axis(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-  return chi * std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
 }
 
 std::string number(double value, int digits) {
@@ -286,11 +280,11 @@ class Calibrator {
 }  // namespace
 
 double Calibration::position_error() const {
-  return longest_axis(covariance.bottomRightCorner<3, 3>());
+  return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());
 }
 
 double Calibration::rotation_error() const {
-  return longest_axis(covariance.topLeftCorner<3, 3>());
+  return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
 }
 
 bool CalibrationFrames::wants(std::span<const Eigen::Isometry3d> T_root_link) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -13,6 +14,12 @@ Eigen::Isometry3d motion(const Twist& twist) {
   if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, twist.head<3>() / angle).matrix();
   T.translation() = twist.tail<3>();
   return T;
+}
+
+double longest_axis(const Eigen::Matrix3d& covariance) {
+  constexpr double chi = 2.7955;  // square root of the 95 % quantile of chi^2 with 3 degrees
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  return chi * std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
 }
 
 void Unknowns::step(State& state, const Eigen::VectorXd& by) const {

@@ -21,6 +21,9 @@ using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then tra
 /// Returns the small motion.
 [[nodiscard]] Eigen::Isometry3d motion(const Twist& twist);
 
+/// Returns half of the longest axis of the 95 % ellipsoid.
+[[nodiscard]] double longest_axis(const Eigen::Matrix3d& covariance);
+
 /// What is estimated.
 struct State {
   Eigen::Isometry3d T_parent_camera;

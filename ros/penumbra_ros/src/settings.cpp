@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -270,6 +271,12 @@ Settings declare_settings(rclcpp::Node& node) {
   declare_rule(declare);
   settings.pipeline.rule = read_rule(node);
 
+  const auto drift = declare("drift_limits", std::vector<double>{2.0, 0.1},
+                             "millimetres and degrees that the camera may be from its calibration");
+  if (drift.size() != 2)
+    throw InputError("parameter 'drift_limits' must have two numbers: millimetres, degrees");
+  settings.live.drift = {.position = 1e-3 * drift[0],
+                         .rotation = drift[1] * std::numbers::pi / 180.0};
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);

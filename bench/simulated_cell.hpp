@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <penumbra/calibration/calibration.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <sim/arm.hpp>
+#include <sim/depth_sensor.hpp>
+#include <sim/random.hpp>
+#include <sim/scene.hpp>
+#include <sim/stage.hpp>
+#include <sim/temporary_folder.hpp>
+
+namespace penumbra::study {
+
+inline constexpr double degree = std::numbers::pi / 180.0;
+
+/// What is simulated.
+struct Setup {
+  std::string name;
+  bool on_hand = false;  ///< the camera moves with the flange
+  std::size_t frames = 10;
+  bool search = false;
+  bool object = false;        ///< something stands before the arm
+  double missing = 0.0;       ///< share of the depth image without measurement
+  bool wrong_joints = false;  ///< of one frame
+  double speed = 0.0;         ///< of the arm's tip, m/s, root mean square; 0: it stands
+  double late = 0.0;          ///< seconds from an image's stamp to when it was taken
+};
+
+struct RobotChoice {
+  std::string name;
+  std::filesystem::path urdf;
+  RobotOptions options;
+  std::string flange;
+  std::vector<double> centre;  ///< joint positions around which poses are drawn, rad
+};
+
+/// A simulated robot, and a depth camera whose pose is known.
+class Cell {
+ public:
+  [[nodiscard]] static Intrinsics intrinsics() { return {848, 480, 610.0, 610.0, 423.5, 239.5}; }
+
+  Cell(const RobotChoice& choice, const Setup& setup, std::uint64_t seed)
+      : choice_(choice),
+        setup_(setup),
+        random_(seed, 77),
+        arm_(choice.urdf, choice.options, folder_.path()),
+        stage_(arm_, room(), folder_.path(), intrinsics()),
+        sensor_(noise(setup), intrinsics().fx(), seed, 3),
+        parent_(setup.on_hand ? *robot().find_link(choice.flange) : 0),
+        small_renderer_(
+            make_depth_renderer(Backend::cpu, intrinsics().binned(8, 8), bodies_of(robot()))) {
+    if (setup.on_hand) {
+      // On a bracket beside the flange, so that the gripper is in view.
+      const Eigen::Vector3d jitter(random_.normal(), random_.normal(), random_.normal());
+      T_parent_camera_ = Eigen::Isometry3d::Identity();
+      T_parent_camera_.translation() = Eigen::Vector3d(0.0, -0.16, -0.12) + 0.01 * jitter;
+      T_parent_camera_.linear() =
+          Eigen::AngleAxisd(-0.5 + 0.05 * random_.normal(), Eigen::Vector3d::UnitX()).matrix();
+    } else {
+      const double around = random_.uniform(-1.2, 1.2), away = random_.uniform(1.1, 1.7);
+      const Eigen::Vector3d eye(away * std::cos(around), away * std::sin(around),
+                                random_.uniform(0.5, 1.1));
+      const Eigen::Vector3d target(random_.uniform(-0.1, 0.2), random_.uniform(-0.1, 0.1),
+                                   random_.uniform(0.3, 0.5));
+      T_parent_camera_ = sim::look_at(eye, target);
+    }
+  }
+
+  [[nodiscard]] const Robot& robot() const { return arm_.robot(); }
+  [[nodiscard]] const Eigen::Isometry3d& truth() const { return T_parent_camera_; }
+
+  std::vector<CalibrationFrame> frames() {
+    std::vector<CalibrationFrame> all;
+    if (setup_.speed > 0.0) return moving_frames();
+    while (all.size() < setup_.frames) {
+      CalibrationFrame frame;
+      frame.index = all.size();
+      frame.joints = pose();
+      draw(frame);
+      if (setup_.wrong_joints && frame.index == 4)
+        for (double& joint : frame.joints) joint += random_.uniform(0.1, 0.3);
+      frame.T_root_link.resize(robot().links().size());
+      robot().forward_kinematics(frame.joints, frame.T_root_link);
+      all.push_back(std::move(frame));
+    }
+    return all;
+  }
+
+  /// Lets every joint swing around a new pose, with Setup::speed.
+  void start_swing() {
+    centre_ = pose();
+    phases_.clear();
+    rates_.clear();
+    for (std::size_t i = 0; i < choice_.centre.size(); ++i) {
+      phases_.push_back(random_.uniform(0.0, 6.28));
+      rates_.push_back(random_.uniform(0.7, 1.3));
+    }
+    pace_ = 1.0;
+    const auto tip = [&](double t) -> Eigen::Vector3d {
+      return arm_.link_pose(joints_at(t), choice_.flange).translation();
+    };
+    double squares = 0.0;
+    for (int i = 0; i < 200; ++i)
+      squares += ((tip(0.1 * i + 0.01) - tip(0.1 * i)) / 0.01).squaredNorm();
+    pace_ = setup_.speed / std::sqrt(squares / 200.0);
+  }
+
+  /// The positions of the swinging joints, rad, after some seconds.
+  [[nodiscard]] std::vector<double> joints_at(double seconds) const {
+    constexpr double amplitude = 0.35;  // rad
+    std::vector<double> joints = centre_;
+    for (std::size_t i = 0; i < phases_.size(); ++i)
+      joints[i] += amplitude * std::sin(pace_ * rates_[i] * seconds + phases_[i]);
+    return joints;
+  }
+
+  /// Measures the depth of the frame's joints.
+  void draw(CalibrationFrame& frame) {
+    std::vector<Eigen::Isometry3d> parts(5, Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d T_root_camera =
+        setup_.on_hand ? arm_.link_pose(frame.joints, choice_.flange) * T_parent_camera_
+                       : T_parent_camera_;
+    // The object is somewhere in the cell, or between the camera and the arm.
+    parts[4].translation() = Eigen::Vector3d(0.0, 5.0, 0.1);
+    if (setup_.object)
+      parts[4].translation() = T_root_camera * Eigen::Vector3d(random_.uniform(-0.2, 0.2),
+                                                               random_.uniform(-0.1, 0.1), 0.7);
+    stage_.place(frame.joints, parts);
+    const int width = intrinsics().width(), height = intrinsics().height();
+    Image<float> depth(width, height);
+    const auto all = [](std::int32_t) { return true; };
+    stage_.draw_ids({intrinsics(), T_root_camera}, all, {0, 0, width, height}, nullptr, &depth);
+    Image<std::uint16_t> measured;
+    sensor_.measure(depth, frame.index, measured);
+    frame.depth = Image<float>(measured.width(), measured.height());
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      frame.depth.data()[i] = metres_of(measured.data()[i]);
+  }
+
+  /// A first guess: 100 mm and 10 degrees off, in any direction.
+  [[nodiscard]] Eigen::Isometry3d off() {
+    const auto any = [&] {
+      return Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized();
+    };
+    Eigen::Isometry3d T = truth();
+    T.translation() += 0.1 * any();
+    T.linear() = T.linear() * Eigen::AngleAxisd(10.0 * degree, any()).matrix();
+    return T;
+  }
+
+ private:
+  static sim::DepthNoise noise(const Setup& setup) {
+    sim::DepthNoise noise = sim::DepthNoise::d415();
+    noise.holes = std::max(noise.holes, setup.missing);
+    return noise;
+  }
+
+  sim::SceneDescription room() const {
+    sim::SceneDescription scene;
+    scene.parts.push_back({-1, R"(<geom type="box" size="3 3 0.05" pos="0 0 -0.06" group="2"/>)"});
+    scene.parts.push_back({-1, R"(<geom type="box" size="0.05 3 2" pos="-1.2 0 1" group="2"/>)"});
+    scene.parts.push_back({-1, R"(<geom type="box" size="3 0.05 2" pos="0 -1.6 1" group="2"/>)"});
+    scene.parts.push_back(
+        {-1, R"(<geom type="box" size="0.15 0.2 0.15" pos="-0.5 0.6 0.1" group="2"/>)"});
+    scene.parts.push_back({-1, R"(<geom type="cylinder" size="0.04 0.12" group="2"/>)"});
+    return scene;
+  }
+
+  /// A pose with all links above the table. A camera on the hand looks at the arm.
+  std::vector<double> pose() {
+    const double range = setup_.on_hand ? 2.5 : 0.7;
+    for (;;) {
+      std::vector<double> joints = robot().rest_positions();
+      for (std::size_t i = 0; i < choice_.centre.size(); ++i)
+        joints[i] = choice_.centre[i] + random_.uniform(-range, range);
+      const auto centres = arm_.part_centres(joints);
+      if (std::all_of(centres.begin(), centres.end(),
+                      [](const Eigen::Vector3d& centre) { return centre.z() > 0.04; }) &&
+          (!setup_.on_hand || sees_arm(joints)))
+        return joints;
+    }
+  }
+
+  /// Whether links that do not move with the camera fill a tenth of its image, and none is nearer
+  /// than the camera can measure.
+  bool sees_arm(const std::vector<double>& joints) {
+    std::vector<Eigen::Isometry3d> poses(robot().links().size()), rest = poses;
+    robot().forward_kinematics(joints, poses);
+    robot().forward_kinematics(robot().rest_positions(), rest);
+    const Eigen::Isometry3d T_camera_root = (poses[parent_] * T_parent_camera_).inverse();
+    std::vector<bool> moves;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      moves.push_back(
+          !(rest[parent_].inverse() * rest[i]).isApprox(poses[parent_].inverse() * poses[i], 1e-6));
+    for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
+    constexpr float nearest = 0.1f;  // metres
+    const VirtualDepthView robot_seen = small_renderer_->render(poses);
+    const auto& depth = robot_seen.depth;
+    const auto& links = robot_seen.links;
+    int seen = 0;
+    for (int v = 0; v < links.height; ++v)
+      for (int u = 0; u < links.width; ++u) {
+        if (links(u, v) == 0) continue;
+        if (depth(u, v) < nearest) return false;
+        seen += moves[links(u, v) - 1U];
+      }
+    return seen > links.width * links.height / 10;
+  }
+
+  /// Frames of the swinging arm, with the poses at the times of 30 images per second around them.
+  std::vector<CalibrationFrame> moving_frames() {
+    constexpr double period = 1.0 / 30.0;  // seconds
+    constexpr int around = 4;              // images before and after
+    start_swing();
+    std::vector<CalibrationFrame> all;
+    while (all.size() < setup_.frames) {
+      CalibrationFrame frame;
+      frame.index = all.size();
+      const double stamp = 1.7 / pace_ * static_cast<double>(all.size());
+      frame.joints = joints_at(stamp + setup_.late);
+      draw(frame);
+      frame.joints = joints_at(stamp);
+      frame.T_root_link.resize(robot().links().size());
+      for (int k = -around; k <= around; ++k) {
+        robot().forward_kinematics(joints_at(stamp + period * k), frame.T_root_link);
+        frame.nearby.push_back({period * k, frame.T_root_link});
+      }
+      frame.T_root_link = frame.nearby[around].T_root_link;
+      all.push_back(std::move(frame));
+    }
+    return all;
+  }
+
+  const RobotChoice& choice_;
+  const Setup& setup_;
+  sim::Random random_;
+  sim::TemporaryFolder folder_;
+  sim::Arm arm_;
+  sim::Stage stage_;
+  sim::DepthSensor sensor_;
+  std::size_t parent_;
+  std::unique_ptr<DepthRenderer> small_renderer_;
+  Eigen::Isometry3d T_parent_camera_;
+  std::vector<double> centre_, phases_, rates_;  // of the swing
+  double pace_ = 1.0;
+};
+
+inline double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+/// The folder of the data, and the robots.
+inline std::filesystem::path data_folder() {
+  return std::getenv("PENUMBRA_DATA") != nullptr ? std::getenv("PENUMBRA_DATA")
+                                                 : PENUMBRA_STUDY_DATA;
+}
+
+inline std::vector<RobotChoice> robots() {
+  const std::filesystem::path data = data_folder();
+  const auto visual = [](std::map<std::string, std::filesystem::path> packages) {
+    RobotOptions options;
+    options.packages = std::move(packages);
+    options.geometry = Geometry::visual;
+    options.geometry_fallback = true;
+    return options;
+  };
+  return {{"shipped arm", PENUMBRA_STUDY_ARM, visual({}), "tool0", {0.0, 0.2, 1.0, 0.3, 0.6, 0.0}},
+          {"xArm 7",
+           data / "robots/xarm7/xarm7.urdf",
+           visual({{"xarm_description", data / "robots/xarm7/xarm_description"}}),
+           "link_eef",
+           {0.0, -0.3, 0.0, 1.2, 0.0, 1.2, 0.0}}};
+}
+
+}  // namespace penumbra::study

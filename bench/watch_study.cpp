@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Watches simulated cameras that stay, that are bumped, and that drift, beside a swinging arm.
+// Writes the table of docs/calibration.md.
+// usage: watch_study [FRAMES PER ROBOT]
+#include "simulated_cell.hpp"
+#include "study_page.hpp"
+
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <optional>
+
+#include <penumbra/calibration/watch.hpp>
+
+namespace penumbra::study {
+namespace {
+
+constexpr std::int64_t period = 33'333'333;      // nanoseconds between images
+constexpr std::size_t stay = 300, bumped = 300;  // frames before and after a bump
+constexpr double bump_position = 0.003, bump_rotation = 0.2 * degree;
+constexpr double drift_speed = 0.001 / 60.0;  // metres per second
+constexpr std::size_t most_drift = 5400;      // frames: three minutes
+
+/// A camera with its watch, and where it is from its calibration.
+struct Watched {
+  explicit Watched(const Camera& of) : camera(of), watch(of) {}
+
+  void restart(const Eigen::Vector3d& direction_, const Eigen::Vector3d& axis_) {
+    watch = CalibrationWatch(camera);
+    frames = 0;
+    told.reset();
+    direction = direction_;
+    axis = axis_;
+  }
+
+  const Camera& camera;
+  CalibrationWatch watch;
+  std::size_t frames = 0;
+  std::optional<std::size_t> told;  // frame
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX(), axis = Eigen::Vector3d::UnitX();
+};
+
+class WatchStudy {
+ public:
+  WatchStudy(const RobotChoice& choice, std::size_t frames)
+      : setup_{.name = "", .speed = 0.3},
+        cell_(choice, setup_, 1),
+        random_(9, 9),
+        pipeline_(cell_.robot(), camera_, {}),
+        frames_(frames) {
+    cell_.start_swing();
+    again(bump_);
+    again(drift_);
+  }
+
+  std::vector<std::string> run(const std::string& name) {
+    for (std::size_t i = 0; i < frames_; ++i) {
+      frame_.joints = cell_.joints_at(1e-9 * static_cast<double>(period) * static_cast<double>(i));
+      frame_.index = i;
+      cell_.draw(frame_);
+      follow(still_, Eigen::Isometry3d::Identity());
+      false_alarms_ += still_.watch.drift().has_moved || still_.watch.drift().bumped_at;
+      follow_bump();
+      follow_drift();
+    }
+    return {name,
+            std::to_string(frames_),
+            std::to_string(false_alarms_),
+            std::to_string(told_.size()) + " of " + std::to_string(bumps_),
+            number(quantile(told_, 0.5), 0) + ", " + number(quantile(told_, 1.0), 0),
+            number(quantile(off_, 1.0), 0),
+            std::to_string(drifts_told_.size()) + " of " + std::to_string(drifts_),
+            number(quantile(drifts_told_, 0.5), 1) + ", " + number(quantile(drifts_told_, 1.0), 1),
+            number(1e6 * watch_seconds_ / static_cast<double>(processed_), 0),
+            number(1e6 * pipeline_seconds_ / static_cast<double>(processed_), 0)};
+  }
+
+ private:
+  Eigen::Vector3d any() {
+    return Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized();
+  }
+  void again(Watched& watched) { watched.restart(any(), any()); }
+
+  /// The camera has moved by `motion` in its calibrated frame.
+  void follow(Watched& watched, const Eigen::Isometry3d& motion) {
+    const auto start = std::chrono::steady_clock::now();
+    const FrameReport& report =
+        pipeline_.process({.stamp = period * static_cast<std::int64_t>(watched.frames),
+                           .depth = frame_.depth.view(),
+                           .joints = frame_.joints,
+                           .T_parent_camera = cell_.truth() * motion.inverse(),
+                           .index = watched.frames});
+    const auto judged = std::chrono::steady_clock::now();
+    watched.watch.add(report);
+    const std::chrono::duration<double> watching = std::chrono::steady_clock::now() - judged,
+                                        judging = judged - start;
+    watch_seconds_ += watching.count();
+    pipeline_seconds_ += judging.count();
+    ++processed_;
+    ++watched.frames;
+    if (watched.watch.drift().has_moved && !watched.told) watched.told = watched.frames;
+  }
+
+  void follow_bump() {
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    if (bump_.frames >= stay) {
+      motion.translation() = bump_position * bump_.direction;
+      motion.linear() = Eigen::AngleAxisd(bump_rotation, bump_.axis).matrix();
+    }
+    follow(bump_, motion);
+    if (bump_.frames < stay + bumped) return;
+    ++bumps_;
+    if (bump_.told) told_.push_back(static_cast<double>(*bump_.told) - static_cast<double>(stay));
+    if (const auto at = bump_.watch.drift().bumped_at)
+      off_.push_back(std::abs(static_cast<double>(*at) - static_cast<double>(stay)));
+    again(bump_);
+  }
+
+  void follow_drift() {
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    const double seconds = 1e-9 * static_cast<double>(period) * static_cast<double>(drift_.frames);
+    motion.translation() = drift_speed * seconds * drift_.direction;
+    follow(drift_, motion);
+    if (!drift_.told && drift_.frames < most_drift) return;
+    ++drifts_;
+    if (drift_.told) drifts_told_.push_back(seconds / 60.0);
+    again(drift_);
+  }
+
+  Setup setup_;
+  Cell cell_;
+  sim::Random random_;
+  Camera camera_{Cell::intrinsics(), {}, {}, {}};
+  Pipeline pipeline_;
+  std::size_t frames_;
+  CalibrationFrame frame_;
+  Watched still_{camera_}, bump_{camera_}, drift_{camera_};
+  std::size_t false_alarms_ = 0, bumps_ = 0, drifts_ = 0, processed_ = 0;
+  std::vector<double> told_, off_, drifts_told_;
+  double watch_seconds_ = 0.0, pipeline_seconds_ = 0.0;
+};
+
+int study_all(int argc, char** argv) {
+  const std::size_t frames = argc > 1 ? std::stoull(argv[1]) : 20000;
+  std::vector<std::vector<std::string>> rows{
+      {"robot", "frames", "false alarms", "bumps told", "frames until told, median, most",
+       "frames off, most", "drifts told", "minutes, median, most", "watch, us", "pipeline, us"}};
+  for (const RobotChoice& robot : robots()) {
+    rows.push_back(WatchStudy(robot, frames).run(robot.name));
+    for (const std::string& cell : rows.back()) std::cout << cell << "  ";
+    std::cout << std::endl;
+  }
+  if (argc == 1)
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md", "watch_study",
+                table(rows));
+  return 0;
+}
+
+}  // namespace
+}  // namespace penumbra::study
+
+int main(int argc, char** argv) {
+  try {
+    return penumbra::study::study_all(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <map>
+#include <numbers>
+#include <variant>
+#include <vector>
+
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/watch.hpp>
+
+namespace penumbra {
+namespace watching {
+
+using calibration::Twist;
+
+constexpr std::size_t period = 4;      // one of so many frames is compared, to save time
+constexpr std::size_t samples = 80;   // pixels of the robot that are compared in it
+constexpr int least_step = 8;          // pixels between them
+constexpr float continuous = 0.02F;    // metres between neighbours of one surface
+constexpr float gate = 0.03F;          // metres between measured and virtual depth
+constexpr float through = 0.05F;       // metres behind the surface
+constexpr double least_cosine = 0.35;  // of the angle between ray and normal
+constexpr double tukey_width = 4.685;  // sigmas; 95 % efficient for normal residuals
+constexpr double least_sigma = 5e-4;   // metres
+constexpr double to_sigma = 1.4826;    // of a median absolute residual, for normal residuals
+
+constexpr double view_motion = 0.03;  // metres that a link moves in the camera until a new view
+constexpr std::size_t view_frames = 8;
+constexpr double same_view = 0.01;    // metres
+constexpr double independent = 10.0;  // residuals of one view count as so many, at most
+constexpr std::size_t most_views = 256, least_views = 24;
+constexpr std::size_t solve_period = 5;  // frames
+
+// The camera's motion, depth offset and scale, time offset.
+constexpr int unknowns = 9, depth_offset = 6, depth_scale = 7, time_offset = 8;
+using Vector = Eigen::Matrix<double, unknowns, 1>;
+using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
+constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
+
+constexpr std::array<std::size_t, 3> recent{16, 32, 64};  // views after a possible bump
+constexpr double by_chance =
+    60.0;  // squared Mahalanobis distance of six that chance does not reach
+
+/// A link in one place: what puts it out of place there is the same for all of its residuals.
+struct View {
+  std::size_t link = 0, place = 0, first_frame = 0, count = 0;
+  std::size_t index = 0;              // of the first frame in its source
+  std::optional<std::int64_t> stamp;  // likewise
+  Eigen::Isometry3d T_camera_link;
+  Matrix information = Matrix::Zero();
+  Vector gradient = Vector::Zero();
+
+  [[nodiscard]] double weight() const {
+    const auto n = static_cast<double>(count);
+    return n > independent ? independent / n : 1.0;
+  }
+};
+
+struct Solution {
+  Vector value;
+  Matrix covariance;
+};
+
+/// What is expected before anything is measured.
+struct Prior {
+  Vector value = Vector::Zero();
+  Matrix information = Matrix::Zero();
+};
+
+/// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
+/// Huber 1967), with a factor for few of them.
+std::optional<Solution> solve(const std::vector<const View*>& views, const Prior& prior) {
+  Matrix information = prior.information;
+  Vector gradient = -prior.information * prior.value;
+  for (const View* view : views) {
+    information += view->weight() * view->information;
+    gradient += view->weight() * view->gradient;
+  }
+  const Eigen::LDLT<Matrix> solver(information);
+  Solution solution{.value = -solver.solve(gradient), .covariance = {}};
+  std::map<std::size_t, Vector> places;
+  for (const View* view : views)
+    places.try_emplace(view->place, Vector::Zero()).first->second +=
+        view->weight() * (view->gradient + view->information * solution.value);
+  const auto count = static_cast<double>(places.size());
+  if (places.size() < least_views / 2 || !solution.value.allFinite()) return std::nullopt;
+  Matrix meat = prior.information;
+  for (const auto& [place, sum] : places) meat += count / (count - 7.0) * sum * sum.transpose();
+  const Matrix inverse = solver.solve(Matrix::Identity());
+  solution.covariance = inverse * meat * inverse.transpose();
+  return solution;
+}
+
+/// How improbable a motion is if there was none.
+double distance(const Twist& motion, const PoseCovariance& covariance) {
+  return motion.dot(covariance.ldlt().solve(motion));
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace watching
+
+using namespace watching;
+
+struct CalibrationWatch::State {
+  explicit State(const Camera& of) : camera(of.check()) {}
+
+  struct Sample {
+    std::size_t link;
+    double value;
+    Vector row;
+  };
+
+  void sample(const FrameReport& report);
+  void sample_at(int u, int v, const FrameReport& report);
+  void accumulate(const FrameReport& report);
+  void close(View& view);
+  void estimate();
+  void look_for_bump();
+  [[nodiscard]] bool is_beyond_limits(const Twist& motion) const;
+
+  Camera camera;
+  DriftLimits limits;
+  int margin;
+  Drift drift;
+  Prior prior;
+  std::size_t seen = 0, frames = 0;  // frames: those that are compared
+  std::optional<std::int64_t> last_stamp;
+  std::vector<Eigen::Isometry3d> T_camera_link;
+  std::vector<Twist> velocities;  // of each link, per second
+  std::vector<Sample> found;
+  std::vector<double> sizes;
+  double sigma = 0.005;    // metres
+  std::vector<View> open;  // by link
+  std::deque<View> views;
+  std::size_t places = 0;
+};
+
+void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report) {
+  const auto& z = report.virtual_depth.depth;
+  const auto& links = report.virtual_depth.links;
+  const float expected = z(u, v);
+  const auto is_near = [&](int du, int dv) {
+    return std::abs(z(u + du, v + dv) - expected) < continuous;
+  };
+  if (!(is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) && is_near(0, margin)))
+    return;
+  const float measured =
+      std::visit([&](const auto& depth) { return metres_of(depth(u, v)); }, report.depth);
+  if (!(measured > 0.0F)) return;
+  drift.seen_through += ((measured > expected + through) - drift.seen_through) / 5000.0;
+  if (!(std::abs(measured - expected) < gate)) return;
+  for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+    if (links(u + du, v + dv) != links(u, v) || !is_near(du, dv)) return;
+  std::array<Eigen::Vector3d, 5> rays;
+  std::size_t i = 0;
+  for (const auto& [du, dv] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u + du, v + dv).head<2>());
+    if (!ray) return;
+    rays[i++] = Eigen::Vector3d(ray->x(), ray->y(), 1.0) * static_cast<double>(z(u + du, v + dv));
+  }
+  const Eigen::Vector3d& p = rays[0];
+  const Eigen::Vector3d normal = (rays[2] - rays[1]).cross(rays[4] - rays[3]).normalized();
+  const double along = normal.dot(p) / p.z();
+  if (!(std::abs(along) > least_cosine * p.norm() / p.z())) return;
+  Twist gradient;  // by a motion of the link
+  gradient << -p.cross(normal), -normal;
+  const auto link = static_cast<std::size_t>(links(u, v) - 1);
+  Sample& sample = found.emplace_back();
+  sample.link = link;
+  sample.value = (measured - expected) * along;
+  sample.row.head<6>() = -gradient;
+  sample.row[depth_offset] = -along;
+  sample.row[depth_scale] = -measured * along;
+  sample.row[time_offset] = gradient.dot(velocities[link]);
+}
+
+void CalibrationWatch::State::sample(const FrameReport& report) {
+  found.clear();
+  const auto& z = report.virtual_depth.depth;
+  const int step =
+      std::max(least_step, static_cast<int>(std::sqrt(report.pixels.robot.value_or(0) / samples)));
+  // Other pixels in each frame.
+  const int first_u = margin + static_cast<int>(7 * frames % static_cast<std::size_t>(step));
+  const int first_v = margin + static_cast<int>(3 * frames % static_cast<std::size_t>(step));
+  for (int v = first_v; v + margin < z.height; v += step)
+    for (int u = first_u; u + margin < z.width; u += step)
+      if (z(u, v) > 0.0F) sample_at(u, v, report);
+}
+
+void CalibrationWatch::State::close(View& view) {
+  if (view.count > 0) {
+    const auto same = std::find_if(views.begin(), views.end(), [&](const View& other) {
+      return other.link == view.link &&
+             pose_difference(other.T_camera_link, view.T_camera_link) < same_view;
+    });
+    view.place = same == views.end() ? places++ : same->place;
+    views.push_back(view);
+    if (views.size() > most_views) views.pop_front();
+  }
+  view.count = 0;
+}
+
+void CalibrationWatch::State::accumulate(const FrameReport& report) {
+  sizes.clear();
+  for (const Sample& sample : found) sizes.push_back(std::abs(sample.value));
+  if (sizes.empty()) return;
+  sigma += 0.05 * (std::max(least_sigma, to_sigma * median(sizes)) - sigma);
+  for (std::size_t link = 0; link < open.size(); ++link) {
+    View& view = open[link];
+    if (view.count == 0 || (frames - view.first_frame < view_frames &&
+                            pose_difference(view.T_camera_link, T_camera_link[link]) < view_motion))
+      continue;
+    close(view);
+  }
+  for (const Sample& sample : found) {
+    const double x = sample.value / (tukey_width * sigma);
+    if (std::abs(x) >= 1.0) continue;
+    View& view = open[sample.link];
+    if (view.count == 0) {
+      view = {};
+      view.link = sample.link;
+      view.first_frame = frames;
+      view.index = report.index;
+      view.stamp = report.stamp;
+      view.T_camera_link = T_camera_link[sample.link];
+    }
+    const double weight = (1.0 - x * x) * (1.0 - x * x) / (sigma * sigma);
+    view.information += weight * sample.row * sample.row.transpose();
+    view.gradient += weight * sample.value * sample.row;
+    ++view.count;
+  }
+}
+
+/// Compares the last views with those long before, and forgets all but them if the camera has moved
+/// between.
+void CalibrationWatch::State::look_for_bump() {
+  if (views.size() < recent.back() + least_views) return;
+  std::vector<const View*> before, after;
+  for (auto view = views.begin(); view != views.end() - recent.back(); ++view)
+    before.push_back(&*view);
+  const auto earlier = solve(before, prior);
+  if (!earlier) return;
+  Prior sensor;  // its own errors stay
+  sensor.value.tail<3>() = earlier->value.tail<3>();
+  sensor.information.bottomRightCorner<3, 3>() =
+      earlier->covariance.bottomRightCorner<3, 3>().inverse();
+  for (const std::size_t last : recent) {
+    const std::size_t start = views[views.size() - last].first_frame;
+    after.clear();
+    for (const View& view : views)
+      if (view.first_frame >= start) after.push_back(&view);
+    const auto later = solve(after, sensor);
+    if (!later) continue;
+    const Twist moved = (later->value - earlier->value).head<6>();
+    if (!is_beyond_limits(moved) ||
+        distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) <
+            by_chance)
+      continue;
+    drift.bumped_at = after.front()->index;
+    drift.bumped_at_stamp = after.front()->stamp;
+    prior = sensor;
+    std::erase_if(views, [&](const View& view) { return view.first_frame < start; });
+    return;
+  }
+}
+
+bool CalibrationWatch::State::is_beyond_limits(const Twist& motion) const {
+  return motion.tail<3>().norm() > limits.position || motion.head<3>().norm() > limits.rotation;
+}
+
+void CalibrationWatch::State::estimate() {
+  const auto of_all = [&] {
+    std::vector<const View*> all;
+    for (const View& view : views) all.push_back(&view);
+    return solve(all, prior);
+  };
+  if (views.size() < least_views) return;
+  look_for_bump();
+  const auto all = of_all();
+  if (!all) return;
+  drift.is_known = true;
+  const Twist twist = all->value.head<6>();
+  drift.T_calibrated_camera = calibration::motion(twist);
+  drift.covariance = all->covariance.topLeftCorner<6, 6>();
+  drift.time_offset = {all->value[time_offset],
+                       std::sqrt(all->covariance(time_offset, time_offset))};
+  drift.has_moved = is_beyond_limits(twist) && distance(twist, drift.covariance) > by_chance;
+}
+
+CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limits)
+    : state_(std::make_unique<State>(camera)) {
+  state_->limits = limits;
+  state_->margin = std::max(2, camera.intrinsics.width() / 200);
+  Vector sigmas = Vector::Constant(1.0);
+  sigmas.tail<3>() << offset_prior, scale_prior, time_prior;
+  state_->prior.information.diagonal() = sigmas.array().square().inverse();
+  state_->prior.information.topLeftCorner<6, 6>().setZero();
+}
+
+CalibrationWatch::~CalibrationWatch() = default;
+CalibrationWatch::CalibrationWatch(CalibrationWatch&&) noexcept = default;
+CalibrationWatch& CalibrationWatch::operator=(CalibrationWatch&&) noexcept = default;
+
+void CalibrationWatch::add(const FrameReport& report) {
+  if (report.status != FrameStatus::ok || report.virtual_depth.depth.empty()) return;
+  State& state = *state_;
+  if (state.seen++ % period != 0) return;
+  const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
+  const std::size_t links = report.T_root_link.size();
+  const bool has_last = state.T_camera_link.size() == links && state.last_stamp && report.stamp &&
+                        *report.stamp > *state.last_stamp;
+  const double seconds =
+      has_last ? 1e-9 * static_cast<double>(*report.stamp - *state.last_stamp) : 0.0;
+  state.velocities.assign(links, Twist::Zero());
+  state.open.resize(links);
+  state.T_camera_link.resize(links);
+  for (std::size_t i = 0; i < links; ++i) {
+    const Eigen::Isometry3d T = T_camera_root * report.T_root_link[i];
+    if (has_last && seconds < 0.5) {
+      const Eigen::Isometry3d moved = T * state.T_camera_link[i].inverse();
+      const Eigen::AngleAxisd turn(moved.linear());
+      state.velocities[i] << turn.angle() * turn.axis() / seconds, moved.translation() / seconds;
+    }
+    state.T_camera_link[i] = T;
+  }
+  state.last_stamp = report.stamp;
+  state.sample(report);
+  state.accumulate(report);
+  if (++state.frames % solve_period == 0) state.estimate();
+}
+
+const Drift& CalibrationWatch::drift() const { return state_->drift; }
+
+double Drift::rotation() const {
+  return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
+}
+double Drift::position_error() const {
+  return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());
+}
+double Drift::rotation_error() const {
+  return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
+}
+
+std::string Drift::message() const {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  constexpr double much = 0.4;
+  std::array<char, 256> text{};
+  if (seen_through > much)
+    std::snprintf(
+        text.data(), text.size(),
+        "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
+        "or the joints are another robot's",
+        100.0 * seen_through);
+  else if (has_moved)
+    std::snprintf(text.data(), text.size(),
+                  "the camera is %.1f +- %.1f mm and %.2f +- %.2f degrees from its calibration",
+                  1e3 * position(), 1e3 * position_error(), degrees * rotation(),
+                  degrees * rotation_error());
+  std::string line = text.data();
+  if (!line.empty() && bumped_at) line += ", bumped at frame " + std::to_string(*bumped_at);
+  if (!line.empty()) line += ": run 'penumbra calibrate'";
+  return line;
+}
+
+}  // namespace penumbra

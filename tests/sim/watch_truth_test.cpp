@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The watch over MuJoCo's cameras, whose pose is known, under a D415's noise.
+#include "simulated.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/calibration/watch.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <sim/simulation.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+class Watched {
+ public:
+  /// Judges frames of the scene "random" with a camera that has moved by `motion` since it was
+  /// calibrated.
+  void watch(std::size_t count, const Eigen::Isometry3d& motion) {
+    sim::SimFrame frame;
+    for (std::size_t i = 0; i < count && simulation_.next(frame); ++i) judge(frame, motion);
+  }
+
+  [[nodiscard]] const Drift& drift() const { return watch_.drift(); }
+
+  /// Judges one frame again and again.
+  void stare(std::size_t count) {
+    sim::SimFrame frame;
+    ASSERT_TRUE(simulation_.next(frame));
+    for (std::size_t i = 0; i < count; ++i) judge(frame, Eigen::Isometry3d::Identity());
+  }
+
+ private:
+  void judge(const sim::SimFrame& frame, const Eigen::Isometry3d& motion) {
+    watch_.add(
+        pipeline_.process({.depth = frame.depth.view(),
+                           .joints = frame.joints,
+                           .T_parent_camera = simulation_.T_base_camera() * motion.inverse()}));
+  }
+
+  sim::Simulation simulation_{"random", without_color(3, true)};
+  Pipeline pipeline_{simulation_.robot(), simulation_.camera(), {}};
+  CalibrationWatch watch_{simulation_.camera()};
+};
+
+TEST(Watch, TellsABumpAndHowFar) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  Watched camera;
+  constexpr std::size_t before = 120, after = 100;
+  camera.watch(before, Eigen::Isometry3d::Identity());
+  const Drift still = camera.drift();
+  EXPECT_TRUE(still.is_known);
+  EXPECT_EQ(still.message(), "");
+  EXPECT_LT(still.position(), 1.5 * still.position_error());
+
+  Eigen::Isometry3d bump = Eigen::Isometry3d::Identity();
+  bump.translation() = Eigen::Vector3d(0.004, -0.002, 0.003);
+  bump.linear() = Eigen::AngleAxisd(0.3 * degree, Eigen::Vector3d::UnitY()).matrix();
+  camera.watch(after, bump);
+  const Drift drift = camera.drift();
+  EXPECT_TRUE(drift.has_moved);
+  ASSERT_TRUE(drift.bumped_at);
+  constexpr double frames_off = 30.0;  // as many as a view may take
+  EXPECT_NEAR(static_cast<double>(*drift.bumped_at), before, frames_off);
+  const Eigen::Isometry3d error = bump.inverse() * drift.T_calibrated_camera;
+  EXPECT_LT(error.translation().norm(), 1.5 * drift.position_error());
+  EXPECT_LT(std::abs(Eigen::AngleAxisd(error.linear()).angle()), 1.5 * drift.rotation_error());
+  EXPECT_NE(drift.message().find("bumped at frame"), std::string::npos) << drift.message();
+}
+
+TEST(Watch, TellsARobotThatIsNotThere) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  Watched camera;
+  Eigen::Isometry3d far = Eigen::Isometry3d::Identity();
+  far.translation().x() = 0.5;
+  camera.watch(300, far);
+  EXPECT_NE(camera.drift().message().find("sees past"), std::string::npos)
+      << camera.drift().seen_through;
+}
+
+TEST(Watch, KnowsNothingOfARobotThatStands) {
+  PENUMBRA_REQUIRE_SIMULATION();
+  Watched camera;
+  camera.stare(400);
+  EXPECT_FALSE(camera.drift().is_known);
+}
+
+}  // namespace
+}  // namespace penumbra::test
