@@ -21,8 +21,8 @@ PYBIND11_MODULE(_core, m) {
   bind_judgement(m);
   bind_frame(m);
   bind_report(m);
+  bind_calibration(m);
   bind_pipeline(m);
   bind_recording(m);
   bind_input(m);
-  bind_calibration(m);
 }
