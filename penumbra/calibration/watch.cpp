@@ -19,7 +19,7 @@ namespace watching {
 using calibration::Twist;
 
 constexpr std::size_t period = 4;      // one of so many frames is compared, to save time
-constexpr std::size_t samples = 80;   // pixels of the robot that are compared in it
+constexpr std::size_t samples = 80;    // pixels of the robot that are compared in it
 constexpr int least_step = 8;          // pixels between them
 constexpr float continuous = 0.02F;    // metres between neighbours of one surface
 constexpr float gate = 0.03F;          // metres between measured and virtual depth
@@ -42,7 +42,7 @@ using Vector = Eigen::Matrix<double, unknowns, 1>;
 using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
 
-constexpr std::array<std::size_t, 3> recent{16, 32, 64};  // views after a possible bump
+constexpr std::array<std::size_t, 3> recent{24, 32, 64};  // views after a possible bump
 constexpr double by_chance =
     60.0;  // squared Mahalanobis distance of six that chance does not reach
 
