@@ -21,19 +21,11 @@ Image<T> copied_image(const ImageView<const From>& view, To to) {
   return image;
 }
 
-CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
-                                   const Robot& robot) {
-  const std::string name = "frames[" + std::to_string(number) + "]";
-  if (!owned.depth) throw py::value_error(name + ": has no depth image");
+/// A frame's joints and poses. `name`: as errors call it.
+CalibrationFrame posed_frame(const OwnedFrame& owned, const std::string& name, const Robot& robot) {
   OwnedFrame::Parts parts;
   const Frame frame = owned.view(robot, parts);
   CalibrationFrame result;
-  result.index = owned.index.value_or(number);
-  result.depth = std::visit(
-      [](const auto& view) {
-        return copied_image<float>(view, [](auto pixel) { return metres_of(pixel); });
-      },
-      owned.depth->view);
   result.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
   if (!result.T_root_link.empty()) return result;
   if (frame.joints.positions.size() != robot.variables().size())
@@ -45,17 +37,51 @@ CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
   return result;
 }
 
+CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
+                                   const Robot& robot) {
+  const std::string name = "frames[" + std::to_string(number) + "]";
+  if (!owned.depth) throw py::value_error(name + ": has no depth image");
+  CalibrationFrame result = posed_frame(owned, name, robot);
+  result.index = owned.index.value_or(number);
+  result.depth = std::visit(
+      [](const auto& view) {
+        return copied_image<float>(view, [](auto pixel) { return metres_of(pixel); });
+      },
+      owned.depth->view);
+  return result;
+}
+
+/// `name`: as errors call the frame.
+std::int64_t stamp_of(const OwnedFrame& frame, const std::string& name) {
+  if (!frame.stamp) throw py::value_error(name + ": needs a stamp for the time offset");
+  return *frame.stamp;
+}
+
+Trajectory trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& robot) {
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const std::string name = "motion[" + std::to_string(i) + "]";
+    trajectory.emplace_back(stamp_of(motion[i], name),
+                            posed_frame(motion[i], name, robot).T_root_link);
+  }
+  return trajectory;
+}
+
 Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrinsics& camera,
                              const Robot& robot, const std::optional<Eigen::Isometry3d>& initial,
                              const std::string& camera_parent,
                              const std::vector<MaskArgument>& masks, bool joint_offsets,
-                             std::uint64_t seed) {
+                             const std::vector<OwnedFrame>& motion, std::uint64_t seed) {
   if (!masks.empty() && masks.size() != frames.size())
     throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
                           " frames; got " + std::to_string(masks.size()));
+  const Trajectory trajectory = trajectory_of(motion, robot);
   std::vector<CalibrationFrame> all;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     all.push_back(calibration_frame(frames[i], i, robot));
+    if (!motion.empty())
+      all.back().nearby =
+          nearby_poses(trajectory, stamp_of(frames[i], "frames[" + std::to_string(i) + "]"));
     if (!masks.empty())
       all.back().mask = copied_image<std::uint8_t>(std::get<0>(masks[i].view),
                                                    [](std::uint8_t pixel) { return pixel; });
@@ -65,7 +91,7 @@ Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrin
                    {.camera_parent = camera_parent,
                     .initial = initial,
                     .joint_offsets = joint_offsets,
-                    .time_offset = false,
+                    .time_offset = !motion.empty(),
                     .seed = seed});
 }
 
@@ -103,6 +129,8 @@ void bind_calibration(py::module_& m) {
       Field{"shift_down", &C::shift_down, "The same, below."},
       Field{"joint_offsets", &C::joint_offsets,
             "In the order of Robot.variables, rad or m; empty: not asked."},
+      Field{"time_offset", &C::time_offset,
+            "Seconds to add to an image's stamp before poses are looked up; None: no motion."},
       Field{"frames", &C::frames, "By frame."},
       Field{"link_residuals", &C::link_residuals,
             "Signed median residuals by link, metres; nan: not seen."},
@@ -140,13 +168,15 @@ void bind_calibration(py::module_& m) {
   m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
         py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
         py::arg("masks") = std::vector<MaskArgument>(), py::arg("joint_offsets") = false,
-        py::arg("seed") = 1,
+        py::arg("motion") = std::vector<OwnedFrame>(), py::arg("seed") = 1,
         "Estimates a depth camera's pose from the robot that it sees. frames: three or more, with "
         "depth and joints (or T_root_link), between which the robot moves. camera: of images "
         "without distortion. initial: a guess of the camera's pose in its parent link, at most "
         "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
-        "the colour image shows the robot. Raises InputError for too few frames; any other failure "
-        "is Calibration.faults.");
+        "the colour image shows the robot. motion: frames with stamps and poses, in time's order, "
+        "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
+        "offset is estimated, too. Raises InputError for too few frames; any other failure is "
+        "Calibration.faults.");
 }
 
 }  // namespace penumbra::python

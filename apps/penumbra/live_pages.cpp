@@ -31,9 +31,9 @@ class LivePages::Page final : public io::FrameWatcher {
   void set_note(std::string note) { note_ = std::move(note); }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::AssembledFrame& job, const DepthView& depth,
-            const FrameReport& report) override {
-    if (view_.show(job, depth, report, io::LiveRunner::steady_now())) server_.wake();
+  void take(const io::AssembledFrame& job, const DepthView& depth, const FrameReport& report,
+            const Drift& drift) override {
+    if (view_.show(job, depth, report, drift, io::LiveRunner::steady_now())) server_.wake();
   }
 
   /// `statuses`: the robot's, if there is one, and the camera's.

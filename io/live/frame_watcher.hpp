@@ -2,6 +2,7 @@
 #pragma once
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 #include <io/assembly/assembled_frame.hpp>
@@ -21,9 +22,10 @@ class FrameWatcher {
 
   /// Receives a frame after its results were published. The camera's thread calls this and judges
   /// no other frame meanwhile: copy the data you need and return. `depth` is the judged image and
-  /// may be empty. All arguments are valid during the call only.
-  virtual void take(const AssembledFrame& job, const DepthView& depth,
-                    const FrameReport& report) = 0;
+  /// may be empty, `drift` how far the camera is from its calibration. All arguments are valid
+  /// during the call only.
+  virtual void take(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
+                    const Drift& drift) = 0;
 };
 
 }  // namespace penumbra::io

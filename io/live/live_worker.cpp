@@ -53,13 +53,13 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
   tools_->encoder.encode(report, {frame.depth, std::as_const(color_).view()},
                          {frame.targets, tools_->pipeline.robot(), job.setup->cameras.judged},
                          sink);
-  if (watcher != nullptr) watcher->take(job, frame.depth, report);
   tools_->watch.add(report);
+  outcome.drift = tools_->watch.drift();
+  if (watcher != nullptr) watcher->take(job, frame.depth, report, outcome.drift);
   outcome.is_published = true;
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;
-  outcome.drift = tools_->watch.drift();
   outcome.renderer = tools_->pipeline.renderer();
   return outcome;
 }

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double still = 0.01;   // metres per second of any link's origin
 constexpr double moving = 0.05;  // the same, at least, to tell the time offset
-constexpr double nearby = 0.15;  // seconds of poses before and after an image
 
 /// The fastest link's speed since the frame before, m/s; none without stamps.
 class Speed {
@@ -40,20 +39,6 @@ class Speed {
   std::optional<std::int64_t> before_;
   std::vector<Eigen::Isometry3d> poses_;
 };
-
-/// The links' poses at the times of all images.
-using Trajectory = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
-
-/// Adds the poses around its image to a frame; none where they do not reach far enough.
-void add_nearby(const Trajectory& trajectory, std::int64_t stamp, CalibrationFrame& frame) {
-  for (const auto& [time, poses] : trajectory) {
-    const double seconds = 1e-9 * static_cast<double>(time - stamp);
-    if (std::abs(seconds) <= nearby) frame.nearby.push_back({seconds, poses});
-  }
-  constexpr double least = 0.1;
-  if (frame.nearby.front().seconds > -least || frame.nearby.back().seconds < least)
-    frame.nearby.clear();
-}
 
 Image<float> metres(const DepthView& view, const DepthRange& range) {
   return std::visit(
@@ -158,7 +143,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   result.frames.assign(chosen.begin(), chosen.end());
   if (options.time_offset) {
     for (CalibrationFrame& kept : result.frames)
-      add_nearby(trajectory, stamps.at(kept.index), kept);
+      kept.nearby = nearby_poses(trajectory, stamps.at(kept.index));
     std::erase_if(result.frames, [](const auto& kept) { return kept.nearby.empty(); });
   }
   if (!rested && !options.time_offset && resting.frames().size() < chosen.size())

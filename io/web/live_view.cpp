@@ -105,6 +105,7 @@ class LiveView::Client final : public WebChannel {
     const Json live{{"age_ms", 1e-6 * static_cast<double>(system_now() - frame->stamp())},
                     {"dropped", dropped},
                     {"rate_hz", moment.rate},
+                    {"calibration", drift_json(moment.drift)},
                     {"missing", moment.missing},
                     {"diagnostics", json_of(moment.diagnostics)}};
     const LiveScene& scene = frame->scene();
@@ -130,12 +131,13 @@ class LiveView::Client final : public WebChannel {
 LiveView::LiveView(std::string input) : input_(std::move(input)) {}
 
 bool LiveView::show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-                    std::int64_t now) {
+                    const Drift& drift, std::int64_t now) {
   PartSet kept;
   std::shared_ptr<const LiveScene> scene;
   {
     const std::lock_guard lock(mutex_);
     judged_at_.push_back(now);
+    drift_ = drift;
     // The last interval is kept, however long it is, so that a slow camera has a rate too.
     while (judged_at_.size() > 2 && now - judged_at_.front() > rate_window) judged_at_.pop_front();
     if (setup_.lock() != job.setup) {
@@ -174,6 +176,7 @@ LiveView::Moment LiveView::now() const {
       moment.rate =
           1e9 * static_cast<double>(judged_at_.size() - 1) /
           static_cast<double>(std::max<std::int64_t>(judged_at_.back() - judged_at_.front(), 1));
+    moment.drift = drift_;
     moment.scene = scene_;
     moment.frame = frame_;
     moment.diagnostics = diagnostics_;

@@ -32,7 +32,7 @@ class LiveView final : public WebHandler {
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
   bool show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-            std::int64_t now);
+            const Drift& drift, std::int64_t now);
   /// Sets the diagnostics of `penumbra live` and the list of missing data.
   void set_diagnostics(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
@@ -49,6 +49,7 @@ class LiveView final : public WebHandler {
     std::shared_ptr<const LiveScene> scene;  // null: no frame was judged yet
     std::shared_ptr<const LiveFrame> frame;
     double rate = 0;  // frames per second
+    Drift drift;
     std::vector<Diagnostic> diagnostics;
     std::vector<std::string> missing;
   };
@@ -60,6 +61,7 @@ class LiveView final : public WebHandler {
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
   std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two
+  Drift drift_;                             // of the newest frame
   std::weak_ptr<const CameraSetup> setup_;  // the setup of scene_
   std::shared_ptr<const LiveScene> scene_;
   std::vector<Diagnostic> diagnostics_;

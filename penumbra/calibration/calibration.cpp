@@ -23,6 +23,8 @@ using calibration::Refined;
 using calibration::State;
 using calibration::Unknowns;
 
+constexpr double nearby = 0.15;           // seconds before and after an image
+constexpr double least_nearby = 0.1;      // seconds
 constexpr std::size_t searched = 10;      // frames on which poses are tried
 constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
@@ -278,6 +280,17 @@ class Calibrator {
 };
 
 }  // namespace
+
+std::vector<NearbyPoses> nearby_poses(const Trajectory& trajectory, std::int64_t stamp) {
+  std::vector<NearbyPoses> found;
+  for (const auto& [time, poses] : trajectory) {
+    const double seconds = 1e-9 * static_cast<double>(time - stamp);
+    if (std::abs(seconds) <= nearby) found.push_back({seconds, poses});
+  }
+  if (found.empty() || found.front().seconds > -least_nearby || found.back().seconds < least_nearby)
+    return {};
+  return found;
+}
 
 double Calibration::position_error() const {
   return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());

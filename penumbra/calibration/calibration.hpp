@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -22,6 +23,14 @@ struct NearbyPoses {
   double seconds = 0.0;  ///< after the image
   std::vector<Eigen::Isometry3d> T_root_link;
 };
+
+/// The links' poses in the root at stamps (ns), in time's order.
+using Trajectory = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
+
+/// Returns the poses up to 0.15 s before and after an image's stamp; none if they reach less than
+/// 0.1 s.
+[[nodiscard]] std::vector<NearbyPoses> nearby_poses(const Trajectory& trajectory,
+                                                    std::int64_t stamp);
 
 /// What calibration needs of a frame.
 struct CalibrationFrame {

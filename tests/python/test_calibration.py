@@ -37,3 +37,22 @@ def test_faults_are_told():
         calibrated(FRAMES, TRUTH, masks=[np.zeros((480, 640), np.uint8)])
     with pytest.raises(ValueError, match=r"frames\[1\]: has no depth"):
         calibrated([FRAMES[0], penumbra.Frame(None, None), FRAMES[1]], TRUTH)
+
+
+def test_the_time_between_images_and_joints():
+    late = 0.03  # seconds: the stamps of the images
+    stamps = [frame.stamp for frame in FRAMES]
+    joints = np.array([frame.joints for frame in FRAMES])
+    motion = [
+        penumbra.Frame(None, [np.interp(t, stamps, one) for one in joints.T], stamp=t)
+        for t in range(stamps[0], stamps[-1] + 1, 20_000_000)
+    ]
+    images = [frame.replace(stamp=frame.stamp + round(1e9 * late)) for frame in FRAMES[2:-2]]
+    found = calibrated(images, TRUTH, motion=motion)
+    error = abs(found.time_offset.value + late)
+    assert found.is_good and error < 0.003
+    assert calibrated(images, TRUTH).time_offset is None
+    with pytest.raises(ValueError, match=r"motion\[0\]: needs a stamp"):
+        calibrated(images, TRUTH, motion=[motion[0].replace(stamp=None)])
+    with pytest.raises(penumbra.InputError, match="poses before and after"):
+        calibrated(FRAMES, TRUTH, motion=motion)

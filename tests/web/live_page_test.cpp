@@ -51,13 +51,13 @@ class LivePage : public testing::Test, public io::FrameWatcher {
   }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::AssembledFrame& job, const DepthView& depth,
-            const FrameReport& report) override {
+  void take(const io::AssembledFrame& job, const DepthView& depth, const FrameReport& report,
+            const Drift& drift) override {
     report_ = io::report_frame(report);
     parts_ = {{"labels", bytes_of(report.labels)},
               {"links", bytes_of(report.virtual_depth.links)},
               {"vdi", bytes_of(report.virtual_depth.depth)}};
-    static_cast<void>(view_.show(job, depth, report, job.pose.stamp));
+    static_cast<void>(view_.show(job, depth, report, drift, job.pose.stamp));
   }
 
   std::unique_ptr<io::WebChannel> client(const std::string& with) {
@@ -101,6 +101,7 @@ TEST_F(LivePage, ShowsTheValuesThatWereJudged) {
   EXPECT_NEAR(static_cast<unsigned char>(packet->parts.at("cloud")[13]), 200, 5);  // its red
   EXPECT_EQ(packet->json["link_poses"][1][2], 1.0);
   EXPECT_EQ(packet->json["live"]["dropped"], 0);
+  EXPECT_EQ(packet->json["live"]["calibration"], nullptr);  // not known after one frame
   const json session = answer("/api/session");
   EXPECT_EQ(session["parts"], json({"color", "labels", "links", "vdi", "depth", "cloud"}));
   EXPECT_EQ(session["camera"]["width"], 64);

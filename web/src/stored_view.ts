@@ -166,6 +166,7 @@ export class StoredView implements FrameSource {
     this.isComplete = report.summary !== null;
     this.viewer.setSession(session);
     if (report.frames.length > 0) timeline.setFrames(timeline.frames.concat(report.frames));
+    this.viewer.setCalibration(report.summary?.calibration ?? null);
     const judged = timeline.frames.length;
     const isPart = (session.expected ?? judged) > judged;
     const text = `${judged}${isPart ? ` of ${session.expected}` : ''} frames`;

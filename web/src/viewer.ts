@@ -2,13 +2,13 @@
 // Shows one frame in all panes: scene, image, numbers, timeline.
 import { ApiError, fetchScene } from './api/client';
 import type { Packet } from './api/packet';
-import type { FrameReport, Layer, PartName, Session } from './api/types';
+import type { Calibration, FrameReport, Layer, PartName, Session } from './api/types';
 import { seconds } from './model/format';
 import { Throttle } from './model/throttle';
 import { isSoftwareGl, SceneView, type ScenePart } from './scene/scene_view';
 import { TimelineView } from './timeline/timeline_view';
 import { byId, setText } from './view/dom';
-import { frameDetails } from './view/frame_panel';
+import { calibrationDetails, frameDetails } from './view/frame_panel';
 import { ImageView } from './view/image_view';
 import { targetDetails, targetList } from './view/target_panel';
 
@@ -37,6 +37,7 @@ export class Viewer {
   /** The pointer is over the image. */
   inspecting = false;
   packet: Packet | null = null; // of the displayed frame
+  private calibration: Calibration | null = null; // how far the camera has moved; null: not known
   position = 0; // of the displayed frame in the timeline
   private readonly image: ImageView;
   private readonly isLive: boolean;
@@ -112,6 +113,7 @@ export class Viewer {
     ]);
     this.packet = packet;
     this.position = position;
+    if (packet.live) this.calibration = packet.live.calibration ?? null;
     this.scene?.show(packet, this.step, this.selected);
     if (this.scene)
       showSceneNote(sceneNoteOf(packet, packet.live?.missing ?? this.session.missing));
@@ -152,6 +154,11 @@ export class Viewer {
     else this.scene?.hidden.add(part);
     if (part === 'cloud') this.source.partsChanged();
     if (this.packet) this.scene?.show(this.packet, this.step, this.selected);
+  }
+
+  setCalibration(calibration: Calibration | null): void {
+    this.calibration = calibration;
+    this.numbers.request();
   }
 
   /** Removes the robot and its fringe from points and images. */
@@ -200,7 +207,10 @@ export class Viewer {
     const { frame } = packet;
     this.showPosition(frame);
     setText(byId('frame-number'), String(frame.index));
-    byId('frame-details').replaceChildren(frameDetails(frame));
+    byId('frame-details').replaceChildren(
+      frameDetails(frame),
+      calibrationDetails(this.calibration),
+    );
     byId('frame-status').hidden = frame.status === 'ok';
     setText(byId('frame-status'), frame.status);
     this.showTarget(packet);

@@ -44,7 +44,7 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
 
   [[nodiscard]] bool wants_color() const override { return false; }
   void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& depth,
-            const penumbra::FrameReport& report) override;
+            const penumbra::FrameReport& report, const penumbra::Drift& drift) override;
 
  private:
   [[nodiscard]] bool is_selected(const char* name) const;

@@ -207,7 +207,7 @@ class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra:
  public:
   [[nodiscard]] bool wants_color() const override { return false; }
   void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& /*depth*/,
-            const penumbra::FrameReport& /*report*/) override {
+            const penumbra::FrameReport& /*report*/, const penumbra::Drift& /*drift*/) override {
     address = job.image.image->data.data();
   }
   [[nodiscard]] bool wants(penumbra::io::Result /*result*/) const override { return false; }

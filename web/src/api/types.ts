@@ -50,11 +50,21 @@ export interface FrameReport {
   readonly targets: readonly TargetReport[];
 }
 
+/** How far the camera is from its calibration; errors are of 95 %. */
+export interface Calibration {
+  readonly moved_mm: number;
+  readonly moved_error_mm: number;
+  readonly turned_degrees: number;
+  readonly turned_error_degrees: number;
+  readonly has_moved: boolean;
+}
+
 /** Entries of `timing_ms` and `pixels` are null if no frame has them. */
 export interface Summary {
   readonly bad_frames: number;
   readonly timing_ms: Readonly<Record<string, { median: number; p99: number; max: number } | null>>;
   readonly pixels?: Readonly<Record<string, number | null>>;
+  readonly calibration?: Calibration | null;
   readonly missing_links?: readonly unknown[];
   readonly notes?: readonly string[];
   readonly faults?: readonly unknown[];
@@ -72,8 +82,9 @@ export interface Report {
   readonly summary: Summary | null;
 }
 
-export type Layer = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth';
-export type PartName = Layer | 'color' | 'cloud';
+export type PartName = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth' | 'color' | 'cloud';
+/** Residuals are measured minus virtual depth. */
+export type Layer = Exclude<PartName, 'color' | 'cloud'> | 'residual';
 
 export interface CameraInfo {
   readonly width: number;
@@ -122,6 +133,7 @@ export interface LiveStatus {
   readonly age_ms: number;
   readonly dropped: number;
   readonly rate_hz: number;
+  readonly calibration?: Calibration | null;
   readonly missing: readonly string[];
   readonly diagnostics: readonly Diagnostic[];
 }

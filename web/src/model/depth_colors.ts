@@ -42,3 +42,12 @@ export function depthRange(depth: Float32Array): DepthRange | null {
     known[Math.round((percentile / 100) * (known.length - 1))] as number;
   return [at(depthPercentiles[0]), at(depthPercentiles[1])];
 }
+
+/** Metres that have the full colour. */
+export const fullResidual = 0.02;
+
+/** Blue where the measured point is before the robot's surface, red where it is behind. */
+export function residualColor(residual: number): Rgb {
+  const pale = Math.round(255 * (1 - Math.min(1, Math.abs(residual) / fullResidual)));
+  return residual < 0 ? [pale, pale, 255] : [255, pale, pale];
+}

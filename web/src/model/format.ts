@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers with units. An unknown value is a dash, never a zero.
+import type { Calibration } from '../api/types';
 
 export const unknownText = '–';
 
@@ -26,6 +27,15 @@ export const seconds = (value: number | null | undefined, digits = 2): string =>
 
 export const vector = (value: readonly number[] | null | undefined, digits = 3): string =>
   value ? value.map((part) => part.toFixed(digits)).join('  ') : unknownText;
+
+const withError = (value: number, error: number, digits: number): string =>
+  `${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
+
+/** Returns how far the camera has moved and turned. */
+export const movedText = (of: Calibration | null | undefined): string =>
+  of ? `${withError(of.moved_mm, of.moved_error_mm, 1)} mm` : unknownText;
+export const turnedText = (of: Calibration | null | undefined): string =>
+  of ? `${withError(of.turned_degrees, of.turned_error_degrees, 2)}°` : unknownText;
 
 /** Returns nanoseconds since 1970 as UTC; stamps of clocks that start at zero as seconds. */
 export function stamp(nanoseconds: string | null): string {

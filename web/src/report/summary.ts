@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { FrameReport, Report, Summary } from '../api/types';
-import { count, milliseconds, percent, seconds, stamp } from '../model/format';
+import {
+  count,
+  milliseconds,
+  movedText,
+  percent,
+  seconds,
+  stamp,
+  turnedText,
+} from '../model/format';
 import { secondsOf } from '../model/timeline';
 import { element } from '../view/dom';
 
@@ -27,6 +35,7 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     return percent(robot && part !== null ? part / robot : null);
   };
   const { total, of } = medianOf(summary);
+  const calibration = summary?.calibration;
   const bad = summary?.bad_frames ?? frames.filter((frame) => frame.status !== 'ok').length;
   return element(
     'div',
@@ -35,6 +44,16 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     tile('bad frames', count(bad), bad ? statuses(frames) : 'all ok', bad > 0),
     tile('robot pixels', count(robot), `unknown ${fractionOf('unknown')}`),
     tile('front', fractionOf('front'), `beyond ${fractionOf('beyond')}`),
+    ...(calibration
+      ? [
+          tile(
+            'camera moved',
+            movedText(calibration),
+            turnedText(calibration),
+            calibration.has_moved,
+          ),
+        ]
+      : []),
     tile('median per frame', milliseconds(total), of),
   );
 }

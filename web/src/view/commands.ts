@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's commands, by key and by the elements whose data-key names the key.
-import type { Layer, PartName } from '../api/types';
+import type { Layer } from '../api/types';
 import { nextOnset } from '../model/timeline';
 import type { ScenePart } from '../scene/scene_view';
 import type { FrameSource, Viewer } from '../viewer';
 import { byId, setText, svg } from './dom';
+import { partsOf } from './image_view';
 
 /** The value is true with the shift key. */
 type Commands = Readonly<Record<string, (isShift: boolean) => void>>;
 
-const layers: readonly Layer[] = ['overlay', 'labels', 'links', 'vdi', 'depth']; // keys 1 to 5
+const layers: readonly Layer[] = ['overlay', 'labels', 'links', 'vdi', 'depth', 'residual']; // keys 1 to 6
 const shiftStep = 10; // frames
 const speeds = [0.25, 0.5, 1, 2, 4];
 
@@ -55,8 +56,9 @@ function storedCommands(viewer: Viewer, source: FrameSource): Commands {
 /** Removes layers without data from the page, and shows the first one. */
 function layerCommands(viewer: Viewer): Commands {
   const { parts } = viewer.session;
-  const isAvailable = (part: PartName): boolean =>
-    parts.includes(part) || (part === 'overlay' && parts.includes('labels'));
+  const isAvailable = (layer: Layer): boolean =>
+    partsOf(layer).every((part) => parts.includes(part)) ||
+    (layer === 'overlay' && parts.includes('labels'));
   const commands: Record<string, () => void> = {};
   layers.forEach((layer, index) => {
     const key = String(index + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { FrameReport } from '../api/types';
-import { count, milliseconds, percent, stamp } from '../model/format';
+import type { Calibration, FrameReport } from '../api/types';
+import { count, milliseconds, movedText, percent, stamp, turnedText } from '../model/format';
 import { stages } from '../timeline/timeline_view';
 import { element, swatch } from './dom';
 import { fact, factList } from './target_panel';
@@ -42,3 +42,15 @@ export function frameDetails(frame: FrameReport): HTMLElement {
   );
   return body;
 }
+
+/** Returns how far the camera is from its calibration; null: not known. */
+export const calibrationDetails = (calibration: Calibration | null): HTMLElement =>
+  element(
+    'div',
+    'frame-details',
+    element('h4', '', 'Camera, from its calibration'),
+    factList([
+      fact('moved_mm', 'moved', calibration?.moved_mm, movedText(calibration)),
+      fact('turned_degrees', 'turned', calibration?.turned_degrees, turnedText(calibration)),
+    ]),
+  );

@@ -10,6 +10,10 @@ import { Painter, clear, decode, noMeasurement, noRobot } from './painters';
 import { Readout, type Pixel } from './readout';
 import { TargetMarks } from './target_marks';
 
+/** Returns the parts that a layer is drawn from. */
+export const partsOf = (layer: Layer): readonly PartName[] =>
+  layer === 'residual' ? ['vdi', 'depth'] : [layer];
+
 export class ImageView {
   layer: Layer = 'overlay';
   /** The next frame leaves out pixels of the robot and its fringe. */
@@ -42,7 +46,7 @@ export class ImageView {
   requestedParts(available: readonly PartName[]): PartName[] {
     const hasOverlay = available.includes('overlay');
     const layer = this.layer === 'overlay' && !hasOverlay ? 'labels' : this.layer;
-    const parts: PartName[] = ['color', layer];
+    const parts: PartName[] = ['color', ...partsOf(layer)];
     if (this.withoutRobot) parts.push('labels');
     if (this.packet && !this.packet.color) parts.push('depth'); // replaces the colour image
     return parts;
@@ -104,6 +108,8 @@ export class ImageView {
     if (layer === 'labels' && packet.labels) return painter.labels(above, packet.labels);
     if (layer === 'links' && packet.links)
       return painter.links(above, packet.links, this.links.length);
+    if (layer === 'residual' && packet.vdi && packet.depth)
+      return painter.residual(above, packet.vdi, packet.depth);
     const depth = layer === 'vdi' ? packet.vdi : layer === 'depth' ? packet.depth : null;
     if (!depth) return clear(above);
     this.widen(depthRange(depth.values));
@@ -130,7 +136,9 @@ export class ImageView {
       return 'no labels for this frame: cannot remove the robot';
     if (!packet.color)
       return `no colour image for this frame${packet.depth ? ': showing depth in grey' : ''}`;
-    const isDrawn = packet[this.layer] || (this.layer === 'overlay' && packet.labels);
+    const isDrawn =
+      partsOf(this.layer).every((part) => packet[part]) ||
+      (this.layer === 'overlay' && packet.labels);
     return isDrawn ? '' : 'this layer is not available for this frame';
   }
 

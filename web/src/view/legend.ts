@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Layer } from '../api/types';
-import { depthPercentiles, type DepthRange } from '../model/depth_colors';
+import { depthPercentiles, fullResidual, type DepthRange } from '../model/depth_colors';
 import { metres } from '../model/format';
 import { labelStyles, linkColor } from '../model/labels';
 import { byId, element, swatch } from './dom';
@@ -26,6 +26,7 @@ function entriesOf(layer: Layer, links: readonly string[], range: DepthRange | n
   if (layer === 'vdi') return [...depthEntries(range), element('span', 'hint', 'clear: no robot')];
   if (layer === 'depth')
     return [...depthEntries(range), element('span', 'hint', 'striped: no measurement')];
+  if (layer === 'residual') return residualEntries();
   if (layer === 'links')
     return links.map((name, index) => entry(name, `rgb(${linkColor(index).join(' ')})`));
   return labelStyles.flatMap(({ name, color, meaning }) =>
@@ -39,6 +40,14 @@ function depthEntries(range: DepthRange | null): HTMLElement[] {
   const scale = element('span', 'legend-entry', near, element('i', 'depth-bar'), far);
   scale.title = `${low}nd and ${high}th percentile of depth over the frames shown so far`;
   return [scale, element('span', 'hint', `percentiles ${low}–${high}`)];
+}
+
+function residualEntries(): HTMLElement[] {
+  const most = `${1000 * fullResidual} mm`;
+  return [
+    element('span', 'legend-entry', `−${most}`, element('i', 'residual-bar'), `+${most}`),
+    element('span', 'hint', 'red: measured behind the robot, striped: no measurement'),
+  ];
 }
 
 function entry(name: string, color: string, meaning = ''): HTMLElement {

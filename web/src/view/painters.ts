@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the layers of the image view from a packet's parts.
 import type { EncodedImage, Grid } from '../api/packet';
-import { depthColors, type DepthRange } from '../model/depth_colors';
+import { depthColors, residualColor, type DepthRange } from '../model/depth_colors';
 import { isRobot, isSurroundings, labelColor, linkColor, rgbOf, type Rgb } from '../model/labels';
 import { element } from './dom';
 
@@ -22,6 +22,10 @@ const overlayLabels = labelTable(150);
 type Stripes = readonly [number, number];
 export const noRobot: Stripes = [0, 0];
 export const noMeasurement: Stripes = [rgba([38, 38, 38]), rgba([92, 92, 92])];
+const stripe = (stripes: Stripes, at: number, width: number): number => {
+  const diagonal = (at % width) + Math.floor(at / width);
+  return stripes[((diagonal >> 2) & 1) as 0 | 1];
+};
 const whiteDepth = 0.25; // metres: depth shown as white; grey falls with the square root
 const depthTable = Uint32Array.from(depthColors, (color) => rgba(color));
 
@@ -91,10 +95,23 @@ export class Painter {
   ): void {
     const scale = 255 / Math.max(far - near, 1e-6);
     this.fill(canvas, depth, (z, at) => {
-      const diagonal = (at % depth.width) + Math.floor(at / depth.width);
-      if (!(z > 0 && z < Infinity)) return stripes[((diagonal >> 2) & 1) as 0 | 1];
+      if (!(z > 0 && z < Infinity)) return stripe(stripes, at, depth.width);
       const step = Math.round((z - near) * scale);
       return depthTable[Math.max(0, Math.min(255, step))] as number;
+    });
+  }
+
+  /** Draws measured minus virtual depth on the robot; stripes where nothing is measured. */
+  residual(
+    canvas: HTMLCanvasElement,
+    virtual: Grid<Float32Array>,
+    measured: Grid<Float32Array>,
+  ): void {
+    this.fill(canvas, virtual, (z, at) => {
+      if (!(z > 0)) return 0;
+      const depth = measured.values[at] as number;
+      const isMeasured = depth > 0 && depth < Infinity;
+      return isMeasured ? rgba(residualColor(depth - z)) : stripe(noMeasurement, at, virtual.width);
     });
   }
 

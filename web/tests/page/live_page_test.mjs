@@ -219,6 +219,7 @@ test('keys of stored recordings do nothing live, and the help omits them', () =>
       ['3', 'links'],
       ['4', 'vdi'],
       ['5', 'depth'],
+      ['6', 'residual'],
       ['1', 'overlay'],
     ]) {
       await page.keyboard.press(key);

@@ -66,8 +66,8 @@ test('values under the pointer are those of the packet, in each layer', () =>
   }));
 
 /** Reads a packet as documented, without the page's code. */
-async function packetParts() {
-  const query = '/api/frames/3/packet?with=labels,depth,cloud&step=2';
+async function packetParts(names = 'labels,depth,cloud') {
+  const query = `/api/frames/3/packet?with=${names}&step=2`;
   const address = new URL(query, shared.server.url);
   const bytes = Buffer.from(await (await fetch(address)).arrayBuffer());
   const length = bytes.readUInt32LE(0);
@@ -89,16 +89,42 @@ async function valueAt(u, v) {
 }
 const valuesOf = (pixels) => Promise.all(pixels.map(([u, v]) => valueAt(u, v)));
 
+test('residuals are blue before the robot, red behind it, striped without measurement', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    await showsFrame(page, 3);
+    await page.keyboard.press('6');
+    await showsLayer(page, 'residual');
+    const { vdi, depth } = await packetParts('vdi,depth');
+    const shown = await page.evaluate(pixelsOf, 'image-above');
+    const fullColor = 0.02; // metres
+    let seen = 0;
+    for (let at = 0; at < shown.length / 4; ++at) {
+      const [r, g, b, alpha] = shown.slice(4 * at, 4 * at + 4);
+      const virtual = vdi.readFloatLE(4 * at);
+      const measured = depth.readFloatLE(4 * at);
+      const residual = measured - virtual;
+      if (virtual === 0) assert.equal(alpha, 0);
+      else if (measured === 0) assert.ok(r === g && g === b && r < 100);
+      else if (Math.abs(residual) > fullColor)
+        assert.deepEqual([r, g, b], residual < 0 ? [0, 0, 255] : [255, 0, 0]);
+      else assert.ok(residual < 0 ? b === 255 && r === g : r === 255 && g === b);
+      seen += virtual > 0 && measured > 0;
+    }
+    assert.ok(seen > 1000);
+    assert.match(await page.locator('#image-legend').textContent(), /20 mm/);
+  }));
+
 const isSurroundings = (label) => label === 0 || label === 1;
 
-/** Runs in the page: the alpha of each pixel of a canvas. */
-const alphaOf = (id) => {
+/** Runs in the page: red, green, blue and alpha of each pixel of a canvas. */
+const pixelsOf = (id) => {
   const canvas = document.getElementById(id);
   const context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
   context.drawImage(canvas, 0, 0);
-  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-  return Array.from({ length: data.length / 4 }, (_, at) => data[4 * at + 3]);
+  return Array.from(context.getImageData(0, 0, canvas.width, canvas.height).data);
 };
+const alphaOf = async (page, id) =>
+  (await page.evaluate(pixelsOf, id)).filter((_, at) => at % 4 === 3);
 
 test('without the robot, only clear and front points and pixels remain', () =>
   withPage('/#frame=3', desktop, async (page) => {
@@ -126,7 +152,7 @@ test('without the robot, only clear and front points and pixels remain', () =>
       await page.keyboard.press(key);
       await showsLayer(page, layer);
       for (const id of ['image-below', 'image-above']) {
-        const alpha = await page.evaluate(alphaOf, id);
+        const alpha = await alphaOf(page, id);
         const isOpaque = id === 'image-below' || layer === 'depth'; // the overlay is transparent
         const wrong = alpha.filter((a, at) =>
           isSurroundings(parts.labels[at]) ? isOpaque && a !== 255 : a !== 0,
@@ -144,7 +170,7 @@ test('without the robot, only clear and front points and pixels remain', () =>
     await button.click();
     await shownPoints(labels.length);
     assert.equal(await robot.getAttribute('aria-pressed'), 'true');
-    const alpha = await page.evaluate(alphaOf, 'image-above');
+    const alpha = await alphaOf(page, 'image-above');
     assert.ok(alpha.every((a) => a === 255));
   }));
 
