@@ -42,9 +42,9 @@ using Vector = Eigen::Matrix<double, unknowns, 1>;
 using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
 
-constexpr std::array<std::size_t, 3> recent{24, 32, 64};  // views after a possible bump
+constexpr std::array<std::size_t, 6> recent{24, 32, 40, 48, 56, 64};  // views after a possible bump
 constexpr double by_chance =
-    60.0;  // squared Mahalanobis distance of six that chance does not reach
+    56.0;  // squared Mahalanobis distance of six that chance does not reach
 
 /// A link in one place: what puts it out of place there is the same for all of its residuals.
 struct View {
