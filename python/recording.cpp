@@ -79,7 +79,7 @@ void bind_description(py::module_& m) {
               Field{"rectified", &C::rectified, "The images are free of distortion already."},
               Field{"parent", &C::parent, "The link that the camera sits on."},
               Field{"T_parent_camera", &C::T_parent_camera,
-                    "Pose of the optical frame in the parent link, metres."},
+                    "Pose of the optical frame in the parent link, metres; None: not known."},
               Field{"range", &C::range, "None: not written there."},
               Field{"tolerance", &C::tolerance, "None: not written there."},
               Field{"front_min_width", &C::front_min_width, "Pixels; None: not written there."},

@@ -265,6 +265,7 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
   check_input(app, calibrate.input.input);
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
+  calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
 }
 
 void check_run(const CLI::App& app, RunArguments& run) {

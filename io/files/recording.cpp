@@ -115,8 +115,14 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
   RecordingCamera camera{.info = info,
                          .camera = read_camera_info(info, is_rectified),
                          .rectified = is_rectified,
-                         .parent = node.at("parent").text(),
-                         .T_parent_camera = read_pose_csv(file_of(node.at("pose"), folder))};
+                         .parent = {},
+                         .T_parent_camera = {}};
+  if (const YamlNode* pose = node.find("pose")) {
+    camera.parent = node.at("parent").text();
+    camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
+  } else if (const YamlNode* parent = node.find("parent")) {
+    camera.parent = parent->text();
+  }
   read_label_rule(node, camera);
   return camera;
 }
@@ -157,13 +163,16 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
 }
 
 PipelineConfig Recording::pipeline_config() const {
+  if (!camera.T_parent_camera)
+    throw InputError(file.string() +
+                     ": camera: key 'pose' is missing; 'penumbra calibrate --search' finds it");
   PipelineConfig config;
   if (camera.sensor) config.rule = LabelRule::for_sensor(*camera.sensor);
   if (camera.tolerance) config.rule.tolerance = *camera.tolerance;
   if (camera.front_min_width) config.rule.front_min_width = *camera.front_min_width;
   if (camera.fringe_reach) config.rule.fringe_reach = *camera.fringe_reach;
   config.camera_parent = camera.parent;
-  config.T_parent_camera = camera.T_parent_camera;
+  config.T_parent_camera = *camera.T_parent_camera;
   return config;
 }
 

@@ -25,8 +25,9 @@ struct RecordingCamera {
   std::filesystem::path info;  ///< the camera_info file
   Camera camera;               ///< `range` holds camera.range where that is written
   bool rectified = false;
-  std::string parent;                       ///< the link that carries the camera
-  Eigen::Isometry3d T_parent_camera;        ///< pose of the optical frame in the parent link
+  std::string parent;  ///< the link that carries the camera; empty: the root, or not known
+  /// Pose of the optical frame in the parent link; only `calibrate` does without.
+  std::optional<Eigen::Isometry3d> T_parent_camera;
   std::optional<DepthRange> range = {};     ///< metres
   std::optional<Tolerance> tolerance = {};  ///< of LabelRule
   std::optional<int> front_min_width = {};  ///< of LabelRule, pixels
@@ -56,7 +57,8 @@ struct Recording {
   /// values, a pose that is not rigid, and for what is not supported yet.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
 
-  /// Returns a pipeline's defaults with the recording's camera pose and label rule.
+  /// Returns a pipeline's defaults with the recording's camera pose and label rule. Throws
+  /// InputError if it has no camera pose.
   [[nodiscard]] PipelineConfig pipeline_config() const;
 };
 

@@ -58,6 +58,8 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
   if (mount) return *mount;
   // The camera is not on the robot, but both are below one frame.
   const std::string frame = mounted_frame(wanted, frame_of_images);
+  if (!options.needs_camera_pose)
+    return {"", robot.links().front(), Eigen::Isometry3d::Identity(), "nothing yet"};
   if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
     refuse_mount(options, reader.scene(), frame);
   return mount_by_root(robot, wanted, frame_of_images);

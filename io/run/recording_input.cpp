@@ -62,7 +62,7 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReade
 
 void check_parent(const Recording& recording, const Robot& robot) {
   const std::string& parent = recording.camera.parent;
-  if (robot.find_link(parent)) return;
+  if (parent.empty() || robot.find_link(parent)) return;
   const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
   throw InputError(recording.file.string() + ": camera.parent: '" + parent +
                    "' is no link of the robot" + near_names(parent, known));
@@ -103,6 +103,8 @@ RunInput open_recording_input(const InputOptions& options) {
   if (!options.bag_option.empty())
     throw InputError(options.bag_option + ": is for bags, and " + options.path.string() +
                      " is a recording folder, which says this itself; leave it out");
+  if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
+    recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
   options.apply_to(recording.robot);
   Robot robot = Robot::load(recording.urdf, recording.robot);
   FrameReader reader(recording, robot);

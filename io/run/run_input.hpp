@@ -33,6 +33,7 @@ struct InputOptions {
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
   bool allow_missing_meshes = false;  ///< likewise
   std::vector<ExtraMesh> extra;       ///< likewise
+  bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
   BagOptions bag;

@@ -86,5 +86,24 @@ TEST_F(CalibrateTest, RefusesTooFewFramesAndOtherRobots) {
   EXPECT_FALSE(fs::exists(path("out/camera_pose.csv")));
 }
 
+TEST(CalibrateOfAnUnknownCamera, IsSearchedFor) {
+  const TemporaryFolder folder;
+  const fs::path example = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
+  fs::copy(example, folder.path() / "in", fs::copy_options::recursive);
+  edit_file(folder.path() / "in/recording.yaml", "  parent: base_link", "  #");
+  edit_file(folder.path() / "in/recording.yaml", "  pose: camera_pose.csv", "  #");
+  for (const char* command : {"run", "calibrate"}) {
+    const Outcome refused = penumbra({command, folder.path() / "in", "-o", folder.path() / "no"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("calibrate --search"), std::string::npos) << refused.err;
+  }
+  const fs::path out = folder.path() / "out";
+  ASSERT_EQ(penumbra({"calibrate", folder.path() / "in", "--search", "-o", out}).status, 0);
+  const Eigen::Isometry3d truth = io::read_pose_csv(example / "camera_pose.csv");
+  const Eigen::Isometry3d found = io::read_pose_csv(out / "camera_pose.csv");
+  constexpr double near = 0.003;  // metres; docs/calibration.md: the robot moves in most frames
+  EXPECT_LT((found.translation() - truth.translation()).norm(), near);
+}
+
 }  // namespace
 }  // namespace penumbra::test

@@ -85,7 +85,7 @@ TEST_F(RecordingFolder, OpensByFolderAndByFile) {
     EXPECT_EQ(recording.file, file("recording.yaml"));
     EXPECT_EQ(recording.urdf, file("arm.urdf"));
     EXPECT_EQ(recording.camera.camera.intrinsics, Intrinsics(8, 6, 9, 9, 3.5, 2.5));
-    EXPECT_EQ(recording.camera.T_parent_camera.translation(), Eigen::Vector3d(0.5, 0, -1));
+    EXPECT_EQ(recording.camera.T_parent_camera->translation(), Eigen::Vector3d(0.5, 0, -1));
     EXPECT_EQ(recording.frames.depth.file(5), file("depth_5.png"));
     EXPECT_EQ(recording.frames.color.value().file(5), file("color_5.png"));
   }

@@ -46,7 +46,7 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
     if (data.status != FrameStatus::ok) throw InputError(data.message);
     robot.forward_kinematics(data.positions, poses);
     const Eigen::Isometry3d T_camera_root =
-        (poses[parent] * recording.camera.T_parent_camera).inverse();
+        (poses[parent] * *recording.camera.T_parent_camera).inverse();
     for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
     frames.push_back(real_frame(intrinsics, renderer->render(poses),
                                 std::get<Image<std::uint16_t>>(data.depth)));

@@ -8,6 +8,8 @@
 
 #include <geometry_msgs/msg/pose_stamped.hpp>
 #include <penumbra_msgs/msg/keypoints.hpp>
+#include <rclcpp/serialization.hpp>
+#include <rclcpp/version.h>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/compressed_image.hpp>
 #include <sensor_msgs/msg/image.hpp>
@@ -140,6 +142,23 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_serialised(std::size_t top
       options);
 }
 
+// A latched message of the same process comes only that way, if it is older than this subscription.
+template <typename M>
+rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_latched(std::size_t topic) {
+  auto options = options_of(topic);
+#if !RCLCPP_VERSION_GTE(28, 0, 0)  // Jazzy; before, latched topics refuse it
+  options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+#endif
+  return node_.create_subscription<M>(
+      links_[topic].topic.name, qos_of(topic),
+      [this, topic](std::shared_ptr<const M> message, const rclcpp::MessageInfo& info) {
+        const auto bytes = std::make_shared<rclcpp::SerializedMessage>();
+        rclcpp::Serialization<M>().serialize_message(message.get(), bytes.get());
+        runner_.receive(topic, {bytes_of(*bytes), bytes, publisher_of(info)});
+      },
+      options);
+}
+
 // Images are received as such, because a driver in the same process hands them over without a copy.
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_images(std::size_t topic) {
   return node_.create_subscription<Image>(
@@ -153,7 +172,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_images(std::size_t topic) 
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
   using Subscribe = rclcpp::SubscriptionBase::SharedPtr (Inputs::*)(std::size_t);
   static const std::map<std::string, Subscribe> by_type{
-      {"std_msgs/msg/String", &Inputs::subscribe_serialised<std_msgs::msg::String>},
+      {"std_msgs/msg/String", &Inputs::subscribe_latched<std_msgs::msg::String>},
       {"sensor_msgs/msg/JointState", &Inputs::subscribe_serialised<sensor_msgs::msg::JointState>},
       {"tf2_msgs/msg/TFMessage", &Inputs::subscribe_serialised<tf2_msgs::msg::TFMessage>},
       {"sensor_msgs/msg/CameraInfo", &Inputs::subscribe_serialised<sensor_msgs::msg::CameraInfo>},
@@ -167,7 +186,10 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
       {"penumbra_msgs/msg/Keypoints", &Inputs::subscribe_serialised<penumbra_msgs::msg::Keypoints>},
       {"geometry_msgs/msg/PoseStamped",
        &Inputs::subscribe_serialised<geometry_msgs::msg::PoseStamped>}};
-  return (this->*by_type.at(links_[topic].topic.type))(topic);
+  const penumbra::io::InputTopic& of = links_[topic].topic;
+  if (of.latched && of.type == "tf2_msgs/msg/TFMessage")
+    return subscribe_latched<tf2_msgs::msg::TFMessage>(topic);
+  return (this->*by_type.at(of.type))(topic);
 }
 
 }  // namespace penumbra_ros

@@ -37,6 +37,8 @@ class Inputs {
   void find_publishers(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe(std::size_t topic);
   template <typename M>
+  rclcpp::SubscriptionBase::SharedPtr subscribe_latched(std::size_t topic);
+  template <typename M>
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_serialised(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_images(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionOptions options_of(std::size_t topic);

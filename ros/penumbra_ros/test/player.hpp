@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <rclcpp/rclcpp.hpp>
+#include <rclcpp/version.h>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
@@ -31,7 +32,9 @@ class Player {
         robot(penumbra::Robot::load(recording.urdf, recording.robot)),
         reader(recording, robot) {
     rclcpp::PublisherOptions latched_options;
+#if !RCLCPP_VERSION_GTE(28, 0, 0)  // Jazzy; before, latched topics refuse it
     latched_options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+#endif
     const auto latched = rclcpp::QoS(1).transient_local();
     description_ = node->create_publisher<std_msgs::msg::String>("robot_description", latched,
                                                                  latched_options);
@@ -48,8 +51,8 @@ class Player {
     auto& transform = mount.transforms.emplace_back();
     transform.header.frame_id = recording.camera.parent;
     transform.child_frame_id = frame_id;
-    const Eigen::Vector3d at = recording.camera.T_parent_camera.translation();
-    const Eigen::Quaterniond turn(recording.camera.T_parent_camera.linear());
+    const Eigen::Vector3d at = recording.camera.T_parent_camera->translation();
+    const Eigen::Quaterniond turn(recording.camera.T_parent_camera->linear());
     transform.transform.translation.x = at.x();
     transform.transform.translation.y = at.y();
     transform.transform.translation.z = at.z();
