@@ -4,6 +4,8 @@
 #include <iostream>
 #include <utility>
 
+#include <penumbra/base/error.hpp>
+
 #include <apps/penumbra/text.hpp>
 #include <io/files/printable.hpp>
 

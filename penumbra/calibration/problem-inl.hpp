@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/render/depth_renderer.hpp>
