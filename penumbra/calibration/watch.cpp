@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <map>
 #include <numbers>
 #include <variant>
 #include <vector>
@@ -34,6 +33,7 @@ constexpr std::size_t view_frames = 8;
 constexpr double same_view = 0.01;    // metres
 constexpr double independent = 10.0;  // residuals of one view count as so many, at most
 constexpr std::size_t most_views = 256, least_views = 24;
+constexpr double least_places = 12.0;
 constexpr std::size_t solve_period = 5;  // frames
 
 // The camera's motion, depth offset and scale, time offset.
@@ -74,7 +74,7 @@ struct Prior {
 
 /// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
 /// Huber 1967), with a factor for few of them.
-std::optional<Solution> solve(const std::vector<const View*>& views, const Prior& prior) {
+std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior) {
   Matrix information = prior.information;
   Vector gradient = -prior.information * prior.value;
   for (const View* view : views) {
@@ -83,14 +83,19 @@ std::optional<Solution> solve(const std::vector<const View*>& views, const Prior
   }
   const Eigen::LDLT<Matrix> solver(information);
   Solution solution{.value = -solver.solve(gradient), .covariance = {}};
-  std::map<std::size_t, Vector> places;
-  for (const View* view : views)
-    places.try_emplace(view->place, Vector::Zero()).first->second +=
-        view->weight() * (view->gradient + view->information * solution.value);
-  const auto count = static_cast<double>(places.size());
-  if (places.size() < least_views / 2 || !solution.value.allFinite()) return std::nullopt;
-  Matrix meat = prior.information;
-  for (const auto& [place, sum] : places) meat += count / (count - 7.0) * sum * sum.transpose();
+  if (!solution.value.allFinite()) return std::nullopt;
+  std::ranges::sort(views, {}, &View::place);
+  Matrix meat = Matrix::Zero();
+  double count = 0.0;
+  for (auto view = views.begin(); view != views.end(); ++count) {
+    Vector sum = Vector::Zero();
+    for (const std::size_t place = (*view)->place; view != views.end() && (*view)->place == place;
+         ++view)
+      sum += (*view)->weight() * ((*view)->gradient + (*view)->information * solution.value);
+    meat += sum * sum.transpose();
+  }
+  if (count < least_places) return std::nullopt;
+  meat = prior.information + count / (count - 7.0) * meat;
   const Matrix inverse = solver.solve(Matrix::Identity());
   solution.covariance = inverse * meat * inverse.transpose();
   return solution;
