@@ -142,9 +142,10 @@ class WatchStudy {
 
 int study_all(int argc, char** argv) {
   const std::size_t frames = argc > 1 ? std::stoull(argv[1]) : 20000;
-  std::vector<std::vector<std::string>> rows{
-      {"robot", "frames", "false alarms", "bumps told", "frames until told, median, most",
-       "frames off, most", "drifts told", "minutes, median, most", "watch, us", "pipeline, us"}};
+  std::vector<std::vector<std::string>> rows{{"robot", "frames", "false alarms", "bumps detected",
+                                              "frames until then, median, most", "frames off, most",
+                                              "drifts detected", "minutes, median, most",
+                                              "watch, us", "pipeline, us"}};
   for (const RobotChoice& robot : robots()) {
     rows.push_back(WatchStudy(robot, frames).run(robot.name));
     for (const std::string& cell : rows.back()) std::cout << cell << "  ";

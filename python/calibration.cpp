@@ -173,7 +173,7 @@ void bind_calibration(py::module_& m) {
         "depth and joints (or T_root_link), between which the robot moves. camera: of images "
         "without distortion. initial: a guess of the camera's pose in its parent link, at most "
         "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
-        "the colour image shows the robot. motion: frames with stamps and poses, in time's order, "
+        "the colour image shows the robot. motion: frames with stamps and poses "
         "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
         "offset is estimated, too. Raises InputError for too few frames; any other failure is "
         "Calibration.faults.");

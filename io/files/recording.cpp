@@ -117,12 +117,9 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
                          .rectified = is_rectified,
                          .parent = {},
                          .T_parent_camera = {}};
-  if (const YamlNode* pose = node.find("pose")) {
-    camera.parent = node.at("parent").text();
-    camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
-  } else if (const YamlNode* parent = node.find("parent")) {
-    camera.parent = parent->text();
-  }
+  const YamlNode* pose = node.find("pose");
+  if (pose != nullptr || node.find("parent") != nullptr) camera.parent = node.at("parent").text();
+  if (pose != nullptr) camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
   read_label_rule(node, camera);
   return camera;
 }

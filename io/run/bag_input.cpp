@@ -46,7 +46,8 @@ Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
 
 CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, const Robot& robot,
                          const std::string& frame_of_images) {
-  const MountOptions wanted = mount_options(options.bag);
+  MountOptions wanted = mount_options(options.bag);
+  if (!options.needs_camera_pose && wanted.parent) wanted.pose = Eigen::Isometry3d::Identity();
   if (!wanted.pose && mounted_frame(wanted, frame_of_images).empty())
     throw InputError(options.path.string() +
                      ": the images do not name their frame; give it with --camera-frame");

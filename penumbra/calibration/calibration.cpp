@@ -287,6 +287,7 @@ std::vector<NearbyPoses> nearby_poses(const Trajectory& trajectory, std::int64_t
     const double seconds = 1e-9 * static_cast<double>(time - stamp);
     if (std::abs(seconds) <= nearby) found.push_back({seconds, poses});
   }
+  std::ranges::sort(found, {}, &NearbyPoses::seconds);
   if (found.empty() || found.front().seconds > -least_nearby || found.back().seconds < least_nearby)
     return {};
   return found;

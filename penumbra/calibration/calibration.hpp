@@ -24,7 +24,7 @@ struct NearbyPoses {
   std::vector<Eigen::Isometry3d> T_root_link;
 };
 
-/// The links' poses in the root at stamps (ns), in time's order.
+/// The links' poses in the root at stamps (ns), in any order.
 using Trajectory = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
 
 /// Returns the poses up to 0.15 s before and after an image's stamp; none if they reach less than

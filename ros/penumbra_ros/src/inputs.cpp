@@ -142,7 +142,8 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_serialised(std::size_t top
       options);
 }
 
-// A latched message of the same process comes only that way, if it is older than this subscription.
+// rclcpp keeps latched messages of the same process out of the middleware: a later subscription
+// gets them by intra-process communication alone.
 template <typename M>
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_latched(std::size_t topic) {
   auto options = options_of(topic);

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { FrameReport, Report, Summary } from '../api/types';
-import {
-  count,
-  milliseconds,
-  movedText,
-  percent,
-  seconds,
-  stamp,
-  turnedText,
-} from '../model/format';
+import { count, milliseconds, percent, seconds, stamp, turnedText } from '../model/format';
 import { secondsOf } from '../model/timeline';
 import { element } from '../view/dom';
 
@@ -48,8 +40,8 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
       ? [
           tile(
             'camera moved',
-            movedText(calibration),
-            turnedText(calibration),
+            `${calibration.moved_mm.toFixed(1)} mm`,
+            `± ${calibration.moved_error_mm.toFixed(1)} mm, ${turnedText(calibration)}`,
             calibration.has_moved,
           ),
         ]
