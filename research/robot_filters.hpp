@@ -45,7 +45,7 @@ struct RobotFilter {
   bool (*removes)(const Cell& cell, const View& view, int u, int v);
 };
 
-/// docs/experiments.md describes them.
+/// research/README.md describes them.
 inline constexpr std::array<RobotFilter, 3> robot_filters{
     {{"height", "Height threshold", above_plane},
      {"silhouette", "Silhouette subtraction",

@@ -1,9 +1,9 @@
 #!/usr/bin/env -S python3 -B
 # SPDX-License-Identifier: Apache-2.0
-"""The experiments' tables of docs/experiments.md, from what `penumbra_research` measured.
+"""The experiments' tables of research/README.md, from what `penumbra_research` measured.
 
 experiment_tables.py METRICS.json...: prints them, and the figures in README.md.
-experiment_tables.py --into docs/experiments.md METRICS.json...: replaces the text between
+experiment_tables.py --into research/README.md METRICS.json...: replaces the text between
 "<!-- begin NAME -->" and "<!-- end NAME -->" there.
 """
 import argparse

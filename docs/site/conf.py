@@ -20,7 +20,8 @@ version = release = re.search(r"project\(Penumbra VERSION ([0-9.]+)",
 copyright = "the Penumbra authors"
 
 root_doc = "README"
-include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "examples/*/README.md"]
+include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "examples/*/README.md",
+                    "research/README.md"]
 exclude_patterns = ["build*", "out*", "web", ".git", ".cache"]
 extensions = ["myst_parser", "breathe"]
 myst_heading_anchors = 4

@@ -5,8 +5,7 @@ PAGES = {
     "Start": ["getting-started", "method"],
     "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "calibration"],
     "Details": ["recording", "tracking", "time"],
-    "Figures": ["performance", "experiments"],
-    "Reference": ["architecture"],
+    "Reference": ["performance", "architecture"],
 }
 
 
@@ -16,6 +15,6 @@ def contents():
     for caption, pages in PAGES.items():
         names = "\n".join(f"docs/{page}" for page in pages)
         if caption == "Reference":
-            names += "\nexamples/arm_over_table/README\nCHANGELOG"
+            names += "\nresearch/README\nexamples/arm_over_table/README\nCHANGELOG"
         text += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{names}\n```\n"
     return text

@@ -20,7 +20,7 @@ using detail::PoseFilter;
 
 constexpr const char* pose_config_name = "PoseTrackerConfig";
 constexpr double weight_power = 5.0;  // of the share that was seen
-constexpr double least_seen = 0.4;    // accepting less makes no error smaller (docs/experiments.md)
+constexpr double least_seen = 0.4;    // accepting less makes no error smaller (research/README.md)
 
 void check_direction(const PoseTrackerConfig& config) {
   std::ostringstream message;

@@ -107,7 +107,7 @@ struct TrackedPose {
 ///
 /// If the fraction s of the target was seen, its estimate has the weight w = s^5 (0.4^5 if less was
 /// seen): its covariance is divided by w and its gate multiplied by w, because such estimates are
-/// less accurate and more often wrong. The power is measured (docs/experiments.md).
+/// less accurate and more often wrong. The power is measured (research/README.md).
 ///
 /// Estimates may be late and out of order. The result depends on which estimates arrived, not on
 /// when, as long as none was refused_late. A late estimate may therefore turn later ones into

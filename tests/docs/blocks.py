@@ -8,7 +8,7 @@ from typing import List, NamedTuple
 
 ROOT = pathlib.Path(__file__).parents[2]
 DOCUMENTS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"),
-                    *(ROOT / "examples").glob("*/README.md")])
+                    *(ROOT / "examples").glob("*/README.md"), ROOT / "research" / "README.md"])
 
 
 class Block(NamedTuple):

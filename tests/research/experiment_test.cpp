@@ -45,7 +45,7 @@ double value(const json& lane, const std::string& method, const std::string& mea
   return lane.at("methods").at(method).at("summary").at(measure).at("value").get<double>();
 }
 
-// docs/experiments.md has 4 and 7 mm over 30 seeds: a tenth or less of the methods without a
+// research/README.md has 4 and 7 mm over 30 seeds: a tenth or less of the methods without a
 // tracker. Other methods with a tracker are within 10 % with a careful estimator and worse with an
 // eager one. Two seeds spread more: with an eager estimator up to 0.15 of the methods without a
 // tracker.
