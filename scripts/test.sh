@@ -165,12 +165,15 @@ check format check_format
 check "page is what its sources give" web/check_bundle.sh
 check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
+page=
 # Other tests cover the same.
 once_more='^LiveRenderers[.]ADevice'
 if $full; then once_more='^$'; fi
 check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
-  "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 &&
+  "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && {
+  $full || { page >build/release/page.log 2>&1 & page=$!; }
   run_tests release -j "$waiting" -E "$once_more"
+}
 if $full; then
   check "page in a browser" page
   check "docs" scripts/docs.sh build/docs/html build/release
@@ -184,15 +187,12 @@ if $full; then
   fi
 fi
 test_ros
-$full || { page >build/release/page.log 2>&1 & page=$!; }
 asan_is_built=false tsan_is_built=false
 check "build (asan)" build asan all "${sanitizer_scope[@]}" "$asan_rooms" "$not_in_asan" \
   "-DPENUMBRA_SANITIZE=address,$undefined" &&
   asan_is_built=true
 check "build (tsan)" build tsan threaded_tests "${sanitizer_scope[@]}" "$tsan_rooms" "$not_in_tsan" &&
   tsan_is_built=true
-$full || check "page in a browser, beside these builds" page_ended "$page"
-
 # Makes a whole recording again: takes minutes and adds no code.
 made_again='^Example[.]IsReproducible$'
 # ThreadSanitizer runs the threaded tests. More meshes of the same robots, more scenes in OpenGL and
@@ -207,6 +207,7 @@ one_thread+='|RenderersMadeAndDropped'
 if $full; then many=$made_again one_thread=$made_again; fi
 ! $asan_is_built || run_tests asan -E "$many"
 ! $tsan_is_built || run_tests tsan -L threaded -E "$one_thread"
+[[ -z $page ]] || check "page in a browser, beside these tests" page_ended "$page"
 if $full && check "build (fuzz)" build fuzz fuzzers "${everything[@]}" "$avx512"; then
   seeds=build/fuzz/seeds
   mkdir -p "$seeds"

@@ -51,7 +51,7 @@ def test_the_time_between_images_and_joints():
     found = calibrated(images, TRUTH, motion=motion)
     error = abs(found.time_offset.value + late)
     assert found.is_good and error < 0.003
-    assert calibrated(images, TRUTH).time_offset is None
+    assert calibrated(images[:3], TRUTH).time_offset is None
     with pytest.raises(ValueError, match=r"motion\[0\]: needs a stamp"):
         calibrated(images, TRUTH, motion=[motion[0].replace(stamp=None)])
     with pytest.raises(penumbra.InputError, match="poses before and after"):

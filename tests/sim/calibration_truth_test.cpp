@@ -18,13 +18,13 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-// Ten frames of 30 seeds have medians of 0.7 mm and 0.03 degrees (bench/calibration_study).
+// Three frames of 30 seeds are within 3.1 mm and 0.12 degrees in 95 % (bench/calibration_study).
 constexpr double position_limit = 0.004;         // metres
 constexpr double rotation_limit = 0.2 * degree;  // rad
 
 /// Frames of the scene "random": the arm in new poses, with things before, behind and beside it.
 struct Seen {
-  explicit Seen(std::uint64_t seed, std::size_t count = 10)
+  explicit Seen(std::uint64_t seed, std::size_t count = 6)
       : simulation("random", without_color(seed, true)), random(seed, 5) {
     sim::SimFrame frame;
     while (frames.size() < count && simulation.next(frame)) {
@@ -86,7 +86,7 @@ TEST_F(CalibrationTruth, ARoughGuessIsEnough) {
 }
 
 TEST_F(CalibrationTruth, TheCameraIsFoundWithoutAGuess) {
-  Seen seen(4, 6);
+  Seen seen(4);
   seen.expect_right(seen.calibrated({.camera_parent = "", .initial = {}}));
 }
 
@@ -101,7 +101,7 @@ TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
 }
 
 TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
-  Seen seen(6);
+  Seen seen(6, 3);
   for (CalibrationFrame& frame : seen.frames)
     std::fill_n(frame.depth.data(), frame.depth.size(), 3.0F);
   for (const std::optional<Eigen::Isometry3d>& initial :
