@@ -23,8 +23,8 @@ install(TARGETS ${libraries} EXPORT PenumbraTargets
 set(public_headers
   base/error.hpp base/image.hpp base/stamps.hpp
   mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
-  time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp time/stamped_track.hpp
-  time/transform_buffer.hpp
+  time/attachments.hpp time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp
+  time/stamped_track.hpp time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
   camera/registration.hpp
   render/depth_renderer.hpp

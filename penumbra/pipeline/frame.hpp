@@ -13,6 +13,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/pipeline/target.hpp>
+#include <penumbra/time/attachments.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra {
@@ -24,7 +25,8 @@ enum class FrameStatus {
   ok,
   missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
   stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
-  missing_link,       ///< rendered without a link whose mesh could not be read
+  missing_link,       ///< rendered without a link whose mesh could not be read, or without an
+                      ///< attached body
   missing_depth,      ///< no depth image: every robot pixel is unknown
   bad_depth,          ///< an unusable depth image, or one without any measurement within the
                       ///< sensor's range: every robot pixel is unknown
@@ -63,6 +65,9 @@ struct JointInput {
   JointInput(const JointAnswer& answer);       // NOLINT(google-explicit-constructor)
 };
 
+/// Bodies that may be attached at once.
+inline constexpr std::size_t max_attached = 32;
+
 /// The input of Pipeline::process. Refers to the caller's memory, which must live during the call.
 struct Frame {
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
@@ -74,6 +79,9 @@ struct Frame {
   /// The camera's pose in its parent link in this frame; null: the configuration's.
   std::optional<Eigen::Isometry3d> T_parent_camera = {};
   std::span<const Target> targets = {};
+  /// What the robot's links carry, at most max_attached bodies. One that cannot be drawn, because
+  /// it has no mesh or its link's pose is not known, is a `missing_link`.
+  std::span<const AttachedBody> attached = {};
 
   /// Links whose pose is unknown although the robot's is known: they have no geometry, and the
   /// camera is not mounted on them. Targets and estimates given in them are not judged. Indices
@@ -121,7 +129,8 @@ struct FrameReport {
   PixelCounts pixels;
   StageTimes timing;
 
-  /// Poses of the camera and of each link; null and empty if the robot's pose is unknown.
+  /// Poses of the camera and of each of the robot's links; null and empty if the robot's pose is
+  /// unknown.
   std::optional<Eigen::Isometry3d> T_root_camera;
   std::span<const Eigen::Isometry3d> T_root_link;
 
@@ -141,8 +150,12 @@ struct FrameReport {
 
   std::span<const TargetReport> targets;  ///< in the order of the frame's targets
 
-  std::span<const std::string> links;  ///< names; links[i] has the value i + 1 in link images
-  std::span<const std::string> missing_links;  ///< links rendered without all of their geometry
+  /// Names of the robot's links, then of attached bodies; links[i] has the value i + 1 in link
+  /// images. A body keeps its place until max_attached others were attached after it.
+  std::span<const std::string> links;
+  std::span<const std::size_t> attached;  ///< indices into `links` of this frame's attached bodies
+  /// Links rendered without all of their geometry, and attached bodies that are not rendered.
+  std::span<const std::string> missing_links;
 };
 
 }  // namespace penumbra

@@ -15,6 +15,7 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/attached_bodies-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/labelled_frame-inl.hpp>
@@ -25,7 +26,8 @@
 
 namespace penumbra {
 
-/// Renders the robot and labels the depth image, in the configured image space.
+/// Renders the robot with what is attached to it and labels the depth image, in the configured
+/// image space.
 class FrameLabeller {
  public:
   /// Robot and rectification (null without lens distortion) must outlive this.
@@ -50,12 +52,13 @@ class FrameLabeller {
  private:
   FrameStatus check(LabelledFrame& frame);
   [[nodiscard]] LabelView unknown_labels() const;
-  VirtualDepthView draw(std::span<const Eigen::Isometry3d> T_camera_link);
+  VirtualDepthView draw(const PoseResult& poses);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
 
   Intrinsics render_intrinsics_;
   Intrinsics intrinsics_;
   std::unique_ptr<DepthRenderer> renderer_;
+  AttachedBodies attached_;
   std::optional<RawImages> raw_images_;            // with distortion, ImageSpace::raw
   std::optional<RectifiedDepth> rectified_depth_;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered_;       // with distortion

@@ -49,6 +49,7 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
       intrinsics_(config.image == ImageSpace::raw ? camera.intrinsics : render_intrinsics_),
       renderer_(make_depth_renderer(config.backend, render_intrinsics_, bodies_of(robot),
                                     config.renderer)),
+      attached_(render_intrinsics_, config),
       classifier_(intrinsics_.width(), intrinsics_.height(), rule_of(camera, config),
                   config.renderer.isa),
       depth_size_(camera.intrinsics.width(), camera.intrinsics.height()),
@@ -79,7 +80,7 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   images.is_blind = !has_depth(frame.status);
   {
     const StageTimer timer(frame.render_ms);
-    images.virtual_depth = draw(poses.T_camera_link);
+    images.virtual_depth = draw(poses);
   }
   {
     const StageTimer timer(frame.classify_ms);
@@ -122,8 +123,9 @@ LabelView FrameLabeller::unknown_labels() const {
   return view;
 }
 
-VirtualDepthView FrameLabeller::draw(std::span<const Eigen::Isometry3d> T_camera_link) {
-  const VirtualDepthView drawn = renderer_->render(T_camera_link);
+VirtualDepthView FrameLabeller::draw(const PoseResult& poses) {
+  VirtualDepthView drawn = renderer_->render(poses.T_camera_link);
+  if (!poses.attached.empty()) drawn = attached_.add_to(drawn, poses.attached);
   return raw_images_ ? raw_images_->virtual_depth(drawn) : drawn;
 }
 

@@ -35,6 +35,7 @@ Frame QueuedFrame::frame() const {
   frame.T_parent_camera = pose.T_parent_camera;
   frame.uncertain_links = pose.uncertain_links;
   frame.uncertain_reason = pose.uncertain_reason;
+  frame.attached = pose.attached;
   return frame;
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,13 @@
 
 namespace penumbra {
 
+/// An attached body at its place.
+struct PlacedBody {
+  std::size_t link;  ///< index into FrameReport::links
+  std::shared_ptr<const PreparedMesh> mesh;
+  Eigen::Isometry3d T_camera_body;
+};
+
 /// Poses of the robot and its camera at a frame's stamp, or the fault that makes them unknown.
 struct PoseResult {
   std::optional<std::int64_t> stamp;                ///< nanoseconds
@@ -27,6 +35,8 @@ struct PoseResult {
   std::vector<Eigen::Isometry3d> T_root_link = {};  ///< valid if known()
   std::vector<Eigen::Isometry3d> T_camera_link = {};  ///< valid if known()
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
+  std::vector<PlacedBody> attached = {};        ///< valid if known()
+  std::vector<std::string> missing_links = {};  ///< as in FrameReport
   std::vector<std::size_t> uncertain_links = {};
   std::string uncertain_reason = {};
   std::optional<double> kinematics_ms = {};

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/target_views-inl.hpp>
+#include <penumbra/pipeline/object_renderers-inl.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra {
@@ -62,11 +62,11 @@ struct ObjectRenderers::Kept {
   std::size_t last_use = 0;
 };
 
-ObjectRenderers::ObjectRenderers(const Intrinsics& intrinsics, Backend backend,
-                                 const RendererOptions& options, const Rectification* rectification)
+ObjectRenderers::ObjectRenderers(const Intrinsics& intrinsics, const PipelineConfig& config,
+                                 const Rectification* rectification)
     : intrinsics_(intrinsics),
-      backend_(backend),
-      options_(options),
+      backend_(config.backend == Backend::reference ? Backend::reference : Backend::cpu),
+      options_{.threads = 1, .isa = config.renderer.isa},
       rectification_(rectification) {}
 ObjectRenderers::~ObjectRenderers() = default;
 
@@ -106,15 +106,30 @@ void ObjectRenderers::clear_box() {
 
 VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                        const Eigen::Isometry3d& T_camera_mesh) {
-  for (const auto& kept : kept_)
-    if (mesh && kept->mesh == mesh) return render(*kept, T_camera_mesh);
+  if (Kept* const kept = find(mesh.get())) return render(*kept, T_camera_mesh);
   check_mesh(mesh.get());
-  const PreparedMesh prepared(*mesh);
-  const Body body{"target", {&prepared, 1}};
+  return render(keep(mesh, PreparedMesh(*mesh)), T_camera_mesh);
+}
+
+VirtualDepthView ObjectRenderers::prepared(const std::shared_ptr<const PreparedMesh>& mesh,
+                                           const Eigen::Isometry3d& T_camera_mesh) {
+  if (Kept* const kept = find(mesh.get())) return render(*kept, T_camera_mesh);
+  return render(keep(mesh, *mesh), T_camera_mesh);
+}
+
+ObjectRenderers::Kept* ObjectRenderers::find(const TriangleMesh* mesh) const {
+  for (const auto& kept : kept_)
+    if (mesh != nullptr && kept->mesh.get() == mesh) return kept.get();
+  return nullptr;
+}
+
+ObjectRenderers::Kept& ObjectRenderers::keep(std::shared_ptr<const TriangleMesh> mesh,
+                                             const PreparedMesh& prepared) {
+  const Body body{"object", {&prepared, 1}};
   auto renderer = make_depth_renderer(backend_, intrinsics_, {&body, 1}, options_);
   Kept& kept = place();
-  kept = {mesh, std::move(renderer), 0};
-  return render(kept, T_camera_mesh);
+  kept = {std::move(mesh), std::move(renderer), 0};
+  return kept;
 }
 
 /// Returns a new entry, or the least recently used one.

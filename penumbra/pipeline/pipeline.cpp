@@ -73,6 +73,7 @@ struct Pipeline::State {
   NearPlaneCheck near_plane;
   TargetStage targets;
   std::size_t calls = 0;
+  std::vector<std::size_t> attached;  // the report's
   FrameReport report;
 };
 
@@ -84,10 +85,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       poses(robot, config, missing_links),
       labeller(robot, camera, pointer_to(rectification), config),
       near_plane(labeller.render_intrinsics(), bodies_of(robot)),
-      targets(robot, camera, pointer_to(rectification), labeller, config) {
-  report.links = robot.links();
-  report.missing_links = missing_links;
-}
+      targets(robot, camera, pointer_to(rectification), labeller, config) {}
 
 Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config)
     : state_(std::make_unique<State>(std::move(robot), camera, config)) {}
@@ -137,6 +135,11 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.T_root_camera.reset();
   report.T_root_link = {};
   report.near_links = {};
+  report.links = poses.links();
+  report.missing_links = at.missing_links;
+  attached.clear();
+  for (const PlacedBody& body : at.attached) attached.push_back(body.link);
+  report.attached = attached;
   if (at.known()) {
     report.T_root_camera = at.T_root_camera;
     report.T_root_link = at.T_root_link;

@@ -98,6 +98,7 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& 
   answer.T_parent_camera.reset();
   answer.uncertain_links.clear();
   answer.uncertain_reason.clear();
+  history.attachments().at(stamp, answer.attached);
   const bool by_joints = options_.source != PoseSource::transforms;
   const bool by_transforms = options_.source != PoseSource::joints;
   answer.by_joints = by_joints;

@@ -46,6 +46,7 @@ struct PoseAnswer {
   std::optional<Eigen::Isometry3d> T_parent_camera;  ///< if the camera's frame is in TF
   std::vector<std::size_t> uncertain_links;          ///< as in Frame
   std::string uncertain_reason;                      ///< as in Frame
+  std::vector<AttachedBody> attached;                ///< as in Frame
 };
 
 /// Looks up the poses of a robot's links and camera at a stamp. Never extrapolates. One instance

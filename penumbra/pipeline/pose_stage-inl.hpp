@@ -35,16 +35,26 @@ class PoseStage {
   /// nothing for a good frame. Throws InputError for uncertain links that do not exist.
   const PoseResult& pose_of(const Frame& frame);
 
+  /// As FrameReport::links.
+  [[nodiscard]] std::span<const std::string> links() const { return links_; }
+
  private:
   void check_uncertain(std::span<const std::size_t> links) const;
   FrameStatus check_poses(const Frame& frame);
   FrameStatus check_joints(const JointInput& joints);
   FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link);
   FrameStatus place_links(const Frame& frame);
+  FrameStatus place_bodies(std::span<const AttachedBody> bodies);
+  FrameStatus place_body(const AttachedBody& body);
+  [[nodiscard]] std::size_t number_of(const std::string& body);
   FrameStatus fault(FrameStatus status, std::string_view message);
 
   const Robot& robot_;
-  std::string missing_links_;  // the message about them
+  std::vector<std::string> missing_links_;
+  std::string without_links_;          // the message about them
+  std::vector<std::string> links_;     // the robot's, then attached bodies'
+  std::vector<std::size_t> last_use_;  // of the latter: number of the frame
+  std::size_t frames_ = 0;
   std::size_t parent_;
   Eigen::Isometry3d T_camera_parent_;
   CameraInsideCheck camera_inside_;

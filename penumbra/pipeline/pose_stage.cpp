@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
@@ -73,6 +74,8 @@ std::size_t find_camera_parent(const Robot& robot, const std::string& name) {
 PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
                      std::span<const std::string> missing_links)
     : robot_(robot),
+      missing_links_(missing_links.begin(), missing_links.end()),
+      links_(robot.links().begin(), robot.links().end()),
       parent_(find_camera_parent(robot, config.camera_parent)),
       camera_inside_(bodies_of(robot)) {
   result_.T_root_link.resize(robot.links().size());
@@ -85,7 +88,7 @@ PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
     throw InputError("camera pose is more than 1000 km from its parent link; expected metres");
   T_camera_parent_ = config.T_parent_camera.inverse();
   for (const std::string& link : missing_links)
-    missing_links_ += (missing_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
+    without_links_ += (without_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
 }
 
 const PoseResult& PoseStage::pose_of(const Frame& frame) {
@@ -100,9 +103,12 @@ const PoseResult& PoseStage::pose_of(const Frame& frame) {
   if (status != FrameStatus::ok)
     result_.message = frame.source_message.empty() ? to_string(status) : frame.source_message;
   if (has_pose(status)) status = worse(status, check_poses(frame));
+  result_.missing_links = missing_links_;
   if (!missing_links_.empty())
-    status = worse(status, fault(FrameStatus::missing_link, missing_links_));
+    status = worse(status, fault(FrameStatus::missing_link, without_links_));
   if (has_pose(status)) status = worse(status, place_links(frame));
+  result_.attached.clear();
+  if (has_pose(status)) status = worse(status, place_bodies(frame.attached));
   return result_;
 }
 
@@ -194,6 +200,50 @@ FrameStatus PoseStage::place_links(const Frame& frame) {
                      "': correct the camera's pose, or name the link in ignore_links if it is the "
                      "camera's own housing");
   return FrameStatus::ok;
+}
+
+FrameStatus PoseStage::place_bodies(std::span<const AttachedBody> bodies) {
+  ++frames_;
+  FrameStatus status = FrameStatus::ok;
+  for (const AttachedBody& body : bodies) status = worse(status, place_body(body));
+  return status;
+}
+
+FrameStatus PoseStage::place_body(const AttachedBody& body) {
+  const auto missing = [&](const std::string& why) {
+    result_.missing_links.push_back(body.name);
+    return fault(FrameStatus::missing_link,
+                 "attached body '" + body.name + "' is not drawn: " + why);
+  };
+  const auto link = robot_.find_link(body.link);
+  if (!link) return missing("there is no link '" + body.link + "'");
+  if (result_.is_uncertain(*link))
+    return missing("the pose of link '" + body.link + "' is not known");
+  if (!body.mesh || body.mesh->triangles.empty()) return missing("it has no triangles");
+  if (!is_rigid(body.T_link_body)) return missing("its pose is not a rigid transform");
+  if (result_.attached.size() == max_attached)
+    return missing("more than " + std::to_string(max_attached) + " bodies are attached");
+  result_.attached.push_back(
+      {number_of(body.name), body.mesh, result_.T_camera_link[*link] * body.T_link_body});
+  return FrameStatus::ok;
+}
+
+/// Returns the index of a body in links_. A new body takes the place of the one that was attached
+/// the longest time ago if all places are taken.
+std::size_t PoseStage::number_of(const std::string& body) {
+  const auto first = links_.begin() + static_cast<std::ptrdiff_t>(robot_.links().size());
+  auto place = std::find(first, links_.end(), body);
+  if (place == links_.end() && last_use_.size() < max_attached) {
+    last_use_.push_back(0);
+    links_.push_back(body);
+    place = std::prev(links_.end());
+  } else if (place == links_.end()) {
+    place = first + (std::min_element(last_use_.begin(), last_use_.end()) - last_use_.begin());
+    *place = body;
+  }
+  const auto number = static_cast<std::size_t>(place - links_.begin());
+  last_use_[number - robot_.links().size()] = frames_;
+  return number;
 }
 
 FrameStatus status_of(JointStatus joints) {

@@ -14,8 +14,8 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
-#include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/labelled_frame-inl.hpp>
+#include <penumbra/pipeline/object_renderers-inl.hpp>
 #include <penumbra/pipeline/target.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -27,43 +27,6 @@ namespace penumbra {
 /// link.
 [[nodiscard]] Eigen::Isometry3d pose_of(const ReferenceFrame& frame, const PoseResult& poses,
                                         const Robot& robot);
-
-/// Renders objects alone. Each mesh has its own renderer, which is cached; boxes, whose size may
-/// change with every frame, are ray cast.
-class ObjectRenderers {
- public:
-  /// Cached renderers; more meshes in one frame are prepared again each time.
-  static constexpr std::size_t max_kept = 32;
-
-  /// `rectification`: for raw images with lens distortion, else null. Must outlive this.
-  ObjectRenderers(const Intrinsics& intrinsics, Backend backend, const RendererOptions& options,
-                  const Rectification* rectification);
-  ~ObjectRenderers();
-
-  /// Returns the depth of a box or mesh; valid until the next call. Throws InputError for an
-  /// invalid mesh.
-  VirtualDepthView box(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box);
-  VirtualDepthView mesh(const std::shared_ptr<const TriangleMesh>& mesh,
-                        const Eigen::Isometry3d& T_camera_mesh);
-
- private:
-  struct Kept;
-  VirtualDepthView render(Kept& kept, const Eigen::Isometry3d& T_camera_object);
-  VirtualDepthView in_image(const VirtualDepthView& rendered);
-  void clear_box();
-  Kept& place();
-
-  Intrinsics intrinsics_;
-  Backend backend_;
-  RendererOptions options_;
-  const Rectification* rectification_;
-  std::optional<RawImages> raw_images_;  // made with the first object
-  Image<float> box_depth_;               // made with the first box
-  Image<std::uint16_t> box_links_;       // zeros
-  TileMask box_touched_;
-  std::vector<std::unique_ptr<Kept>> kept_;
-  std::size_t uses_ = 0;
-};
 
 /// Projects targets' shapes into the image.
 class TargetViews {

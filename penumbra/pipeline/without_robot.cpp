@@ -80,11 +80,11 @@ void CloudMaker::make(const DepthImage& depth, PointCloud& cloud,
 
 std::optional<Eigen::Isometry3d> camera_in_link(const FrameReport& report, std::string_view link) {
   const auto found = std::find(report.links.begin(), report.links.end(), link);
-  if (found == report.links.end())
+  const auto index = static_cast<std::size_t>(found - report.links.begin());
+  if (found == report.links.end() || (report.T_root_camera && index >= report.T_root_link.size()))
     throw InputError("no link '" + std::string(link) + "': the robot's root is '" +
                      report.links.front() + "'; `penumbra inspect URDF` lists its links");
   if (!report.T_root_camera) return std::nullopt;
-  const auto index = static_cast<std::size_t>(found - report.links.begin());
   return report.T_root_link[index].inverse() * *report.T_root_camera;
 }
 

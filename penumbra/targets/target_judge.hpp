@@ -64,7 +64,7 @@ struct TargetMemory {
 
 /// A link that hides a target.
 struct Blame {
-  std::size_t link = 0;  ///< index into the robot's links
+  std::size_t link = 0;  ///< value in the link image - 1
   double fraction = 0;   ///< of the pixels inside the image
 };
 
@@ -143,7 +143,7 @@ struct Judgement {
 class TargetJudge {
  public:
   /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.
-  /// `links`: the robot's number of links. `unseen`: not 0 for pixels of rectified images that the
+  /// `links`: the largest value of link images. `unseen`: not 0 for pixels of rectified images that the
   /// camera did not see; they count as outside the image. It is read during the call only. Throws
   /// InputError as Camera and LabelRule do.
   TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,

@@ -57,6 +57,7 @@ bool PoseHistory::note_stamp(std::int64_t stamp, std::int64_t newest, std::strin
 void PoseHistory::clear() {
   joints_.clear();
   transforms_.clear();
+  attachments_.restart();
   ++epoch_;
   ++revision_;
 }

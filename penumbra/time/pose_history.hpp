@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/attachments.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 #include <penumbra/time/transform_buffer.hpp>
 
@@ -20,13 +21,14 @@ struct PoseHistoryOptions {
   TransformBufferOptions transforms = {};
 };
 
-/// Joint states and transforms of a robot and its cameras from all publishers. One history serves
+/// Joint states and transforms of a robot and its cameras from all publishers, and what is attached
+/// to it. One history serves
 /// the queues of several cameras. Not synchronised between threads.
 ///
 /// A clock jumped back (a bag played in a loop, a restarted simulation) if the stamp of a joint,
 /// frame or image is more than least_clock_jump before its own last one. Everything except static
-/// transforms is then removed, so that states from before and after do not mix. States that are
-/// late by less are inserted in order.
+/// transforms and attached bodies is then removed, so that states from before and after do not mix.
+/// States that are late by less are inserted in order.
 class PoseHistory {
  public:
   /// Throws InputError for options out of range.
@@ -47,11 +49,13 @@ class PoseHistory {
   /// stamps of the same clock. `of`: the name of what jumped, for the message.
   bool note_stamp(std::int64_t stamp, std::int64_t newest, std::string_view of);
 
-  /// Removes everything except static transforms.
+  /// Removes everything except static transforms and what is attached last.
   void clear();
 
   [[nodiscard]] const JointBuffer& joints() const { return joints_; }
   [[nodiscard]] const TransformBuffer& transforms() const { return transforms_; }
+  [[nodiscard]] Attachments& attachments() { return attachments_; }
+  [[nodiscard]] const Attachments& attachments() const { return attachments_; }
 
   /// Grows whenever something is added or removed.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
@@ -66,6 +70,7 @@ class PoseHistory {
  private:
   JointBuffer joints_;
   TransformBuffer transforms_;
+  Attachments attachments_;
   std::uint64_t revision_ = 0;
   std::uint64_t epoch_ = 0;
   std::size_t clock_jumps_ = 0;

@@ -19,7 +19,7 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
       {"penumbra/robot", {"base", "mesh", "robot"}},
-      {"penumbra/time", {"base", "robot", "time"}},
+      {"penumbra/time", {"base", "mesh", "robot", "time"}},
       {"penumbra/camera", {"base", "camera"}},
       {"penumbra/render", {"base", "camera", "mesh", "render"}},
       {"penumbra/labels", {"base", "camera", "labels"}},

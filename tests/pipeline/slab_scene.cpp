@@ -9,12 +9,7 @@
 namespace penumbra::test {
 namespace {
 
-struct Box {
-  Eigen::Vector3d centre, size;
-  int link;
-};
-
-double enter(const Box& box, const Eigen::Vector3d& ray) {
+double enter(const SlabBox& box, const Eigen::Vector3d& ray) {
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,23 +59,24 @@ PipelineConfig plain_config(Backend backend) {
   return config;
 }
 
-Seen cast(const Eigen::Vector3d& ray, double slide) {
-  const Box boxes[] = {{{0.0, 0.0, 1.0 + slide}, {0.4, 0.2, 0.1}, 2},
-                       {{0.5, 0.1, 1.5}, {0.2, 0.2, 0.1}, 3}};
+Seen cast(const Eigen::Vector3d& ray, double slide, const std::vector<SlabBox>& more) {
+  std::vector<SlabBox> boxes = more;
+  boxes.push_back({{0.0, 0.0, 1.0 + slide}, {0.4, 0.2, 0.1}, 2});
+  boxes.push_back({{0.5, 0.1, 1.5}, {0.2, 0.2, 0.1}, 3});
   Seen seen;
-  for (const Box& box : boxes) {
+  for (const SlabBox& box : boxes) {
     const double depth = enter(box, ray / ray.z());
     if (depth > 0.0 && (seen.depth == 0.0 || depth < seen.depth)) seen = {depth, box.link};
   }
   return seen;
 }
 
-Image<float> scene_depth(const Camera& camera, double slide) {
+Image<float> scene_depth(const Camera& camera, double slide, const std::vector<SlabBox>& more) {
   const Intrinsics& k = camera.intrinsics;
   Image<float> depth(k.width(), k.height());
   for (int v = 0; v < k.height(); ++v) {
     for (int u = 0; u < k.width(); ++u) {
-      const Seen seen = cast(k.ray(u, v), slide);
+      const Seen seen = cast(k.ray(u, v), slide, more);
       depth(u, v) = static_cast<float>(seen.depth > 0.0 ? seen.depth : wall_depth);
     }
   }

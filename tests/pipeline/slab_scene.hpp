@@ -39,11 +39,19 @@ struct Seen {
   int link = 0;        ///< link image value
 };
 
+/// Another box of the scene, with axes along the root's.
+struct SlabBox {
+  Eigen::Vector3d centre, size;  ///< metres, in the root's frame
+  int link = 0;                  ///< link image value
+};
+
 /// What the ray from the root's origin meets first, by intersecting boxes.
-[[nodiscard]] Seen cast(const Eigen::Vector3d& ray, double slide);
+[[nodiscard]] Seen cast(const Eigen::Vector3d& ray, double slide,
+                        const std::vector<SlabBox>& more = {});
 
 /// Metres: the robot itself, and the wall where it is not.
-[[nodiscard]] Image<float> scene_depth(const Camera& camera, double slide);
+[[nodiscard]] Image<float> scene_depth(const Camera& camera, double slide,
+                                       const std::vector<SlabBox>& more = {});
 
 [[nodiscard]] Image<std::uint16_t> to_millimetres(const Image<float>& metres);
 

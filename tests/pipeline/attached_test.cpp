@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies that the robot's links carry, against boxes that a formula intersects.
+#include "../support/opengl.hpp"
+#include "../support/random.hpp"
+#include "../support/run_length.hpp"
+#include "slab_scene.hpp"
+
+#include <array>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/mesh/primitives.hpp>
+#include <penumbra/pipeline/frame_queue.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
+
+namespace penumbra::test {
+namespace {
+
+const Eigen::Vector3d part_size(0.13, 0.11, 0.09);
+
+AttachedBody body(const std::string& name, const std::string& link, const Eigen::Vector3d& at,
+                  const Eigen::Vector3d& size = part_size) {
+  return {name, link, std::make_shared<PreparedMesh>(make_box(size)),
+          Eigen::Isometry3d(Eigen::Translation3d(at))};
+}
+
+/// Beside the slab, and partly before it.
+AttachedBody part() { return body("part", "slab", {0.19, 0.06, -0.08}); }
+
+/// Where part() is.
+SlabBox part_box(double slide, int link = 4) {
+  return {Eigen::Vector3d(0.19, 0.06, 0.92 + slide), part_size, link};
+}
+
+Target box_target(const char* name, const PixelBox& box) {
+  return {.name = name, .shape = RegionTarget{.region = box}};
+}
+
+class AttachedTo : public testing::TestWithParam<Backend> {
+ protected:
+  void SetUp() override {
+    if (!can_draw(GetParam())) GTEST_SKIP() << no_opengl;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Backends, AttachedTo,
+                         testing::Values(Backend::cpu, Backend::gl, Backend::reference),
+                         [](const auto& test) { return std::string(to_string(test.param)); });
+
+TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
+  const Camera camera = slab_camera();
+  Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
+  const std::vector<AttachedBody> both{part(), body("lid", "plate", {0.0, 0.0, -0.2})};
+  for (const double slide : {0.0, 0.3, -0.2})
+    for (const std::size_t count : {2U, 0U, 1U}) {
+      std::vector<SlabBox> boxes{part_box(slide), {{0.5, 0.1, 1.3}, part_size, 5}};
+      boxes.resize(count);
+      const Image<float> depth = scene_depth(camera, slide, boxes);
+      const std::vector<double> positions{slide};
+      const FrameReport& report = pipeline.process(
+          {.depth = depth.view(), .joints = positions, .attached = std::span(both).first(count)});
+      ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
+      ASSERT_EQ(report.attached.size(), count);
+      for (int v = 0; v < depth.height(); ++v)
+        for (int u = 0; u < depth.width(); ++u) {
+          const Seen seen = cast(camera.intrinsics.ray(u, v), slide, boxes);
+          ASSERT_NEAR(report.virtual_depth.depth(u, v), seen.depth, depth_tolerance)
+              << u << ',' << v;
+          ASSERT_EQ(report.virtual_depth.links(u, v), seen.link) << u << ',' << v;
+          ASSERT_EQ(report.labels(u, v) == static_cast<int>(Label::occluded), seen.link != 0);
+        }
+      EXPECT_EQ(report.pixels.front + report.pixels.unknown, 0U);
+      for (const std::size_t i : report.attached)
+        EXPECT_EQ(report.links[i], both[i - slab_robot().links().size()].name);
+    }
+}
+
+TEST(Attached, HidesATargetAndIsBlamed) {
+  Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
+  const std::vector<double> positions{0.0};
+  const std::vector<AttachedBody> attached{part()};
+  const Image<float> depth = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
+  const std::vector<Target> targets{box_target("behind", PixelBox{101, 61, 4, 6})};
+  const FrameReport& report = pipeline.process(
+      {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
+  EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
+  ASSERT_EQ(report.targets[0].judgement->blame.size(), 1U);
+  EXPECT_EQ(report.links[report.targets[0].judgement->blame[0].link], "part");
+  DepthImage out;
+  without_robot(report, out);
+  const auto& rest = std::get<Image<float>>(out);
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u)
+      ASSERT_EQ(std::isnan(rest(u, v)),
+                cast(slab_camera().intrinsics.ray(u, v), 0.0, {part_box(0.0)}).link != 0);
+}
+
+TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
+  Eigen::Isometry3d sheared = Eigen::Isometry3d::Identity();
+  sheared.linear()(0, 1) = 0.5;
+  AttachedBody no_mesh = part(), empty = part(), bent = part();
+  no_mesh.mesh.reset();
+  empty.mesh = std::make_shared<PreparedMesh>(TriangleMesh{});
+  bent.T_link_body = sheared;
+  Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
+  const Image<float> depth = scene_depth(slab_camera(), 0.0);
+  const std::vector<double> positions{0.0};
+  const std::vector<Target> targets{box_target("free", PixelBox{5, 5, 6, 6})};
+  for (const AttachedBody& wrong : {no_mesh, empty, bent, body("part", "no_link", {0, 0, 0})}) {
+    const std::array attached{wrong};
+    const FrameReport& report = pipeline.process(
+        {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
+    EXPECT_EQ(report.status, FrameStatus::missing_link);
+    EXPECT_NE(report.message.find("'part'"), std::string::npos) << report.message;
+    ASSERT_EQ(report.missing_links.size(), 1U);
+    EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+    DepthImage out;
+    without_robot(report, out);
+    for (int v = 0; v < depth.height(); ++v)
+      for (int u = 0; u < depth.width(); ++u) ASSERT_TRUE(std::isnan(std::get<1>(out)(u, v)));
+  }
+  EXPECT_EQ(pipeline.process({.depth = depth.view(), .joints = positions}).status, FrameStatus::ok);
+}
+
+TEST(Attached, ManyOneAfterAnotherKeepTheirNames) {
+  Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
+  const std::vector<double> positions{0.0};
+  for (int i = 0; i < 100; ++i) {
+    const std::array attached{body("a" + std::to_string(i), "slab", {0.3, 0, 0}),
+                              body("b" + std::to_string(i / 50), "slab", {-0.3, 0, 0})};
+    const FrameReport& report = pipeline.process({.joints = positions, .attached = attached});
+    ASSERT_EQ(report.attached.size(), 2U);
+    for (const std::size_t k : {0U, 1U})
+      ASSERT_EQ(report.links[report.attached[k]], attached[k].name);
+    ASSERT_LE(report.links.size(), slab_robot().links().size() + max_attached);
+  }
+}
+
+/// A late target is judged with what was attached at its stamp.
+TEST(Attached, IsKeptForLateTargets) {
+  PipelineConfig config = plain_config();
+  config.target_history = 1.0;
+  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  const std::vector<double> positions{0.0};
+  const std::vector<AttachedBody> attached{part()};
+  const Image<float> with = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
+  const Image<float> without = scene_depth(slab_camera(), 0.0);
+  const auto verdict = [&](std::int64_t stamp, bool has_part, std::int64_t asked) {
+    Target target = box_target("behind", PixelBox{101, 61, 4, 6});
+    target.stamp = asked;
+    const std::array targets{target};
+    const FrameReport& report =
+        pipeline.process({.stamp = stamp,
+                          .depth = has_part ? with.view() : without.view(),
+                          .joints = positions,
+                          .targets = targets,
+                          .attached = std::span(attached).first(has_part ? 1 : 0)});
+    return report.targets[0].verdict;
+  };
+  EXPECT_EQ(verdict(1 * ms, true, 1 * ms), Verdict::hidden);
+  EXPECT_EQ(verdict(2 * ms, false, 2 * ms), Verdict::visible);
+  EXPECT_EQ(verdict(3 * ms, false, 1 * ms), Verdict::hidden);
+  EXPECT_EQ(verdict(4 * ms, true, 3 * ms), Verdict::visible);
+}
+
+/// Images that wait for their pose are judged with what is attached at their stamps.
+TEST(Attached, FramesOfAQueueHaveWhatIsAttachedAtTheirStamp) {
+  const Robot robot = slab_robot();
+  PoseHistory history(robot);
+  FrameQueue queue(robot, history, {.policy = DropPolicy::every});
+  const std::string names[] = {"slide"};
+  const double position[] = {0.0};
+  const auto move = [&](std::int64_t from) {
+    for (std::int64_t t = 0; t < 400; t += 20) history.add_joints((from + t) * ms, names, position);
+  };
+  for (const std::int64_t stamp : {5100, 5200, 5300}) queue.push(0, stamp * ms, 0);
+  history.attachments().detach(5250 * ms, "part");
+  history.attachments().attach(5150 * ms, part());
+  move(5000);
+  QueuedFrame frame;
+  for (const std::size_t count : {0U, 1U, 0U}) {
+    ASSERT_TRUE(queue.next(0, frame));
+    EXPECT_EQ(frame.frame().attached.size(), count);
+  }
+  history.attachments().attach(5500 * ms, part());
+  move(1000);  // the clock is set back
+  queue.push(0, 1100 * ms, 0);
+  ASSERT_TRUE(queue.next(0, frame));
+  EXPECT_EQ(frame.frame().attached.size(), 1U) << "what was attached last still is";
+}
+
+/// Against a model that looks at all changes every time, with late ones.
+TEST(Attached, StampsDecideInAnyOrderOfMessages) {
+  auto random = seeded_random(3);
+  const auto below = [&](std::uint64_t end) { return static_cast<std::int64_t>(random() % end); };
+  for (int trial = 0; trial < samples(50); ++trial) {
+    Attachments attachments;
+    std::map<std::int64_t, std::pair<std::string, bool>> changes;  // by stamp
+    std::vector<AttachedBody> now;
+    for (int step = 0; step < 400; ++step) {
+      const std::int64_t stamp = 10 * step - below(200);
+      const std::string name(1, static_cast<char>('a' + below(4)));
+      if (changes.contains(stamp)) continue;
+      const bool is_attached = below(2) == 0;
+      changes[stamp] = {name, is_attached};
+      if (is_attached)
+        attachments.attach(stamp, {.name = name, .link = "slab", .mesh = {}});
+      else
+        attachments.detach(stamp, name);
+      const std::int64_t asked = 10 * step - below(300);
+      std::map<std::string, bool> wanted;
+      for (const auto& [at, change] : changes)
+        if (at <= asked) wanted[change.first] = change.second;
+      std::erase_if(wanted, [](const auto& each) { return !each.second; });
+      attachments.at(asked, now);
+      ASSERT_EQ(now.size(), wanted.size());
+      for (const AttachedBody& each : now) ASSERT_TRUE(wanted.contains(each.name));
+    }
+  }
+}
+
+TEST(Attached, ChangesAreMergedWithoutEnd) {
+  Attachments attachments;
+  std::vector<AttachedBody> now;
+  attachments.attach(1, {.name = "tool", .link = "slab", .mesh = {}});
+  for (std::int64_t i = 0; i < 5000; ++i) {
+    attachments.attach(10 + 2 * i, {.name = "part", .link = "slab", .mesh = {}});
+    attachments.at(10 + 2 * i, now);
+    ASSERT_EQ(now.size(), 2U);
+    attachments.detach(11 + 2 * i, "part");
+    attachments.at(11 + 2 * i, now);
+    ASSERT_EQ(now.size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
