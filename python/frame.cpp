@@ -50,10 +50,33 @@ Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   frame.index = index;
   frame.uncertain_links = uncertain_links;
   frame.uncertain_reason = uncertain_reason;
+  frame.attached = attached;
   return frame;
 }
 
+void bind_attached_body(py::module_& m) {
+  using B = AttachedBody;
+  py::class_<B> body(m, "AttachedBody",
+                     "A thing that a link carries, for example a grasped object or a tool: it "
+                     "hides the view as the link does. Make it once and give it to each frame: it "
+                     "keeps what was prepared for rendering.");
+  body.def(py::init([](std::string name, std::string link, const Mesh& mesh,
+                       const Eigen::Isometry3d& pose) {
+             return B{std::move(name), std::move(link),
+                      mesh.prepared ? mesh.prepared
+                                    : std::make_shared<const PreparedMesh>(*mesh.triangles),
+                      pose};
+           }),
+           py::arg("name"), py::arg("link"), py::arg("mesh"), py::arg("T_link_body"),
+           "mesh: in the body's frame, metres.");
+  show_fields(body, Field{"name", &B::name, "Unique in a frame."},
+              Field{"link", &B::link, "That carries it."},
+              Field{"T_link_body", &B::T_link_body, "Metres."});
+  bind_repr(body, {"name", "link"});
+}
+
 void bind_frame(py::module_& m) {
+  bind_attached_body(m);
   using F = OwnedFrame;
   py::class_<F> frame(m, "Frame",
                       "What goes into Pipeline.process. The depth image is read where it is: do "
@@ -81,7 +104,8 @@ void bind_frame(py::module_& m) {
       Field{"doubted_links", &F::uncertain_links,
             "Indices of links without geometry whose pose is not known: targets and estimates in "
             "them are not judged."},
-      Field{"doubt", &F::uncertain_reason, "The reason, one line."});
+      Field{"doubt", &F::uncertain_reason, "The reason, one line."},
+      Field{"attached", &F::attached, "What the robot's links carry."});
   bind_repr(frame, {"index", "stamp", "source_status"});
 }
 

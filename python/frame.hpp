@@ -33,6 +33,7 @@ struct OwnedFrame {
   std::optional<std::int64_t> joint_age;  ///< of Numbers, nanoseconds
   std::vector<std::size_t> uncertain_links;
   std::string uncertain_reason;
+  std::vector<AttachedBody> attached;
 
   /// Values that a view refers to in addition to the frame.
   struct Parts {

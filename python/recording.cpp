@@ -63,7 +63,8 @@ RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
                    .index = frame.index,
                    .joint_age = frame.joints.age,
                    .uncertain_links = {frame.uncertain_links.begin(), frame.uncertain_links.end()},
-                   .uncertain_reason = std::string(frame.uncertain_reason)};
+                   .uncertain_reason = std::string(frame.uncertain_reason),
+                   .attached = {frame.attached.begin(), frame.attached.end()}};
   if (!frame.T_root_link.empty())
     owned.T_root_link.emplace(frame.T_root_link.begin(), frame.T_root_link.end());
   return {std::move(data), std::move(owned)};

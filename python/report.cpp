@@ -48,13 +48,26 @@ Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, 
       call_(state_->calls),
       report_(report),
       depth_(std::move(depth)),
-      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {
+      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()),
+      links_(report.links.begin(), report.links.end()),
+      missing_links_(report.missing_links.begin(), report.missing_links.end()) {
   targets_.reserve(report.targets.size());
   for (const TargetReport& target : report.targets) targets_.emplace_back(target, report.links);
   for (const std::size_t link : report.near_links) near_links_.push_back(report.links[link]);
+  for (const std::size_t body : report.attached) attached_.push_back(report.links[body]);
   report_.T_root_link = {};
   report_.near_links = {};
   report_.targets = {};
+  report_.links = report_.missing_links = {};
+  report_.attached = {};
+}
+
+FrameReport Report::with_names() const {
+  FrameReport report = report_;
+  report.T_root_link = T_root_link_;
+  report.links = links_;
+  report.missing_links = missing_links_;
+  return report;
 }
 
 void Report::check_is_last() const {
@@ -76,14 +89,12 @@ std::optional<ImageResult<std::uint16_t>> Report::link_image() const {
 DepthImage Report::filtered_depth() const {
   check_is_last();
   DepthImage image;
-  without_robot(report_, image);
+  without_robot(with_names(), image);
   return image;
 }
 
 PointCloud Report::points(const std::optional<std::string>& frame) const {
-  FrameReport report = report_;
-  report.T_root_link = T_root_link_;
-  const auto T = frame ? camera_in_link(report, *frame) : Eigen::Isometry3d::Identity();
+  const auto T = frame ? camera_in_link(with_names(), *frame) : Eigen::Isometry3d::Identity();
   PointCloud cloud;
   const DepthImage depth = filtered_depth();
   if (T) state_->cloud_maker.make(depth, cloud, *T);
@@ -203,10 +214,12 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"near_links", &R::near_links,
             "Links of which a part lies nearer than 1 cm and is not drawn."},
       Field{"targets", &R::targets, "One for each of the frame's targets, in their order."},
-      Field{"links", [](const R& r) { return r.state().pipeline.robot().links(); },
-            "Names: links[i] has the number i + 1 in link images."},
-      Field{"missing_links", [](const R& r) { return r.state().pipeline.missing_links(); },
-            "Links drawn without all of their geometry."},
+      Field{"links", &R::links,
+            "Names of the robot's links, then of attached bodies: links[i] has the number i + 1 in "
+            "link images."},
+      Field{"attached", &R::attached, "Names of the bodies attached in this frame."},
+      Field{"missing_links", &R::missing_links,
+            "Links drawn without all of their geometry, and attached bodies that are not drawn."},
       Field{"labels", &R::labels,
             "Label values, (H, W); all unknown if the robot's pose is not known. A read-only copy, "
             "made when it is first read. Raises ValueError if it was not read before the "

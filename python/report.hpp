@@ -49,6 +49,9 @@ class Report {
   [[nodiscard]] const std::vector<OwnedTargetReport>& targets() const { return targets_; }
   [[nodiscard]] const Poses& T_root_link() const { return T_root_link_; }
   [[nodiscard]] const std::vector<std::string>& near_links() const { return near_links_; }
+  [[nodiscard]] const std::vector<std::string>& links() const { return links_; }
+  [[nodiscard]] const std::vector<std::string>& attached() const { return attached_; }
+  [[nodiscard]] const std::vector<std::string>& missing_links() const { return missing_links_; }
   [[nodiscard]] const PipelineState& state() const { return *state_; }
 
   /// Images. All throw ValueError once the pipeline has judged another frame, if they were not
@@ -61,6 +64,8 @@ class Report {
 
  private:
   void check_is_last() const;
+  /// The numbers with the poses and names of links.
+  [[nodiscard]] FrameReport with_names() const;
   /// Nothing if the report has none.
   template <typename T>
   [[nodiscard]] std::optional<ImageResult<T>> read(const ReadImage<T>& image,
@@ -71,11 +76,11 @@ class Report {
 
   std::shared_ptr<PipelineState> state_;
   std::uint64_t call_;
-  FrameReport report_;  // without spans of poses and targets
+  FrameReport report_;  // without spans of poses, names and targets
   py::object depth_;
   std::vector<OwnedTargetReport> targets_;
   Poses T_root_link_;
-  std::vector<std::string> near_links_;
+  std::vector<std::string> links_, missing_links_, attached_, near_links_;
   ReadImage<std::uint8_t> labels_;
   ReadImage<float> virtual_depth_;
   ReadImage<std::uint16_t> link_image_;

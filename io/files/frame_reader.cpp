@@ -61,6 +61,7 @@ Frame frame_of(const FrameData& data) {
   frame.index = static_cast<std::size_t>(data.index);
   // A recording's joint row is of the frame's own stamp.
   if (data.stamp && !data.positions.empty()) frame.joints.age = 0;
+  frame.attached = data.attached;
   return frame;
 }
 
@@ -68,7 +69,8 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
     : size_{recording.camera.camera.intrinsics.width(),
             recording.camera.camera.intrinsics.height()},
       files_(recording.frames),
-      rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)) {}
+      rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)),
+      bodies_(recording.attached) {}
 
 void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
   const JointRow& row = rows_[i];
@@ -77,6 +79,9 @@ void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
   frame.positions = row.positions;
   frame.status = row.fault.empty() ? FrameStatus::ok : FrameStatus::missing_joints;
   frame.message = row.fault;
+  frame.attached.clear();
+  for (const RecordedBody& each : bodies_)
+    if (each.first <= row.index && row.index < each.end) frame.attached.push_back(each.body);
 
   if (const FileResult depth = read_depth(files_.depth, size_, frame); !depth.ok()) {
     std::visit([](auto& image) { image = std::remove_reference_t<decltype(image)>(); },

@@ -30,6 +30,7 @@ struct FrameData {
   std::variant<Image<std::uint16_t>, Image<float>> depth;  ///< valid unless missing or bad
   Image<Rgb8> color;          ///< empty if not wanted, not recorded or not usable
   std::string color_message;  ///< why a recorded colour image is not usable; empty if it is
+  std::vector<AttachedBody> attached;  ///< of a recording
 
   [[nodiscard]] DepthView depth_view() const;
 };
@@ -56,6 +57,7 @@ class FrameReader {
   ImageSize size_;
   RecordingFrames files_;
   std::vector<JointRow> rows_;
+  std::vector<RecordedBody> bodies_;
 };
 
 }  // namespace penumbra::io

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <limits>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/primitives.hpp>
 
 #include <io/files/camera_info.hpp>
+#include <io/files/frame_values.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/yaml.hpp>
 
@@ -136,6 +140,41 @@ RecordingFrames frames_of(const YamlNode& node, const std::filesystem::path& fol
   return frames;
 }
 
+std::shared_ptr<const PreparedMesh> mesh_of(const YamlNode& body,
+                                            const std::filesystem::path& folder) {
+  const YamlNode* const box = body.find("box");
+  const YamlNode* const file = body.find("mesh");
+  if ((box == nullptr) == (file == nullptr)) body.fail("needs a mesh (a file) or a box (its size)");
+  if (file != nullptr) return std::make_shared<PreparedMesh>(load_mesh(file_of(*file, folder)));
+  const std::vector<double> size = box->numbers(3);
+  return std::make_shared<PreparedMesh>(box->blamed_for([&] {
+    return make_box({size[0], size[1], size[2]});
+  }));
+}
+
+std::vector<RecordedBody> bodies_of(const YamlNode& attached, const std::filesystem::path& folder) {
+  std::vector<RecordedBody> bodies;
+  for (const YamlNode& entry : attached.items()) {
+    entry.allow_only({"name", "link", "mesh", "box", "pose", "frames"});
+    RecordedBody& body =
+        bodies.emplace_back(RecordedBody{.body = {.name = entry.at("name").text(),
+                                                  .link = entry.at("link").text(),
+                                                  .mesh = mesh_of(entry, folder)},
+                                         .first = 0,
+                                         .end = std::numeric_limits<std::int64_t>::max()});
+    if (const YamlNode* pose = entry.find("pose")) {
+      const std::vector<double> numbers = pose->numbers(7);
+      body.body.T_link_body = pose->blamed_for([&] { return isometry_of(numbers); });
+    }
+    if (const YamlNode* frames = entry.find("frames")) {
+      if (frames->items().size() != 2) frames->fail("expected [FIRST, END]");
+      body.first = frames->items()[0].integer();
+      body.end = frames->items()[1].integer();
+    }
+  }
+  return bodies;
+}
+
 }  // namespace
 
 Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
@@ -145,18 +184,21 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
                                          : folder_or_yaml;
   const std::filesystem::path folder = file.parent_path();
   const YamlNode root = YamlNode::read(file);
-  root.allow_only({"robot", "camera", "frames", "targets"});
+  root.allow_only({"robot", "camera", "frames", "targets", "attached"});
   const YamlNode& robot = root.at("robot");
   robot.allow_only(
       {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra"});
   std::optional<std::filesystem::path> targets;
   if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
+  std::vector<RecordedBody> attached;
+  if (const YamlNode* bodies = root.find("attached")) attached = bodies_of(*bodies, folder);
   return {.file = file,
           .urdf = file_of(robot.at("urdf"), folder),
           .robot = robot_options_of(robot, folder),
           .camera = camera_of(root.at("camera"), folder),
           .frames = frames_of(root.at("frames"), folder),
-          .targets = targets};
+          .targets = targets,
+          .attached = std::move(attached)};
 }
 
 PipelineConfig Recording::pipeline_config() const {

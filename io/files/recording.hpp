@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -11,6 +13,7 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/attachments.hpp>
 
 #include <io/files/frame_pattern.hpp>
 #include <io/files/pose_file.hpp>
@@ -43,6 +46,12 @@ struct RecordingFrames {
   std::optional<FramePattern> color;
 };
 
+/// A body that is attached in some frames.
+struct RecordedBody {
+  AttachedBody body;
+  std::int64_t first, end;  ///< frames first <= index < end
+};
+
 /// A recording folder's description (DESIGN section 4), read and checked. Paths are ready to use.
 struct Recording {
   std::filesystem::path file;  ///< the recording.yaml
@@ -51,6 +60,7 @@ struct Recording {
   RecordingCamera camera;
   RecordingFrames frames;
   std::optional<std::filesystem::path> targets = {};  ///< the targets.yaml
+  std::vector<RecordedBody> attached = {};
 
   /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. Throws
   /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or

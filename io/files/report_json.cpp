@@ -170,9 +170,10 @@ Json frame_json(const FrameReport& report) {
   for (const Stage& stage : stages) timing[stage.name] = or_null(report.timing.*stage.time);
   const Json age =
       report.joint_age ? Json(static_cast<double>(*report.joint_age) / ns_per_ms) : Json(nullptr);
-  Json targets = Json::array();
+  Json targets = Json::array(), attached = Json::object();
   for (const TargetReport& target : report.targets)
     targets.push_back(target_json(target, report.links));
+  for (const std::size_t body : report.attached) attached[report.links[body]] = body + 1;
   return {{"index", report.index},
           {"stamp_ns", or_null(report.stamp)},
           {"joint_age_ms", age},
@@ -180,6 +181,7 @@ Json frame_json(const FrameReport& report) {
           {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
           {"pixels", pixels_json(report.pixels)},
           {"timing_ms", std::move(timing)},
+          {"attached", std::move(attached)},
           {"targets", std::move(targets)}};
 }
 

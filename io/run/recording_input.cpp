@@ -60,12 +60,16 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReade
   return selected;
 }
 
-void check_parent(const Recording& recording, const Robot& robot) {
-  const std::string& parent = recording.camera.parent;
-  if (parent.empty() || robot.find_link(parent)) return;
-  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
-  throw InputError(recording.file.string() + ": camera.parent: '" + parent +
-                   "' is no link of the robot" + near_names(parent, known));
+void check_links(const Recording& recording, const Robot& robot) {
+  const auto check = [&](const std::string& key, const std::string& link) {
+    if (link.empty() || robot.find_link(link)) return;
+    const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
+    throw InputError(recording.file.string() + ": " + key + ": '" + link +
+                     "' is no link of the robot" + near_names(link, known));
+  };
+  check("camera.parent", recording.camera.parent);
+  for (const RecordedBody& each : recording.attached)
+    check("attached: " + each.body.name + ": link", each.body.link);
 }
 
 /// Some frames of a recording folder.
@@ -109,7 +113,7 @@ RunInput open_recording_input(const InputOptions& options) {
   Robot robot = Robot::load(recording.urdf, recording.robot);
   FrameReader reader(recording, robot);
   std::vector<std::size_t> selected = select_frames(options.frames, reader);
-  check_parent(recording, robot);
+  check_links(recording, robot);
   return {.robot_options = recording.robot,
           .robot = std::move(robot),
           .camera = recording.camera.camera,

@@ -161,7 +161,8 @@ void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report)
     return;
   const float measured =
       std::visit([&](const auto& depth) { return metres_of(depth(u, v)); }, report.depth);
-  if (!(measured > 0.0F)) return;
+  const bool is_attached = links(u, v) > report.T_root_link.size();  // its pose is not calibrated
+  if (!(measured > 0.0F) || is_attached) return;
   drift.seen_through += ((measured > expected + through) - drift.seen_through) / 5000.0;
   if (!(std::abs(measured - expected) < gate)) return;
   for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})

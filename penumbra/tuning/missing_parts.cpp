@@ -38,8 +38,9 @@ void MissingParts::measure(const FrameReport& report) {
     for (int u = 0; u < seen.width(); ++u) {
       if (label(u, v) != fringe || std::isinf(robot.distance(u, v))) continue;
       const auto nearest = robot.at(u, v);
-      const int of = report.virtual_depth.links(step * nearest.u, step * nearest.v);
-      Link& link = links_[static_cast<std::size_t>(of - 1)];
+      const std::size_t of = report.virtual_depth.links(step * nearest.u, step * nearest.v);
+      if (of > links_.size()) continue;  // an attached body
+      Link& link = links_[of - 1];
       link.fringe += step * step;
       if (step * robot.distance(u, v) > far_) link.far_fringe += step * step;
     }

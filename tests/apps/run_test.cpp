@@ -19,7 +19,7 @@ void expect_report(const Json& report) {
   const Words stages{"kinematics", "render", "classify", "targets"};
   for (const Json& frame : report["frames"]) {
     EXPECT_EQ(keys(frame), (Words{"index", "stamp_ns", "joint_age_ms", "status", "message",
-                                  "pixels", "timing_ms", "targets"}));
+                                  "pixels", "timing_ms", "attached", "targets"}));
     EXPECT_EQ(frame["message"].is_null(), frame["status"] == "ok");
     EXPECT_EQ(keys(frame["pixels"]),
               (Words{"robot", "front", "occluded", "unknown", "beyond", "fringe", "uncovered"}));

@@ -70,6 +70,10 @@ class RecordingFolder : public testing::Test {
     text.insert(text.find('\n', text.find(after)) + 1, line + "\n");
     return text;
   }
+  // `minimal` with a body of these keys.
+  static std::string attached(const std::string& keys) {
+    return std::string(minimal) + "attached: [{name: part, link: hand, " + keys + "}]\n";
+  }
   static std::string replaced(const std::string& from, const std::string& to) {
     std::string text = minimal;
     return text.replace(text.find(from), from.size(), to);
@@ -168,6 +172,12 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {with("  parent", "  beyond: hidden"), ":6: camera.beyond: "},
        {with("  parent", "  depth_info: info.yaml"), ":6: camera.depth_info: "},
        {std::string(minimal) + "targets: targets.yaml\n", ":11: targets: no file "},
+       {attached("mesh: none.stl"), ":11: attached[0].mesh: no file "},
+       {attached("box: [1, 1]"), ":11: attached[0].box: "},
+       {attached("box: [1, 0, 1]"), ":11: attached[0].box: "},
+       {attached("pose: [0, 0, 0, 0, 0, 0, 1]"), "needs a mesh"},
+       {attached("box: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 2]"), ":11: attached[0].pose: "},
+       {attached("box: [1, 1, 1], frames: 3"), ":11: attached[0].frames: "},
        {with("  parent", "  parent: tool"), ":6: key 'parent'"},
        {"", ":1: "},
        {"text", ":1: "}},
@@ -196,6 +206,22 @@ TEST_F(RecordingFolder, ReadsFrames) {
   frames.read(1, false, frame);
   EXPECT_TRUE(frame.color.empty());
   EXPECT_EQ(frame.color_message, "");
+}
+
+TEST_F(RecordingFolder, ReadsWhatIsAttachedInWhichFrames) {
+  write_yaml(attached("box: [0.1, 0.2, 0.3], pose: [1, 2, 3, 0, 0, 1, 0], frames: [6, 8]"));
+  const FrameReader frames = reader();
+  FrameData frame;
+  for (const std::size_t i : {1U, 0U}) {
+    frames.read(i, false, frame);
+    ASSERT_EQ(frame_of(frame).attached.size(), i) << "frames 5 and 7";
+    if (i == 0) continue;
+    const AttachedBody& body = frame_of(frame).attached[0];
+    EXPECT_EQ(body.name, "part");
+    EXPECT_EQ(body.link, "hand");
+    EXPECT_TRUE(body.mesh->bounds.sizes().isApprox(Eigen::Vector3d(0.1, 0.2, 0.3), 1e-6));
+    EXPECT_TRUE((body.T_link_body * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0, 2, 3)));
+  }
 }
 
 TEST_F(RecordingFolder, ReadsDepthInMetres) {

@@ -4,6 +4,7 @@ import { ApiError, fetchScene } from './api/client';
 import type { Packet } from './api/packet';
 import type { Calibration, FrameReport, Layer, PartName, Session } from './api/types';
 import { seconds } from './model/format';
+import { linkNames } from './model/labels';
 import { Throttle } from './model/throttle';
 import { isSoftwareGl, SceneView, type ScenePart } from './scene/scene_view';
 import { TimelineView } from './timeline/timeline_view';
@@ -108,7 +109,7 @@ export class Viewer {
   private async draw(packet: Packet, position: number): Promise<void> {
     // No pane shows the frame if an image cannot be decoded.
     await Promise.all([
-      this.image.show(packet, this.session.links, this.selected),
+      this.image.show(packet, linkNames(this.session.links, packet.frame), this.selected),
       this.fetchRobot(packet),
     ]);
     this.packet = packet;

@@ -47,6 +47,8 @@ export interface FrameReport {
   readonly message?: string | null;
   readonly pixels: Readonly<Record<string, number | null>>;
   readonly timing_ms: Readonly<Record<string, number | null>> | null;
+  /** Names of attached bodies, and their numbers in link images. */
+  readonly attached?: Readonly<Record<string, number>>;
   readonly targets: readonly TargetReport[];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours and names of labels and verdicts. The palette is Okabe and Ito's, as in Penumbra's overlays:
 // it suits the common colour vision deficiencies. Verdicts have shapes as well.
-import type { TargetReport, Verdict } from '../api/types';
+import type { FrameReport, TargetReport, Verdict } from '../api/types';
 
 export const okabeIto = {
   orange: '#e69f00',
@@ -83,4 +83,11 @@ export function linkColor(index: number): Rgb {
   const end = round === 1 ? 255 : 0;
   const weight = round === 0 ? 0 : 0.45;
   return base.map((value) => Math.round(value + (end - value) * weight)) as unknown as Rgb;
+}
+
+/** Returns the names of link images' values, from 1: links, then attached bodies. */
+export function linkNames(links: readonly string[], { attached = {} }: FrameReport): string[] {
+  const names = [...links];
+  for (const [name, value] of Object.entries(attached)) names[value - 1] = name;
+  return Array.from(names, (name?: string) => name ?? '');
 }

@@ -27,12 +27,16 @@ export function frameDetails(frame: FrameReport): HTMLElement {
     const value = timing_ms?.[name] ?? null;
     return fact(name, name, value, milliseconds(value), `--series-${index}`);
   });
+  const attached = Object.keys(frame.attached ?? {});
+  const carried = attached.length
+    ? [fact('attached', 'attached', attached, attached.join(', '))]
+    : [];
   const body = element('div', 'frame-details');
   if (status !== 'ok')
     body.append(element('p', 'fault', message ? `${status}: ${message}` : status));
   body.append(
     bar,
-    factList([fact('robot', 'robot pixels', robot, count(robot)), ...counts]),
+    factList([fact('robot', 'robot pixels', robot, count(robot)), ...counts, ...carried]),
     element('h4', '', 'Times'),
     factList([
       fact('stamp_ns', 'stamp', stamp_ns, stamp(stamp_ns)),

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bodies that the robot's links carry."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED, Opened
+from test_stages import box_mesh, pose
+
+
+def test_a_body_in_the_gripper_hides_and_is_blamed(opened):
+    frame = opened.frames[0].frame
+    part = penumbra.AttachedBody("part", "gripper", box_mesh(0.12), pose(0, 0, 0.15))
+    target = penumbra.Target("all", penumbra.RegionTarget(penumbra.PixelBox(0, 0, 640, 480)))
+    without = opened.pipeline.process(frame)
+    robot = without.pixels.robot
+    assert without.attached == ()
+    report = opened.pipeline.process(frame.replace(attached=[part], targets=[target]))
+    assert report.attached == ("part",) and report.links[-1] == "part"
+    of_part = np.count_nonzero(report.link_image == len(report.links))
+    assert of_part > 1000 and report.pixels.robot > robot + of_part / 2
+    assert "part" in [blame.link for blame in report.targets[0].judgement.blame]
+    assert np.isfinite(report.points(frame="base_link").points).all()
+    with pytest.raises(penumbra.InputError, match="no link 'part'"):
+        report.points(frame="part")
+    assert opened.pipeline.process(frame).pixels.robot == robot
+
+
+def test_one_that_cannot_be_drawn_is_a_missing_link(opened):
+    part = penumbra.AttachedBody("part", "elbow", box_mesh(0.1), np.eye(4))
+    report = opened.pipeline.process(opened.frames[0].frame.replace(attached=[part]))
+    assert report.status == penumbra.FrameStatus.missing_link
+    assert report.missing_links == ("part",) and "'elbow'" in report.message
+    assert not report.filtered_depth().any()
+
+
+def test_recordings_name_them_by_frames(tmp_path):
+    folder = tmp_path / "in"
+    shutil.copytree(SHIPPED, folder)
+    with open(folder / "recording.yaml", "a") as file:
+        file.write("attached:\n  - {name: part, link: gripper, box: [0.1, 0.1, 0.1], frames: [3, 5]}\n")
+    for frames in (penumbra.open_input(folder), Opened(folder).frames):
+        found = [[body.name for body in frame.frame.attached] for frame in frames]
+        assert found == [["part"] if i in (3, 4) else [] for i in range(12)]
