@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of whole frames, kinematics to report, one thread: a moving robot seen by a
-// sensor with noise and holes, without targets, with ten, and with frames kept for late ones.
+// sensor with noise and holes, without targets, with ten, with frames kept for late ones, and with
+// an attached body.
 #include "scenes.hpp"
 #include "timing.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::bench {
@@ -28,10 +30,12 @@ struct Case {
   std::string name;
   Kind targets;
   double history;
+  bool carries_ball = false;  ///< of 5 cm, attached to the last link
 };
 
 std::vector<Case> all_cases() {
   return {{"no targets", Kind::none, 0},
+          {"no targets, a ball attached", Kind::none, 0, true},
           {"ten targets", Kind::regions, 0},
           {"ten targets, two rendered", Kind::objects, 0},
           {"ten targets, two rendered, 0.5 s of frames kept", Kind::objects, history}};
@@ -92,6 +96,11 @@ void process(benchmark::State& state, const BenchScene& scene,
   config.target_history = c.history;
   Pipeline pipeline(scene.load_robot(), {scene.intrinsics, {}, {}, {}}, config);
   const TenTargets targets(scene.intrinsics, c.targets);
+  std::vector<AttachedBody> attached;
+  if (c.carries_ball)
+    attached.push_back({.name = "ball",
+                        .link = pipeline.robot().links().back(),
+                        .mesh = std::make_shared<PreparedMesh>(make_sphere(0.05))});
   StageCosts times;
   std::int64_t i = 0;
   for (auto _ : state) {
@@ -99,7 +108,8 @@ void process(benchmark::State& state, const BenchScene& scene,
     const Frame given{.stamp = i * frame_time,
                       .depth = depth[frame].view(),
                       .joints = scene.joints[frame],
-                      .targets = targets.all};
+                      .targets = targets.all,
+                      .attached = attached};
     const FrameReport* report = nullptr;
     const double ms = time_ms([&] { report = &pipeline.process(given); });
     if (report->status != FrameStatus::ok) return state.SkipWithError("bad frame");
@@ -107,6 +117,8 @@ void process(benchmark::State& state, const BenchScene& scene,
     times.add(frame, ms, report->timing);
     ++i;
   }
+  if (c.carries_ball)
+    state.counters["triangles"] = static_cast<double>(attached[0].mesh->triangles.size());
   state.counters["typical_us"] = 1e3 * times.all.typical();
   state.counters["render_us"] = 1e3 * times.render.typical();
   state.counters["classify_us"] = 1e3 * times.classify.typical();

@@ -23,6 +23,8 @@ constexpr std::array image_types = {image_type, compressed_type};
 constexpr std::string_view info_type = "sensor_msgs/msg/CameraInfo";
 constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
 constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
+constexpr std::string_view scene_type = "moveit_msgs/msg/PlanningScene";
+constexpr std::string_view attached_type = "moveit_msgs/msg/AttachedCollisionObject";
 constexpr std::string_view text_type = "std_msgs/msg/String";
 
 using TopicTypes = std::span<const std::string_view>;
@@ -264,7 +266,7 @@ std::vector<TopicUse> BagTopics::all() const {
   std::vector<TopicUse> uses = {depth, camera_info};
   for (const auto* one : {&color, &color_info, &description})
     if (*one) uses.push_back(**one);
-  for (const auto* several : {&joints, &transforms, &targets})
+  for (const auto* several : {&joints, &transforms, &targets, &attached})
     uses.insert(uses.end(), several->begin(), several->end());
   return uses;
 }
@@ -283,6 +285,7 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   if (description && is(*description)) return TopicRole::description;
   if (is_one_of(joints)) return TopicRole::joints;
   if (is_one_of(targets)) return TopicRole::targets;
+  if (is_one_of(attached)) return TopicRole::attached;
   if (!is_one_of(transforms)) return std::nullopt;
   return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
 }
@@ -309,6 +312,11 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
   choose_joints(chooser, options, chosen);
   choose_transforms(chooser, chosen);
   chosen.poses = choose_poses(chooser, options, chosen);
+  for (const auto& [type, name] : {std::pair(scene_type, "monitored_planning_scene"),
+                                   std::pair(attached_type, "attached_collision_object")})
+    if (auto found = usual(chooser, "attached", type, name,
+                           "only recordings of one planning scene can be read"))
+      chosen.attached.push_back(std::move(*found));
   for (const std::string& name : options.target_topics)
     chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
   if (options.robot) return chosen;

@@ -31,7 +31,7 @@ struct BagTopics {
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
-  std::vector<TopicUse> joints, transforms, targets;
+  std::vector<TopicUse> joints, transforms, targets, attached;
   std::optional<TopicUse> description;
 
   /// Returns all topics, in the order in which they are printed.

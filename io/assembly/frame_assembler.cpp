@@ -124,8 +124,20 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
           });
     case TopicRole::targets:
       return handler_of_targets(topic);
+    case TopicRole::attached:
+      return from.type == message_type<PlanningSceneMessage>()
+                 ? handler_of_attached<PlanningSceneMessage>(topic)
+                 : handler_of_attached<AttachedObjectMessage>(topic);
   }
   return {};
+}
+
+template <typename M>
+MessageHandler FrameAssembler::handler_of_attached(std::size_t topic) {
+  return handler<M>(topic, [this, topic](const M& message, const auto&, std::int64_t now) {
+    const std::string fault = robot_.take_attached(message);
+    if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
+  });
 }
 
 template <typename M>

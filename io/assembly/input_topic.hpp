@@ -16,7 +16,8 @@ enum class TopicRole {
   camera_info,
   color,
   color_info,
-  targets
+  targets,
+  attached  ///< what MoveIt attaches to the robot
 };
 
 /// A topic whose messages FrameAssembler takes.

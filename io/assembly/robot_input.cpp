@@ -76,6 +76,7 @@ RobotInput::RobotInput(RobotInputOptions options) : options_(std::move(options))
 
 void RobotInput::replace(std::shared_ptr<PosedRobot> robot) {
   posed_ = std::move(robot);
+  posed_->history.attachments() = attachments_;
   last_used_joints_.reset();
   unused_joints_.clear();
   for (const auto& [child, t] : static_transforms_)
@@ -110,6 +111,7 @@ void RobotInput::place(MadeRobot made) {
 
 void RobotInput::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
   last_joints_ = now;
+  newest_stamp_ = message.header.stamp;
   if (!posed_) return;
   if (posed_->history.add_joints(message.header.stamp, message.names, message.positions, source) >
       0)
@@ -123,6 +125,7 @@ void RobotInput::take(const TfMessage& message, bool is_static, std::string_view
   last_transforms_ = now;
   for (const TransformMessage& t : message.transforms) {
     if (frames_.add(t.header.frame_id, t.child_frame_id)) ++frames_revision_;
+    if (!is_static) newest_stamp_ = t.header.stamp;
     if (is_static && (static_transforms_.contains(t.child_frame_id) ||
                       static_transforms_.size() < FrameTree::max_frames))
       static_transforms_[t.child_frame_id] = t;

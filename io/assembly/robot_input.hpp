@@ -14,6 +14,7 @@
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/pose_history.hpp>
 
+#include <io/assembly/attached_input.hpp>
 #include <io/assembly/frame_tree.hpp>
 #include <io/ros/messages.hpp>
 
@@ -59,7 +60,8 @@ struct MadeRobot {
 /// Makes a robot. Any thread may call this.
 [[nodiscard]] MadeRobot make_robot(const RobotOrder& order);
 
-/// The robot of a graph, from robot_description, joint states and transforms.
+/// The robot of a graph, from robot_description, joint states and transforms, and what is attached
+/// to it.
 class RobotInput {
  public:
   explicit RobotInput(RobotInputOptions options);
@@ -83,6 +85,14 @@ class RobotInput {
   /// Receives joint states. `source`: the publisher, see MessageSources.
   void take(const JointStateMessage& message, std::string_view source, std::int64_t now);
   void take(const TfMessage& message, bool is_static, std::string_view source, std::int64_t now);
+  /// Receives what is attached (`M`: AttachedObjectMessage, PlanningSceneMessage). Returns what
+  /// cannot be drawn, one line, or nothing.
+  template <typename M>
+  std::string take_attached(const M& message) {
+    std::string fault = attached_.take(message, newest_stamp_, attachments_);
+    if (posed_) posed_->history.attachments() = attachments_;
+    return fault;
+  }
 
   /// Returns the robot, or null if there is none; fault() says why.
   [[nodiscard]] const std::shared_ptr<PosedRobot>& posed() const { return posed_; }
@@ -117,6 +127,9 @@ class RobotInput {
   FrameTree frames_;
   std::uint64_t frames_revision_ = 0;
   std::map<std::string, TransformMessage> static_transforms_;  // by child; published only once
+  AttachedInput attached_;
+  Attachments attachments_;        // of this and of later robots
+  std::int64_t newest_stamp_ = 0;  // of joint states and moving transforms
   std::size_t robots_ = 0;
   std::optional<std::int64_t> last_joints_, last_transforms_, last_used_joints_;
   std::string unused_joints_;

@@ -40,6 +40,12 @@ void LiveInbox::add_topics_of_robot() {
              .name = options_.static_transform_topic,
              .type = message_type<TfMessage>(),
              .latched = true});
+  add_topic({.role = TopicRole::attached,
+             .name = options_.planning_scene_topic,
+             .type = message_type<PlanningSceneMessage>()});
+  add_topic({.role = TopicRole::attached,
+             .name = options_.attached_topic,
+             .type = message_type<AttachedObjectMessage>()});
   for (const std::string& name : options_.target_topics)
     add_topic({.role = TopicRole::targets, .name = name});
 }

@@ -25,6 +25,8 @@ struct LiveOptions {
   std::vector<std::string> joint_topics = {"/joint_states"};
   std::string transform_topic = "/tf";
   std::string static_transform_topic = "/tf_static";
+  std::string planning_scene_topic = "/monitored_planning_scene";  ///< MoveIt's
+  std::string attached_topic = "/attached_collision_object";       ///< likewise
   std::vector<std::string> target_topics = {};
   std::vector<CameraInputOptions> cameras = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning

@@ -98,7 +98,8 @@ std::optional<std::string> Decoder<M>::decode(std::span<const std::byte> payload
                                               M& message) const {
   CdrReader reader(payload);
   if (reader.ok()) read_value(reader, message);
-  if (reader.remaining() > most_padding)
+  constexpr bool is_beginning = requires { M::is_beginning; };
+  if (!is_beginning && reader.remaining() > most_padding)
     reader.fail(std::to_string(reader.remaining()) +
                 " bytes are left over: the definition is not this message's");
   if (reader.ok()) return std::nullopt;
@@ -118,5 +119,7 @@ template class Decoder<PointCloud2Message>;
 template class Decoder<DiagnosticArrayMessage>;
 template class Decoder<KeypointsMessage>;
 template class Decoder<TargetsMessage>;
+template class Decoder<AttachedObjectMessage>;
+template class Decoder<PlanningSceneMessage>;
 
 }  // namespace penumbra::io

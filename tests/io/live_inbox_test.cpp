@@ -207,6 +207,34 @@ TEST_F(LiveInboxTest, AnotherRobotIsDrawn) {
   EXPECT_GT(pixels(), 3 * before);
 }
 
+TEST_F(LiveInboxTest, WhatIsAttachedStaysWithTheNextRobot) {
+  io::AttachedObjectMessage part{.link_name = "board"};
+  part.object.header = {start - seconds, "board"};
+  part.object.id = "part";
+  part.object.pose = {{0.5, 0, 0}, {0, 0, 0, 1}};
+  part.object.primitives = {
+      {.type = io::SolidPrimitiveMessage::box, .dimensions = {0.3, 0.3, 0.3}}};
+  part.object.primitive_poses = {{{0, 0, 0}, {0, 0, 0, 1}}};
+  const auto pixels = [&](std::int64_t stamp) {
+    judge(stamp);
+    const auto mask = bench_.results.last<io::ImageMessage>(io::Result::mask);
+    return std::count(mask.data.begin(), mask.data.end(), std::byte{255});
+  };
+  bench_.tell("/attached_collision_object", encoded(part));  // before the robot is known
+  bench_.tell_all();
+  const auto with = pixels(start);
+  bench_.tell_robot(live_urdf + std::string(" "));
+  const auto with_next = pixels(start + 33 * milliseconds);
+  part.object.header.stamp = start + 40 * milliseconds;
+  part.object.operation = io::CollisionObjectMessage::remove;
+  bench_.tell("/attached_collision_object", encoded(part));
+  const auto without = pixels(start + 66 * milliseconds);
+  EXPECT_EQ(status(), "ok");
+  constexpr int least = 100;  // pixels of the box beside the board, which turns
+  EXPECT_GT(with, without + least);
+  EXPECT_GT(with_next, without + least);
+}
+
 TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
   bench_.tell_all();
   judge(start);

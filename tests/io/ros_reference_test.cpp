@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <io/assembly/attached_input.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
@@ -32,6 +33,17 @@ struct Exchange {
     const auto* first = reinterpret_cast<const char*>(payload.data());
     const auto file = folder.write(name + ".cdr", {first, payload.size()});
     list += type + " " + definition.string() + " " + file.string() + "\n";
+  }
+
+  /// The message in CDR, by Foxglove's library.
+  std::vector<std::byte> encoded(const std::string& type, const Json& message) {
+    const auto definition = folder.write("one.msg", definition_of(type));
+    const auto file = folder.write("one.cdr", message.dump());
+    const std::string one = type + " " + definition.string() + " " + file.string() + "\n";
+    answer("encode " + folder.write("one", one).string());
+    const std::string bytes = test::read_bytes(file);
+    const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+    return {first, first + bytes.size()};
   }
 
   Json answer_to(const std::string& task) {
@@ -228,6 +240,65 @@ TEST(RosReference, ReadsDetections) {
   EXPECT_EQ(read[1]["detections"][0]["id"], "box");
 }
 
+Json turned_pose(double z) {
+  return {{"position", {{"x", 0}, {"y", 0}, {"z", z}}},
+          {"orientation", {{"x", 0}, {"y", 0}, {"z", 1}, {"w", 0}}}};
+}
+
+TEST(RosReference, ItsPlanningScenesAreFollowed) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  const Json at{{"sec", 12}, {"nanosec", 5}};
+  Json part{{"header", {{"stamp", at}, {"frame_id", "gripper"}}}, {"id", "part"}};
+  part["pose"] = turned_pose(0.5);
+  part["primitives"] = {{{"type", 1}, {"dimensions", {0.1, 0.2, 0.3}}}};
+  part["primitive_poses"] = {turned_pose(1.0)};
+  part["meshes"] = {{{"triangles", {{{"vertex_indices", {0, 1, 2}}}}},
+                     {"vertices", {{{"x", 9}}, {{"x", 10}}, {{"y", 1}}}}}};
+  part["mesh_poses"] = {turned_pose(0.0)};
+  part["subframe_names"] = {"tip"};
+  part["subframe_poses"] = {turned_pose(2.0)};
+  Json attached{{"link_name", "gripper"}, {"object", part}, {"touch_links", {"a", "bc"}}};
+  attached["detach_posture"] = {{"joint_names", {"finger"}},
+                                {"points", {{{"positions", {1, 2}}, {"effort", {3}}}}}};
+  attached["weight"] = 2.5;
+  Json state{{"joint_state", {{"header", {{"stamp", at}}}, {"name", {"finger"}}}},
+             {"is_diff", true}};
+  state["multi_dof_joint_state"] = {{"joint_names", {"base"}},
+                                    {"transforms", {{{"rotation", {{"w", 1}}}}}},
+                                    {"twist", {{{"linear", {{"x", 1}}}}}},
+                                    {"wrench", {{{"force", {{"x", 1}}}}}}};
+  state["attached_collision_objects"] = {attached};
+  Json scene{{"name", "scene"}, {"robot_state", state}, {"robot_model_name", "arm"}};
+  scene["world"]["octomap"]["octomap"]["data"] = {1, 2, 3};
+  scene["is_diff"] = true;
+  Exchange exchange;
+  const auto payload = exchange.encoded("moveit_msgs/msg/PlanningScene", scene);
+
+  PlanningSceneMessage message;
+  const auto fault = Decoder<PlanningSceneMessage>().decode(payload, message);
+  ASSERT_FALSE(fault) << *fault;
+  EXPECT_EQ(message.name, "scene");
+  AttachedInput input;
+  Attachments attachments;
+  EXPECT_EQ(input.take(message, 1, attachments), "");
+  std::vector<AttachedBody> bodies;
+  attachments.at(12'000'000'004, bodies);
+  EXPECT_TRUE(bodies.empty());
+  attachments.at(12'000'000'005, bodies);
+  ASSERT_EQ(bodies.size(), 1U);
+  EXPECT_EQ(bodies[0].name, "part");
+  EXPECT_EQ(bodies[0].link, "gripper");
+  EXPECT_EQ(bodies[0].T_link_body.translation().z(), 0.5);
+  EXPECT_EQ(bodies[0].mesh->triangles.size(), 12U + 1U);
+  EXPECT_NEAR(bodies[0].mesh->bounds.max().z(), 1.15, 1e-6);
+  EXPECT_NEAR(bodies[0].mesh->bounds.min().x(), -10.0, 1e-6) << "turned by half a turn";
+  const auto whole = exchange.encoded("moveit_msgs/msg/AttachedCollisionObject", attached);
+  AttachedObjectMessage object;
+  ASSERT_FALSE(Decoder<AttachedObjectMessage>().decode(whole, object));
+  EXPECT_EQ(object.weight, 2.5);
+  EXPECT_EQ(object.object.subframe_names, std::vector<std::string>{"tip"});
+}
+
 // But for vision_msgs and our own, which it does not have.
 TEST(RosReference, HasTheSameDefinitions) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
@@ -235,9 +306,10 @@ TEST(RosReference, HasTheSameDefinitions) {
   test::for_each_sample([&](const auto& message) {
     exchange.add(message_type<std::decay_t<decltype(message)>>(), {});
   });
+  exchange.add("moveit_msgs/msg/PlanningScene", {});
   const Json types = exchange.answer_to("definitions");
   for (const auto& [name, both] : types.items()) EXPECT_EQ(both[0], both[1]) << name;
-  EXPECT_GT(types.size(), 15U);
+  EXPECT_GT(types.size(), 25U);
 }
 
 }  // namespace

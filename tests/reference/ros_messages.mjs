@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // node ros_messages.mjs decode LIST: LIST holds lines "TYPE DEFINITION_FILE PAYLOAD_FILE"; prints the
 // messages as a JSON array. node ros_messages.mjs definitions LIST: prints the fields and constants
-// of each type in the definitions, beside those that others have for Humble.
-import { readFileSync } from "node:fs";
+// of each type in the definitions, beside those that others have for Humble. node ros_messages.mjs
+// encode LIST: writes the message in each PAYLOAD_FILE, as JSON, in CDR to the same file.
+import { readFileSync, writeFileSync } from "node:fs";
 import { parse } from "@foxglove/rosmsg";
 import { ros2humble } from "@foxglove/rosmsg-msgs-common";
-import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
 // JSON knows neither NaN and infinity nor 64 bits: they are written as text.
 function plain(_, value) {
@@ -26,6 +27,14 @@ function decode(list) {
     new MessageReader(parsed(definition)).readMessage(readFileSync(payload)));
 }
 
+function encode(list) {
+  for (const [, definition, payload] of lines(list)) {
+    const message = JSON.parse(readFileSync(payload, "utf8"));
+    writeFileSync(payload, new MessageWriter(parsed(definition)).writeMessage(message));
+  }
+  return [];
+}
+
 function rows(fields) {
   return fields.map((field) => [field.name, field.type, field.isConstant ? "constant" :
     field.isArray ? `[${field.arrayLength ?? ""}]` : "", field.valueText ?? ""]);
@@ -40,4 +49,5 @@ function definitions(list) {
 }
 
 const [, , task, list] = process.argv;
-process.stdout.write(JSON.stringify(task === "decode" ? decode(list) : definitions(list), plain));
+const tasks = { decode, definitions, encode };
+process.stdout.write(JSON.stringify(tasks[task](list), plain));

@@ -83,6 +83,7 @@ void Inputs::find_publishers(std::size_t topic) {
       return true;
     });
   }
+  link.has_publisher = !publishers.empty();
   link.state.other_type = published == link.topic.type ? "" : published;
 }
 
@@ -91,7 +92,9 @@ void Inputs::follow(bool with_color, bool with_depth) {
     find_publishers(i);
     Link& link = links_[i];
     const TopicRole role = link.topic.role;
-    const bool is_wanted = !link.topic.type.empty() && (role != TopicRole::color || with_color) &&
+    const bool is_known = role != TopicRole::attached || link.has_publisher;
+    const bool is_wanted = !link.topic.type.empty() && is_known &&
+                           (role != TopicRole::color || with_color) &&
                            (role != TopicRole::depth || with_depth);
     if (is_wanted && !link.subscription) link.subscription = subscribe(i);
     if (!is_wanted) link.subscription.reset();
@@ -160,6 +163,22 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_latched(std::size_t topic)
       options);
 }
 
+// Only where MoveIt is installed are its messages known.
+rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_generic(std::size_t topic) {
+  const penumbra::io::InputTopic& of = links_[topic].topic;
+  try {
+    return node_.create_generic_subscription(
+        of.name, of.type, qos_of(topic),
+        [this, topic](std::shared_ptr<const rclcpp::SerializedMessage> message) {
+          runner_.receive(topic, {bytes_of(*message), message, 0});
+        });
+  } catch (const std::exception& error) {
+    RCLCPP_WARN_ONCE(node_.get_logger(), "attached objects are not known: %s: %s", of.name.c_str(),
+                     error.what());
+    return nullptr;
+  }
+}
+
 // Images are received as such, because a driver in the same process hands them over without a copy.
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_images(std::size_t topic) {
   return node_.create_subscription<Image>(
@@ -188,6 +207,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
       {"geometry_msgs/msg/PoseStamped",
        &Inputs::subscribe_serialised<geometry_msgs::msg::PoseStamped>}};
   const penumbra::io::InputTopic& of = links_[topic].topic;
+  if (of.role == TopicRole::attached) return subscribe_generic(topic);
   if (of.latched && of.type == "tf2_msgs/msg/TFMessage")
     return subscribe_latched<tf2_msgs::msg::TFMessage>(topic);
   return (this->*by_type.at(of.type))(topic);

@@ -31,6 +31,7 @@ class Inputs {
     penumbra::io::InputTopic topic;
     rclcpp::SubscriptionBase::SharedPtr subscription;  // null: not subscribed to
     bool is_reliable = false;                          // all of its publishers are
+    bool has_publisher = false;
     penumbra::io::LiveLink state;
   };
 
@@ -41,6 +42,7 @@ class Inputs {
   template <typename M>
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_serialised(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_images(std::size_t topic);
+  [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe_generic(std::size_t topic);
   [[nodiscard]] rclcpp::SubscriptionOptions options_of(std::size_t topic);
   [[nodiscard]] rclcpp::QoS qos_of(std::size_t topic) const;
 
