@@ -21,7 +21,7 @@ Eigen::Isometry3d isometry_of(const LoosePose& pose) {
   const Eigen::Vector4d& q = pose.orientation;
   Vector3Wire position;
   to_wire(at, position);
-  const Eigen::Isometry3d T = isometry_of(position, {q[0], q[1], q[2], q[3]});
+  Eigen::Isometry3d T = isometry_of(position, {q[0], q[1], q[2], q[3]});
   if (!is_rigid(T)) throw InputError("a pose is not a rigid transform");
   return T;
 }

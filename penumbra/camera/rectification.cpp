@@ -21,12 +21,12 @@ namespace {
 using Point = Eigen::Vector2f;  // on the plane z = 1
 
 /// The rays that a pinhole image must contain.
-struct Extent {
+struct RayBounds {
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array2d high = -low;
   double stretch = 0;  // the largest scale relative to the raw focal length
 
-  void add(const Extent& other) {
+  void add(const RayBounds& other) {
     low = low.min(other.low);
     high = high.max(other.high);
     stretch = std::max(stretch, other.stretch);
@@ -42,7 +42,7 @@ double largest_singular_value(const Eigen::Matrix2d& m) {
 
 /// Returns the pinhole image of that extent, with focal lengths so that no pixel is larger than a
 /// raw one, and with the principal point whole pixels from the raw one; nothing if it is too large.
-std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw) {
+std::optional<Intrinsics> pinhole_of(const RayBounds& extent, const Intrinsics& raw) {
   if (!(extent.stretch <= Rectification::max_stretch)) return std::nullopt;
   const Eigen::Array2d focal = extent.stretch * Eigen::Array2d(raw.fx(), raw.fy());
   const Eigen::Array2d centre(raw.cx(), raw.cy());
@@ -57,10 +57,10 @@ std::optional<Intrinsics> pinhole_of(const Extent& extent, const Intrinsics& raw
                     centre.x() + shift.x(), centre.y() + shift.y());
 }
 
-/// Extents of rays by their angle from the optical axis, to choose the widest cone that fits.
-class ExtentByAngle {
+/// Bounds of rays by their angle from the optical axis, to choose the widest cone that fits.
+class BoundsByAngle {
  public:
-  explicit ExtentByAngle(double max_angle) : max_angle_(max_angle) {}
+  explicit BoundsByAngle(double max_angle) : max_angle_(max_angle) {}
 
   void add(const Eigen::Vector2d& ray, double stretch) {
     const double fraction = std::atan(ray.norm()) / max_angle_;
@@ -73,7 +73,7 @@ class ExtentByAngle {
   [[nodiscard]] std::pair<Intrinsics, double> widest(const Intrinsics& raw) const {
     std::optional<Intrinsics> best;
     double angle = 0;
-    Extent extent;
+    RayBounds extent;
     for (std::size_t i = 0; i < bins_.size(); ++i) {
       extent.add(bins_[i]);
       if (extent.empty()) continue;
@@ -94,7 +94,7 @@ class ExtentByAngle {
 
  private:
   double max_angle_;
-  std::array<Extent, 256> bins_;
+  std::array<RayBounds, 256> bins_;
 };
 
 /// Returns the index of the pixel nearest to `image_point`, or no_pixel outside of the image.
@@ -144,7 +144,7 @@ Rectification::Plan Rectification::plan(const Camera& raw, double max_half_angle
   const Intrinsics& k = raw.intrinsics;
   const Point nowhere = Point::Constant(std::numeric_limits<float>::quiet_NaN());
   Image<Point> rays(k.width(), k.height(), nowhere);
-  ExtentByAngle extents(max_half_angle);
+  BoundsByAngle extents(max_half_angle);
   const double reach = std::tan(max_half_angle);
   for (int v = 0; v < k.height(); ++v) {
     for (int u = 0; u < k.width(); ++u) {

@@ -143,9 +143,9 @@ struct Judgement {
 class TargetJudge {
  public:
   /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.
-  /// `links`: the largest value of link images. `unseen`: not 0 for pixels of rectified images that the
-  /// camera did not see; they count as outside the image. It is read during the call only. Throws
-  /// InputError as Camera and LabelRule do.
+  /// `links`: the largest value of link images. `unseen`: not 0 for pixels of rectified images that
+  /// the camera did not see; they count as outside the image. It is read during the call only.
+  /// Throws InputError as Camera and LabelRule do.
   TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
               ImageView<const std::uint8_t> unseen = {});
   ~TargetJudge();

@@ -35,6 +35,7 @@ void Attachments::merge(std::size_t count) {
   std::vector<AttachedBody> bodies;
   at(changes_[count - 1].stamp, bodies);
   std::vector<Change> merged;
+  merged.reserve(changes_.size());
   for (AttachedBody& body : bodies) merged.push_back({always, std::move(body), true});
   const std::int64_t last = changes_[count - 1].stamp;
   for (Change& change : changes_)
