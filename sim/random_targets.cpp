@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <sim/random.hpp>
@@ -26,14 +28,15 @@ constexpr std::array<Place, 8> places{Place::before, Place::before, Place::behin
                                       Place::behind, Place::behind, Place::beside, Place::beside};
 
 /// Every frame has a new arm pose and new positions of the same eight targets, which touch neither
-/// the arm nor one another.
+/// the arm nor one another. With `carries` the arm also holds an object.
 class RandomTargets : public Scene {
  public:
-  RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics);
+  RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics, bool carries);
   [[nodiscard]] std::vector<double> joints(double time) const override;
   [[nodiscard]] ScenePose pose(double time) override;
 
  private:
+  void add_held(Random random);
   [[nodiscard]] std::uint64_t index(double time) const;
   /// The occupied space: the arm, and balls around targets.
   struct Taken {
@@ -49,9 +52,12 @@ class RandomTargets : public Scene {
   double frame_rate_;
   Intrinsics intrinsics_;
   std::vector<double> radii_;  // of balls around the targets
+  std::optional<Isometry3d> T_tool_held_;
+  double held_radius_ = 0.0;
 };
 
-RandomTargets::RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics)
+RandomTargets::RandomTargets(Arm& arm, const SceneOptions& options, const Intrinsics& intrinsics,
+                             bool carries)
     : arm_(arm), seed_(options.seed), frame_rate_(options.frame_rate), intrinsics_(intrinsics) {
   Random random(seed_, 12);
   description_.moves = false;
@@ -87,6 +93,31 @@ RandomTargets::RandomTargets(Arm& arm, const SceneOptions& options, const Intrin
             numbers({x == 0.0 ? 5.0 : 0.05, y == 0.0 ? 5.0 : 0.05, 3.0}) + "\" pos=\"" +
             numbers({x, y, 2.0}) + "\" rgba=\"0.8 0.81 0.78 1\" group=\"2\"/>";
   description_.parts.push_back({-1, room});
+  if (carries) add_held(Random(seed_, 15));
+}
+
+/// A box in the gripper or, for odd seeds, the half of it on one side of a diagonal plane.
+void RandomTargets::add_held(Random random) {
+  Vector3d half;
+  for (double& side : half) side = random.uniform(0.03, 0.08);
+  held_radius_ = half.norm();
+  std::string geom = "<geom type=\"box\" size=\"" + numbers({half.x(), half.y(), half.z()}) + "\"";
+  if (seed_ % 2 == 1) {
+    std::string corners;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {-1.0, 1.0}})
+      for (const double z : {-1.0, 1.0})
+        corners += numbers({x * half.x(), y * half.y(), z * half.z()}) + ' ';
+    description_.assets += "<mesh name=\"held\" vertex=\"" + corners + "\"/>";
+    geom = "<geom type=\"mesh\" mesh=\"held\"";
+  }
+  description_.parts.push_back(
+      {static_cast<int>(places.size()), geom + " rgba=\"0.8 0.6 0.2 1\" group=\"2\"/>"});
+  description_.objects.push_back("held");
+  description_.solids.push_back({seed_ % 2 == 1 ? Solid::wedge : Solid::box, 2 * half});
+  T_tool_held_.emplace(Isometry3d::Identity());
+  T_tool_held_->translation() = Vector3d(0.0, 0.0, half.z() + random.uniform(-0.03, 0.0));
+  T_tool_held_->linear() =
+      Eigen::AngleAxisd(random.uniform(-3.1, 3.1), Vector3d::UnitZ()).toRotationMatrix();
 }
 
 std::uint64_t RandomTargets::index(double time) const {
@@ -152,6 +183,11 @@ ScenePose RandomTargets::pose(double time) {
   const std::vector<double> positions = joints(time);
   const std::vector<Vector3d> parts = arm_.part_centres(positions);
   Taken taken{arm_.part_boxes(positions), {}};
+  std::optional<Isometry3d> held;
+  if (T_tool_held_) {
+    held = arm_.link_pose(positions, tool_link) * *T_tool_held_;
+    taken.balls.emplace_back(held->translation(), held_radius_);
+  }
   ScenePose all;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Isometry3d target = Isometry3d::Identity();
@@ -164,14 +200,18 @@ ScenePose RandomTargets::pose(double time) {
     all.objects.push_back(target);
   }
   all.parts.push_back(Isometry3d::Identity());
+  if (held) {
+    all.parts.push_back(*held);
+    all.objects.push_back(*held);
+  }
   return all;
 }
 
 }  // namespace
 
 std::unique_ptr<Scene> make_random_targets(Arm& arm, const SceneOptions& options,
-                                           const Intrinsics& intrinsics) {
-  return std::make_unique<RandomTargets>(arm, options, intrinsics);
+                                           const Intrinsics& intrinsics, bool carries) {
+  return std::make_unique<RandomTargets>(arm, options, intrinsics, carries);
 }
 
 }  // namespace penumbra::sim

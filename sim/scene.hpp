@@ -84,7 +84,8 @@ struct SceneOptions {
 [[nodiscard]] std::unique_ptr<Scene> make_conveyor(Arm& arm, const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Scene> make_handover(Arm& arm, const SceneOptions& options);
 [[nodiscard]] std::unique_ptr<Scene> make_random_targets(Arm& arm, const SceneOptions& options,
-                                                         const Intrinsics& intrinsics);
+                                                         const Intrinsics& intrinsics,
+                                                         bool carries);
 
 /// Returns the pose of an upright camera at `eye` that looks at `target`.
 [[nodiscard]] Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);

@@ -127,7 +127,8 @@ std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
                                    options.duration};
   if (name == "conveyor") return make_conveyor(arm, scene_options);
   if (name == "handover") return make_handover(arm, scene_options);
-  if (name == "random") return make_random_targets(arm, scene_options, camera.intrinsics);
+  if (name == "random" || name == "carry")
+    return make_random_targets(arm, scene_options, camera.intrinsics, name == "carry");
   const std::vector<std::string>& names = Simulation::scenes();
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw InputError("there is no scene '" + name + "'" + io::near_names(name, known));
@@ -207,7 +208,7 @@ void Simulation::State::count_alone(const Window& window, const SimFrame& frame_
 }
 
 const std::vector<std::string>& Simulation::scenes() {
-  static const std::vector<std::string> names{"conveyor", "handover", "random"};
+  static const std::vector<std::string> names{"conveyor", "handover", "random", "carry"};
   return names;
 }
 

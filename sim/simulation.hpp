@@ -55,10 +55,11 @@ struct SimulationOptions {
 };
 
 /// The shape of an object, as targets describe it.
-enum class Solid { other, box, ball };
+enum class Solid { other, box, ball, wedge };
 struct ObjectSolid {
   Solid kind = Solid::other;
   /// Metres, centred at the object's origin: the edges of a box, or a ball's diameter three times.
+  /// A wedge is the half of that box with x / size.x() + y / size.y() <= 0.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
@@ -101,7 +102,7 @@ inline constexpr std::int32_t first_object_id = 10000;
 class Simulation {
  public:
   /// Returns the names of the scenes: conveyor, handover, random (targets in front of, behind and
-  /// next to the arm).
+  /// next to the arm), carry (the same, with an object "held" in the gripper).
   [[nodiscard]] static const std::vector<std::string>& scenes();
 
   /// Throws InputError for an unknown scene, invalid options, or a machine without OpenGL; the

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// An object in the gripper of MuJoCo's arm: what of it is called clear or front, and what around it
+// is called robot, with the object attached and without.
+#include "../support/run_length.hpp"
+#include "simulated.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/mesh/primitives.hpp>
+
+#include <sim/simulation.hpp>
+
+namespace penumbra::test {
+namespace {
+
+/// The half of a box that sim::Solid::wedge is.
+TriangleMesh wedge(const Eigen::Vector3d& size) {
+  TriangleMesh mesh;
+  for (const auto& [x, y] : {std::pair(-0.5, -0.5), {0.5, -0.5}, {-0.5, 0.5}})
+    for (const double z : {-0.5, 0.5})
+      mesh.vertices.push_back(Eigen::Vector3d(x, y, z).cwiseProduct(size).cast<float>());
+  mesh.triangles = {{0, 4, 2}, {1, 3, 5}, {0, 2, 3}, {0, 3, 1},
+                    {2, 4, 5}, {2, 5, 3}, {4, 0, 1}, {4, 1, 5}};
+  return mesh;
+}
+
+/// Pixels of all frames.
+struct Counts {
+  std::size_t seen = 0;         ///< of the object, not hidden
+  std::size_t trusted = 0;      ///< of these, clear or front
+  std::size_t drawn = 0;        ///< where Penumbra draws it
+  std::size_t too_much = 0;     ///< of these, where the object is not on the ray
+  std::size_t wrong_blame = 0;  ///< of the object's rays, where another link is drawn
+
+  [[nodiscard]] double trusted_percent() const { return percent(trusted, seen); }
+  [[nodiscard]] double too_much_percent() const { return percent(too_much, drawn); }
+  [[nodiscard]] double wrong_percent() const { return percent(wrong_blame, seen); }
+  static double percent(std::size_t part, std::size_t all) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+  }
+};
+
+struct Both {
+  Counts attached, not_attached;
+};
+
+void add(const sim::SimFrame& truth, const FrameReport& report, Counts& counts) {
+  const sim::ObjectTruth& held = truth.objects.back();
+  const auto number = report.attached.empty() ? 0 : report.attached[0] + 1;
+  for (int v = 0; v < truth.ids.height(); ++v)
+    for (int u = 0; u < truth.ids.width(); ++u) {
+      const bool is_drawn = number > 0 && report.virtual_depth.links(u, v) == number;
+      counts.drawn += is_drawn ? 1 : 0;
+      counts.too_much += is_drawn && held.alone(u, v) == 0 ? 1 : 0;
+      if (truth.ids(u, v) != held.id) continue;
+      ++counts.seen;
+      counts.trusted += is_trusted(static_cast<Label>(report.labels(u, v))) ? 1 : 0;
+      counts.wrong_blame += is_drawn ? 0 : 1;
+    }
+}
+
+Both count(std::uint64_t seed, bool noisy, int frames) {
+  sim::Simulation simulation("carry", without_color(seed, noisy));
+  const Robot& robot = simulation.robot();
+  Pipeline with(robot, simulation.camera(), config_of(simulation));
+  Pipeline without(robot, simulation.camera(), config_of(simulation));
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  AttachedBody held{.name = "held", .link = "tool0", .mesh = {}};
+  Both counts;
+  sim::SimFrame truth;
+  for (int i = 0; i < frames && simulation.next(truth); ++i) {
+    const sim::ObjectTruth& object = truth.objects.back();
+    if (!held.mesh) {
+      const Eigen::Vector3d& size = object.solid.size;
+      held.mesh = std::make_shared<PreparedMesh>(
+          object.solid.kind == sim::Solid::wedge ? wedge(size) : make_box(size));
+      robot.forward_kinematics(truth.true_joints, poses);
+      held.T_link_body = poses[*robot.find_link("tool0")].inverse() * object.T_base_object;
+    }
+    const std::vector<AttachedBody> attached{held};
+    const Frame frame{.depth = std::as_const(truth.depth).view(), .joints = truth.joints};
+    Frame carrying = frame;
+    carrying.attached = attached;
+    add(truth, with.process(carrying), counts.attached);
+    add(truth, without.process(frame), counts.not_attached);
+  }
+  return counts;
+}
+
+class AttachedTruth : public testing::TestWithParam<bool> {
+ protected:
+  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
+};
+INSTANTIATE_TEST_SUITE_P(Depth, AttachedTruth, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "Noisy" : "Exact");
+});
+
+TEST_P(AttachedTruth, TheHeldObjectIsNeitherClearNorFront) {
+  const int frames = measures_in_full() ? 1000 : samples(60);
+  constexpr double most = 0.5;          // percent
+  constexpr double least_wrong = 50.0;  // percent: without it most of the object is front or clear
+  for (const std::uint64_t seed : {2, 3}) {  // a box and a mesh
+    const auto [attached, not_attached] = count(seed, GetParam(), frames);
+    std::cout << "seed " << seed << ": of " << attached.seen << " pixels clear or front "
+              << attached.trusted_percent() << " %, not attached " << not_attached.trusted_percent()
+              << " %; drawn beside it " << attached.too_much_percent() << " %; other link "
+              << attached.wrong_percent() << " %\n";
+    EXPECT_GT(attached.seen, static_cast<std::size_t>(100 * frames));
+    EXPECT_LT(attached.trusted_percent(), most);
+    EXPECT_LT(attached.too_much_percent(), most);
+    EXPECT_LT(attached.wrong_percent(), most);
+    EXPECT_GT(not_attached.trusted_percent(), least_wrong);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
