@@ -22,7 +22,8 @@ namespace penumbra {
 
 /// An attached body at its place.
 struct PlacedBody {
-  std::size_t link;  ///< index into FrameReport::links
+  std::size_t link;           ///< index into FrameReport::links
+  std::string name, carrier;  ///< its own, and the name of the link that carries it
   std::shared_ptr<const PreparedMesh> mesh;
   Eigen::Isometry3d T_camera_body;
 };

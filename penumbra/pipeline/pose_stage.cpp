@@ -223,8 +223,8 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   if (!is_rigid(body.T_link_body)) return missing("its pose is not a rigid transform");
   if (result_.attached.size() == max_attached)
     return missing("more than " + std::to_string(max_attached) + " bodies are attached");
-  result_.attached.push_back(
-      {number_of(body.name), body.mesh, result_.T_camera_link[*link] * body.T_link_body});
+  result_.attached.push_back({number_of(body.name), body.name, body.link, body.mesh,
+                              result_.T_camera_link[*link] * body.T_link_body});
   return FrameStatus::ok;
 }
 

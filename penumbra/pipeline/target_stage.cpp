@@ -216,6 +216,8 @@ const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledF
   const LabelledFrame& seen = is_late ? late_frame(*target.stamp) : frame;
   const bool is_blind = seen.images.is_blind && !is_expected(target);
   if (!seen.poses->known() || is_blind) throw InputError(fault_of(seen));
+  for (const PlacedBody& body : seen.poses->attached)  // it would hide itself
+    if (body.name == target.name) throw InputError("it is attached to link '" + body.carrier + "'");
   return seen;
 }
 

@@ -17,7 +17,7 @@ namespace penumbra {
 /// A thing that a link carries, for example a grasped object or a tool. It hides the view as the
 /// link does.
 struct AttachedBody {
-  std::string name;  ///< not empty, and unique in a frame
+  std::string name;  ///< not empty, and unique in a frame; a target of this name is not judged
   std::string link;  ///< the link that carries it
   /// In the body's frame, metres. Pass the same pointer for the same mesh: its renderer is cached
   /// by pointer.

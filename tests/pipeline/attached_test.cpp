@@ -82,9 +82,12 @@ TEST(Attached, HidesATargetAndIsBlamed) {
   const std::vector<double> positions{0.0};
   const std::vector<AttachedBody> attached{part()};
   const Image<float> depth = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
-  const std::vector<Target> targets{box_target("behind", PixelBox{101, 61, 4, 6})};
+  const std::vector<Target> targets{box_target("behind", PixelBox{101, 61, 4, 6}),
+                                    box_target("part", PixelBox{101, 61, 4, 6})};
   const FrameReport& report = pipeline.process(
       {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
+  EXPECT_EQ(report.targets[1].verdict, Verdict::unknown) << "it does not hide itself";
+  EXPECT_EQ(report.targets[1].reason, "it is attached to link 'slab'");
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   ASSERT_EQ(report.targets[0].judgement->blame.size(), 1U);
   EXPECT_EQ(report.links[report.targets[0].judgement->blame[0].link], "part");
