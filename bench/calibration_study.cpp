@@ -188,14 +188,15 @@ void run_real(const std::filesystem::path& recording, bool masks) {
   const Calibration all = found(input.frames, false);
   std::cout << "stated: " << 1e3 * all.position_error() << " mm, " << all.rotation_error() / degree
             << " deg; overlap with the masks " << all.mask_overlap << std::endl;
-  for (int i = 0; i < 20; ++i) {
-    std::vector<CalibrationFrame> some = input.frames;
-    for (int left = 0; left < 3; ++left)
-      some.erase(some.begin() +
-                 static_cast<std::ptrdiff_t>(random.uniform(0, static_cast<double>(some.size()))));
-    subsets.push_back(found(some, false).T_parent_camera);
-  }
-  print_spread("without three frames", subsets);
+  for (std::size_t a = 0; a < input.frames.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (std::size_t c = 0; c < b; ++c) {
+        std::vector<CalibrationFrame> some = input.frames;
+        for (const std::size_t left : {a, b, c})
+          some.erase(some.begin() + static_cast<std::ptrdiff_t>(left));
+        subsets.push_back(found(some, false).T_parent_camera);
+      }
+  print_spread("without any three frames", subsets);
 }
 
 int study_all(int argc, char** argv) {

@@ -9,7 +9,7 @@
 
 #include <penumbra/time/attachments.hpp>
 
-#include <io/ros/messages.hpp>
+#include <io/ros/moveit_messages.hpp>
 
 namespace penumbra::io {
 

@@ -7,6 +7,7 @@
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
+#include <io/ros/moveit_messages.hpp>
 #include <io/ros/wire_values-inl.hpp>
 
 namespace penumbra::io {

@@ -3,6 +3,7 @@
 
 #include <io/ros/cdr_writer.hpp>
 #include <io/ros/message_encoder.hpp>
+#include <io/ros/moveit_messages.hpp>
 #include <io/ros/wire_values-inl.hpp>
 
 namespace penumbra::io {

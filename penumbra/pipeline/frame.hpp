@@ -66,7 +66,7 @@ struct JointInput {
 };
 
 /// Bodies that may be attached at once.
-inline constexpr std::size_t max_attached = 32;
+inline constexpr std::size_t max_attached = 128;
 
 /// The input of Pipeline::process. Refers to the caller's memory, which must live during the call.
 struct Frame {

@@ -11,7 +11,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/mesh/prepared_mesh.hpp>
+#include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -35,13 +35,9 @@ class ObjectRenderers {
   VirtualDepthView box(const Eigen::Vector3d& size, const Eigen::Isometry3d& T_camera_box);
   VirtualDepthView mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                         const Eigen::Isometry3d& T_camera_mesh);
-  VirtualDepthView prepared(const std::shared_ptr<const PreparedMesh>& mesh,
-                            const Eigen::Isometry3d& T_camera_mesh);
 
  private:
   struct Kept;
-  [[nodiscard]] Kept* find(const TriangleMesh* mesh) const;
-  Kept& keep(std::shared_ptr<const TriangleMesh> mesh, const PreparedMesh& prepared);
   VirtualDepthView render(Kept& kept, const Eigen::Isometry3d& T_camera_object);
   VirtualDepthView in_image(const VirtualDepthView& rendered);
   void clear_box();

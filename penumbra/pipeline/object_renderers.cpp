@@ -106,30 +106,15 @@ void ObjectRenderers::clear_box() {
 
 VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                        const Eigen::Isometry3d& T_camera_mesh) {
-  if (Kept* const kept = find(mesh.get())) return render(*kept, T_camera_mesh);
-  check_mesh(mesh.get());
-  return render(keep(mesh, PreparedMesh(*mesh)), T_camera_mesh);
-}
-
-VirtualDepthView ObjectRenderers::prepared(const std::shared_ptr<const PreparedMesh>& mesh,
-                                           const Eigen::Isometry3d& T_camera_mesh) {
-  if (Kept* const kept = find(mesh.get())) return render(*kept, T_camera_mesh);
-  return render(keep(mesh, *mesh), T_camera_mesh);
-}
-
-ObjectRenderers::Kept* ObjectRenderers::find(const TriangleMesh* mesh) const {
   for (const auto& kept : kept_)
-    if (mesh != nullptr && kept->mesh.get() == mesh) return kept.get();
-  return nullptr;
-}
-
-ObjectRenderers::Kept& ObjectRenderers::keep(std::shared_ptr<const TriangleMesh> mesh,
-                                             const PreparedMesh& prepared) {
-  const Body body{"object", {&prepared, 1}};
+    if (mesh && kept->mesh == mesh) return render(*kept, T_camera_mesh);
+  check_mesh(mesh.get());
+  const PreparedMesh prepared(*mesh);
+  const Body body{"target", {&prepared, 1}};
   auto renderer = make_depth_renderer(backend_, intrinsics_, {&body, 1}, options_);
   Kept& kept = place();
-  kept = {std::move(mesh), std::move(renderer), 0};
-  return kept;
+  kept = {mesh, std::move(renderer), 0};
+  return render(kept, T_camera_mesh);
 }
 
 /// Returns a new entry, or the least recently used one.

@@ -19,8 +19,8 @@ namespace penumbra {
 struct AttachedBody {
   std::string name;  ///< not empty, and unique in a frame; a target of this name is not judged
   std::string link;  ///< the link that carries it
-  /// In the body's frame, metres. Pass the same pointer for the same mesh: its renderer is cached
-  /// by pointer.
+  /// In the body's frame, metres. Pass the same pointer for the same mesh: renderers are cached by
+  /// pointer.
   std::shared_ptr<const PreparedMesh> mesh;
   Eigen::Isometry3d T_link_body = Eigen::Isometry3d::Identity();
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include <io/ros/moveit_messages.hpp>
+
 namespace penumbra::test {
 namespace {
 

@@ -130,7 +130,7 @@ TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
 TEST(Attached, ManyOneAfterAnotherKeepTheirNames) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   const std::vector<double> positions{0.0};
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const std::array attached{body("a" + std::to_string(i), "slab", {0.3, 0, 0}),
                               body("b" + std::to_string(i / 50), "slab", {-0.3, 0, 0})};
     const FrameReport& report = pipeline.process({.joints = positions, .attached = attached});
