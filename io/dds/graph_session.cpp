@@ -40,7 +40,7 @@ constexpr std::string_view last_settings =
 std::string discovery_settings(const std::string& range) {
   if (range == "SYSTEM_DEFAULT") return {};
   std::string peers;
-  if (range == "LOCALHOST") peers = R"(<Peer address="localhost"/>)";
+  if (range == "LOCALHOST") peers = R"(<Peer address="127.0.0.1"/>)";  // needs no /etc/hosts
   if (environment("ROS_LOCALHOST_ONLY") != "1")
     for (const std::string& peer : static_peers()) peers += "<Peer address=\"" + peer + "\"/>";
   std::string settings = R"(<CycloneDDS><Domain id="any">)";
