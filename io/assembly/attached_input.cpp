@@ -27,7 +27,10 @@ Eigen::Isometry3d isometry_of(const LoosePose& pose) {
 }
 
 TriangleMesh mesh_of(const Primitive& primitive) {
+  constexpr double most = 10.0;  // metres: round shapes of more have millions of triangles
   const std::vector<double>& d = primitive.dimensions;
+  if (std::any_of(d.begin(), d.end(), [](double size) { return !(size <= most); }))
+    throw InputError("a shape is larger than 10 m");
   if (primitive.type == Primitive::box && d.size() == 3) return make_box({d[0], d[1], d[2]});
   if (primitive.type == Primitive::sphere && !d.empty()) return make_sphere(d[0]);
   if (primitive.type == Primitive::cylinder && d.size() >= 2) return make_cylinder(d[1], d[0]);

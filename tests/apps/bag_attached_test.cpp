@@ -114,6 +114,7 @@ TEST_F(BagAttachedTest, WhatCannotBeDrawnMakesFramesMissingLinks) {
   expect_missing([](auto& m) { m.object.primitives[0].type = io::SolidPrimitiveMessage::cone; },
                  "only boxes");
   expect_missing([](auto& m) { m.object.primitives[0].dimensions[1] = -1; }, "is not drawn");
+  expect_missing([](auto& m) { m.object.primitives[0].dimensions[1] = 11; }, "larger than 10 m");
   expect_missing([](auto& m) { m.object.header.frame_id = "base"; }, "not in its link");
   expect_missing([](auto& m) { m.object.pose.orientation.setZero(); }, "not a rigid transform");
   expect_missing([](auto& m) { m.object.operation = io::CollisionObjectMessage::move; },

@@ -11,6 +11,7 @@
 
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_decoder.hpp>
+#include <io/ros/moveit_messages.hpp>
 #include <io/ros/restamp.hpp>
 
 namespace penumbra::io {
@@ -61,7 +62,9 @@ constexpr std::array readers = {parse_definition,
                                 decode_as<PointCloud2Message>,
                                 decode_as<DiagnosticArrayMessage>,
                                 decode_as<KeypointsMessage>,
-                                decode_as<TargetsMessage>};
+                                decode_as<TargetsMessage>,
+                                decode_as<AttachedObjectMessage>,
+                                decode_as<PlanningSceneMessage>};
 
 }  // namespace
 }  // namespace penumbra::io
