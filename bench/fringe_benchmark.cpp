@@ -26,7 +26,7 @@ struct RealScene {
 
 RealScene real_scene() {
   const io::Recording recording = io::Recording::open(data_folder() / "xarm7_realsense");
-  auto robot = std::make_shared<const Robot>(Robot::load(recording.urdf, recording.robot));
+  auto robot = std::make_shared<const Robot>(recording.load_robot());
   const io::FrameReader reader(recording, *robot);
   const Eigen::Isometry3d T_camera_root = recording.camera.T_parent_camera->inverse();
   RealScene real{{"xArm 7, recorded", recording.camera.camera.intrinsics, robot, {}}, {}};

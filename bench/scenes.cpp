@@ -105,9 +105,7 @@ BenchScene ur5e_scene(Geometry geometry, int width, int height, double f, std::s
 
 BenchScene xarm7_scene(std::size_t frames) {
   const io::Recording recording = io::Recording::open(data_folder() / "xarm7_realsense");
-  const auto load = [urdf = recording.urdf, options = recording.robot] {
-    return Robot::load(urdf, options);
-  };
+  const auto load = [recording] { return recording.load_robot(); };
   auto robot = std::make_shared<const Robot>(load());
   const Intrinsics& k = recording.camera.camera.intrinsics;
   BenchScene scene{

@@ -18,7 +18,7 @@ namespace {
 
 void run(const std::filesystem::path& folder, std::size_t number) {
   const io::Recording recording = io::Recording::open(folder);
-  Robot robot = Robot::load(recording.urdf, recording.robot);
+  Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 

@@ -60,7 +60,7 @@ void tell(const FrameReport& report, const std::optional<Eigen::Vector3d>& raw) 
 
 void run(const std::filesystem::path& folder) {
   const io::Recording recording = io::Recording::open(folder);
-  Robot robot = Robot::load(recording.urdf, recording.robot);
+  Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 

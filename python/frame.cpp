@@ -102,7 +102,8 @@ void bind_frame(py::module_& m) {
       Field{"index", &F::index, "In its source."},
       Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
       Field{"doubted_links", &F::uncertain_links,
-            "Indices of links without geometry whose pose is not known: targets and estimates in "
+            "Indices of links whose pose is not known: what they could hide is unknown, and "
+            "targets in "
             "them are not judged."},
       Field{"doubt", &F::uncertain_reason, "The reason, one line."},
       Field{"attached", &F::attached, "What the robot's links carry."});

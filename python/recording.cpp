@@ -95,11 +95,11 @@ void bind_description(py::module_& m) {
           "open", &R::open, py::arg("folder_or_yaml"), WithoutGil(),
           "Reads a recording.yaml, or the one in a folder. Raises InputError with file, line "
           "and key.")
+      .def("load_robot", &R::load_robot, WithoutGil(),
+           "Loads the robot, or joins the robots. Raises InputError.")
       .def("pipeline_config", &R::pipeline_config,
            "The defaults of a pipeline with the recording's settings.");
   show_fields(recording, Field{"file", &R::file, "The recording.yaml."},
-              Field{"urdf", &R::urdf, "The robot's file."},
-              Field{"robot", &R::robot, "How it is read."},
               Field{"camera", &R::camera, "Its camera."},
               Field{"targets", &R::targets, "The targets.yaml, or None."});
 }

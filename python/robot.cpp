@@ -185,6 +185,17 @@ void bind_robot_class(py::module_& m) {
              const RobotOptions& options) { return Robot::parse(xml, folder, options); },
           py::arg("xml"), py::arg("folder"), py::arg("options") = RobotOptions(), WithoutGil(),
           "The same from text; relative mesh paths start at folder.")
+      .def_static(
+          "join",
+          [](const std::vector<std::tuple<std::string, Robot, Eigen::Isometry3d>>& robots) {
+            std::vector<PlacedRobot> placed;
+            for (const auto& [name, one, T_world_root] : robots)
+              placed.push_back({name, one, T_world_root});
+            return Robot::join(placed);
+          },
+          py::arg("robots"),
+          "Joins several robots to one. robots: (name, robot, T_world_root in metres) of each. The "
+          "root link is 'world'; NAME of robot ROBOT is called ROBOT/NAME. Raises InputError.")
       .def("find_link", &Robot::find_link, py::arg("name"), "Its index, or None.")
       .def("find_variable", &find_variable, py::arg("name"),
            "Its index. Raises KeyError for an unknown name.")

@@ -61,7 +61,9 @@ RandomTargets::RandomTargets(Arm& arm, const SceneOptions& options, const Intrin
     : arm_(arm), seed_(options.seed), frame_rate_(options.frame_rate), intrinsics_(intrinsics) {
   Random random(seed_, 12);
   description_.moves = false;
-  const double around = random.uniform(-2.2, -0.6), far = random.uniform(1.3, 1.7);
+  const double around = random.uniform(-2.2, -0.6);
+  const double far =
+      random.uniform(1.3, 1.7) + (arm.robot().links().front() == "world" ? 0.5 : 0.0);
   const double height = random.uniform(0.4, 1.0);
   const auto camera = [&](double angle) {
     return look_at({far * std::cos(angle), far * std::sin(angle), height}, {0.0, 0.0, 0.40});
@@ -130,7 +132,9 @@ std::vector<double> RandomTargets::joints(double time) const {
   for (const Joint& joint : arm_.robot().joints()) {
     if (!joint.variable || joint.mimics) continue;
     // Wrists turn fully, but the arm keeps away from its own base.
-    const double most = joint.name == "shoulder_lift" ? 1.4 : joint.name == "elbow" ? 2.2 : 3.0;
+    const double most = joint.name.ends_with("shoulder_lift") ? 1.4
+                        : joint.name.ends_with("elbow")       ? 2.2
+                                                              : 3.0;
     positions[*joint.variable] = random.uniform(std::max(joint.lower.value_or(-most), -most),
                                                 std::min(joint.upper.value_or(most), most));
   }

@@ -89,12 +89,21 @@ void RecordingFolder::write_robot() const {
   std::error_code error;
   fs::copy(description, folder_ / name, fs::copy_options::recursive, error);
   if (error) refuse_file(folder_ / name, error.message());
+  const auto robot = [&](const std::string& indent) {
+    return indent + "urdf: " + quoted(name + '/' + simulation_.urdf().filename().string()) + '\n' +
+           indent + "packages:\n" + indent + "  " + quoted(name) + ": " + quoted(name) + '\n' +
+           indent + "geometry: visual   # what was drawn\n";
+  };
+  std::string robots = simulation_.arms().empty() ? "robot:\n" + robot("  ") : "robots:\n";
+  for (const auto& [arm, T] : simulation_.arms()) {
+    const Eigen::Vector3d at = T.translation();
+    const Eigen::Quaterniond turn(T.linear());
+    robots += "  " + arm + ":\n    pose: [" +
+              numbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}, ", ") +
+              "]\n" + robot("    ");
+  }
   write_whole(folder_ / "recording.yaml",
-              "# Simulated by penumbra simulate. Paths are relative to this file.\n"
-              "robot:\n  urdf: " +
-                  quoted(name + '/' + simulation_.urdf().filename().string()) +
-                  "\n  packages:\n    " + quoted(name) + ": " + quoted(name) +
-                  "\n  geometry: visual   # what was drawn\n"
+              "# Simulated by penumbra simulate. Paths are relative to this file.\n" + robots +
                   "camera:\n  info: camera_info.yaml\n  parent: " +
                   quoted(simulation_.robot().links().front()) +
                   "\n  pose: camera_pose.csv\n"

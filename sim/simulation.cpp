@@ -58,8 +58,9 @@ std::filesystem::path shipped_urdf() {
   return urdf;
 }
 
-RobotOptions visual_geometry() {
+RobotOptions visual_geometry(const std::filesystem::path& urdf) {
   RobotOptions options;
+  options.packages.emplace(urdf.parent_path().filename().string(), urdf.parent_path());
   options.geometry = Geometry::visual;
   options.geometry_fallback = true;
   return options;
@@ -100,6 +101,7 @@ struct Simulation::State {
   std::filesystem::path urdf = shipped_urdf();
   Camera camera = d415_color();  // both
   TemporaryFolder folder;
+  std::vector<ArmPlace> arms;
   Arm arm;
   std::unique_ptr<Scene> scene;
   Stage stage;
@@ -113,7 +115,9 @@ struct Simulation::State {
 
 Simulation::State::State(const std::string& name, const SimulationOptions& options_)
     : options(options_),
-      arm(urdf, visual_geometry(), folder.path()),
+      arms(name == "two_arms" ? two_places() : std::vector<ArmPlace>()),
+      arm(arms.empty() ? urdf : write_arms(urdf, arms, folder.path()), visual_geometry(urdf),
+          folder.path()),
       scene(make_scene(name)),
       stage(arm, scene->description(), folder.path(), camera.intrinsics),
       view{camera.intrinsics, scene->description().T_base_camera},
@@ -127,7 +131,7 @@ std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
                                    options.duration};
   if (name == "conveyor") return make_conveyor(arm, scene_options);
   if (name == "handover") return make_handover(arm, scene_options);
-  if (name == "random" || name == "carry")
+  if (name == "random" || name == "carry" || name == "two_arms")
     return make_random_targets(arm, scene_options, camera.intrinsics, name == "carry");
   const std::vector<std::string>& names = Simulation::scenes();
   const std::vector<std::string_view> known(names.begin(), names.end());
@@ -208,7 +212,8 @@ void Simulation::State::count_alone(const Window& window, const SimFrame& frame_
 }
 
 const std::vector<std::string>& Simulation::scenes() {
-  static const std::vector<std::string> names{"conveyor", "handover", "random", "carry"};
+  static const std::vector<std::string> names{"conveyor", "handover", "random", "carry",
+                                              "two_arms"};
   return names;
 }
 
@@ -251,6 +256,7 @@ bool Simulation::next(SimFrame& frame) {
 }
 
 const std::filesystem::path& Simulation::urdf() const { return state_->urdf; }
+const std::vector<ArmPlace>& Simulation::arms() const { return state_->arms; }
 const Robot& Simulation::robot() const { return state_->arm.robot(); }
 const Camera& Simulation::camera() const { return state_->camera; }
 const Eigen::Isometry3d& Simulation::T_base_camera() const { return state_->view.T_base_camera; }

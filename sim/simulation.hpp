@@ -15,6 +15,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/files/png.hpp>
+#include <sim/two_arms.hpp>
 
 namespace penumbra::sim {
 
@@ -102,7 +103,8 @@ inline constexpr std::int32_t first_object_id = 10000;
 class Simulation {
  public:
   /// Returns the names of the scenes: conveyor, handover, random (targets in front of, behind and
-  /// next to the arm), carry (the same, with an object "held" in the gripper).
+  /// next to the arm), carry (the same, with an object "held" in the gripper), two_arms (the same,
+  /// with two arms that cross).
   [[nodiscard]] static const std::vector<std::string>& scenes();
 
   /// Throws InputError for an unknown scene, invalid options, or a machine without OpenGL; the
@@ -119,8 +121,12 @@ class Simulation {
   void skip(std::size_t frames);
   [[nodiscard]] std::size_t frames() const;  ///< number of frames of the scene
 
-  [[nodiscard]] const std::filesystem::path& urdf() const;  ///< URDF of the robot
-  [[nodiscard]] const Robot& robot() const;  ///< the robot as Penumbra reads it, visual geometry
+  [[nodiscard]] const std::filesystem::path& urdf() const;  ///< URDF of the robot, or of each arm
+  /// The places of several arms; empty for one. Their world is the base frame below.
+  [[nodiscard]] const std::vector<ArmPlace>& arms() const;
+  /// The robot as Penumbra reads it, visual geometry; of several arms one URDF with a link "world",
+  /// whose names are as Robot::join makes them.
+  [[nodiscard]] const Robot& robot() const;
   /// Colour and depth, aligned; also the second camera's.
   [[nodiscard]] const Camera& camera() const;
   [[nodiscard]] const Eigen::Isometry3d& T_base_camera() const;

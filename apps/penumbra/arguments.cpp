@@ -70,7 +70,8 @@ void add_doctor(CLI::App& app, DoctorArguments& doctor) {
 void add_simulate(CLI::App& app, SimulateArguments& simulate) {
   app.footer(simulate_examples);
   sim::SimulationOptions& options = simulate.options;
-  app.add_option("SCENE", simulate.scene, "conveyor, handover, random or carry")->required();
+  app.add_option("SCENE", simulate.scene, "conveyor, handover, random, carry or two_arms")
+      ->required();
   add_text(app, "-o,--output", "folder for the recording, new or empty; or a new bag NAME.mcap",
            "OUT", simulate.output)
       ->required();

@@ -58,6 +58,8 @@ Frame frame_of(const FrameData& data) {
   frame.joints = data.positions;
   frame.source_status = data.status;
   frame.source_message = data.message;
+  frame.uncertain_links = data.uncertain_links;
+  frame.uncertain_reason = data.message;
   frame.index = static_cast<std::size_t>(data.index);
   // A recording's joint row is of the frame's own stamp.
   if (data.stamp && !data.positions.empty()) frame.joints.age = 0;
@@ -70,15 +72,21 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
             recording.camera.camera.intrinsics.height()},
       files_(recording.frames),
       rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)),
-      bodies_(recording.attached) {}
+      bodies_(recording.attached),
+      parts_(robot.parts().begin(), robot.parts().end()) {}
 
 void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
   const JointRow& row = rows_[i];
   frame.index = row.index;
   frame.stamp = row.stamp;
   frame.positions = row.positions;
-  frame.status = row.fault.empty() ? FrameStatus::ok : FrameStatus::missing_joints;
+  const bool is_usable = row.fault.empty() || !row.faulty_parts.empty();
+  frame.status = is_usable ? FrameStatus::ok : FrameStatus::missing_joints;
   frame.message = row.fault;
+  frame.uncertain_links.clear();
+  for (const std::size_t part : row.faulty_parts)
+    for (std::size_t link = parts_[part].first_link; link < parts_[part].end_link; ++link)
+      frame.uncertain_links.push_back(link);
   frame.attached.clear();
   for (const RecordedBody& each : bodies_)
     if (each.first <= row.index && row.index < each.end) frame.attached.push_back(each.body);

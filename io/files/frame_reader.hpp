@@ -30,7 +30,8 @@ struct FrameData {
   std::variant<Image<std::uint16_t>, Image<float>> depth;  ///< valid unless missing or bad
   Image<Rgb8> color;          ///< empty if not wanted, not recorded or not usable
   std::string color_message;  ///< why a recorded colour image is not usable; empty if it is
-  std::vector<AttachedBody> attached;  ///< of a recording
+  std::vector<AttachedBody> attached;        ///< of a recording
+  std::vector<std::size_t> uncertain_links;  ///< of a recording: as in Frame, for `message`
 
   [[nodiscard]] DepthView depth_view() const;
 };
@@ -58,6 +59,7 @@ class FrameReader {
   RecordingFrames files_;
   std::vector<JointRow> rows_;
   std::vector<RecordedBody> bodies_;
+  std::vector<RobotPart> parts_;
 };
 
 }  // namespace penumbra::io

@@ -23,6 +23,12 @@ void check_known(const Robot& robot, const FrameTable& table, std::string_view n
                    "' is no joint of the robot that moves" + near_names(name, known));
 }
 
+std::optional<std::size_t> part_of_variable(const Robot& robot, std::size_t variable) {
+  for (std::size_t i = 0; i < robot.parts().size(); ++i)
+    if (variable < robot.parts()[i].end_variable) return i;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const Robot& robot) {
@@ -46,11 +52,20 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     try {
       table.check_width(from);
       if (stamp) row.stamp = table.number<std::int64_t>(from, *stamp);
-      for (const std::size_t column : columns)
-        row.positions.push_back(table.number<double>(from, column));
+      row.positions = robot.rest_positions();
+      for (std::size_t i = 0; i < columns.size(); ++i) try {
+          row.positions[i] = table.number<double>(from, columns[i]);
+        } catch (const InputError& fault) {
+          const auto part = part_of_variable(robot, i);
+          if (!part) throw;
+          row.fault = frame + ": " + fault.what();
+          if (row.faulty_parts.empty() || row.faulty_parts.back() != *part)
+            row.faulty_parts.push_back(*part);
+        }
     } catch (const InputError& fault) {
       row.fault = frame + ": " + fault.what();
       row.positions.clear();
+      row.faulty_parts.clear();
     }
     if (row.stamp.value_or(0) < 0)  // the column is something else
       throw InputError(table.place(from.line) + "stamp " + std::to_string(*row.stamp) +

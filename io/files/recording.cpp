@@ -63,6 +63,34 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   return options;
 }
 
+RecordedRobot robot_of(const YamlNode& robot, const std::filesystem::path& folder) {
+  robot.allow_only(
+      {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra", "pose"});
+  return {.name = {},
+          .urdf = file_of(robot.at("urdf"), folder),
+          .options = robot_options_of(robot, folder)};
+}
+
+std::vector<RecordedRobot> robots_of(const YamlNode& root, const std::filesystem::path& folder) {
+  const YamlNode* const several = root.find("robots");
+  if (several == nullptr) {
+    const YamlNode& only = root.at("robot");
+    if (const YamlNode* pose = only.find("pose"))
+      pose->fail("is for several robots ('robots: NAME: ...'); leave it out");
+    return {robot_of(only, folder)};
+  }
+  if (root.find("robot") != nullptr) several->fail("stands beside 'robot'; one of them is wanted");
+  std::vector<RecordedRobot> robots;
+  for (const YamlNode& entry : several->entries()) {
+    RecordedRobot& robot = robots.emplace_back(robot_of(entry, folder));
+    robot.name = entry.key();
+    const YamlNode& pose = entry.at("pose");
+    const std::vector<double> numbers = pose.numbers(7);
+    robot.T_world_root = pose.blamed_for([&] { return isometry_of(numbers); });
+  }
+  return robots;
+}
+
 void refuse_depth_camera(const YamlNode& camera) {
   for (const char* key : {"depth_info", "depth_pose"})
     if (const YamlNode* given = camera.find(key))
@@ -184,21 +212,44 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
                                          : folder_or_yaml;
   const std::filesystem::path folder = file.parent_path();
   const YamlNode root = YamlNode::read(file);
-  root.allow_only({"robot", "camera", "frames", "targets", "attached"});
-  const YamlNode& robot = root.at("robot");
-  robot.allow_only(
-      {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra"});
+  root.allow_only({"robot", "robots", "camera", "frames", "targets", "attached"});
   std::optional<std::filesystem::path> targets;
   if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
   std::vector<RecordedBody> attached;
   if (const YamlNode* bodies = root.find("attached")) attached = bodies_of(*bodies, folder);
   return {.file = file,
-          .urdf = file_of(robot.at("urdf"), folder),
-          .robot = robot_options_of(robot, folder),
+          .robots = robots_of(root, folder),
           .camera = camera_of(root.at("camera"), folder),
           .frames = frames_of(root.at("frames"), folder),
           .targets = targets,
           .attached = std::move(attached)};
+}
+
+Robot Recording::load_robot() const {
+  if (robots.size() == 1 && robots.front().name.empty())
+    return Robot::load(robots.front().urdf, robots.front().options);
+  std::vector<PlacedRobot> all;
+  for (const RecordedRobot& robot : robots)
+    all.push_back({robot.name, Robot::load(robot.urdf, robot.options), robot.T_world_root});
+  return Robot::join(all);
+}
+
+RobotOptions Recording::robot_options() const {
+  RobotOptions all = robots.front().options;
+  if (robots.front().name.empty()) return all;
+  all = {.geometry = all.geometry, .geometry_fallback = all.geometry_fallback};
+  for (const auto& [name, urdf, options, pose] : robots) {
+    const std::string prefix = name + "/";
+    for (const auto& [link, geometry] : options.geometry_of_links)
+      all.geometry_of_links.emplace(prefix + link, geometry);
+    if (options.geometry != all.geometry)
+      all.geometry_of_links.emplace(prefix + "*", options.geometry);
+    for (const auto& [link, margin] : options.margins) all.margins.emplace(prefix + link, margin);
+    for (const auto& link : options.ignore_links) all.ignore_links.push_back(prefix + link);
+    for (const auto& link : options.only_links) all.only_links.push_back(prefix + link);
+    for (const auto& extra : options.extra) all.extra.push_back({prefix + extra.link, extra.mesh});
+  }
+  return all;
 }
 
 PipelineConfig Recording::pipeline_config() const {

@@ -23,6 +23,14 @@ namespace penumbra::io {
 /// The meaning of the label "beyond" for verdicts.
 enum class BeyondMeans { occluded, visible };
 
+/// A robot of a recording.
+struct RecordedRobot {
+  std::string name;  ///< empty if it is the only one
+  std::filesystem::path urdf;
+  RobotOptions options;
+  Eigen::Isometry3d T_world_root = Eigen::Isometry3d::Identity();
+};
+
 /// The camera of a recording. Optional values are those that the file gives.
 struct RecordingCamera {
   std::filesystem::path info;  ///< the camera_info file
@@ -55,8 +63,7 @@ struct RecordedBody {
 /// A recording folder's description (DESIGN section 4), read and checked. Paths are ready to use.
 struct Recording {
   std::filesystem::path file;  ///< the recording.yaml
-  std::filesystem::path urdf;
-  RobotOptions robot;
+  std::vector<RecordedRobot> robots;
   RecordingCamera camera;
   RecordingFrames frames;
   std::optional<std::filesystem::path> targets = {};  ///< the targets.yaml
@@ -66,6 +73,11 @@ struct Recording {
   /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or
   /// values, a pose that is not rigid, and for what is not supported yet.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
+
+  /// Loads the robot, or joins the robots (Robot::join). Throws InputError.
+  [[nodiscard]] Robot load_robot() const;
+  /// Returns the options of the robot, or of all robots, with their names before those of links.
+  [[nodiscard]] RobotOptions robot_options() const;
 
   /// Returns a pipeline's defaults with the recording's camera pose and label rule. Throws
   /// InputError if it has no camera pose.

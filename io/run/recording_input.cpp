@@ -60,7 +60,8 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReade
   return selected;
 }
 
-void check_links(const Recording& recording, const Robot& robot) {
+void check_links(const Recording& recording, const Robot& robot,
+                 const std::vector<ExtraMesh>& extra) {
   const auto check = [&](const std::string& key, const std::string& link) {
     if (link.empty() || robot.find_link(link)) return;
     const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
@@ -70,6 +71,7 @@ void check_links(const Recording& recording, const Robot& robot) {
   check("camera.parent", recording.camera.parent);
   for (const RecordedBody& each : recording.attached)
     check("attached: " + each.body.name + ": link", each.body.link);
+  for (const ExtraMesh& part : extra) check("--extra", part.link);
 }
 
 /// Some frames of a recording folder.
@@ -109,12 +111,12 @@ RunInput open_recording_input(const InputOptions& options) {
                      " is a recording folder, which says this itself; leave it out");
   if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
     recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
-  options.apply_to(recording.robot);
-  Robot robot = Robot::load(recording.urdf, recording.robot);
+  for (RecordedRobot& robot : recording.robots) options.apply_to(robot.options, robot.name);
+  Robot robot = recording.load_robot();
   FrameReader reader(recording, robot);
   std::vector<std::size_t> selected = select_frames(options.frames, reader);
-  check_links(recording, robot);
-  return {.robot_options = recording.robot,
+  check_links(recording, robot, options.extra);
+  return {.robot_options = recording.robot_options(),
           .robot = std::move(robot),
           .camera = recording.camera.camera,
           .camera_info = recording.camera.info,
@@ -130,11 +132,14 @@ RunInput open_recording_input(const InputOptions& options) {
 
 }  // namespace
 
-void InputOptions::apply_to(RobotOptions& robot) const {
+void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const {
   if (geometry) robot.geometry = *geometry;
   robot.geometry_fallback |= geometry_fallback;
   robot.allow_missing_meshes |= allow_missing_meshes;
-  robot.extra.insert(robot.extra.end(), extra.begin(), extra.end());
+  const std::string prefix = name.empty() ? "" : name + "/";
+  for (const ExtraMesh& part : extra)
+    if (part.link.starts_with(prefix))
+      robot.extra.push_back({part.link.substr(prefix.size()), part.mesh});
 }
 
 RunInput open_input(const InputOptions& options, const LineSink& print) {

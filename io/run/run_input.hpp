@@ -39,8 +39,8 @@ struct InputOptions {
   BagOptions bag;
   std::string bag_option;  ///< name of a bag's option that was given; empty: none
 
-  /// Adds these settings to the input's own.
-  void apply_to(RobotOptions& robot) const;
+  /// Adds these settings to the input's own, of the robot of that name; empty: the only robot.
+  void apply_to(RobotOptions& robot, const std::string& name = {}) const;
 };
 
 /// An opened input.

@@ -61,7 +61,9 @@ std::string poses_json(std::span<const Eigen::Isometry3d> T_root_link,
                        const std::optional<Eigen::Isometry3d>& T_root_camera, std::size_t links) {
   Json poses = Json::array();
   for (std::size_t i = 0; i < links; ++i)
-    poses.push_back(i < T_root_link.size() ? pose_json(T_root_link[i]) : Json(nullptr));
+    poses.push_back(i < T_root_link.size() && T_root_link[i].matrix().allFinite()
+                        ? pose_json(T_root_link[i])
+                        : Json(nullptr));
   return "\"link_poses\": " + json_text(poses) + ", \"camera_pose\": " +
          json_text(T_root_camera ? pose_json(*T_root_camera) : Json(nullptr));
 }

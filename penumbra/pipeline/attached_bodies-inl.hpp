@@ -16,17 +16,19 @@
 
 namespace penumbra {
 
-/// Draws attached bodies into the robot's virtual depth image, on one thread of the CPU. Each set
-/// of meshes has a renderer; the last ones are cached, so that a body attached again costs nothing.
+/// Draws attached bodies, and what links of unknown pose could reach, into the robot's virtual
+/// depth image, on one thread of the CPU. Each set of meshes has a renderer; the last ones are
+/// cached, so that a body attached again costs nothing.
 class AttachedBodies {
  public:
   static constexpr std::size_t max_kept = 8;  ///< renderers, of 14 MB each at 1280x720
 
   AttachedBodies(const Intrinsics& intrinsics, const PipelineConfig& config);
 
-  /// Returns the robot together with the bodies; the nearest surface wins. Valid until the next
-  /// call.
-  VirtualDepthView add_to(const VirtualDepthView& robot, std::span<const PlacedBody> bodies);
+  /// Returns the robot together with the bodies and balls; the nearest surface wins. Valid until
+  /// the next call.
+  VirtualDepthView add_to(const VirtualDepthView& robot, std::span<const PlacedBody> bodies,
+                          std::span<const Reach> reaches);
 
  private:
   struct Kept {
@@ -35,6 +37,7 @@ class AttachedBodies {
   };
   DepthRenderer& renderer_of(std::span<const PlacedBody> bodies);
   void copy(const VirtualDepthView& robot);
+  void draw(std::span<const PlacedBody> bodies);
 
   Intrinsics intrinsics_;
   Backend backend_;

@@ -12,8 +12,15 @@ AttachedBodies::AttachedBodies(const Intrinsics& intrinsics, const PipelineConfi
       options_{.threads = 1, .isa = config.renderer.isa} {}
 
 VirtualDepthView AttachedBodies::add_to(const VirtualDepthView& robot,
-                                        std::span<const PlacedBody> bodies) {
+                                        std::span<const PlacedBody> bodies,
+                                        std::span<const Reach> reaches) {
   copy(robot);
+  if (!bodies.empty()) draw(bodies);
+  draw_reaches(reaches, intrinsics_, depth_.view(), links_.view(), touched_);
+  return {depth_.view(), links_.view(), &touched_};
+}
+
+void AttachedBodies::draw(std::span<const PlacedBody> bodies) {
   poses_.clear();
   for (const PlacedBody& body : bodies) poses_.push_back(body.T_camera_body);
   const VirtualDepthView drawn = renderer_of(bodies).render(poses_);
@@ -29,7 +36,6 @@ VirtualDepthView AttachedBodies::add_to(const VirtualDepthView& robot,
   });
   for (std::size_t row = 0; row < touched_.rows.size(); ++row)
     touched_.rows[row] |= drawn.touched->rows[row];
-  return {depth_.view(), links_.view(), &touched_};
 }
 
 DepthRenderer& AttachedBodies::renderer_of(std::span<const PlacedBody> bodies) {

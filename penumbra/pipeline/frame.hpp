@@ -25,8 +25,8 @@ enum class FrameStatus {
   ok,
   missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
   stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
-  missing_link,       ///< rendered without a link whose mesh could not be read, or without an
-                      ///< attached body
+  missing_link,       ///< rendered without a link whose mesh could not be read or whose pose is
+                      ///< not known, or without an attached body
   missing_depth,      ///< no depth image: every robot pixel is unknown
   bad_depth,          ///< an unusable depth image, or one without any measurement within the
                       ///< sensor's range: every robot pixel is unknown
@@ -83,9 +83,10 @@ struct Frame {
   /// it has no mesh or its link's pose is not known, is a `missing_link`.
   std::span<const AttachedBody> attached = {};
 
-  /// Links whose pose is unknown although the robot's is known: they have no geometry, and the
-  /// camera is not mounted on them. Targets and estimates given in them are not judged. Indices
-  /// into Robot::links(); process() throws for other values.
+  /// Links whose pose is unknown although the robot's is known. Targets and estimates given in them
+  /// are not judged. Those with geometry are a `missing_link`: pixels are unknown wherever they or
+  /// what they carry could be within the limits of their joints, in front of what is measured.
+  /// Indices into Robot::links(); process() throws for other values.
   std::span<const std::size_t> uncertain_links = {};
   std::string_view uncertain_reason = {};  ///< one line
 
@@ -130,7 +131,7 @@ struct FrameReport {
   StageTimes timing;
 
   /// Poses of the camera and of each of the robot's links; null and empty if the robot's pose is
-  /// unknown.
+  /// unknown, NaN for a link that is not drawn because its pose is unknown.
   std::optional<Eigen::Isometry3d> T_root_camera;
   std::span<const Eigen::Isometry3d> T_root_link;
 

@@ -66,6 +66,7 @@ class FrameLabeller {
   Eigen::Vector2i depth_size_;  // of the camera's images, pixels
   labelling::Rule measured_;    // defines a measurement
   std::string message_;
+  Image<std::uint8_t> labels_with_reaches_;
   std::vector<std::uint16_t> no_depth_row_;  // all rows of an image (stride 0)
   std::vector<std::uint8_t> unknown_row_;
 };

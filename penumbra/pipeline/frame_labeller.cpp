@@ -87,6 +87,9 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
     if (!images.is_blind)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     images.labels = classify(images.virtual_depth, images.measured);
+    if (!poses.reaches.empty())
+      images.labels = unknown_in_reaches(images.labels, images.virtual_depth.links, poses.reaches,
+                                         labels_with_reaches_);
   }
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;
@@ -125,7 +128,8 @@ LabelView FrameLabeller::unknown_labels() const {
 
 VirtualDepthView FrameLabeller::draw(const PoseResult& poses) {
   VirtualDepthView drawn = renderer_->render(poses.T_camera_link);
-  if (!poses.attached.empty()) drawn = attached_.add_to(drawn, poses.attached);
+  if (!poses.attached.empty() || !poses.reaches.empty())
+    drawn = attached_.add_to(drawn, poses.attached, poses.reaches);
   return raw_images_ ? raw_images_->virtual_depth(drawn) : drawn;
 }
 

@@ -16,6 +16,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/reach-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
@@ -37,6 +38,7 @@ struct PoseResult {
   std::vector<Eigen::Isometry3d> T_camera_link = {};  ///< valid if known()
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
   std::vector<PlacedBody> attached = {};        ///< valid if known()
+  std::vector<Reach> reaches = {};              ///< of links that are not drawn; valid if known()
   std::vector<std::string> missing_links = {};  ///< as in FrameReport
   std::vector<std::size_t> uncertain_links = {};
   std::string uncertain_reason = {};

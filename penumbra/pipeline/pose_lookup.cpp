@@ -44,6 +44,10 @@ bool holds(const std::vector<std::size_t>& indices, std::size_t index) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
+void add_to(std::vector<std::size_t>& indices, std::size_t index) {
+  if (!holds(indices, index)) indices.push_back(index);
+}
+
 std::string disagreement_text(const std::string& link, double distance) {
   std::ostringstream text;
   text.precision(3);
@@ -73,6 +77,7 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
       rest_(robot.rest_positions()),
       T_root_link_(robot.links().size()) {
   moves_needed_.resize(robot.variables().size());
+  variable_links_.resize(robot.variables().size());
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
     frames_.push_back(options_.frame_prefix + robot.links()[link]);
     auto& movers = movers_.emplace_back();
@@ -81,6 +86,7 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
       movers = movers_[joint.parent];
       for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
         movers.push_back(*joint.variable + i);
+      for (const std::size_t variable : movers) variable_links_[variable] = link;
     }
     is_needed_.push_back(robot.report()[link].drawn || link == camera_parent_);
     if (!is_needed_[link]) continue;
@@ -124,7 +130,10 @@ void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
   JointStatus& status = answer.joints.status;
   auto& gaps = answer.joints.gaps;
   auto& disputes = answer.joints.disputes;
-  const auto is_needed = [this](const auto& unknown) { return moves_needed_[unknown.variable]; };
+  const auto is_needed = [&](const auto& unknown) {
+    return moves_needed_[unknown.variable] &&
+           !doubt_robot_of(variable_links_[unknown.variable], answer);
+  };
   if (std::any_of(gaps.begin(), gaps.end(), is_needed) ||
       std::any_of(disputes.begin(), disputes.end(), is_needed)) {
     std::erase_if(gaps, std::not_fn(is_needed));
@@ -141,7 +150,7 @@ void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
     };
     if (std::any_of(gaps.begin(), gaps.end(), moves_link) ||
         std::any_of(disputes.begin(), disputes.end(), moves_link))
-      answer.uncertain_links.push_back(link);
+      add_to(answer.uncertain_links, link);
   }
   for (const JointGap& gap : gaps) answer.joints.positions[gap.variable] = rest_[gap.variable];
   status = JointStatus::ok;
@@ -155,10 +164,12 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
   answer.T_root_link[0].setIdentity();
   auto& uncertain = answer.uncertain_links;
   for (const Joint& joint : robot_.joints()) {
-    const bool is_given = joint.type != JointType::fixed || transforms.knows(frames_[joint.child]);
+    const bool is_mount = joint.parent == 0 && robot_.part_of(joint.child) != nullptr;
+    const bool is_given =
+        joint.type != JointType::fixed || transforms.knows(frames_[is_mount ? 0 : joint.child]);
     const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
                                                       frames_[joint.child], answer);
-    if (!is_found && leads_to_needed_[joint.child]) return;
+    if (!is_found && leads_to_needed_[joint.child] && !doubt_robot_of(joint.child, answer)) return;
     answer.T_root_link[joint.child] =
         answer.T_root_link[joint.parent] *
         (is_given && is_found ? transform_.T_target_source : joint.origin);
@@ -166,8 +177,7 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
       answer.status = FrameStatus::ok;
       answer.uncertain_reason = std::exchange(answer.message, {});
     }
-    if ((!is_found || holds(uncertain, joint.parent)) && !holds(uncertain, joint.child))
-      uncertain.push_back(joint.child);
+    if (!is_found || holds(uncertain, joint.parent)) add_to(uncertain, joint.child);
   }
 }
 
@@ -188,6 +198,15 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
   return false;
 }
 
+/// Makes all links of a link's robot uncertain. Returns false if the frame cannot do without that
+/// robot: it is the only one, or carries the camera.
+bool PoseLookup::doubt_robot_of(std::size_t link, PoseAnswer& answer) const {
+  const RobotPart* const part = robot_.part_of(link);
+  if (part == nullptr || part == robot_.part_of(camera_parent_)) return false;
+  for (std::size_t i = part->first_link; i < part->end_link; ++i) add_to(answer.uncertain_links, i);
+  return true;
+}
+
 void PoseLookup::compare(PoseAnswer& answer) {
   robot_.forward_kinematics(answer.joints.positions, T_root_link_);
   struct Disagreement {
@@ -196,15 +215,19 @@ void PoseLookup::compare(PoseAnswer& answer) {
   };
   Disagreement needed, other;
   for (std::size_t i = 0; i < T_root_link_.size(); ++i) {
+    if (holds(answer.uncertain_links, i)) continue;
     const double distance = distance_between(T_root_link_[i], answer.T_root_link[i]);
     Disagreement& most = is_needed_[i] ? needed : other;
     if (distance > most.distance) most = {i, distance};
-    if (!is_needed_[i] && distance > agreement) answer.uncertain_links.push_back(i);
+    if (!is_needed_[i] && distance > agreement) add_to(answer.uncertain_links, i);
   }
   const auto text = [&](const Disagreement& most) {
     return disagreement_text(robot_.links()[most.link], most.distance);
   };
-  if (needed.distance > agreement) {
+  if (needed.distance > agreement && doubt_robot_of(needed.link, answer)) {
+    add_part(answer.uncertain_reason, text(needed));
+    compare(answer);  // the other robots
+  } else if (needed.distance > agreement) {
     answer.status = FrameStatus::poses_disagree;
     answer.message = text(needed);
   } else if (other.distance > agreement) {

@@ -57,9 +57,11 @@ class PoseLookup {
   PoseLookup(const Robot& robot, PoseOptions options);
 
   /// TF is looked up from link to parent link; a fixed joint whose frame TF never named has the
-  /// URDF's pose. Joints and transforms that are missing, stale or disputed are a fault if they
-  /// move a link with geometry or the camera's parent. Otherwise the links that they move are
-  /// uncertain. Allocates nothing for an answer that is ok, once the answer has been used.
+  /// URDF's pose, and so has the mount of a robot (Robot::join) if TF never named "world". Joints
+  /// and transforms that are missing, stale or disputed are a fault if they move a link with
+  /// geometry or the camera's parent. Otherwise the links that they move are uncertain. Of several
+  /// robots (Robot::join) one that does not carry the camera is uncertain as a whole, and no fault.
+  /// Allocates nothing for an answer that is ok, once the answer has been used.
   void at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer);
 
  private:
@@ -68,6 +70,7 @@ class PoseLookup {
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void compare(PoseAnswer& answer);
+  bool doubt_robot_of(std::size_t link, PoseAnswer& answer) const;
   bool find_transform(const TransformBuffer& transforms, std::int64_t stamp,
                       std::string_view target, std::string_view source, PoseAnswer& answer);
 
@@ -75,6 +78,7 @@ class PoseLookup {
   PoseOptions options_;
   std::vector<std::string> frames_;  // of each link, in TF
   std::size_t camera_parent_;
+  std::vector<std::size_t> variable_links_;       // of each variable: a link that it moves
   std::vector<std::vector<std::size_t>> movers_;  // of each link: the variables that move it
   std::vector<bool> is_needed_;        // of each link: has geometry, or carries the camera
   std::vector<bool> leads_to_needed_;  // of each link: needed, or an ancestor of a needed link

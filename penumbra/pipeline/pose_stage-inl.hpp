@@ -44,6 +44,8 @@ class PoseStage {
   FrameStatus check_joints(const JointInput& joints);
   FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link);
   FrameStatus place_links(const Frame& frame);
+  FrameStatus place_uncertain();
+  Reach& reach_of(std::size_t link);
   FrameStatus place_bodies(std::span<const AttachedBody> bodies);
   FrameStatus place_body(const AttachedBody& body);
   [[nodiscard]] std::size_t number_of(const std::string& body);
@@ -58,6 +60,7 @@ class PoseStage {
   std::size_t parent_;
   Eigen::Isometry3d T_camera_parent_;
   CameraInsideCheck camera_inside_;
+  std::vector<double> reach_;  // of each link: reach_of_links
   PoseResult result_;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
@@ -77,7 +78,8 @@ PoseStage::PoseStage(const Robot& robot, const PipelineConfig& config,
       missing_links_(missing_links.begin(), missing_links.end()),
       links_(robot.links().begin(), robot.links().end()),
       parent_(find_camera_parent(robot, config.camera_parent)),
-      camera_inside_(bodies_of(robot)) {
+      camera_inside_(bodies_of(robot)),
+      reach_(reach_of_links(robot)) {
   result_.T_root_link.resize(robot.links().size());
   result_.T_camera_link.resize(robot.links().size());
   if (!is_rigid(config.T_parent_camera))
@@ -108,6 +110,8 @@ const PoseResult& PoseStage::pose_of(const Frame& frame) {
     status = worse(status, fault(FrameStatus::missing_link, without_links_));
   if (has_pose(status)) status = worse(status, place_links(frame));
   result_.attached.clear();
+  result_.reaches.clear();
+  if (has_pose(status)) status = worse(status, place_uncertain());
   if (has_pose(status)) status = worse(status, place_bodies(frame.attached));
   return result_;
 }
@@ -202,6 +206,43 @@ FrameStatus PoseStage::place_links(const Frame& frame) {
   return FrameStatus::ok;
 }
 
+/// Takes links of unknown pose out of the picture. What they could reach is unknown.
+FrameStatus PoseStage::place_uncertain() {
+  if (result_.is_uncertain(parent_))
+    return fault(FrameStatus::missing_transform,
+                 "the pose of link '" + robot_.links()[parent_] +
+                     "', which carries the camera, is not known: " + result_.uncertain_reason);
+  for (const std::size_t link : result_.uncertain_links)
+    if (robot_.report()[link].drawn) reach_of(link);
+  for (const std::size_t link : result_.uncertain_links) {
+    if (!robot_.report()[link].drawn) continue;
+    result_.T_root_link[link].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+    result_.T_camera_link[link] = Eigen::Translation3d(0.0, 0.0, -max_distance);  // not in view
+  }
+  if (result_.reaches.empty()) return FrameStatus::ok;
+  std::string names;
+  for (const Reach& reach : result_.reaches)
+    names += (names.empty() ? "link '" : ", '") + robot_.links()[reach.link] + "'";
+  return fault(
+      FrameStatus::missing_link,
+      names + " is not drawn, and what it could hide is unknown: " + result_.uncertain_reason);
+}
+
+/// Returns the ball around the first link of unknown pose between the root and a link.
+Reach& PoseStage::reach_of(std::size_t link) {
+  while (link > 0 && result_.is_uncertain(robot_.joints()[link - 1].parent))
+    link = robot_.joints()[link - 1].parent;
+  for (Reach& reach : result_.reaches)
+    if (reach.link == link) return reach;
+  if (link == 0)
+    return result_.reaches.emplace_back(
+        Reach{link, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()});
+  const Joint& joint = robot_.joints()[link - 1];
+  return result_.reaches.emplace_back(
+      Reach{link, result_.T_camera_link[joint.parent] * joint.origin.translation(),
+            travel_of(joint) + reach_[link]});
+}
+
 FrameStatus PoseStage::place_bodies(std::span<const AttachedBody> bodies) {
   ++frames_;
   FrameStatus status = FrameStatus::ok;
@@ -217,12 +258,19 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   };
   const auto link = robot_.find_link(body.link);
   if (!link) return missing("there is no link '" + body.link + "'");
-  if (result_.is_uncertain(*link))
-    return missing("the pose of link '" + body.link + "' is not known");
   if (!body.mesh || body.mesh->triangles.empty()) return missing("it has no triangles");
   if (!is_rigid(body.T_link_body)) return missing("its pose is not a rigid transform");
   if (result_.attached.size() == max_attached)
     return missing("more than " + std::to_string(max_attached) + " bodies are attached");
+  if (result_.is_uncertain(*link)) {
+    const double size = body.mesh->bounds.diagonal().norm() + body.mesh->bounds.min().norm();
+    Reach& reach = reach_of(*link);
+    reach.radius =
+        std::max(reach.radius, reach_[reach.link] + body.T_link_body.translation().norm() + size);
+    return fault(FrameStatus::missing_link, "attached body '" + body.name +
+                                                "' is not drawn: the pose of link '" + body.link +
+                                                "' is not known");
+  }
   result_.attached.push_back({number_of(body.name), body.name, body.link, body.mesh,
                               result_.T_camera_link[*link] * body.T_link_body});
   return FrameStatus::ok;

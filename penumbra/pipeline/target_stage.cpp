@@ -255,10 +255,13 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
 }
 
 /// With a missing link, anything that seems visible may be hidden by it, and any depth may be its
-/// own. Without depth, whatever the robot does not hide is unknown.
+/// own. Without depth, whatever the robot does not hide is unknown, and so is what a link of
+/// unknown pose could hide.
 void TargetStage::lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report) {
-  if (frame.images.is_blind && report.verdict == Verdict::unknown) record.reason = fault_of(frame);
-  if (frame.status != FrameStatus::missing_link) return;
+  if ((frame.images.is_blind || !frame.poses->reaches.empty()) &&
+      report.verdict == Verdict::unknown)
+    record.reason = fault_of(frame);
+  if (frame.poses->missing_links.empty()) return;
   Judgement& judgement = *report.judgement;
   report.point.reset();
   judgement.point.reset();

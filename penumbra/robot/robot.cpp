@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -6,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -83,7 +86,40 @@ struct Robot::Model {
   std::vector<std::vector<PreparedMesh>> meshes;  // of each link
   std::vector<LinkReport> report;                 // of each link
   std::vector<std::string> notes;
+  std::vector<RobotPart> parts = {};
+
+  void add(const PlacedRobot& robot);
 };
+
+/// Appends a robot's links and joints, with its name before theirs.
+void Robot::Model::add(const PlacedRobot& robot) {
+  const Model& other = *robot.robot.model_;
+  const std::string prefix = robot.name + "/";
+  RobotPart part{robot.name, links.size(), 0, variables.size(), 0};
+  Joint& mount = joints.emplace_back();
+  mount.name = prefix + "mount";
+  mount.child = part.first_link;
+  mount.origin = robot.T_world_root;
+  for (Joint joint : other.joints) {
+    joint.name = prefix + joint.name;
+    joint.parent += part.first_link;
+    joint.child += part.first_link;
+    if (joint.variable) *joint.variable += part.first_variable;
+    joints.push_back(std::move(joint));
+  }
+  for (const std::string& link : other.links) links.push_back(prefix + link);
+  for (const std::string& variable : other.variables) variables.push_back(prefix + variable);
+  meshes.insert(meshes.end(), other.meshes.begin(), other.meshes.end());
+  for (LinkReport link : other.report) {
+    link.link = prefix + link.link;
+    report.push_back(std::move(link));
+  }
+  for (const std::string& note : other.notes)
+    notes.push_back("robot '" + robot.name + "': " + note);
+  part.end_link = links.size();
+  part.end_variable = variables.size();
+  parts.push_back(std::move(part));
+}
 
 std::string_view to_string(JointType type) {
   constexpr std::array<std::string_view, 6> names = {"revolute", "continuous", "prismatic",
@@ -105,9 +141,9 @@ Matrix3d plane_axes(const Vector3d& normal) {
   return axes;
 }
 
-std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
-                                                      const fs::path& folder,
-                                                      const RobotOptions& options) {
+std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
+                                                const fs::path& folder,
+                                                const RobotOptions& options) {
   const detail::Urdf urdf = detail::read_urdf(xml, file);
   detail::RobotTree tree = detail::build_tree(urdf);
   const auto choices = detail::choose_links(urdf, options);
@@ -119,17 +155,35 @@ std::unique_ptr<const Robot::Model> Robot::make_model(std::string_view xml, cons
   model->variables = std::move(tree.variables);
   for (const std::size_t i : tree.links) {
     detail::LinkGeometry geometry = loader.load(urdf.links[i], choices[i]);
-    model->link_index.emplace(urdf.links[i].name, model->links.size());
     model->links.push_back(urdf.links[i].name);
     model->meshes.push_back(std::move(geometry.meshes));
     model->report.push_back(std::move(geometry.report));
   }
-  for (std::size_t i = 0; i < model->variables.size(); ++i)
-    model->variable_index.emplace(model->variables[i], i);
   for (const auto& notes :
        {urdf.warnings, loader.notes(), detail::missing_geometry_notes(urdf, choices)})
     model->notes.insert(model->notes.end(), notes.begin(), notes.end());
   return model;
+}
+
+Robot Robot::join(std::span<const PlacedRobot> robots) {
+  if (robots.empty()) throw InputError("no robots to join");
+  auto model = std::make_unique<Model>();
+  model->meshes.emplace_back();
+  LinkReport& world = model->report.emplace_back();
+  world.link = model->links.emplace_back("world");
+  world.reason = "the place of the robots";
+  for (const PlacedRobot& robot : robots) {
+    const auto has_name = [&](const RobotPart& part) { return part.name == robot.name; };
+    if (robot.name.empty() || robot.name.find('/') != std::string::npos ||
+        std::any_of(model->parts.begin(), model->parts.end(), has_name))
+      throw InputError("robot '" + robot.name +
+                       "': each robot needs a name of its own, without '/'");
+    if (!is_rigid(robot.T_world_root))
+      throw InputError("robot '" + robot.name + "': its pose is not a rigid transform");
+    model->add(robot);
+    model->name += (model->name.empty() ? "" : " + ") + robot.name;
+  }
+  return Robot(std::move(model));
 }
 
 Robot Robot::load(const fs::path& urdf, const RobotOptions& options) {
@@ -141,7 +195,13 @@ Robot Robot::parse(std::string_view xml, const fs::path& folder, const RobotOpti
   return Robot(make_model(xml, "robot_description", folder, options));
 }
 
-Robot::Robot(std::unique_ptr<const Model> model) : model_(std::move(model)) {}
+Robot::Robot(std::unique_ptr<Model> model) {
+  for (std::size_t i = 0; i < model->links.size(); ++i)
+    model->link_index.emplace(model->links[i], i);
+  for (std::size_t i = 0; i < model->variables.size(); ++i)
+    model->variable_index.emplace(model->variables[i], i);
+  model_ = std::move(model);
+}
 
 const std::string& Robot::name() const { return model_->name; }
 std::span<const std::string> Robot::links() const { return model_->links; }
@@ -149,7 +209,14 @@ std::span<const Joint> Robot::joints() const { return model_->joints; }
 std::span<const std::string> Robot::variables() const { return model_->variables; }
 std::span<const LinkReport> Robot::report() const { return model_->report; }
 std::span<const std::string> Robot::notes() const { return model_->notes; }
+std::span<const RobotPart> Robot::parts() const { return model_->parts; }
 std::span<const PreparedMesh> Robot::meshes(std::size_t link) const { return model_->meshes[link]; }
+
+const RobotPart* Robot::part_of(std::size_t link) const {
+  for (const RobotPart& part : model_->parts)
+    if (part.first_link <= link && link < part.end_link) return &part;
+  return nullptr;
+}
 
 std::optional<std::size_t> Robot::find_link(std::string_view name) const {
   return find(model_->link_index, name);

@@ -87,6 +87,15 @@ struct Joint {
 /// z is negative: by half a turn about x and then by the smallest rotation from -z to the normal.
 [[nodiscard]] Eigen::Matrix3d plane_axes(const Eigen::Vector3d& normal);
 
+struct PlacedRobot;
+
+/// One of several robots: its links and variables, first <= index < end.
+struct RobotPart {
+  std::string name;
+  std::size_t first_link, end_link;
+  std::size_t first_variable, end_variable;
+};
+
 /// A URDF's links, joints and geometry. Immutable: copies are cheap, share their data and may be
 /// used by several threads.
 class Robot {
@@ -100,6 +109,15 @@ class Robot {
   /// Reads a URDF from text. Relative mesh paths start at `folder`.
   [[nodiscard]] static Robot parse(std::string_view xml, const std::filesystem::path& folder,
                                    const RobotOptions& options = {});
+
+  /// Joins several robots to one, so that they hide and are judged together. Its root link is
+  /// "world"; link, joint and variable NAME of robot ROBOT is called ROBOT/NAME. Throws InputError
+  /// for no robots, a name that is empty, doubled or contains '/', and a pose that is not rigid.
+  [[nodiscard]] static Robot join(std::span<const PlacedRobot> robots);
+  /// The joined robots; empty for the robot of one URDF.
+  [[nodiscard]] std::span<const RobotPart> parts() const;
+  /// Returns the part of a link; null for the world and for the robot of one URDF.
+  [[nodiscard]] const RobotPart* part_of(std::size_t link) const;
 
   [[nodiscard]] const std::string& name() const;
 
@@ -137,11 +155,18 @@ class Robot {
 
  private:
   struct Model;
-  static std::unique_ptr<const Model> make_model(std::string_view xml, const std::string& file,
-                                                 const std::filesystem::path& folder,
-                                                 const RobotOptions& options);
-  explicit Robot(std::unique_ptr<const Model> model);
+  static std::unique_ptr<Model> make_model(std::string_view xml, const std::string& file,
+                                           const std::filesystem::path& folder,
+                                           const RobotOptions& options);
+  explicit Robot(std::unique_ptr<Model> model);
   std::shared_ptr<const Model> model_;
+};
+
+/// A robot and its place in the world.
+struct PlacedRobot {
+  std::string name;
+  Robot robot;
+  Eigen::Isometry3d T_world_root = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace penumbra

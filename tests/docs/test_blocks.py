@@ -90,6 +90,13 @@ def recording_of(text, work):
         whole[part] = {**whole[part], **keys} if part in whole else keys
     whole["frames"].update({"depth": "examples/arm_over_table/depth/%d.png",
                             "color": "examples/arm_over_table/color/%d.png"})
+    if "robots" in shown:
+        del whole["robot"]
+        rows = list(csv.reader((work / whole["frames"]["joints"]).read_text().splitlines()))
+        names = [[f"{name}/{joint}" for joint in rows[0][2:]] for name in shown["robots"]]
+        rows = [rows[0][:2] + sum(names, [])] + [row + row[2:] for row in rows[1:]]
+        (work / "joints.csv").write_text("\n".join(",".join(row) for row in rows))
+        whole["frames"]["joints"] = "joints.csv"
     file = work / "recording.yaml"
     file.write_text(yaml.safe_dump(whole))
     return file
@@ -130,7 +137,8 @@ def test_yaml_is_read(block, work):
         assert len(read_targets(block.text, work)) == len(shown["targets"])
         return
     given = penumbra.open_input(recording_of(block.text, work))
-    assert len(list(given)) == 12 and given.robot.find_link("forearm_link")
+    prefix = "left/" if "robots" in shown else ""
+    assert len(list(given)) == 12 and given.robot.find_link(prefix + "forearm_link")
 
 
 @pytest.mark.parametrize("block", all_blocks("json"), ids=str)

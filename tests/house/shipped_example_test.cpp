@@ -67,7 +67,7 @@ void count(const FrameReport& report, const Image<std::uint8_t>& truth,
 Counts judge_recording(const LabelRule& rule) {
   const std::filesystem::path folder = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
   const auto recording = io::Recording::open(folder);
-  Robot robot = Robot::load(recording.urdf, recording.robot);
+  Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
   PipelineConfig config = recording.pipeline_config();
   config.rule = rule;

@@ -87,7 +87,7 @@ TEST_F(RecordingFolder, OpensByFolderAndByFile) {
   for (const auto& path : {folder_.path(), file("recording.yaml")}) {
     const Recording recording = Recording::open(path);
     EXPECT_EQ(recording.file, file("recording.yaml"));
-    EXPECT_EQ(recording.urdf, file("arm.urdf"));
+    EXPECT_EQ(recording.robots.at(0).urdf, file("arm.urdf"));
     EXPECT_EQ(recording.camera.camera.intrinsics, Intrinsics(8, 6, 9, 9, 3.5, 2.5));
     EXPECT_EQ(recording.camera.T_parent_camera->translation(), Eigen::Vector3d(0.5, 0, -1));
     EXPECT_EQ(recording.frames.depth.file(5), file("depth_5.png"));
@@ -117,16 +117,17 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
       "frames:\n"
       "  joints: joints.csv\n"
       "  depth: depth/%04d.npy\n");
-  EXPECT_EQ(recording.robot.packages.at("some_pkg"), file("pkg"));
-  EXPECT_EQ(recording.robot.geometry_of_links,
+  EXPECT_EQ(recording.robots.at(0).options.packages.at("some_pkg"), file("pkg"));
+  EXPECT_EQ(recording.robots.at(0).options.geometry_of_links,
             (std::map<std::string, Geometry>{{"finger*", Geometry::visual},
                                              {"base", Geometry::collision}}));
-  EXPECT_EQ(recording.robot.ignore_links, (std::vector<std::string>{"tool*", "base"}));
-  EXPECT_EQ(recording.robot.margins,
+  EXPECT_EQ(recording.robots.at(0).options.ignore_links,
+            (std::vector<std::string>{"tool*", "base"}));
+  EXPECT_EQ(recording.robots.at(0).options.margins,
             (std::map<std::string, double>{{"upper", 0.01}, {"f*", -0.002}}));
-  ASSERT_EQ(recording.robot.extra.size(), 1U);
-  EXPECT_EQ(recording.robot.extra[0].link, "lower");
-  EXPECT_EQ(recording.robot.extra[0].mesh, file("arm.urdf"));
+  ASSERT_EQ(recording.robots.at(0).options.extra.size(), 1U);
+  EXPECT_EQ(recording.robots.at(0).options.extra[0].link, "lower");
+  EXPECT_EQ(recording.robots.at(0).options.extra[0].mesh, file("arm.urdf"));
   const PipelineConfig config = recording.pipeline_config();
   EXPECT_EQ(config.rule.tolerance.a, 0.02);
   EXPECT_EQ(config.rule.tolerance.c, 0.01);
@@ -139,7 +140,8 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
   EXPECT_EQ(recording.camera.beyond, BeyondMeans::visible);
   EXPECT_EQ(recording.frames.depth.file(5), file("depth/0005.npy"));
   EXPECT_FALSE(recording.frames.color);
-  EXPECT_EQ(open(with("  urdf", "  geometry: visual")).robot.geometry, Geometry::visual);
+  EXPECT_EQ(open(with("  urdf", "  geometry: visual")).robots.at(0).options.geometry,
+            Geometry::visual);
 }
 
 TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
@@ -222,6 +224,48 @@ TEST_F(RecordingFolder, ReadsWhatIsAttachedInWhichFrames) {
     EXPECT_TRUE(body.mesh->bounds.sizes().isApprox(Eigen::Vector3d(0.1, 0.2, 0.3), 1e-6));
     EXPECT_TRUE((body.T_link_body * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0, 2, 3)));
   }
+}
+
+TEST_F(RecordingFolder, ReadsSeveralRobots) {
+  const std::string two =
+      "robots:\n"
+      "  a: {urdf: arm.urdf, pose: [0, 1, 0, 0, 0, 0, 1]}\n"
+      "  b: {urdf: arm.urdf, pose: [0, 0, 2, 0, 0, 1, 0], margins: {tool: 0.01}}\n";
+  const auto with_robots = [&](const std::string& robots) {
+    return replaced("robot:\n  urdf: arm.urdf\n", robots);
+  };
+  write_yaml(with_robots(two));
+  folder_.write("joints.csv",
+                "frame,a/shoulder,a/elbow,b/shoulder,b/elbow\n"
+                "5,0.1,0.2,,0.4\n7,0.1,0.2,0.3,0.4\n9,0.1,0.2,0.3\n");
+  const Recording recording = Recording::open(folder_.path());
+  const Robot robot = recording.load_robot();
+  EXPECT_EQ(robot.links().size(), 11U);
+  EXPECT_EQ(recording.robot_options().margins, (std::map<std::string, double>{{"b/tool", 0.01}}));
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.forward_kinematics(robot.rest_positions(), poses);
+  EXPECT_TRUE(poses[*robot.find_link("a/base")].translation().isApprox(Eigen::Vector3d(0, 1, 0)));
+  EXPECT_TRUE(poses[*robot.find_link("b/base")].translation().isApprox(Eigen::Vector3d(0, 0, 2)));
+
+  const FrameReader frames(recording, robot);
+  FrameData data;
+  frames.read(0, false, data);
+  EXPECT_EQ(data.status, FrameStatus::ok);
+  EXPECT_EQ(data.positions, (std::vector{0.1, 0.2, 0.0, 0.4}));
+  EXPECT_EQ(data.uncertain_links, (std::vector<std::size_t>{6, 7, 8, 9, 10})) << "b's";
+  EXPECT_HAS(frame_of(data).uncertain_reason, "b/shoulder");
+  frames.read(1, false, data);
+  EXPECT_TRUE(data.uncertain_links.empty());
+  frames.read(2, false, data);
+  EXPECT_EQ(data.status, FrameStatus::missing_joints) << "too few cells";
+
+  test::expect_refused(
+      {{with_robots(two + "robot:\n  urdf: arm.urdf\n"), ":1: robots: stands beside 'robot'"},
+       {with_robots("robots:\n  a: {urdf: arm.urdf}\n"), ":2: "},
+       {with_robots("robots:\n  a: {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 2]}\n"),
+        ":2: robots.a.pose: "},
+       {with("  urdf", "  pose: [0, 0, 0, 0, 0, 0, 1]"), ":3: robot.pose: is for several robots"}},
+      [&](const std::string& text) { static_cast<void>(open(text)); });
 }
 
 TEST_F(RecordingFolder, ReadsDepthInMetres) {

@@ -38,7 +38,7 @@ TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
   PENUMBRA_REQUIRE_DATA();
   const auto folder = data_folder() / "xarm7_realsense";
   const io::Recording recording = io::Recording::open(folder);
-  Robot robot = Robot::load(recording.urdf, recording.robot);
+  Robot robot = recording.load_robot();
   const io::FrameReader reader(recording, robot);
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 

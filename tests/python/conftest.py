@@ -33,7 +33,7 @@ class Opened:
 
     def __init__(self, folder, color=False, **config):
         self.recording = penumbra.Recording.open(folder)
-        self.robot = penumbra.Robot.load(self.recording.urdf, self.recording.robot)
+        self.robot = self.recording.load_robot()
         self.frames = penumbra.FrameReader(self.recording, self.robot, color=color)
         self.camera = self.recording.camera.camera
         self.config = self.recording.pipeline_config().replace(**config)

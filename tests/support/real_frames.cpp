@@ -32,7 +32,7 @@ RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rende
 
 std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
   const io::Recording recording = io::Recording::open(folder);
-  const Robot robot = Robot::load(recording.urdf, recording.robot);
+  const Robot robot = recording.load_robot();
   const Intrinsics& intrinsics = recording.camera.camera.intrinsics;
   const std::vector<Body> bodies = bodies_of(robot);
   const auto renderer = make_depth_renderer(Backend::reference, intrinsics, bodies);

@@ -29,7 +29,7 @@ class Player {
       : node(std::make_shared<rclcpp::Node>(
             "player", rclcpp::NodeOptions().use_intra_process_comms(intra_process))),
         recording(penumbra::io::Recording::open(folder)),
-        robot(penumbra::Robot::load(recording.urdf, recording.robot)),
+        robot(recording.load_robot()),
         reader(recording, robot) {
     rclcpp::PublisherOptions latched_options;
 #if !RCLCPP_VERSION_GTE(28, 0, 0)  // Jazzy; before, latched topics refuse it
@@ -43,7 +43,7 @@ class Player {
     info_ = node->create_publisher<sensor_msgs::msg::CameraInfo>("depth/camera_info", 10);
     depth_ = node->create_publisher<Image>("depth/image", 10);
     detections_ = node->create_publisher<vision_msgs::msg::Detection2DArray>("boxes", 10);
-    std::ifstream urdf(recording.urdf);
+    std::ifstream urdf(recording.robots.front().urdf);
     std_msgs::msg::String text;
     text.data.assign(std::istreambuf_iterator<char>(urdf), {});
     description_->publish(text);

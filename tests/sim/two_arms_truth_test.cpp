@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two of MuJoCo's arms that cross: which arm and link is on each ray, with both known, with one,
+// and with one whose joints are stale.
+#include "../support/run_length.hpp"
+#include "simulated.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include <sim/simulation.hpp>
+
+namespace penumbra::test {
+namespace {
+
+Robot joined(const sim::Simulation& simulation) {
+  RobotOptions options;
+  options.geometry = Geometry::visual;
+  std::vector<PlacedRobot> robots;
+  for (const auto& [name, T] : simulation.arms())
+    robots.push_back({name, Robot::load(simulation.urdf(), options), T});
+  return Robot::join(robots);
+}
+
+/// Pixels of all frames.
+struct Counts {
+  std::size_t robot = 0;      ///< of both arms
+  std::size_t blamed = 0;     ///< of these, with the right link
+  std::size_t right_arm = 0;  ///< of the right arm
+  std::size_t trusted = 0;    ///< of these, clear or front
+  std::size_t elsewhere = 0;  ///< no arm on the ray
+  std::size_t judged = 0;     ///< of these, clear
+
+  [[nodiscard]] static double percent(std::size_t part, std::size_t all) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+  }
+};
+
+/// `links`: of the report, for each of MuJoCo's ids.
+void add(const sim::SimFrame& truth, const FrameReport& report,
+         const std::vector<std::size_t>& links, std::size_t first_right, Counts& counts) {
+  for (int v = 0; v < truth.ids.height(); ++v)
+    for (int u = 0; u < truth.ids.width(); ++u) {
+      const std::int32_t id = truth.robot_ids(u, v);
+      const auto label = static_cast<Label>(report.labels(u, v));
+      if (id == 0) {
+        ++counts.elsewhere;
+        counts.judged += label == Label::clear ? 1 : 0;
+        continue;
+      }
+      const std::size_t link = links[static_cast<std::size_t>(id)];
+      ++counts.robot;
+      counts.blamed += report.virtual_depth.links(u, v) == link + 1 ? 1 : 0;
+      if (truth.ids(u, v) != id || link < first_right) continue;  // an object is before it
+      ++counts.right_arm;
+      counts.trusted += is_trusted(label) ? 1 : 0;
+    }
+}
+
+struct Ways {
+  Counts both, left_alone, right_stale;
+};
+
+Ways count(std::uint64_t seed, bool noisy, int frames) {
+  sim::Simulation simulation("two_arms", without_color(seed, noisy));
+  const Robot both = joined(simulation);
+  const PlacedRobot left{"left", Robot::load(simulation.urdf(), {.geometry = Geometry::visual}),
+                         simulation.arms()[0].T_world_root};
+  Pipeline pipeline(both, simulation.camera(), config_of(simulation));
+  Pipeline without(Robot::join({&left, 1}), simulation.camera(), config_of(simulation));
+  std::vector<std::size_t> links{0};  // of MuJoCo's ids
+  for (const std::string& link : simulation.robot().links())
+    links.push_back(both.find_link(link).value());
+  const RobotPart& right = both.parts()[1];
+  std::vector<std::size_t> of_right;
+  for (std::size_t i = right.first_link; i < right.end_link; ++i) of_right.push_back(i);
+  Ways ways;
+  sim::SimFrame truth;
+  std::vector<double> joints(both.variables().size());
+  for (int i = 0; i < frames && simulation.next(truth); ++i) {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      joints[j] = truth.joints[simulation.robot().find_variable(both.variables()[j]).value()];
+    const DepthView depth = std::as_const(truth.depth).view();
+    const auto take = [&](const FrameReport& report, Counts& counts) {
+      if (has_pose(report.status)) add(truth, report, links, right.first_link, counts);
+    };
+    take(pipeline.process({.depth = depth, .joints = joints}), ways.both);
+    const std::span<const double> lefts(joints.data(), right.first_variable);
+    take(without.process({.depth = depth, .joints = lefts}), ways.left_alone);
+    take(pipeline.process({.depth = depth,
+                           .joints = joints,
+                           .uncertain_links = of_right,
+                           .uncertain_reason = "stale"}),
+         ways.right_stale);
+  }
+  return ways;
+}
+
+class TwoArmsTruth : public testing::TestWithParam<bool> {
+ protected:
+  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
+};
+INSTANTIATE_TEST_SUITE_P(Depth, TwoArmsTruth, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "Noisy" : "Exact");
+});
+
+TEST_P(TwoArmsTruth, EachRayHasTheRightArm) {
+  const int frames = measures_in_full() ? 1000 : samples(60);
+  constexpr double least_blame = 99.5;  // percent; rims differ by a pixel
+  constexpr double most_trusted = 0.5;  // percent
+  const auto [both, left, stale] = count(5, GetParam(), frames);
+  std::cout << "of " << both.robot << " pixels blamed on the right link "
+            << Counts::percent(both.blamed, both.robot) << " %; of the right arm's "
+            << both.right_arm << " pixels clear or front: both known "
+            << Counts::percent(both.trusted, both.right_arm) << " %, without it "
+            << Counts::percent(left.trusted, left.right_arm) << " %, with it stale "
+            << Counts::percent(stale.trusted, stale.right_arm) << " %; elsewhere clear: both known "
+            << Counts::percent(both.judged, both.elsewhere) << " %, with it stale "
+            << Counts::percent(stale.judged, stale.elsewhere) << " %\n";
+  EXPECT_GT(both.robot, static_cast<std::size_t>(1000 * frames));
+  EXPECT_GT(Counts::percent(both.blamed, both.robot), least_blame);
+  EXPECT_LT(Counts::percent(both.trusted, both.right_arm), most_trusted);
+  EXPECT_EQ(stale.trusted, 0U) << "of what may be anywhere";
+  EXPECT_GT(Counts::percent(left.trusted, left.right_arm), 50.0) << "so wrong is it without";
+}
+
+}  // namespace
+}  // namespace penumbra::test
