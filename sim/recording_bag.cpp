@@ -142,10 +142,14 @@ void RecordingBag::write_scene(std::int64_t stamp) {
   const auto latch = [&](const std::string& topic, const auto& message) {
     write(topic, stamp, message, Durability::latched);
   };
-  latch("/robot_description",
-        io::StringMessage{read_whole_file(simulation_.urdf(), FileLimit::text)});
+  const io::StringMessage urdf{read_whole_file(simulation_.urdf(), FileLimit::text)};
   const io::MessageHeader root{stamp, root_};
   io::TfMessage mounts{{{root, simulation_.camera().frame_id, simulation_.T_base_camera()}}};
+  if (simulation_.arms().empty()) latch("/robot_description", urdf);
+  for (const auto& [arm, T_world_root] : simulation_.arms()) {
+    latch("/" + arm + "/robot_description", urdf);
+    mounts.transforms.push_back({root, arm + "/" + arm_root, T_world_root});
+  }
   if (second_camera_)
     mounts.transforms.push_back(
         {root, second_frame(simulation_), simulation_.T_base_second_camera()});
@@ -194,8 +198,17 @@ void RecordingBag::write_truth(const SimFrame& frame) {
 
 void RecordingBag::add(const SimFrame& frame, std::size_t /*index*/) {
   if (channels_.empty()) write_scene(frame.stamp);
-  write("/joint_states", frame.stamp,
-        joint_states(simulation_.robot(), {frame.stamp, root_}, frame.joints));
+  const auto states = joint_states(simulation_.robot(), {frame.stamp, root_}, frame.joints);
+  if (simulation_.arms().empty()) write("/joint_states", frame.stamp, states);
+  for (const auto& [arm, T] : simulation_.arms()) {
+    io::JointStateMessage own{.header = states.header};
+    for (std::size_t i = 0; i < states.names.size(); ++i)
+      if (states.names[i].starts_with(arm + "/")) {
+        own.names.push_back(states.names[i].substr(arm.size() + 1));
+        own.positions.push_back(states.positions[i]);
+      }
+    write("/" + arm + "/joint_states", frame.stamp, own);
+  }
   write_truth(frame);  // targets precede their image
   write_camera(frame);
   if (second_camera_) write_second_camera(frame);

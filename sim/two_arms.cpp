@@ -26,15 +26,14 @@ std::filesystem::path write_arms(const std::filesystem::path& urdf,
   const std::string text = read_whole_file(urdf, FileLimit::text);
   const std::size_t begin = text.find('>', text.find("<robot")) + 1;
   const std::string body = text.substr(begin, text.rfind("</robot>") - begin);
-  const std::string root = "base_link";
   std::string all = "<robot name=\"arms\"><link name=\"world\"/>";
   for (const auto& [name, T] : arms) {
     static const std::regex names(R"re(\b(name|link|joint)=")re");
     all += std::regex_replace(body, names, "$1=\"" + name + "/");
     const Eigen::Vector3d at = T.translation(), zyx = T.linear().eulerAngles(2, 1, 0);
     all += "<joint name=\"" + name +
-           "/mount\" type=\"fixed\"><parent link=\"world\"/><child link=\"" + name + "/" + root +
-           "\"/><origin xyz=\"" + numbers({at.x(), at.y(), at.z()}) + "\" rpy=\"" +
+           "/mount\" type=\"fixed\"><parent link=\"world\"/><child link=\"" + name + "/" +
+           arm_root + "\"/><origin xyz=\"" + numbers({at.x(), at.y(), at.z()}) + "\" rpy=\"" +
            numbers({zyx[2], zyx[1], zyx[0]}) + "\"/></joint>";
   }
   const std::filesystem::path file = folder / "arms.urdf";

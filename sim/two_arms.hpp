@@ -9,6 +9,9 @@
 
 namespace penumbra::sim {
 
+/// The root link of each arm.
+inline constexpr const char* arm_root = "base_link";
+
 /// One of several arms of the same URDF.
 struct ArmPlace {
   std::string name;

@@ -266,7 +266,8 @@ class Live {
 
 void print_topics(const io::LiveOptions& options, int domain) {
   std::cout << "live on domain " << domain << ", until Ctrl-C\n";
-  if (!options.robot.given) std::cout << "robot: " << options.description_topic << '\n';
+  for (const std::string& topic : options.description_topics)
+    if (!options.robot.given) std::cout << "robot: " << topic << '\n';
   for (const std::string& name : options.joint_topics)
     if (options.poses != PoseSource::transforms) std::cout << "joints: " << name << '\n';
   for (const io::CameraInputOptions& camera : options.cameras) {

@@ -53,12 +53,15 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   options.robot.compare_sources = !topics.first_publisher;
   if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
   options.poses = topics.poses.value_or(PoseSource::joints);
-  options.description_topic = names.resolve("robot_description");
+  options.description_topics = {names.resolve("robot_description")};
   options.transform_topic = names.resolve("/tf");
   options.static_transform_topic = names.resolve("/tf_static");
   options.planning_scene_topic = names.resolve("monitored_planning_scene");
   options.attached_topic = names.resolve("attached_collision_object");
   options.joint_topics = {names.resolve("joint_states")};
+  if (!topics.robot_namespaces.empty())
+    io::set_robots(options, topics.robot_namespaces,
+                   [&](const std::string& name) { return names.resolve(name); });
   if (!topics.joint_topics.empty()) options.joint_topics.clear();
   for (const std::string& name : topics.joint_topics)
     options.joint_topics.push_back(names.resolve(name));

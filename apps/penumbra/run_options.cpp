@@ -133,6 +133,17 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
       bag.poses,
       {{"joints", PoseSource::joints}, {"tf", PoseSource::transforms}, {"both", PoseSource::both}});
   add_text(app, "--robot", "the robot, in place of the robot_description", "URDF", bag.robot);
+  add_list(app, "--robot-namespace",
+           "one of several robots: topics NS/robot_description and NS/joint_states, frames NS/LINK "
+           "below 'world' in tf; give it for each",
+           "NS", [&](const std::string& text) {
+             const std::string name = text.substr(text.starts_with('/') ? 1 : 0);
+             if (name.empty() || name.find('/') != std::string::npos)
+               refuse_option("--robot-namespace", text, "a name without '/'");
+             bag.robot_namespaces.push_back(name);
+           });
+  for (const char* const of_one : {"--robot", "--joint-topic"})
+    app.get_option("--robot-namespace")->excludes(app.get_option(of_one));
   add_packages(app, bag.packages);
   add_option(app, "--frame-prefix",
              "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",

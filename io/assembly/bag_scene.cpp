@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -91,11 +92,12 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
       case TopicRole::color_info:
         return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.color_info));
       case TopicRole::description:
-        return make_handler<StringMessage>(topic.definition,
-                                           [this](const auto& text, const auto&, auto) {
-                                             if (!scene_.description)
-                                               scene_.description = text.data;
-                                           });
+        return make_handler<StringMessage>(
+            topic.definition,
+            [this, robot = topics_.robot_of(topic)](const auto& text, const auto&, auto) {
+              if (find_description(robot) == nullptr)
+                scene_.descriptions.push_back({robot, text.data});
+            });
       case TopicRole::transforms:
       case TopicRole::static_transforms:
         return make_handler<TfMessage>(topic.definition, take_transforms);
@@ -107,8 +109,29 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
   }
 }
 
+const RobotDescription* BagSceneReader::find_description(const std::string& robot) const {
+  for (const RobotDescription& description : scene_.descriptions)
+    if (description.robot == robot) return &description;
+  return nullptr;
+}
+
+/// Returns whether a static transform leads to a frame of a robot from another frame.
+bool BagSceneReader::is_mounted(const std::string& robot) const {
+  const auto is_of_robot = [&](const std::string& frame) {
+    return frame_name(frame).starts_with(robot + "/");
+  };
+  const auto& all = scene_.static_transforms;
+  return std::any_of(all.begin(), all.end(), [&](const TransformMessage& t) {
+    return is_of_robot(t.child_frame_id) && !is_of_robot(t.header.frame_id);
+  });
+}
+
 std::string BagSceneReader::lacking() const {
-  if (topics_.description && !scene_.description) return topics_.description->name;
+  for (const TopicUse& use : topics_.descriptions) {
+    if (find_description(use.robot) == nullptr) return use.name;
+    if (!use.robot.empty() && !is_mounted(use.robot))
+      return "a static transform to robot '" + use.robot + "'";
+  }
   if (!scene_.depth_frame) return topics_.depth.name;
   if (!scene_.camera_info) return topics_.camera_info.name;
   if (topics_.color_info && !scene_.color_info) return topics_.color_info->name;

@@ -12,6 +12,7 @@
 #include <io/assembly/frame_tree.hpp>
 #include <io/assembly/message_faults.hpp>
 #include <io/assembly/message_handler.hpp>
+#include <io/assembly/robot_input.hpp>
 #include <io/bag/bag_reader.hpp>
 
 namespace penumbra::io {
@@ -19,8 +20,8 @@ namespace penumbra::io {
 /// The data that holds for a whole bag: robot, camera and fixed frames. It may stand anywhere in
 /// the bag.
 struct BagScene {
-  std::optional<std::string> description;  ///< the URDF
-  std::optional<std::string> depth_frame;  ///< frame_id of the first depth image
+  std::vector<RobotDescription> descriptions;  ///< in the order of BagTopics::descriptions
+  std::optional<std::string> depth_frame;      ///< frame_id of the first depth image
   std::optional<CameraInfoMessage> camera_info, color_info;
   std::vector<TransformMessage> static_transforms;
   FrameTree frames;  ///< the frames of TF
@@ -47,6 +48,8 @@ class BagSceneReader {
  private:
   void take(const BagMessage& message);
   [[nodiscard]] MessageHandler handler_of(const BagTopic& topic);
+  [[nodiscard]] const RobotDescription* find_description(const std::string& robot) const;
+  [[nodiscard]] bool is_mounted(const std::string& robot) const;
   [[nodiscard]] std::string lacking() const;
 
   std::unique_ptr<BagReader> bag_;

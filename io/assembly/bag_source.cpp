@@ -111,6 +111,7 @@ const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {
     try {
       input = assembler_.add_topic({.role = *role,
                                     .camera = 0,
+                                    .robot = options_.topics.robot_of(next),
                                     .name = next.name,
                                     .type = next.type,
                                     .latched = false,

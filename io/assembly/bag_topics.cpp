@@ -220,8 +220,23 @@ std::optional<TopicUse> usual(const Chooser& chooser, const std::string& role,
   return std::nullopt;
 }
 
+/// Returns a topic of each of several robots.
+std::vector<TopicUse> of_robots(const Chooser& chooser, const BagOptions& options,
+                                const std::string& role, const std::string& name,
+                                std::string_view type) {
+  std::vector<TopicUse> uses;
+  for (const std::string& robot : options.robot_namespaces) {
+    uses.push_back(
+        chooser.named(role, "--robot-namespace", "/" + robot + "/" + name, TopicTypes(&type, 1)));
+    uses.back().robot = robot;
+  }
+  return uses;
+}
+
 void choose_joints(const Chooser& chooser, const BagOptions& options, BagTopics& topics) {
   if (options.poses == PoseSource::transforms) return;
+  topics.joints = of_robots(chooser, options, "joints", "joint_states", joints_type);
+  if (!topics.joints.empty()) return;
   for (const std::string& name : options.joint_topics)
     topics.joints.push_back(
         chooser.named("joints", "--joint-topic", name, TopicTypes(&joints_type, 1)));
@@ -233,7 +248,8 @@ void choose_joints(const Chooser& chooser, const BagOptions& options, BagTopics&
   if (!topics.joints.empty()) return;
   if (candidates.size() > 1)
     chooser.refuse("several topics may be the joint states: " + names_of(candidates) +
-                   "; choose with --joint-topic, which may be given several times");
+                   "; choose with --joint-topic, which may be given several times, or, for several "
+                   "robots, with --robot-namespace");
   if (candidates.size() == 1)
     topics.joints = {Chooser::use("joints", *candidates.front(), "the only joint states")};
 }
@@ -264,9 +280,9 @@ PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
 
 std::vector<TopicUse> BagTopics::all() const {
   std::vector<TopicUse> uses = {depth, camera_info};
-  for (const auto* one : {&color, &color_info, &description})
+  for (const auto* one : {&color, &color_info})
     if (*one) uses.push_back(**one);
-  for (const auto* several : {&joints, &transforms, &targets, &attached})
+  for (const auto* several : {&descriptions, &joints, &transforms, &targets, &attached})
     uses.insert(uses.end(), several->begin(), several->end());
   return uses;
 }
@@ -282,12 +298,19 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   if (is(camera_info)) return TopicRole::camera_info;
   if (color_info && is(*color_info)) return TopicRole::color_info;
   if (color && is(*color)) return TopicRole::color;
-  if (description && is(*description)) return TopicRole::description;
+  if (is_one_of(descriptions)) return TopicRole::description;
   if (is_one_of(joints)) return TopicRole::joints;
   if (is_one_of(targets)) return TopicRole::targets;
   if (is_one_of(attached)) return TopicRole::attached;
   if (!is_one_of(transforms)) return std::nullopt;
   return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
+}
+
+std::string BagTopics::robot_of(const BagTopic& topic) const {
+  for (const auto* of_robots : {&descriptions, &joints})
+    for (const TopicUse& use : *of_robots)
+      if (topic.name == use.name) return use.robot;
+  return {};
 }
 
 std::string camera_info_topic(const std::string& image_topic) {
@@ -320,10 +343,13 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
   for (const std::string& name : options.target_topics)
     chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
   if (options.robot) return chosen;
-  chosen.description =
-      usual(chooser, "robot", text_type, "robot_description", "give the URDF with --robot");
-  if (!chosen.description)
+  chosen.descriptions = of_robots(chooser, options, "robot", "robot_description", text_type);
+  if (!chosen.descriptions.empty()) return chosen;
+  auto description = usual(chooser, "robot", text_type, "robot_description",
+                           "give the URDF with --robot, or --robot-namespace for each of several");
+  if (!description)
     chooser.refuse("has no robot_description (std_msgs/msg/String); give the URDF with --robot");
+  chosen.descriptions.push_back(std::move(*description));
   return chosen;
 }
 

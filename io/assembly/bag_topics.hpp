@@ -23,6 +23,7 @@ struct TopicUse {
   std::string type;
   std::string why;
   std::optional<std::uint64_t> messages = {};  ///< if the bag has a count
+  std::string robot = {};                      ///< InputTopic::robot
 };
 
 /// The topics to read from a bag, by role.
@@ -31,13 +32,14 @@ struct BagTopics {
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
-  std::vector<TopicUse> joints, transforms, targets, attached;
-  std::optional<TopicUse> description;
+  std::vector<TopicUse> joints, transforms, targets, attached, descriptions;
 
   /// Returns all topics, in the order in which they are printed.
   [[nodiscard]] std::vector<TopicUse> all() const;
   /// Returns the role of a topic of the bag, or nothing if it is not used.
   [[nodiscard]] std::optional<TopicRole> role_of(const BagTopic& topic) const;
+  /// Returns InputTopic::robot of a topic of the bag.
+  [[nodiscard]] std::string robot_of(const BagTopic& topic) const;
 };
 
 /// Several topics match and the user named none of them.

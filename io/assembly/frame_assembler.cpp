@@ -94,15 +94,16 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
   const InputTopic& from = topics_[topic];
   switch (from.role) {
     case TopicRole::description:
-      return handler<StringMessage>(topic, [this](const auto& text, const auto&, auto) {
-        robot_.take(text);
+      return handler<StringMessage>(topic, [this, topic](const auto& text, const auto&, auto) {
+        robot_.take(text, topics_[topic].robot);
         follow_robot();
       });
     case TopicRole::joints:
-      return handler<JointStateMessage>(topic, [this, topic](const auto& state, const auto& message,
-                                                             std::int64_t now) {
-        robot_.take(state, sources_.of_joints(topics_[topic].name, message.publisher, state), now);
-      });
+      return handler<JointStateMessage>(
+          topic, [this, topic](const auto& state, const auto& message, std::int64_t now) {
+            robot_.take(state, topics_[topic].robot,
+                        sources_.of_joints(topics_[topic].name, message.publisher, state), now);
+          });
     case TopicRole::transforms:
     case TopicRole::static_transforms:
       return handler<TfMessage>(

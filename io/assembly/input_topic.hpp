@@ -24,6 +24,7 @@ enum class TopicRole {
 struct InputTopic {
   TopicRole role = TopicRole::depth;
   std::size_t camera = 0;  ///< for topics of one camera
+  std::string robot = {};  ///< for topics of one of several robots: its name
   std::string name = {};
   std::string type = {};        ///< empty if there are several, see FrameAssembler::set_type
   bool latched = false;         ///< published once, and kept for late subscribers

@@ -6,6 +6,7 @@
 
 #include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
+#include <io/files/recording.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -35,7 +36,39 @@ PoseHistoryOptions history_options(bool compare_sources) {
   return options;
 }
 
+/// Returns T_world_frame by static transforms.
+Eigen::Isometry3d mount_of(const std::string& frame, std::span<const TransformMessage> all) {
+  Eigen::Isometry3d T_at_frame = Eigen::Isometry3d::Identity();
+  std::string at = frame;
+  for (std::size_t i = 0; i <= all.size() && at != "world"; ++i)
+    for (const TransformMessage& t : all)
+      if (frame_name(t.child_frame_id) == at) {
+        T_at_frame = t.T_parent_child * T_at_frame;
+        at = frame_name(t.header.frame_id);
+        break;
+      }
+  if (at == "world") return T_at_frame;
+  throw InputError("tf_static does not say where frame '" + printable(frame) +
+                   "' is in frame 'world'");
+}
+
 }  // namespace
+
+Robot robot_of(std::span<const RobotDescription> descriptions,
+               std::span<const TransformMessage> static_transforms,
+               const std::filesystem::path& folder, const RobotOptions& options) {
+  if (descriptions.size() == 1 && descriptions.front().robot.empty())
+    return Robot::parse(descriptions.front().text, folder, options);
+  std::vector<PlacedRobot> robots;
+  for (const auto& [name, text] : descriptions) {
+    RobotOptions own = options;
+    own.extra = extra_of(options.extra, name);
+    const Robot robot = Robot::parse(text, folder, own);
+    robots.push_back(
+        {name, robot, mount_of(name + "/" + robot.links().front(), static_transforms)});
+  }
+  return Robot::join(robots);
+}
 
 PosedRobot::PosedRobot(Robot what, bool compare_sources)
     : robot(std::move(what)), history(robot, history_options(compare_sources)) {}
@@ -58,10 +91,9 @@ MadeRobot make_robot(const RobotOrder& order) {
   try {
     // The folder is "/", because relative mesh paths would otherwise be resolved from the working
     // folder of the program.
-    return {order.number,
-            std::make_shared<PosedRobot>(Robot::parse(order.description, "/", order.options),
-                                         order.compare_sources),
-            {}};
+    Robot robot = robot_of(order.descriptions, order.static_transforms, "/", order.options);
+    return {
+        order.number, std::make_shared<PosedRobot>(std::move(robot), order.compare_sources), {}};
   } catch (const InputError& error) {
     return {order.number, nullptr, error.what()};
   }
@@ -84,18 +116,22 @@ void RobotInput::replace(std::shared_ptr<PosedRobot> robot) {
   ++robots_;
 }
 
-void RobotInput::take(const StringMessage& description) {
+void RobotInput::take(const StringMessage& description, const std::string& robot) {
   if (options_.given) return;
-  if (description_ == description.data) return retry();
-  description_ = description.data;
+  const auto [known, is_new] = descriptions_.try_emplace(robot, description.data);
+  if (!is_new && known->second == description.data) return retry();
+  known->second = description.data;
   posed_.reset();
   fault_.clear();
-  order();
+  if (descriptions_.size() == options_.names.size()) order();
 }
 
 void RobotInput::order() {
-  order_ = std::make_unique<const RobotOrder>(
-      RobotOrder{++orders_, *description_, options_.robot, options_.compare_sources});
+  RobotOrder order{++orders_, {}, {}, options_.robot, options_.compare_sources};
+  for (const std::string& name : options_.names)
+    order.descriptions.push_back({name, descriptions_.at(name)});
+  for (const auto& [child, t] : static_transforms_) order.static_transforms.push_back(t);
+  order_ = std::make_unique<const RobotOrder>(std::move(order));
 }
 
 void RobotInput::retry() {
@@ -109,7 +145,13 @@ void RobotInput::place(MadeRobot made) {
   if (made.robot) replace(std::move(made.robot));
 }
 
-void RobotInput::take(const JointStateMessage& message, std::string_view source, std::int64_t now) {
+void RobotInput::take(const JointStateMessage& message, const std::string& robot,
+                      std::string_view source, std::int64_t now) {
+  if (!robot.empty()) {
+    JointStateMessage named = message;
+    for (std::string& name : named.names) name = robot + "/" + name;
+    return take(named, {}, source, now);
+  }
   last_joints_ = now;
   newest_stamp_ = message.header.stamp;
   if (!posed_) return;

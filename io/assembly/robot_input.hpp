@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,10 +36,24 @@ struct PosedRobot {
   PoseHistory history;
 };
 
+/// A received URDF.
+struct RobotDescription {
+  std::string robot;  ///< its name among several robots; empty: it is the only one
+  std::string text;
+};
+
+/// Makes the robot, or joins several robots (Robot::join): each stands where static transforms put
+/// its root, frame ROBOT/LINK, in the frame "world". `options`: link names of `extra` are those of
+/// the result. Throws InputError.
+[[nodiscard]] Robot robot_of(std::span<const RobotDescription> descriptions,
+                             std::span<const TransformMessage> static_transforms,
+                             const std::filesystem::path& folder, const RobotOptions& options);
+
 struct RobotInputOptions {
-  RobotOptions robot;           ///< for robots that are received
-  std::optional<Robot> given;   ///< used in place of received descriptions
-  bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
+  std::vector<std::string> names = {""};  ///< of the robots that are received
+  RobotOptions robot = {};                ///< for robots that are received
+  std::optional<Robot> given = {};        ///< used in place of received descriptions
+  bool compare_sources = true;            ///< see JointBufferOptions and TransformBufferOptions
   /// Known before their messages, as from a bag; of one child frame the first one.
   std::vector<TransformMessage> static_transforms = {};
 };
@@ -45,7 +61,8 @@ struct RobotInputOptions {
 /// A received robot that has to be made. Reading its meshes takes time.
 struct RobotOrder {
   std::uint64_t number = 0;  ///< number of RobotInput
-  std::string description;
+  std::vector<RobotDescription> descriptions;
+  std::vector<TransformMessage> static_transforms;
   RobotOptions options;
   bool compare_sources = true;  ///< see RobotInputOptions
 };
@@ -70,7 +87,8 @@ class RobotInput {
   /// states, because they may be wrong now: there is no robot until the new one is made. The same
   /// text again has no effect, unless its robot could not be made: then it is tried again. Does
   /// nothing if the robot is given.
-  void take(const StringMessage& description);
+  /// `robot`: its name among several, which are made once all are there.
+  void take(const StringMessage& description, const std::string& robot);
   /// Returns the robot to make, once, or null if there is none.
   [[nodiscard]] std::unique_ptr<const RobotOrder> take_order() { return std::move(order_); }
   [[nodiscard]] bool has_order() const { return order_ != nullptr; }
@@ -82,8 +100,10 @@ class RobotInput {
   void forget() {
     if (posed_) replace(std::make_shared<PosedRobot>(posed_->robot, options_.compare_sources));
   }
-  /// Receives joint states. `source`: the publisher, see MessageSources.
-  void take(const JointStateMessage& message, std::string_view source, std::int64_t now);
+  /// Receives joint states. `source`: the publisher, see MessageSources; `robot`: the name before
+  /// the joints' names, if there are several robots.
+  void take(const JointStateMessage& message, const std::string& robot, std::string_view source,
+            std::int64_t now);
   void take(const TfMessage& message, bool is_static, std::string_view source, std::int64_t now);
   /// Receives what is attached (`M`: AttachedObjectMessage, PlanningSceneMessage). Returns what
   /// cannot be drawn, one line, or nothing.
@@ -120,7 +140,7 @@ class RobotInput {
 
   RobotInputOptions options_;
   std::shared_ptr<PosedRobot> posed_;
-  std::optional<std::string> description_;  // the last received one
+  std::map<std::string, std::string> descriptions_;  // the last received one of each robot
   std::unique_ptr<const RobotOrder> order_;
   std::uint64_t orders_ = 0, placed_ = 0;  // numbers of the last order and of the last robot made
   std::string fault_;

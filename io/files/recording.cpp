@@ -225,6 +225,14 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
           .attached = std::move(attached)};
 }
 
+std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::string& robot) {
+  const std::string prefix = robot.empty() ? "" : robot + "/";
+  std::vector<ExtraMesh> own;
+  for (const ExtraMesh& part : extra)
+    if (part.link.starts_with(prefix)) own.push_back({part.link.substr(prefix.size()), part.mesh});
+  return own;
+}
+
 Robot Recording::load_robot() const {
   if (robots.size() == 1 && robots.front().name.empty())
     return Robot::load(robots.front().urdf, robots.front().options);

@@ -31,6 +31,10 @@ struct RecordedRobot {
   Eigen::Isometry3d T_world_root = Eigen::Isometry3d::Identity();
 };
 
+/// Returns the parts of one of several robots: those of links ROBOT/LINK, as of LINK.
+[[nodiscard]] std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra,
+                                              const std::string& robot);
+
 /// The camera of a recording. Optional values are those that the file gives.
 struct RecordingCamera {
   std::filesystem::path info;  ///< the camera_info file

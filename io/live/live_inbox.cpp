@@ -15,6 +15,17 @@ std::string type_of_images(const std::string& topic) {
 
 }  // namespace
 
+void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces,
+                const std::function<std::string(const std::string&)>& resolve) {
+  options.robot.names = namespaces;
+  options.description_topics.clear();
+  options.joint_topics.clear();
+  for (const std::string& robot : namespaces) {
+    options.description_topics.push_back(resolve(robot + "/robot_description"));
+    options.joint_topics.push_back(resolve(robot + "/joint_states"));
+  }
+}
+
 LiveInbox::LiveInbox(const LiveOptions& options)
     : FrameAssembler(options.robot, options.cameras),
       options_(options),
@@ -24,15 +35,19 @@ LiveInbox::LiveInbox(const LiveOptions& options)
 }
 
 void LiveInbox::add_topics_of_robot() {
-  if (!options_.robot.given)
+  const std::vector<std::string>& robots = options_.robot.names;
+  for (std::size_t i = 0; i < robots.size() && !options_.robot.given; ++i)
     add_topic({.role = TopicRole::description,
-               .name = options_.description_topic,
+               .robot = robots[i],
+               .name = options_.description_topics[i],
                .type = message_type<StringMessage>(),
                .latched = true});
-  if (options_.poses != PoseSource::transforms)
-    for (const std::string& name : options_.joint_topics)
-      add_topic(
-          {.role = TopicRole::joints, .name = name, .type = message_type<JointStateMessage>()});
+  for (std::size_t i = 0; i < options_.joint_topics.size(); ++i)
+    if (options_.poses != PoseSource::transforms)
+      add_topic({.role = TopicRole::joints,
+                 .robot = robots.size() == 1 ? robots[0] : robots[i],
+                 .name = options_.joint_topics[i],
+                 .type = message_type<JointStateMessage>()});
   add_topic({.role = TopicRole::transforms,
              .name = options_.transform_topic,
              .type = message_type<TfMessage>()});

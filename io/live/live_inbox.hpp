@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,7 +22,9 @@ namespace penumbra::io {
 struct LiveOptions {
   RobotInputOptions robot = {};
   PoseSource poses = PoseSource::joints;
-  std::string description_topic = "/robot_description";
+  /// Of each of RobotInputOptions::names.
+  std::vector<std::string> description_topics = {"/robot_description"};
+  /// Of the only robot; of several robots, one for each.
   std::vector<std::string> joint_topics = {"/joint_states"};
   std::string transform_topic = "/tf";
   std::string static_transform_topic = "/tf_static";
@@ -31,6 +34,10 @@ struct LiveOptions {
   std::vector<CameraInputOptions> cameras = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning
 };
+
+/// Sets names and topics of several robots. `resolve`: from NS/TOPIC to the name on the graph.
+void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces,
+                const std::function<std::string(const std::string&)>& resolve);
 
 /// The outcome of judging a frame.
 struct LiveOutcome {

@@ -27,7 +27,8 @@ Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
                  const RobotOptions& robot) {
   if (options.bag.robot) return Robot::load(*options.bag.robot, robot);
   try {
-    return Robot::parse(*reader.scene().description, options.path.parent_path(), robot);
+    return robot_of(reader.scene().descriptions, reader.scene().static_transforms,
+                    options.path.parent_path(), robot);
   } catch (const InputError& error) {
     throw InputError(options.path.string() + ": " + error.what());
   }

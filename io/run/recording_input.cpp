@@ -136,10 +136,8 @@ void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const 
   if (geometry) robot.geometry = *geometry;
   robot.geometry_fallback |= geometry_fallback;
   robot.allow_missing_meshes |= allow_missing_meshes;
-  const std::string prefix = name.empty() ? "" : name + "/";
-  for (const ExtraMesh& part : extra)
-    if (part.link.starts_with(prefix))
-      robot.extra.push_back({part.link.substr(prefix.size()), part.mesh});
+  const std::vector<ExtraMesh> own = extra_of(extra, name);
+  robot.extra.insert(robot.extra.end(), own.begin(), own.end());
 }
 
 RunInput open_input(const InputOptions& options, const LineSink& print) {

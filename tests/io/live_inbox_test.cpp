@@ -235,6 +235,53 @@ TEST_F(LiveInboxTest, WhatIsAttachedStaysWithTheNextRobot) {
   EXPECT_GT(with_next, without + least);
 }
 
+/// Two robots: "a" is before the camera, "b" is far beside the image.
+TEST(LiveRobots, HaveNamespacesAndFailAlone) {
+  io::LiveOptions options = LiveBench::one_camera();
+  io::set_robots(options, {"a", "b"}, [](const std::string& name) { return "/" + name; });
+  LiveBench bench(options);
+  LiveTruth truth;
+  const auto tell_joints = [&](const char* topic, std::int64_t stamp) {
+    bench.tell(topic, live_joints(stamp - 10 * milliseconds));
+    bench.tell(topic, live_joints(stamp + 10 * milliseconds));
+  };
+  const auto status = [&] {
+    return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
+  };
+  bench.tell("/a/robot_description", encoded(io::StringMessage{live_urdf}));
+  EXPECT_FALSE(bench.inbox.take_order()) << "b is missing";
+  bench.tell("/b/robot_description", encoded(io::StringMessage{live_urdf}));
+  bench.inbox.place(io::make_robot(*bench.inbox.take_order()));
+  EXPECT_NE(bench.inbox.robot().fault().find("'a/base'"), std::string::npos) << "no mount yet";
+  const Eigen::Isometry3d aside(Eigen::Translation3d(100.0, 0.0, 0.0));
+  bench.tell("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "a/base"},
+                                                  {{0, "world"}, "b/base", aside},
+                                                  {{0, "a/base"}, "optical"}}}));
+  bench.inbox.retry_robot();
+  bench.inbox.place(io::make_robot(*bench.inbox.take_order()));
+  EXPECT_EQ(bench.inbox.robot().fault(), "");
+  bench.tell_info(0);
+  tell_joints("/a/joint_states", start);
+  tell_joints("/b/joint_states", start);
+  bench.tell_depth(start);
+  EXPECT_EQ(bench.work(), 1U);
+  EXPECT_EQ(status(), "ok");
+
+  const std::int64_t later = start + seconds;
+  tell_joints("/a/joint_states", later);  // and b is silent
+  bench.tell_depth(later);
+  bench.now += seconds;
+  EXPECT_EQ(bench.work(), 1U);
+  EXPECT_EQ(status(), "missing_link");
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth), 2U);
+
+  tell_joints("/b/joint_states", later + seconds);  // and a, which carries the camera, is silent
+  bench.tell_depth(later + seconds);
+  bench.now += seconds;
+  EXPECT_EQ(bench.work(), 1U);
+  EXPECT_EQ(status(), "stale_joints");
+}
+
 TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
   bench_.tell_all();
   judge(start);

@@ -161,6 +161,25 @@ TEST_F(SimulateBag, IsJudgedAsTheFolder) {
   }
 }
 
+TEST_F(SimulateBag, OfTwoArmsIsJudgedAsTheFolder) {
+  const Scene scene{"two_arms", 0, 3, ""};
+  ASSERT_EQ(simulate(scene, "cell").status, 0);
+  ASSERT_EQ(simulate(scene, "cell.mcap").status, 0);
+  ASSERT_EQ(penumbra({"run", path("cell"), "-o", path("of_folder"), "--save", "labels"}).status, 0);
+  const Outcome bag = penumbra({"run", path("cell.mcap"), "-o", path("of_bag"), "--save", "labels",
+                                "--robot-namespace", "left", "--robot-namespace", "/right"});
+  ASSERT_EQ(bag.status, 0) << bag.err;
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    compare_labels(path("of_folder") / "labels" / digits(i), path("of_bag") / "labels" / digits(i),
+                   hidden);
+  EXPECT_GT(hidden, 10'000U);
+  const Outcome wrong = penumbra({"run", path("cell.mcap"), "-o", path("none"), "--robot-namespace",
+                                  "left", "--robot-namespace", "middle"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("/middle/joint_states"), std::string::npos) << wrong.err;
+}
+
 /// What decode.mjs says of an image's bytes.
 template <typename T>
 json array_of(const Image<T>& image) {

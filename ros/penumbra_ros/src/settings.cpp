@@ -168,13 +168,19 @@ void declare_poses(Declaration& declare, penumbra::io::LiveOptions& live,
 
 void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live,
                     penumbra::io::CameraInputOptions& camera) {
-  live.description_topic = resolved(node, "robot_description");
+  live.description_topics = {resolved(node, "robot_description")};
   live.transform_topic = resolved(node, "/tf");
   live.static_transform_topic = resolved(node, "/tf_static");
   live.planning_scene_topic = resolved(node, "monitored_planning_scene");
   live.attached_topic = resolved(node, "attached_collision_object");
   live.joint_topics =
       resolved(node, declare("joint_topics", Texts{"joint_states"}, "topics of joint states"));
+  const Texts robots =
+      declare("robot_namespaces", Texts{},
+              "of several robots: topics NS/robot_description, NS/joint_states, frames NS/LINK");
+  if (!robots.empty())
+    penumbra::io::set_robots(live, robots,
+                             [&](const std::string& name) { return resolved(node, name); });
   live.target_topics = resolved(
       node, declare("target_topics", Texts{},
                     "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge"));
