@@ -109,8 +109,8 @@ struct Target {
   TargetThresholds thresholds = {};
   /// Read at the first frame with this name, and again after Pipeline::forget_target.
   TargetHandling handling = {};
-  /// Null: the pose or position of a 3-D shape or, for handling as a point, the point measured in
-  /// the region or at the key point.
+  /// What tracking takes as its measurement. Null: the pose or position of a 3-D shape or, for
+  /// handling as a point, the point measured in the region or at the key point.
   std::optional<TargetEstimate> estimate = {};
   std::string_view fault = {};  ///< a fault that its source reports; empty: none
 };
@@ -148,7 +148,8 @@ struct TargetReport {
   std::optional<Eigen::Vector3d> point;  ///< from trusted depths only; root link's frame, metres
 
   std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
-  std::optional<Outcome> estimate;       ///< null without an estimate
+  std::optional<Outcome> estimate;       ///< whether the target's estimate was accepted, or why
+                                         ///< not; null without an estimate
   bool wants_stamp = false;              ///< not handled because the frame has no stamp
 };
 
