@@ -367,7 +367,7 @@ struct TargetMessage {
                      m.point_spread, m.source, m.age, m.pose, m.sigma, m.estimate);
   }
 
-  enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view };
+  enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view, held_by_link };
   enum SourceValue : std::uint8_t { not_handled, measured, predicted, held, lost };
   enum EstimateValue : std::uint8_t {
     no_estimate,

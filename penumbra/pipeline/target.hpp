@@ -127,7 +127,9 @@ void check_target(const Target& target);
 /// one in the camera's frame that is nearer than DepthRenderer::near_plane.
 void check_estimate(const TargetEstimate& estimate);
 
-/// A handled target at the frame's stamp, in the root link's frame.
+/// A handled target at the frame's stamp, in the root link's frame. While a link carries the
+/// target, its pose is that of the attached body, and estimates are refused. Then tracking starts
+/// from the last such pose.
 struct HandledTarget {
   Source source = Source::lost;
   double age = 0;  ///< seconds since the last accepted estimate; infinite before the first
@@ -141,7 +143,7 @@ struct TargetReport {
   std::string_view name;
   std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
   Verdict verdict = Verdict::unknown;
-  std::string_view reason;  ///< one line if the verdict is unknown, else empty
+  std::string_view reason;  ///< one line if the verdict is unknown or held, else empty
 
   /// Null if no pixels were judged. The judge's values except `point`.
   std::optional<Judgement> judgement;
