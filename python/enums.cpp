@@ -89,7 +89,8 @@ void bind_robot_enums(py::module_& m) {
 void bind_frame_enums(py::module_& m) {
   bind_named_enum<FrameStatus>(m, "FrameStatus",
                                "Whether a frame can be relied on, and if not, why.", 9);
-  bind_named_enum<Verdict>(m, "Verdict", "The verdict on a target.", 5);
+  bind_named_enum<Verdict>(m, "Verdict",
+                           "The verdict on a target. held: an attached body has its name.", 6);
   bind_enum<Extent>(m, "Extent",
                     "What a region covers of its target: amodal, all of it, or modal, what a "
                     "detector still sees.",

@@ -52,6 +52,11 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
   return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
 
+AttachedBody attach_target(State& self, const OwnedTarget& target, const std::string& link) {
+  const OneThread::Use use(self.thread, "Pipeline.attach_target");
+  return self.pipeline.attach_target(target_of(target), link);
+}
+
 void forget(State& self, const std::string& name) {
   const OneThread::Use use(self.thread, "Pipeline.forget_target");
   self.pipeline.forget_target(name);
@@ -85,6 +90,13 @@ void bind_pipeline(py::module_& m) {
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
            "for a depth image of another size than the camera's, KeyError for joint names that are "
            "not the robot's, DeviceError if a graphics device fails.")
+      .def("attach_target", &attach_target, py::arg("target"), py::arg("link"),
+           "Returns a target of the last frame as the AttachedBody that `link` carries from that "
+           "frame on: a BoxTarget, MeshTarget or PointTarget (its ball). Call it when the gripper "
+           "closes, and give the body to the following frames. Its pose is the target's handled "
+           "pose or, without handling, the pose of its shape. Raises InputError if that pose, the "
+           "link's or the robot's is not known, and for a target that was not in the last frame or "
+           "is no 3-D shape.")
       .def("forget_target", &forget, py::arg("name"),
            "Forgets a target's verdict, extent and track: the name stands for something new.")
       .def("forget_targets", &forget_all,

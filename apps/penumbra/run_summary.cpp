@@ -36,7 +36,8 @@ void print_targets(const io::Statistics& statistics) {
     std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
               << " frames visible, " << target.frames(Verdict::partial) << " partial, "
               << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
-              << " unknown, " << target.frames(Verdict::out_of_view) << " out of view\n";
+              << " unknown, " << target.frames(Verdict::out_of_view) << " out of view, "
+              << target.frames(Verdict::held) << " held\n";
   if (targets.size() > most_targets)
     std::cout << "and " << targets.size() - most_targets << " more targets, see the report\n";
 }

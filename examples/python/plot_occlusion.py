@@ -12,7 +12,7 @@ from penumbra import Verdict
 
 # Okabe and Ito's colours, which colour-blind people can distinguish.
 COLORS = {Verdict.visible: "#009e73", Verdict.partial: "#e69f00", Verdict.hidden: "#d55e00",
-          Verdict.unknown: "#999999", Verdict.out_of_view: "#56b4e9"}
+          Verdict.unknown: "#999999", Verdict.out_of_view: "#56b4e9", Verdict.held: "#0072b2"}
 
 
 def judge(source: str) -> Dict[str, List[penumbra.TargetReport]]:

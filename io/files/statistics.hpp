@@ -53,7 +53,7 @@ struct Fault {
 /// The sums of one target.
 struct TargetStatistics {
   std::string name;
-  std::array<std::size_t, 5> verdicts{};  ///< frames by Verdict
+  std::array<std::size_t, 6> verdicts{};  ///< frames by Verdict
   std::array<std::size_t, 4> handled{};   ///< frames by Source; all 0 if it is not handled
   std::array<std::size_t, 5> outcomes{};  ///< estimates by Outcome
   std::string reason;                     ///< why it was unknown first

@@ -161,9 +161,13 @@ void draw_caption(const std::vector<PixelPath>& paths, const std::string& text, 
 }  // namespace
 
 Rgb8 verdict_color(Verdict verdict) {
-  // Okabe and Ito's palette (2008): bluish green, orange, vermilion, yellow; grey.
-  constexpr std::array<Rgb8, 5> colors = {
-      {{0, 158, 115}, {230, 159, 0}, {213, 94, 0}, {240, 228, 66}, {160, 160, 160}}};
+  // Okabe and Ito's palette (2008): bluish green, orange, vermilion, yellow; grey; sky blue.
+  constexpr std::array<Rgb8, 6> colors = {{{0, 158, 115},
+                                           {230, 159, 0},
+                                           {213, 94, 0},
+                                           {240, 228, 66},
+                                           {160, 160, 160},
+                                           {86, 180, 233}}};
   return colors[static_cast<std::size_t>(verdict)];
 }
 

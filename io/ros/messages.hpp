@@ -21,6 +21,8 @@ namespace penumbra::io {
 // describe the fields; units are SI and stamps are nanoseconds. Spans refer to the payload that a
 // message was decoded from. layout() lists a message's fields in the order of its definition.
 //
+// The values of velocities and efforts, and the pose of a hypothesis, are read but not used.
+//
 // A rotation whose quaternion does not have unit length (its square is off by 1 % or more, as in
 // tf2) is read as NaN.
 
@@ -365,7 +367,7 @@ struct TargetMessage {
                      m.point_spread, m.source, m.age, m.pose, m.sigma, m.estimate);
   }
 
-  enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view };
+  enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view, held_by_link };
   enum SourceValue : std::uint8_t { not_handled, measured, predicted, held, lost };
   enum EstimateValue : std::uint8_t {
     no_estimate,

@@ -60,6 +60,7 @@ void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
   const auto found = newest_.try_emplace(topic, stamp).first;
   topic_ = found->first;
   std::int64_t& newest = found->second;
+  // A stamp older than any late target's means that the clock was set back: begin again from it.
   if (stamp > 0) newest = stamp < newest - longest_lag ? stamp : std::max(newest, stamp);
   const auto lags = [&](const Waiting& one) {
     return one.topic == topic_ && one.target.stamp > 0 && *one.target.stamp < newest - longest_lag;
@@ -87,37 +88,37 @@ TargetInbox::Waiting& TargetInbox::add_target(std::string name, const MessageHea
   return waiting;
 }
 
-TargetInbox::Label TargetInbox::label_of(const std::string& topic, const std::string& id,
-                                         std::span<const HypothesisMessage> results) {
-  Label label{topic + "/" + (id.empty() ? best_class(results) : id), !id.empty()};
+TargetInbox::BaseName TargetInbox::base_name_of(const std::string& topic, const std::string& id,
+                                                std::span<const HypothesisMessage> results) {
+  BaseName base{topic + "/" + (id.empty() ? best_class(results) : id), !id.empty()};
   std::replace_if(
-      label.text.begin(), label.text.end(), [](char c) { return is_control(c); }, '?');
-  return label;
+      base.text.begin(), base.text.end(), [](char c) { return is_control(c); }, '?');
+  return base;
 }
 
-std::vector<TargetInbox::Waiting*> TargetInbox::add_targets(const std::vector<Label>& labels,
+std::vector<TargetInbox::Waiting*> TargetInbox::add_targets(const std::vector<BaseName>& names,
                                                             const MessageHeader& header) {
   std::unordered_map<std::string_view, std::size_t> uses;
-  for (const Label& label : labels) ++uses[label.text];
+  for (const BaseName& base : names) ++uses[base.text];
   std::unordered_set<std::string> taken;
   std::unordered_map<std::string_view, int> last;
   std::vector<Waiting*> all;
-  for (const Label& label : labels) {
-    std::string name = label.text;
-    for (int& i = last.try_emplace(label.text, 1).first->second; !taken.insert(name).second;)
-      name = label.text + " " + std::to_string(++i);
+  for (const BaseName& base : names) {
+    std::string name = base.text;
+    for (int& i = last.try_emplace(base.text, 1).first->second; !taken.insert(name).second;)
+      name = base.text + " " + std::to_string(++i);
     all.push_back(&add_target(name, header));
-    all.back()->target.has_identity = label.is_id && uses[label.text] == 1 && name == label.text;
+    all.back()->target.has_identity = base.is_id && uses[base.text] == 1 && name == base.text;
   }
   return all;
 }
 
 void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& message) {
   make_room(topic, message.header.stamp);
-  std::vector<Label> labels;
+  std::vector<BaseName> names;
   for (const Detection2DMessage& detection : message.detections)
-    labels.push_back(label_of(topic, detection.id, detection.results));
-  const std::vector<Waiting*> all = add_targets(labels, message.header);
+    names.push_back(base_name_of(topic, detection.id, detection.results));
+  const std::vector<Waiting*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     auto& shape = all[i]->target.shape.emplace<RegionTarget>();
     shape.region = region_of(message.detections[i].bbox, all[i]->corners);
@@ -127,23 +128,23 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
 
 void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& message) {
   make_room(topic, message.header.stamp);
-  std::vector<Label> labels;
+  std::vector<BaseName> names;
   for (const Detection3DMessage& detection : message.detections)
-    labels.push_back(label_of(topic, detection.id, detection.results));
-  const std::vector<Waiting*> all = add_targets(labels, message.header);
+    names.push_back(base_name_of(topic, detection.id, detection.results));
+  const std::vector<Waiting*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BoundingBox3D& box = message.detections[i].bbox;
-    const ReferenceFrame frame = frame_of(*all[i]);
+    const ReferenceFrame frame = resolve_frame(*all[i]);
     all[i]->target.shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
   }
 }
 
 void TargetInbox::add(const std::string& topic, const KeypointsMessage& message) {
   make_room(topic, message.header.stamp);
-  std::vector<Label> labels;
+  std::vector<BaseName> names;
   for (const KeypointMessage& keypoint : message.keypoints)
-    labels.push_back(label_of(topic, keypoint.name, {}));
-  const std::vector<Waiting*> all = add_targets(labels, message.header);
+    names.push_back(base_name_of(topic, keypoint.name, {}));
+  const std::vector<Waiting*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const KeypointMessage& keypoint = message.keypoints[i];
     KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};
@@ -155,11 +156,11 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
 void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
   make_room(topic, message.header.stamp);
   Waiting& one = add_target(topic, message.header);
-  const ReferenceFrame frame = frame_of(one);
+  const ReferenceFrame frame = resolve_frame(one);
   one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
 }
 
-ReferenceFrame TargetInbox::frame_of(Waiting& waiting) const {
+ReferenceFrame TargetInbox::resolve_frame(Waiting& waiting) const {
   waiting.link_frame = std::exchange(waiting.image_frame, {});
   if (waiting.link_frame.empty() || waiting.link_frame == without_slash(camera_frame_)) return {};
   const std::string frame = waiting.link_frame;

@@ -71,8 +71,8 @@ class TargetInbox {
     Target target;
   };
 
-  /// A name without its number.
-  struct Label {
+  /// A target's name, without the number that equal names get.
+  struct BaseName {
     std::string text;
     bool is_id = false;
   };
@@ -84,11 +84,13 @@ class TargetInbox {
   List::iterator forget(List::iterator one);
   Waiting& add_target(std::string name, const MessageHeader& header);
   /// Adds a target for each of a message's detections.
-  std::vector<Waiting*> add_targets(const std::vector<Label>& labels, const MessageHeader& header);
-  /// Returns the link of a 3-D target's frame, or the camera.
-  ReferenceFrame frame_of(Waiting& waiting) const;
-  static Label label_of(const std::string& topic, const std::string& id,
-                        std::span<const HypothesisMessage> results);
+  std::vector<Waiting*> add_targets(const std::vector<BaseName>& names,
+                                    const MessageHeader& header);
+  /// Resolves the frame of a 3-D target: moves it to `link_frame`, and sets `fault` if it is
+  /// neither the camera's nor a link.
+  ReferenceFrame resolve_frame(Waiting& waiting) const;
+  static BaseName base_name_of(const std::string& topic, const std::string& id,
+                               std::span<const HypothesisMessage> results);
 
   const Robot& robot_;
   std::string camera_frame_, frame_prefix_;

@@ -7,9 +7,9 @@ namespace penumbra::io {
 namespace {
 
 // Constants of penumbra_msgs/Target, in the order of our enumerations.
-constexpr std::array<std::uint8_t, 5> verdict_values{TargetMessage::visible, TargetMessage::partial,
-                                                     TargetMessage::hidden, TargetMessage::unknown,
-                                                     TargetMessage::out_of_view};
+constexpr std::array<std::uint8_t, 6> verdict_values{
+    TargetMessage::visible, TargetMessage::partial,     TargetMessage::hidden,
+    TargetMessage::unknown, TargetMessage::out_of_view, TargetMessage::held_by_link};
 constexpr std::array<std::uint8_t, 4> source_values{
     TargetMessage::measured, TargetMessage::predicted, TargetMessage::held, TargetMessage::lost};
 constexpr std::array<std::uint8_t, 5> estimate_values{

@@ -215,7 +215,9 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
   const auto pitch = static_cast<std::ptrdiff_t>(flood.pitch);
   const std::array<Step, 4> steps = {
       {{-std::uint64_t{0x10000}, -pitch}, {-std::uint64_t{1}, -1}, {1, 1}, {0x10000, pitch}}};
-  const int continues = (flood.reach - 1) * (flood.reach - 1) / 4;  // blocks, squared
+  // Squared, in blocks of 2 pixels: the flood continues from blocks within (reach - 1) / 2 of their
+  // source, so that it ends one block further, at most `reach` pixels (+ 1 if odd) away.
+  const int continues = (flood.reach - 1) * (flood.reach - 1) / 4;
   // Local copies: writes to bytes may alias any member.
   const ImageView<std::uint8_t> labels = work.labels.view();
   Fringe::Block* const queue = flood.queue.get();
@@ -237,6 +239,8 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
     const auto span = static_cast<std::uint32_t>(most - least);
     for (const Step& to : steps) {  // without unpredictable branches
       std::uint16_t& next = here[to.offset];
+      // Whether first <= next <= first + span: a smaller one, such as a block without the flag
+      // is_open, wraps around to a large number.
       const bool is_taken = next - first <= span;
       queue[end].bits = from.bits + to.block;
       end += is_taken;

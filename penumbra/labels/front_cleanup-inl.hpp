@@ -190,11 +190,16 @@ inline std::size_t drop_isolated(Work& work) {
   const int reach = work.rule.reach;
   if (!any(work.foreground_tiles)) return drop_front(work, {0, 0, 0, 0}, 0);
   const Box seeds = box_of(work.foreground_tiles);
+  // The squares of width x width foreground pixels. Bits are the top left corners of those that
+  // may hold a seed, ...
   const Box squares{seeds.w0, seeds.w1, seeds.v0 - (width - 1), seeds.v1 + (width - 1)};
   erode_rows(work, squares, width);
   erode_columns(work, squares, width);
+  // ... then their pixels.
   const Box covered{seeds.w0, seeds.w1, squares.v0, seeds.v1};
   dilate(work, covered, width);
+  // The seeds, and the pixels within reach of one, shifted by `reach` down and to the right because
+  // dilate() only goes there.
   const Box spread{seeds.w0, seeds.w1, seeds.v0, seeds.v1 + 2 * reach};
   keep_seeds(work, spread, seeds);
   dilate(work, spread, 2 * reach + 1);

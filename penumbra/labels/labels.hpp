@@ -43,34 +43,35 @@ struct Tolerance {
 /// The rule of labelling. docs/tuning.md describes how the defaults were measured and how to choose
 /// others.
 ///
-/// With d the measured and dV the virtual depth of a pixel of the robot, in float32: unknown if d
-/// is no measurement, beyond if d > dV + k e(dV), front if d < dV - e(dV), else occluded. The
-/// clean-up, an opening by reconstruction, then turns isolated front pixels into occluded ones.
+/// d is the measured and dV the virtual depth of a pixel, in float32.
 ///
-/// The sensor sees the robot's edges blurred and, due to calibration, out of place. A pixel of the
-/// image, on the robot or not, is foreground if d < n - e(n), where n is the nearest virtual depth
-/// within edge_margin pixels. (n is the least dV of the cells, of `cell` pixels squared, at most
-/// ceil(edge_margin / cell) cells from the pixel's. Without a robot near, no pixel is foreground.)
-/// A pixel without measurement is foreground too if it lies between two foreground pixels, at most
-/// front_min_width pixels away, in its row or in its column. Seeds are the front pixels that are
-/// measured foreground and lie in a square of front_min_width pixels inside the image that is all
-/// foreground. Seeds, and front pixels at most edge_margin / 2 pixels from a seed in both u and v,
-/// stay front.
-///
-/// So an object keeps its full width at the robot's silhouette, holes do not split it, and a seam
-/// along an edge of the robot is no object.
-///
-/// Fringe: real sensors report the robot's depth past its outline. Stereo matching fattens it, gaps
-/// between links are filled, and mixed pixels lie between the robot's depth and the background's.
-/// A flood fill over blocks of 2 x 2 pixels finds such pixels. A block's depth is the nearest of
-/// its occluded pixels or, without any, of its clear, measured ones. The flood starts from the
-/// blocks with occluded pixels and continues, breadth first, from block p to one of the four
-/// neighbours q without occluded pixels if
-///   |d(q) - d(p)| <= fringe_step e(d(s)), |d(q) - d(s)| <= fringe_drift e(d(s))
-/// and q lies within fringe_reach of s, the block that the flood reached p from. The clear pixels
-/// of all these blocks become fringe if they differ from their block's depth by at most 2
-/// fringe_step e(d(s)). A real object at the robot's depth that touches its outline is fringe up to
-/// fringe_reach; one image cannot tell them apart.
+/// 1. Compare. A pixel of the robot is unknown if d is no measurement, beyond if
+///    d > dV + k e(dV), front if d < dV - e(dV), else occluded.
+/// 2. Clean up. The sensor sees the robot's edges blurred and, due to calibration, out of place, so
+///    front pixels without an object's width become occluded (an opening by reconstruction):
+///    - The limit of a pixel, on the robot or not, is n - e(n). n is the least dV of the cells, of
+///      `cell` pixels squared, at most ceil(edge_margin / cell) cells from the pixel's.
+///    - Foreground: the pixels with d below their limit. A pixel without measurement is foreground
+///      too if it lies between two such pixels, at most front_min_width pixels away, in its row or
+///      in its column. Without a robot near, no pixel is foreground.
+///    - Seeds: the front pixels with d below their limit that lie in a square of front_min_width
+///      pixels, inside the image, that is all foreground.
+///    - Seeds, and front pixels at most edge_margin / 2 pixels from a seed in both u and v, stay
+///      front.
+///    So an object keeps its full width at the robot's silhouette, holes do not split it, and a
+///    seam along an edge of the robot is no object.
+/// 3. Fringe. Sensors report the robot's depth past its outline: stereo matching fattens it, gaps
+///    between links are filled, and mixed pixels lie between the robot and the background. A flood
+///    fill over blocks of 2 x 2 pixels finds such pixels:
+///    - A block's depth is the nearest of its occluded pixels or, without any, of its clear,
+///      measured ones. The flood starts from the blocks with occluded pixels.
+///    - It continues, breadth first, from block p to one of the four neighbours q without occluded
+///      pixels if |d(q) - d(p)| <= fringe_step e(d(s)), |d(q) - d(s)| <= fringe_drift e(d(s)), and
+///      q lies within fringe_reach of s, the block that the flood reached p from.
+///    - The clear pixels of these blocks become fringe if they differ from their block's depth by
+///      at most 2 fringe_step e(d(s)).
+///    A real object at the robot's depth that touches its outline is fringe up to fringe_reach; one
+///    image cannot tell them apart.
 ///
 /// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
 /// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order.

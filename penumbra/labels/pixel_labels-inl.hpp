@@ -110,7 +110,8 @@ HWY_INLINE VB label_chunk(const Criteria& rule, const float* HWY_RESTRICT virtua
   counts.add(robot, unknown, front, beyond);
   static_assert(static_cast<int>(Label::front) == 1 && static_cast<int>(Label::occluded) == 2 &&
                 static_cast<int>(Label::unknown) == 3 && static_cast<int>(Label::beyond) == 4);
-  // A true mask is -1: 2 + front = 1, 2 - unknown = 3, 2 - 2 beyond = 4.
+  // A true mask is -1: 2 + front = 1, 2 - unknown = 3, 2 - 2 beyond = 4. At most one of them is
+  // true. A new label of robot pixels must fit this sum.
   const VB two = hn::And(robot, hn::Set(B(), 2));
   const VB values = hn::Sub(hn::Add(two, front), hn::Add(unknown, hn::Add(beyond, beyond)));
   const hn::Repartition<std::uint8_t, F> out;

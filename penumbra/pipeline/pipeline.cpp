@@ -7,6 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/attach_target-inl.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/pose_stage-inl.hpp>
@@ -72,6 +73,7 @@ struct Pipeline::State {
   FrameLabeller labeller;
   NearPlaneCheck near_plane;
   TargetStage targets;
+  const PoseResult* last_poses = nullptr;  // of the last frame, if it was judged
   std::size_t calls = 0;
   std::vector<std::size_t> attached;  // the report's
   FrameReport report;
@@ -107,11 +109,22 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
+  s.last_poses = nullptr;
   const PoseResult& poses = s.poses.pose_of(frame);
   const LabelledFrame labelled = s.labeller.label(frame.depth, poses);
   s.targets.judge(frame.targets, labelled);
   s.targets.track(frame.targets, labelled);
+  s.last_poses = &poses;
   return s.report_of(frame, labelled);
+}
+
+AttachedBody Pipeline::attach_target(const Target& target, std::string_view link) const {
+  const State& s = *state_;
+  if (s.last_poses != nullptr)
+    for (const TargetReport& report : s.targets.reports())
+      if (report.name == target.name)
+        return penumbra::attach_target(target, link, *s.last_poses, report, s.robot);
+  throw InputError("target '" + std::string(target.name) + "' was not in the last frame");
 }
 
 void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }

@@ -58,6 +58,14 @@ class Pipeline {
   /// not exist, and DeviceError if the graphics device fails.
   const FrameReport& process(const Frame& frame);
 
+  /// Returns a target of the last frame as a body that `link` carries from that frame on: a 3-D box
+  /// or mesh, or the ball of a point. To be called when the gripper closes; put the body into
+  /// Frame::attached of the following frames or into Attachments. Its pose is the target's handled
+  /// pose or, without handling, the pose of its shape. Throws InputError if that pose, the link's
+  /// or the robot's is not known, and for a target that was not in the last frame or is no 3-D
+  /// shape.
+  [[nodiscard]] AttachedBody attach_target(const Target& target, std::string_view link) const;
+
   /// Forgets a target's verdict, extent and track, for a name that now means another object; or all
   /// of them together with the stored frames, for a new sequence. A stamp more than 1 s before the
   /// newest one also forgets all.

@@ -109,8 +109,8 @@ struct Target {
   TargetThresholds thresholds = {};
   /// Read at the first frame with this name, and again after Pipeline::forget_target.
   TargetHandling handling = {};
-  /// Null: the pose or position of a 3-D shape or, for handling as a point, the point measured in
-  /// the region or at the key point.
+  /// What tracking takes as its measurement. Null: the pose or position of a 3-D shape or, for
+  /// handling as a point, the point measured in the region or at the key point.
   std::optional<TargetEstimate> estimate = {};
   std::string_view fault = {};  ///< a fault that its source reports; empty: none
 };
@@ -127,7 +127,9 @@ void check_target(const Target& target);
 /// one in the camera's frame that is nearer than DepthRenderer::near_plane.
 void check_estimate(const TargetEstimate& estimate);
 
-/// A handled target at the frame's stamp, in the root link's frame.
+/// A handled target at the frame's stamp, in the root link's frame. While a link carries the
+/// target, its pose is that of the attached body, and estimates are refused. Then tracking starts
+/// from the last such pose.
 struct HandledTarget {
   Source source = Source::lost;
   double age = 0;  ///< seconds since the last accepted estimate; infinite before the first
@@ -141,14 +143,15 @@ struct TargetReport {
   std::string_view name;
   std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
   Verdict verdict = Verdict::unknown;
-  std::string_view reason;  ///< one line if the verdict is unknown, else empty
+  std::string_view reason;  ///< one line if the verdict is unknown or held, else empty
 
   /// Null if no pixels were judged. The judge's values except `point`.
   std::optional<Judgement> judgement;
   std::optional<Eigen::Vector3d> point;  ///< from trusted depths only; root link's frame, metres
 
   std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
-  std::optional<Outcome> estimate;       ///< null without an estimate
+  std::optional<Outcome> estimate;       ///< whether the target's estimate was accepted, or why
+                                         ///< not; null without an estimate
   bool wants_stamp = false;              ///< not handled because the frame has no stamp
 };
 

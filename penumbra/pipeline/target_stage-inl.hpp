@@ -53,11 +53,17 @@ class TargetStage {
     std::size_t times = 0;                   ///< its occurrences in that call
     bool is_new = true;                      ///< its handling has not been read
     std::optional<std::int64_t> last_stamp;  ///< the last stamp that was judged
+    std::optional<std::int64_t> last_held;   ///< the last frame in which a link carried it
     std::optional<TargetTrack> track;
     const PoseResult* judged_poses = nullptr;   ///< of the frame it was judged on, if in order
     std::optional<Eigen::Vector2d> good_pixel;  ///< of the track when last visible
     std::vector<Blame> blame;
     std::string reason;
+
+    /// Whether a frame is older than one that was judged.
+    [[nodiscard]] bool is_late(const LabelledFrame& frame) const {
+      return frame.stamp() && last_stamp && *frame.stamp() < *last_stamp;
+    }
   };
   /// Allows lookup by string_view.
   struct NameHash {
@@ -75,11 +81,13 @@ class TargetStage {
   void check(const Target& target, Record& record) const;
   const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
   const LabelledFrame& late_frame(std::int64_t stamp);
+  static void hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
+                   TargetReport& report);
   Judgement judge_on(const LabelledFrame& frame, const Target& target, Record& record);
   static void lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report);
   [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const PoseResult& poses,
                                                            const Record& record) const;
-  void track(const Target& target, std::int64_t stamp, Record& record, TargetReport& report);
+  void track(const Target& target, const PoseResult& poses, Record& record, TargetReport& report);
   Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetTrack& track);
 
   const Robot& robot_;

@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
+#include <penumbra/pipeline/attach_target-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
 
@@ -125,7 +126,7 @@ void TargetStage::track(std::span<const Target> targets, const LabelledFrame& fr
     Record& record = given_[i]->second;
     if (!record.track) continue;
     reports_[i].wants_stamp = !frame.stamp();
-    if (frame.stamp()) track(targets[i], *frame.stamp(), record, reports_[i]);
+    if (frame.stamp()) track(targets[i], *frame.poses, record, reports_[i]);
   }
 }
 
@@ -172,22 +173,27 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame,
   try {
     check(target, record);
     const LabelledFrame& seen = frame_of(target, frame);
-    Judgement judgement = judge_on(seen, target, record);
-    record.blame.assign(judgement.blame.begin(), judgement.blame.end());
-    judgement.blame = record.blame;
-    record.reason = judgement.reason;
-    report.verdict = judgement.verdict;
-    if (judgement.point) report.point = seen.poses->T_root_camera * *judgement.point;
-    report.judgement = judgement;
-    is_reliable = seen.status == FrameStatus::ok && !lacks_depth(judgement, target.thresholds);
-    lower_trust(seen, record, report);
+    if (const PlacedBody* const body = find_body(*seen.poses, target.name)) {
+      hold(*body, seen, record, report);
+    } else {
+      Judgement judgement = judge_on(seen, target, record);
+      record.blame.assign(judgement.blame.begin(), judgement.blame.end());
+      judgement.blame = record.blame;
+      record.reason = judgement.reason;
+      report.verdict = judgement.verdict;
+      if (judgement.point) report.point = seen.poses->T_root_camera * *judgement.point;
+      report.judgement = judgement;
+      is_reliable = seen.status == FrameStatus::ok && !lacks_depth(judgement, target.thresholds);
+      lower_trust(seen, record, report);
+    }
   } catch (const InputError& fault) {
     report.verdict = Verdict::unknown;
     report.judgement.reset();
     report.point.reset();
     record.reason = fault.what();
   }
-  report.reason = report.verdict == Verdict::unknown ? std::string_view(record.reason) : "";
+  const bool has_reason = report.verdict == Verdict::unknown || report.verdict == Verdict::held;
+  report.reason = has_reason ? std::string_view(record.reason) : "";
   if (report.judgement) report.judgement->reason = report.reason;
   if (report.stamp && record.track)
     record.track->add(*report.stamp,
@@ -214,10 +220,7 @@ void TargetStage::check(const Target& target, Record& record) const {
 const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledFrame& frame) {
   const bool is_late = target.stamp && target.stamp != frame.stamp();
   const LabelledFrame& seen = is_late ? late_frame(*target.stamp) : frame;
-  const bool is_blind = seen.images.is_blind && !is_expected(target);
-  if (!seen.poses->known() || is_blind) throw InputError(fault_of(seen));
-  for (const PlacedBody& body : seen.poses->attached)  // it would hide itself
-    if (body.name == target.name) throw InputError("it is attached to link '" + body.carrier + "'");
+  if (!seen.poses->known()) throw InputError(fault_of(seen));
   return seen;
 }
 
@@ -233,8 +236,20 @@ const LabelledFrame& TargetStage::late_frame(std::int64_t stamp) {
   return late_.emplace(late_labeller_->label(*depth, *poses));
 }
 
+/// An attached body would hide itself. Afterwards the target is judged as a new one.
+void TargetStage::hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
+                       TargetReport& report) {
+  report.verdict = Verdict::held;
+  record.reason = "it is attached to link '" + body.carrier + "'";
+  if (record.is_late(frame)) return;
+  record.last_stamp = frame.stamp();
+  record.memory = {};
+  record.good_pixel.reset();
+}
+
 Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target, Record& record) {
-  const bool is_late = frame.stamp() && record.last_stamp && *frame.stamp() < *record.last_stamp;
+  if (frame.images.is_blind && !is_expected(target)) throw InputError(fault_of(frame));
+  const bool is_late = record.is_late(frame);
   if (is_late && is_modal(target))
     throw InputError("its stamp is before one that was judged: modal extents need stamps in order");
   auto view = views_.view(target, frame);
@@ -282,14 +297,23 @@ std::optional<Eigen::Vector2d> TargetStage::track_pixel(const PoseResult& poses,
   return views_.project(poses.T_root_camera.inverse() * *handled.position);
 }
 
-void TargetStage::track(const Target& target, std::int64_t stamp, Record& record,
+void TargetStage::track(const Target& target, const PoseResult& poses, Record& record,
                         TargetReport& report) {
+  const std::int64_t stamp = *poses.stamp;
   const auto estimate = target.estimate ? target.estimate : own_estimate(target, report);
   const bool is_given = estimate && !std::holds_alternative<std::monostate>(estimate->value);
+  if (const PlacedBody* const body = find_body(poses, target.name)) {
+    record.last_held = std::max(record.last_held.value_or(stamp), stamp);
+    if (is_given) report.estimate = Outcome::refused_verdict;
+    report.handled = record.track->carry(stamp, poses.T_root_camera * body->T_camera_body);
+    return;
+  }
   bool is_measured = false;  // an estimate of an earlier call with this stamp does not count
   if (is_given && record.times == 1) {
     const std::int64_t of_image = estimate->stamp.value_or(target.stamp.value_or(stamp));
-    report.estimate = feed(*estimate, of_image, *record.track);
+    const bool is_of_old_place = record.last_held && of_image <= *record.last_held;
+    report.estimate =
+        is_of_old_place ? Outcome::refused_late : feed(*estimate, of_image, *record.track);
     is_measured = *report.estimate == Outcome::accepted && of_image == stamp;
   }
   report.handled = record.track->at(stamp, is_measured);

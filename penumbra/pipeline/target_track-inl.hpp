@@ -36,6 +36,10 @@ class TargetTrack {
   Outcome update(std::int64_t stamp, const TargetEstimate& estimate, const RecentVerdict& verdict,
                  const Eigen::Isometry3d& T_root_frame);
 
+  /// Forgets all estimates and starts from the pose of the body that carries the target at a stamp.
+  /// Returns the target there.
+  HandledTarget carry(std::int64_t stamp, const Eigen::Isometry3d& T_root_target);
+
   /// Returns the target at a stamp. `is_measured`: an estimate of this frame was accepted; else the
   /// source is never `measured`, even if an earlier estimate has the same stamp.
   [[nodiscard]] HandledTarget at(std::int64_t stamp, bool is_measured) const;

@@ -81,6 +81,20 @@ Outcome TargetTrack::update(std::int64_t stamp, const TargetEstimate& estimate,
       {stamp, T_root_frame * *pose, covariance, std::min(verdict.seen, 1.0)}, verdict.verdict);
 }
 
+HandledTarget TargetTrack::carry(std::int64_t stamp, const Eigen::Isometry3d& T_root_target) {
+  if (auto* poses = std::get_if<PoseTracker>(&tracker_)) {
+    poses->reset();
+    poses->update({.stamp = stamp, .pose = T_root_target}, Verdict::visible);
+  } else {
+    auto& points = std::get<PointTracker>(tracker_);
+    points.reset();
+    points.update({.stamp = stamp, .position = T_root_target.translation()}, Verdict::visible);
+  }
+  HandledTarget handled = at(stamp, false);
+  if (handled.source != Source::lost) handled.source = Source::predicted;
+  return handled;
+}
+
 HandledTarget TargetTrack::at(std::int64_t stamp, bool is_measured) const {
   const auto* const poses = std::get_if<PoseTracker>(&tracker_);
   HandledTarget handled = poses != nullptr

@@ -30,8 +30,8 @@ void TargetThresholds::check() const {
 }
 
 std::string_view to_string(Verdict verdict) {
-  constexpr std::array<std::string_view, 5> names = {"visible", "partial", "hidden", "unknown",
-                                                     "out_of_view"};
+  constexpr std::array<std::string_view, 6> names = {"visible", "partial",     "hidden",
+                                                     "unknown", "out_of_view", "held"};
   return names[static_cast<std::size_t>(verdict)];
 }
 

@@ -103,7 +103,14 @@ struct TargetThresholds {
   void check() const;
 };
 
-enum class Verdict { visible, partial, hidden, unknown, out_of_view };
+enum class Verdict {
+  visible,
+  partial,
+  hidden,
+  unknown,
+  out_of_view,
+  held  ///< a link carries it: an attached body has its name, and no pixels are judged
+};
 
 /// The verdict's name in report.json.
 [[nodiscard]] std::string_view to_string(Verdict verdict);

@@ -30,7 +30,7 @@ struct LabelledImages {
 struct TargetView {
   Region region;
   Extent extent = Extent::amodal;
-  /// Metres, ze below, for the whole region; a rendered region has its own. With it, robot pixels
+  /// Metres, for the whole region; a rendered region has its own. With it, robot pixels
   /// behind the target hide nothing, other objects can hide it, and what the robot hides is known
   /// without a measurement.
   std::optional<double> expected_depth;
@@ -95,51 +95,20 @@ struct Judgement {
 /// Judges targets on labelled images. Allocates nothing per target once extents of its size were
 /// seen.
 ///
-/// The state of a pixel. Without an expected depth it follows from the label: clear, front,
-/// occluded, unknown; beyond counts as occluded, or as clear if beyond_hides is false. With the
-/// expected depth ze, m = depth_margin + e(ze), virtual depth dV and measured depth d:
-///
-/// | label | robot in front: dV < ze - m | robot at that depth | robot behind: dV > ze + m |
-/// |---|---|---|---|
-/// | clear | | clear; other if d < ze - m | |
-/// | front | occluded | front; other if d < ze - m | front; other if d < ze - m |
-/// | occluded | occluded | unknown; occluded if d < ze - m | clear; occluded if d < ze - m |
-/// | beyond | occluded | unknown | clear |
-/// | unknown | occluded | unknown | clear |
-///
-/// "other": hidden by another object. beyond counts as clear if beyond_hides is false. A robot at
-/// the target's depth cannot be told apart from it by model or sensor, so such pixels are unknown.
-///
-/// The verdict. hidden = occluded, plus hidden_by_other if others_hide. The first rule that
-/// applies:
+/// docs/targets.md has the rules: "Pixels" the state of each pixel (clear, front, occluded, hidden
+/// by another object, unknown), "Modal extents" what is missing from a detector's mask, "Points"
+/// which depths are trusted. With hidden = occluded, plus hidden_by_other if others_hide, the first
+/// verdict that applies:
 /// - out_of_view: no more than min_inside of the extent lies in the image.
 /// - unknown: the robot's pose is unknown; or the unknown fraction exceeds its limit, and the
 ///   verdict would be different if all unknown pixels were hidden.
 /// - hidden, partial or visible by the thresholds, with hysteresis from the last such verdict. But
 ///   visible becomes unknown if no more is seen (clear or front) than unknown. Visible and partial
 ///   become unknown if nothing is seen or, with an expected depth, if less than min_measured of
-///   what is seen is measured, or at least past_limit of what is measured is behind the target
-///   (d > ze + m).
+///   what is seen is measured, or at least past_limit of what is measured is behind the target.
 ///
-/// A modal extent is compared with the whole target as seen before. The memory holds the last
-/// extent and the mean size over about 100 frames in which the robot did not touch the target. A
-/// larger extent replaces the size at once; one that is smaller by more than partial_enter is
-/// ignored. With expected depths the size scales by 1 / depth^2.
-/// - If the target stands still, or moves by `motion`, and lies within the last full extent, then
-///   that extent is judged as well and the worse result counts.
-/// - Pixels missing from its size count as unknown if the robot may hide them: it is near the last
-///   full extent, or near enough to the mask. unknown_limit does not apply to them.
-/// - The size is unknown, and so is the verdict unless visible occlusion decides it, if the target
-///   was first seen next to the robot; if it was only seen cut by the image's border and the robot
-///   is near; or if it touches the robot without expected depths and is larger or elsewhere than
-///   expected, so that it may have come nearer. Pixels outside a lens's pinhole image count as
-///   robot here.
-///
-/// The point is the median of the trusted depths of about 1,000 pixels of the extent. A depth is
-/// trusted if its label is clear or front, it is within m of the expected depth (if any), and it is
-/// not the depth of robot within edge_margin (at least LabelRule's default): for virtual depths
-/// from n to f, not from n - e(n) to f + k e(f). Near pixels outside the lens model, no
-/// depth is trusted. Only the verdicts visible and partial have a point.
+/// For a modal extent, the memory holds the last extent and the mean size over about 100 frames in
+/// which the robot did not touch the target. Only the verdicts visible and partial have a point.
 class TargetJudge {
  public:
   /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.

@@ -77,6 +77,7 @@ const RobotSurroundings::Depths& RobotSurroundings::around(int cell_u, int cell_
   } else if (all.farthest > 0.0f) {
     const LimitRule rule(*frame_->rule, 0);
     result.depths.from = rule.at(all.nearest).near;
+    // Also with fold_beyond, which is about labels: a depth that lies farther is not the robot's.
     result.depths.to = all.farthest + beyond_factor_ * (rule.at(all.farthest).far - all.farthest);
   }
   return result.depths;

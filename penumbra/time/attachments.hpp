@@ -14,10 +14,11 @@
 
 namespace penumbra {
 
-/// A thing that a link carries, for example a grasped object or a tool. It hides the view as the
-/// link does.
+/// A thing that a link carries, for example a grasped object or a tool, or a fixture on the root
+/// link. It hides the view as the link does. A target of the same name is `held`: its pose is the
+/// body's. Pipeline::attach_target makes a body of a target.
 struct AttachedBody {
-  std::string name;  ///< not empty, and unique in a frame; a target of this name is not judged
+  std::string name;  ///< not empty, and unique in a frame
   std::string link;  ///< the link that carries it
   /// In the body's frame, metres. Pass the same pointer for the same mesh: renderers are cached by
   /// pointer.

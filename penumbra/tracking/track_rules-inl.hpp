@@ -35,7 +35,8 @@ void check_rules(std::string_view config, const TrackRules& rules);
 void require_positive(std::string_view config, std::string_view field, double value);
 void require_not_negative(std::string_view config, std::string_view field, double value);
 
-/// Returns whether estimates with this verdict are accepted. `unknown` and `out_of_view` never are.
+/// Returns whether estimates with this verdict are accepted. Others than visible, partial
+/// and hidden never are.
 [[nodiscard]] bool good_enough(Verdict verdict, Verdict worst);
 
 }  // namespace penumbra::detail

@@ -47,8 +47,7 @@ void check_rules(std::string_view config, const TrackRules& rules) {
     refuse_field(config, "max_estimates", rules.max_estimates, "it must be at least 2");
   }
   if (!is_known_verdict(rules.worst)) {
-    refuse_field(config, "worst", rules.worst == Verdict::unknown ? "unknown" : "out_of_view",
-                 "it must be visible, partial or hidden");
+    refuse_field(config, "worst", to_string(rules.worst), "it must be visible, partial or hidden");
   }
 }
 

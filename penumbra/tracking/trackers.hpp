@@ -18,7 +18,8 @@ namespace penumbra {
 /// The source of a handled target's position.
 enum class Source {
   measured,   ///< an accepted estimate of exactly this stamp
-  predicted,  ///< extrapolated from the last accepted estimates
+  predicted,  ///< extrapolated from the last accepted estimates, or moved by the link that carries
+              ///< it (Verdict::held)
   held,       ///< the last accepted estimates; the target is assumed not to move
   lost        ///< no accepted estimate within the time-out
 };

@@ -34,6 +34,26 @@ void expect_report(const Json& report) {
 
 using RunTest = TinyTest;
 
+TEST_F(RunTest, ATargetThatALinkCarriesIsHeld) {
+  write_file(path("recording.yaml"),
+             read_file(path("recording.yaml")) +
+                 "attached: [{name: part, link: board, box: [0.1, 0.1, 0.1], "
+                 "pose: [0.3, -0.2, 0, 0, 0, 0, 1], frames: [1, 2]}]\n");
+  write_file(path("targets.yaml"), "targets:\n- {name: part, box: [1, 1, 3, 3]}\n");
+  const Outcome outcome = run({"--targets", path("targets.yaml"), "--save", "overlay"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 held"), std::string::npos) << outcome.out;
+  const Json json = report();
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    const Json& target = json["frames"][i]["targets"][0];
+    EXPECT_EQ(target["verdict"] == "held", i == 1) << target;
+    if (i != 1) continue;
+    EXPECT_EQ(target["reason"], "it is attached to link 'board'");
+    EXPECT_TRUE(target["covered"].is_null());
+  }
+  EXPECT_EQ(json["summary"]["targets"][0]["verdicts"]["held"], 1);
+}
+
 TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
   const Outcome outcome = run({"--save", "labels,filtered,points", "--points-frame", "base"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -33,6 +33,7 @@ TEST(RosDefinition, ConstantsOfOurMessagesAreTheStructs) {
                                                            {"PARTIAL", T::partial},
                                                            {"HIDDEN", T::hidden},
                                                            {"OUT_OF_VIEW", T::out_of_view},
+                                                           {"HELD_BY_LINK", T::held_by_link},
                                                            {"NOT_HANDLED", T::not_handled},
                                                            {"MEASURED", T::measured},
                                                            {"PREDICTED", T::predicted},

@@ -69,7 +69,8 @@ TEST(RosTargets, EachValueHasItsOwn) {
       {Verdict::partial, TargetMessage::partial},
       {Verdict::hidden, TargetMessage::hidden},
       {Verdict::unknown, TargetMessage::unknown},
-      {Verdict::out_of_view, TargetMessage::out_of_view}};
+      {Verdict::out_of_view, TargetMessage::out_of_view},
+      {Verdict::held, TargetMessage::held_by_link}};
   for (const auto& [verdict, value] : verdicts) {
     target.verdict = verdict;
     EXPECT_EQ(sent().verdict, value);

@@ -86,7 +86,7 @@ TEST(Attached, HidesATargetAndIsBlamed) {
                                     box_target("part", PixelBox{101, 61, 4, 6})};
   const FrameReport& report = pipeline.process(
       {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
-  EXPECT_EQ(report.targets[1].verdict, Verdict::unknown) << "it does not hide itself";
+  EXPECT_EQ(report.targets[1].verdict, Verdict::held) << "it does not hide itself";
   EXPECT_EQ(report.targets[1].reason, "it is attached to link 'slab'");
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   ASSERT_EQ(report.targets[0].judgement->blame.size(), 1U);

@@ -45,3 +45,33 @@ def test_recordings_name_them_by_frames(tmp_path):
     for frames in (penumbra.open_input(folder), Opened(folder).frames):
         found = [[body.name for body in frame.frame.attached] for frame in frames]
         assert found == [["part"] if i in (3, 4) else [] for i in range(12)]
+
+
+def test_a_target_that_is_attached_is_held_and_goes_with_the_link(opened):
+    frame = opened.frames[0].frame
+    robot = opened.pipeline.robot
+    links = robot.forward_kinematics(frame.joints)
+    in_gripper = pose(0, 0, 0.15)
+    box = penumbra.BoxTarget(in_gripper, [0.1, 0.1, 0.1], frame="gripper")
+    target = penumbra.Target("part", box, handling=penumbra.PoseTrackerConfig())
+    pipeline = opened.pipeline
+    with pytest.raises(penumbra.InputError, match="target 'part' was not in the last frame"):
+        pipeline.attach_target(target, "gripper")
+    unseen = penumbra.Target("part", box)
+    first = pipeline.process(frame.replace(stamp=0, targets=[unseen]))
+    assert first.targets[0].verdict != penumbra.Verdict.held
+    body = pipeline.attach_target(unseen, "forearm")
+    assert (body.name, body.link) == ("part", "forearm")
+    forearm, gripper = (links[robot.find_link(name)] for name in ("forearm", "gripper"))
+    assert np.allclose(body.T_link_body, np.linalg.inv(forearm) @ gripper @ in_gripper)
+    pipeline.forget_target("part")
+    turned = frame.joints + 0.2
+    report = pipeline.process(frame.replace(stamp=10**8, joints=turned, targets=[target], attached=[body]))
+    held = report.targets[0]
+    assert held.verdict == penumbra.Verdict.held and held.reason == "it is attached to link 'forearm'"
+    assert held.judgement is None and held.estimate == penumbra.Outcome.refused_verdict
+    place = robot.forward_kinematics(turned)[robot.find_link("forearm")] @ body.T_link_body
+    assert np.allclose(held.handled.position, place[:3, 3])
+    assert held.handled.source == penumbra.Source.predicted and held.handled.age == 0
+    with pytest.raises(penumbra.InputError, match="'elbow' is not a link"):
+        pipeline.attach_target(target, "elbow")

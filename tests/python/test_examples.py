@@ -85,3 +85,10 @@ def test_calibrate_writes_the_pose(tmp_path):
     assert "within" in run("calibrate.py", SHIPPED, tmp_path / "pose.csv")
     found = np.loadtxt(tmp_path / "pose.csv", delimiter=",")
     assert np.allclose(found, Opened(SHIPPED).recording.camera.T_parent_camera, atol=0.01)
+
+
+def test_pick_and_place_holds_the_part_where_it_is():
+    told = [line.split(", ") for line in run("pick_and_place.py").splitlines()]
+    for i in (3, 4, 5):
+        assert told[i] == [f"frame {15 * i}: held it is attached to link 'gripper'", "predicted", "0.000 mm off"]
+    assert told[-1][0].startswith("frame 105: visible") and told[-1][1] == "measured"

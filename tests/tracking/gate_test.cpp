@@ -28,15 +28,15 @@ double x_at(const PoseTracker& tracker, double seconds) {
 }
 
 TEST(Verdicts, WorseOnesAreRefused) {
-  const Verdict all[] = {Verdict::visible, Verdict::partial, Verdict::hidden, Verdict::unknown,
-                         Verdict::out_of_view};
+  const Verdict all[] = {Verdict::visible, Verdict::partial,     Verdict::hidden,
+                         Verdict::unknown, Verdict::out_of_view, Verdict::held};
   for (int worst = 0; worst < 3; ++worst) {
     PoseTrackerConfig config;
     config.worst = all[worst];
-    for (int verdict = 0; verdict < 5; ++verdict) {
+    for (int verdict = 0; verdict < 6; ++verdict) {
       PoseTracker tracker(config);
       const auto outcome = tracker.update(seen_at(0, 0), all[verdict]);
-      const bool taken = verdict <= worst;  // unknown and out_of_view never
+      const bool taken = verdict <= worst;  // unknown, out_of_view and held never
       EXPECT_EQ(outcome, taken ? Outcome::accepted : Outcome::refused_verdict);
       EXPECT_EQ(tracker.at(stamp_at(0)).source, taken ? Source::measured : Source::lost);
     }

@@ -44,6 +44,8 @@ std_msgs::msg::ColorRGBA color_of(Verdict verdict) {
       return color(1.0, 0.6, 0.0);
     case Verdict::hidden:
       return color(0.9, 0.1, 0.1);
+    case Verdict::held:
+      return color(0.3, 0.5, 1.0);
     default:
       return color(0.5, 0.5, 0.5);
   }

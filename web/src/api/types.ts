@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of report.json and of the server's JSON. Metres, seconds, radians.
 
-export type Verdict = 'visible' | 'partial' | 'hidden' | 'unknown' | 'out_of_view';
+export type Verdict = 'visible' | 'partial' | 'hidden' | 'unknown' | 'out_of_view' | 'held';
 export type Source = 'measured' | 'predicted' | 'held' | 'lost';
 export type Vec3 = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number];

@@ -51,6 +51,7 @@ export const verdictNames: Readonly<Record<Verdict, string>> = {
   hidden: 'hidden',
   unknown: 'unknown',
   out_of_view: 'out of view',
+  held: 'held',
 };
 
 export const verdicts = Object.keys(verdictNames) as Verdict[];

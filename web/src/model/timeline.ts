@@ -61,7 +61,7 @@ export function hiddenText(target: TargetReport): string {
   return `${isUnknown ? 'at least ' : ''}${percent(fraction, 0)}${behind}`;
 }
 
-const severities = ['visible', 'out_of_view', null, 'partial', 'unknown', 'hidden'];
+const severities = ['visible', 'held', 'out_of_view', null, 'partial', 'unknown', 'hidden'];
 const severityOf = (target: TargetReport | null): number =>
   severities.indexOf(target && verdictOf(target));
 

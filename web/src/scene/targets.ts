@@ -28,6 +28,7 @@ const colors: Readonly<Record<Verdict, string>> = {
   hidden: okabeIto.vermillion,
   unknown: okabeIto.yellow,
   out_of_view: '#8b949e',
+  held: okabeIto.sky,
 };
 
 const size = 0.018; // metres: radius of a solid

@@ -186,6 +186,7 @@ const verdictFills: Readonly<Record<Verdict, string>> = {
   hidden: 'url(#p-hidden)',
   unknown: 'url(#p-unknown)',
   out_of_view: 'none',
+  held: 'var(--v-held)',
 };
 
 /** Adds fills that differ in pattern, too: stripes, grid, dots. */

@@ -4,7 +4,8 @@ import { svg } from './dom';
 
 const ring = { cx: 8, cy: 8, r: 5.5, class: 'ring' };
 
-/** Returns a shape per verdict: disc, half disc, cross, question mark, dashed ring. */
+/** Returns a shape per verdict: disc, half disc, cross, question mark, dashed ring, ring
+ * around a dot. */
 export function verdictIcon(verdict: Verdict): SVGSVGElement {
   const icon = svg('svg', {
     class: `verdict-icon ${verdict}`,
@@ -32,6 +33,9 @@ export function verdictIcon(verdict: Verdict): SVGSVGElement {
       break;
     case 'out_of_view':
       icon.append(svg('circle', { ...ring, 'stroke-dasharray': '2.2 2.2' }));
+      break;
+    case 'held':
+      icon.append(svg('circle', ring), svg('circle', { cx: 8, cy: 8, r: 2.5, class: 'full' }));
   }
   return icon;
 }

@@ -43,6 +43,7 @@ const letters: Readonly<Record<string, Verdict>> = {
   h: 'hidden',
   u: 'unknown',
   o: 'out_of_view',
+  c: 'held',
 };
 
 /** Returns one frame per letter; a dot: the target is not in the frame. */

@@ -51,7 +51,7 @@ test('condensing keeps hidden frames', () => {
 });
 
 test('a pixel is visible only if all of its frames are', () => {
-  const [track] = tracksOf(framesOf({ cup: 'vo.puh' }));
+  const [track] = tracksOf(framesOf({ cup: 'vco.puh' }));
   const samples = track?.samples ?? [];
   const order = [...samples]; // from best to worst
   for (const [i, less] of order.entries())
