@@ -294,6 +294,8 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
 
 void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning) {
   check_input(app, planning.input.input);
+  if (!planning.input.input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
 }
 
 void check_run(const CLI::App& app, RunArguments& run) {

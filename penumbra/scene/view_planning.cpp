@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <functional>
 #include <future>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -207,33 +207,39 @@ class AllSets {
   Chosen best_;
 };
 
+/// Returns how many pairs each camera adds to those of a set.
+std::vector<std::size_t> gains_over(const Bits& so_far, const std::vector<Bits>& seen) {
+  std::vector<std::size_t> gains(seen.size());
+  std::transform(seen.begin(), seen.end(), gains.begin(),
+                 [&](const Bits& one) { return count_with(so_far, one) - count_of(so_far); });
+  return gains;
+}
+
+std::size_t sum_of_largest(std::vector<std::size_t> values, std::size_t count) {
+  std::sort(values.begin(), values.end(), std::greater<>());
+  values.resize(count);
+  return std::accumulate(values.begin(), values.end(), std::size_t{0});
+}
+
 /// Adds the camera with the largest gain each time. With f the pairs that a set sees, S a greedy
 /// set and B the best of size k: f(B) <= f(S) + the k largest gains with respect to S.
 Chosen greedy_set(const std::vector<Bits>& seen, std::size_t size) {
   Chosen chosen;
-  chosen.at_most = std::numeric_limits<std::size_t>::max();
   Bits so_far(seen.front().size(), 0);
-  while (true) {
-    std::vector<std::size_t> gains;
-    for (const Bits& one : seen) gains.push_back(count_with(so_far, one) - chosen.seen);
-    const auto next = std::max_element(gains.begin(), gains.end());
-    const auto candidate = static_cast<std::size_t>(next - gains.begin());
-    std::sort(gains.begin(), gains.end(), std::greater<>());
-    chosen.at_most = std::min(
-        chosen.at_most,
-        std::accumulate(gains.begin(), gains.begin() + static_cast<long>(size), chosen.seen));
-    if (chosen.candidates.size() == size) break;
-    // Without gain any other camera will do: the first that is not in the set.
-    std::size_t added = candidate;
-    const auto is_in = [&](std::size_t i) {
-      return std::find(chosen.candidates.begin(), chosen.candidates.end(), i) !=
-             chosen.candidates.end();
-    };
-    if (gains.front() == 0)
-      for (added = 0; is_in(added);) ++added;
-    chosen.candidates.push_back(added);
-    so_far = together(std::move(so_far), seen[added]);
+  std::vector<std::size_t> gains = gains_over(so_far, seen);
+  chosen.at_most = sum_of_largest(gains, size);
+  while (chosen.candidates.size() < size) {
+    std::size_t next = seen.size();
+    for (std::size_t c = 0; c < seen.size(); ++c) {
+      const bool is_free = std::find(chosen.candidates.begin(), chosen.candidates.end(), c) ==
+                           chosen.candidates.end();
+      if (is_free && (next == seen.size() || gains[c] > gains[next])) next = c;
+    }
+    chosen.candidates.push_back(next);
+    so_far = together(std::move(so_far), seen[next]);
     chosen.seen = count_of(so_far);
+    gains = gains_over(so_far, seen);
+    chosen.at_most = std::min(chosen.at_most, chosen.seen + sum_of_largest(gains, size));
   }
   std::sort(chosen.candidates.begin(), chosen.candidates.end());
   return chosen;
@@ -275,9 +281,9 @@ CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
                                 std::span<const CameraCandidate> candidates,
                                 std::span<const MotionFrame> motion, int threads,
                                 const std::function<void()>& step) {
-  std::vector<std::size_t> links;
-  for (const CameraCandidate& candidate : candidates)
-    links.push_back(link_of_candidate(robot, candidate));
+  std::vector<std::size_t> links(candidates.size());
+  std::transform(candidates.begin(), candidates.end(), links.begin(),
+                 [&](const CameraCandidate& each) { return link_of_candidate(robot, each); });
   const std::size_t targets = motion.empty() ? 0 : motion.front().targets.size();
   for (const MotionFrame& frame : motion)
     if (frame.targets.size() != targets || frame.T_root_link.size() != robot.links().size())
@@ -304,7 +310,8 @@ CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
     }
   };
   std::vector<std::future<void>> workers;
-  for (int i = 1; i < threads; ++i) workers.push_back(std::async(std::launch::async, work));
+  const std::size_t most = std::min(static_cast<std::size_t>(threads), parts * candidates.size());
+  for (std::size_t i = 1; i < most; ++i) workers.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& worker : workers) worker.get();
   return views;

@@ -125,6 +125,7 @@ TEST_F(ViewPlanningTest, RefusesWithOneLine) {
       {one, "targets: []\n", {}, {"targets.yaml", "no targets"}},
       {one, hole, {"--cameras", "2"}, {"--cameras 2", "poses.csv", "1 candidate"}},
       {one, hole, {"--cameras", "0"}, {"--cameras"}},
+      {one, hole, {"--target-topic", "/found"}, {"--target-topic"}},
       {one, hole, {"--threads", "0"}, {"--threads"}}};
   for (const Bad& bad : all) {
     write_file(path("poses.csv"), bad.poses);

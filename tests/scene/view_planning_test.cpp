@@ -62,10 +62,11 @@ MotionFrame frame_at(const Robot& robot, double slide, const std::vector<Target>
 }
 
 std::vector<Target> ball_targets() {
-  std::vector<Target> targets;
-  for (const Ball& ball : balls)
-    targets.push_back({.name = ball.name,
-                       .shape = PointTarget{ball.centre, ball.radius, ReferenceFrame::root()}});
+  std::vector<Target> targets(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    targets[i].name = balls[i].name;
+    targets[i].shape = PointTarget{balls[i].centre, balls[i].radius, ReferenceFrame::root()};
+  }
   return targets;
 }
 
