@@ -50,9 +50,10 @@ std::string sets_table(const ViewPlan& plan) {
   for (std::size_t t = 0; t < plan.views.targets(); ++t) rows[0].push_back(plan.target(t));
   for (const CameraSet& set : plan.best) {
     rows.push_back({std::to_string(set.candidates.size()), plan.names(set),
-                    percent(set.mean) + (set.is_exhaustive ? ""
-                                                           : " (greedy; no set has more than " +
-                                                                 percent(set.at_most) + ")")});
+                    percent(set.mean) +
+                        (set.mean == set.at_most
+                             ? ""
+                             : " (greedy; no set has more than " + percent(set.at_most) + ")")});
     for (const double share : set.visible) rows.back().push_back(percent(share));
   }
   return "<h2>Best sets</h2>\n<p>The share of the frames in which at least one camera of the set "

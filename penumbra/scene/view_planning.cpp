@@ -44,6 +44,11 @@ std::optional<std::pair<Eigen::Vector3d, ReferenceFrame>> origin_of(const Target
   return std::nullopt;
 }
 
+bool is_uncertain(const MotionFrame& motion, std::size_t link) {
+  const std::vector<std::size_t>& links = motion.uncertain_links;
+  return std::find(links.begin(), links.end(), link) != links.end();
+}
+
 /// Judges frames with a pipeline of its own. What the sensor measures is the far wall everywhere:
 /// then a pixel of the robot is labelled beyond, and the judge compares its depth with the
 /// target's.
@@ -59,10 +64,7 @@ class CandidateJudge {
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
   std::string judge(const CameraCandidate& candidate, std::size_t link, const MotionFrame& motion,
                     const std::function<void(std::size_t, Verdict)>& write) {
-    const bool is_uncertain =
-        std::find(motion.uncertain_links.begin(), motion.uncertain_links.end(), link) !=
-        motion.uncertain_links.end();
-    if (is_uncertain) return "the pose of its link is not known";
+    if (is_uncertain(motion, link)) return "the pose of its link is not known";
     set_targets(motion.targets);
     Frame frame;
     frame.depth = depth_;
@@ -75,7 +77,7 @@ class CandidateJudge {
     const FrameReport& report = pipeline_.process(frame);
     std::string why;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
-      const auto [verdict, reason] = verdict_of(report, i);
+      const auto [verdict, reason] = verdict_of(report, motion, i);
       write(i, verdict);
       if (verdict == Verdict::unknown && why.empty())
         why = std::string(targets_[i].name) + ": " + std::string(reason);
@@ -110,9 +112,10 @@ class CandidateJudge {
   }
 
   [[nodiscard]] std::pair<Verdict, std::string_view> verdict_of(const FrameReport& report,
+                                                                const MotionFrame& motion,
                                                                 std::size_t i) const {
     const TargetReport& target = report.targets[i];
-    if (is_out_of_range(report, targets_[i].shape)) return {Verdict::out_of_view, {}};
+    if (is_out_of_range(report, motion, targets_[i].shape)) return {Verdict::out_of_view, {}};
     const bool seems_seen =
         target.verdict == Verdict::visible || target.verdict == Verdict::partial;
     if (seems_seen && !report.near_links.empty())
@@ -120,13 +123,14 @@ class CandidateJudge {
     return {target.verdict, target.reason};
   }
 
-  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const TargetShape& shape) const {
+  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const MotionFrame& motion,
+                                     const TargetShape& shape) const {
     const auto origin = origin_of(shape);
     if (!origin || !report.T_root_camera) return false;
     Eigen::Vector3d p = origin->first;
     if (origin->second.kind == ReferenceFrame::Kind::link) {
       const auto link = pipeline_.robot().find_link(origin->second.link);
-      if (!link) return false;
+      if (!link || is_uncertain(motion, *link)) return false;
       p = report.T_root_link[*link] * p;
     }
     const double z = (report.T_root_camera->inverse() * p).z();
@@ -177,36 +181,6 @@ struct Chosen {
   std::size_t at_most = 0;  // pairs
 };
 
-/// Compares all sets of one size.
-class AllSets {
- public:
-  AllSets(const std::vector<Bits>& seen, std::size_t size) : seen_(seen), size_(size) {
-    extend(0, Bits(seen.front().size(), 0));
-    best_.at_most = best_.seen;
-  }
-  [[nodiscard]] const Chosen& best() const { return best_; }
-
- private:
-  void extend(std::size_t first, const Bits& so_far) {
-    const std::size_t missing = size_ - set_.size();
-    for (std::size_t i = first; i + missing <= seen_.size(); ++i) {
-      set_.push_back(i);
-      if (missing > 1) {
-        extend(i + 1, together(so_far, seen_[i]));
-      } else if (const std::size_t seen = count_with(so_far, seen_[i]);
-                 best_.candidates.empty() || seen > best_.seen) {
-        best_ = {set_, seen, seen};
-      }
-      set_.pop_back();
-    }
-  }
-
-  const std::vector<Bits>& seen_;
-  std::size_t size_;
-  std::vector<std::size_t> set_;
-  Chosen best_;
-};
-
 /// Returns how many pairs each camera adds to those of a set.
 std::vector<std::size_t> gains_over(const Bits& so_far, const std::vector<Bits>& seen) {
   std::vector<std::size_t> gains(seen.size());
@@ -214,6 +188,39 @@ std::vector<std::size_t> gains_over(const Bits& so_far, const std::vector<Bits>&
                  [&](const Bits& one) { return count_with(so_far, one) - count_of(so_far); });
   return gains;
 }
+
+/// Compares all sets of one size.
+class AllSets {
+ public:
+  AllSets(const std::vector<Bits>& seen, std::size_t size)
+      : seen_(seen), size_(size), own_(gains_over(Bits(seen.front().size(), 0), seen)) {
+    extend(0, Bits(seen.front().size(), 0), 0);
+  }
+  [[nodiscard]] const Chosen& best() const { return best_; }
+
+ private:
+  /// `own`: the pairs that each camera of the set sees, summed up.
+  void extend(std::size_t first, const Bits& so_far, std::size_t own) {
+    const std::size_t missing = size_ - set_.size();
+    for (std::size_t i = first; i + missing <= seen_.size(); ++i) {
+      set_.push_back(i);
+      if (missing > 1) {
+        extend(i + 1, together(so_far, seen_[i]), own + own_[i]);
+      } else if (const std::pair worth(count_with(so_far, seen_[i]), own + own_[i]);
+                 best_.candidates.empty() || worth > worth_) {
+        best_ = {set_, worth.first, worth.first};
+        worth_ = worth;
+      }
+      set_.pop_back();
+    }
+  }
+
+  const std::vector<Bits>& seen_;
+  std::size_t size_;
+  std::vector<std::size_t> own_, set_;
+  Chosen best_;
+  std::pair<std::size_t, std::size_t> worth_;
+};
 
 std::size_t sum_of_largest(std::vector<std::size_t> values, std::size_t count) {
   std::sort(values.begin(), values.end(), std::greater<>());
@@ -226,14 +233,16 @@ std::size_t sum_of_largest(std::vector<std::size_t> values, std::size_t count) {
 Chosen greedy_set(const std::vector<Bits>& seen, std::size_t size) {
   Chosen chosen;
   Bits so_far(seen.front().size(), 0);
-  std::vector<std::size_t> gains = gains_over(so_far, seen);
+  const std::vector<std::size_t> own = gains_over(so_far, seen);
+  std::vector<std::size_t> gains = own;
   chosen.at_most = sum_of_largest(gains, size);
   while (chosen.candidates.size() < size) {
     std::size_t next = seen.size();
     for (std::size_t c = 0; c < seen.size(); ++c) {
       const bool is_free = std::find(chosen.candidates.begin(), chosen.candidates.end(), c) ==
                            chosen.candidates.end();
-      if (is_free && (next == seen.size() || gains[c] > gains[next])) next = c;
+      const auto worth = [&](std::size_t i) { return std::pair(gains[i], own[i]); };
+      if (is_free && (next == seen.size() || worth(c) > worth(next))) next = c;
     }
     chosen.candidates.push_back(next);
     so_far = together(std::move(so_far), seen[next]);

@@ -105,8 +105,9 @@ inline constexpr std::size_t max_compared_sets = 1'000'000;
 /// Returns the set with the largest mean for each size from 1 to `most`. Of more than
 /// max_compared_sets sets it chooses greedily, each time the camera that adds most: the mean is
 /// then at least 1 - 1/e (63 %) of the best (Nemhauser, Wolsey and Fisher 1978), and `at_most` is
-/// the bound that the gains of the cameras left out give. Of equal sets the first in the
-/// candidates' order wins. Throws InputError unless 1 <= most <= candidates.
+/// the bound that the gains of the cameras left out give. Of equal sets the one whose cameras each
+/// see more wins, then the first in the candidates' order. Throws InputError for `most` outside of
+/// 1 to the number of candidates.
 [[nodiscard]] std::vector<CameraSet> best_cameras(const CandidateViews& views, std::size_t most);
 
 }  // namespace penumbra
