@@ -147,8 +147,8 @@ quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500
 asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render;labels'
 tsan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render'
 not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot'
-not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;house'
-not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;house'
+not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;scene;house'
+not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;scene;house'
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")

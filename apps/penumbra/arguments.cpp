@@ -114,6 +114,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   ViewArguments view;
   TuneArguments tune;
   CalibrateArguments calibrate;
+  ViewPlanningArguments planning;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
@@ -146,6 +147,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   add("live", "label live topics of ROS 2 and publish the results", live, add_live, check_live);
   add("view", "show a recording or bag in the browser: 3-D, images, timeline", view, add_view,
       check_view);
+  add("view-planning", "find where cameras see targets while the robot moves", planning,
+      add_view_planning, check_view_planning);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -158,7 +161,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     if (command->parsed()) return made();
   throw InputError(
       "a command is needed: run, tune, calibrate, render, inspect, doctor, simulate, topics, "
-      "play, live or view (penumbra --help tells more)");
+      "play, live, view or view-planning (penumbra --help tells more)");
 }
 
 }  // namespace penumbra::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -17,6 +18,7 @@
 #include <io/run/calibration_input.hpp>
 #include <io/run/judging.hpp>
 #include <io/run/output_folder.hpp>
+#include <io/run/planning_input.hpp>
 #include <io/web/web_server.hpp>
 #include <sim/simulation.hpp>
 
@@ -60,6 +62,13 @@ struct CalibrateArguments {
   std::optional<std::filesystem::path> initial;
   bool search = false;
   bool joint_offsets = false;  ///< the time offset is in `input`
+};
+
+struct ViewPlanningArguments {
+  io::PlanningOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::size_t cameras = 1;       ///< of the largest set
+  std::optional<int> threads;    ///< null: one per core
 };
 
 struct TopicsArguments {
@@ -125,9 +134,10 @@ struct ViewArguments {
   ServerArguments server;
 };
 
-using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                             SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
-                             ViewArguments, TuneArguments, CalibrateArguments>;
+using Command =
+    std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                 SimulateArguments, TopicsArguments, PlayArguments, LiveArguments, ViewArguments,
+                 TuneArguments, CalibrateArguments, ViewPlanningArguments>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

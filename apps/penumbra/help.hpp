@@ -21,6 +21,7 @@ Examples:
   penumbra live                              label live topics, publish masks and targets
   penumbra play bag.mcap                     publish a bag on ROS 2's graph
   penumbra view recording/                   look at a recording in the browser
+  penumbra view-planning recording/ --candidates poses.csv   find where cameras see targets
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 an error in the input (one line on stderr says where); 1 an internal error,
@@ -88,6 +89,19 @@ Examples:
   penumbra view recording/ --labels paper
   penumbra view out                          what penumbra run ... -o out wrote
   penumbra view recording/ --address 0.0.0.0)";
+
+inline constexpr const char* view_planning_examples = R"(
+Renders the robot and what it carries, as it moved in a recording or bag, for each pose where a
+camera could be mounted. Prints in which share of the frames each target is visible, partly hidden,
+hidden by the robot, or out of view (outside the image or the camera's range), and the set of K
+cameras of which most often at least one sees each target. Depth images are not used, so other things
+hide nothing. The intrinsics are the input's.
+OUT gets view_planning.json (all numbers, and verdicts by frame) and report.html: heat maps of
+candidates and targets, over all frames and over time.
+
+Examples:
+  penumbra view-planning recording/ --candidates poses.csv --targets targets.yaml -o plan
+  penumbra view-planning bag.mcap --candidates poses.csv --targets targets.yaml --cameras 3 -o plan)";
 
 inline constexpr const char* render_examples = R"(
 Joints that are not given are at rest (0, or no rotation); --json lists every position.

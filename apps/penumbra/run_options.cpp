@@ -12,6 +12,8 @@
 namespace penumbra::app {
 namespace {
 
+constexpr std::size_t most_planned_cameras = 1000;
+
 void add_input(CLI::App& app, io::InputOptions& input) {
   add_text(app, "INPUT",
            "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
@@ -236,6 +238,28 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
   add_bag(app, input.bag, {.time_offset = false});
 }
 
+void add_view_planning(CLI::App& app, ViewPlanningArguments& planning) {
+  app.footer(view_planning_examples);
+  io::InputOptions& input = planning.input.input;
+  add_input(app, input);
+  add_text(app, "--candidates",
+           "poses of the camera: name,x,y,z,qx,qy,qz,qw and, if not in the root link, link", "CSV",
+           planning.input.candidates)
+      ->required();
+  add_text(app, "--targets", "3-D targets to see; default: the recording's", "YAML",
+           planning.input.targets);
+  add_number<std::size_t>(app, "--cameras", "find the best sets of up to K cameras; default 1", "K",
+                          planning.cameras, 1, most_planned_cameras);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", planning.output);
+  add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
+             planning.threads, 1, RendererOptions::max_threads);
+  add_frames(app, input.frames);
+  add_geometry(app, input.geometry, "the recording's, else collision");
+  add_extra(app, input.extra);
+  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_bag(app, input.bag);
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_input(app, run.judging.input);
@@ -277,6 +301,12 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
   calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
+}
+
+void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning) {
+  check_input(app, planning.input.input);
+  if (!planning.input.input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
 }
 
 void check_run(const CLI::App& app, RunArguments& run) {

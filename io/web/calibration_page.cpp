@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -14,6 +12,7 @@
 #include <io/files/overlay_painter.hpp>
 #include <io/files/picture.hpp>
 #include <io/web/calibration_page.hpp>
+#include <io/web/html-inl.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::io {
@@ -25,54 +24,9 @@ constexpr float farthest = 0.1F;     // metres: what is farther off is not the r
 constexpr Rgb8 outline_color{0, 220, 80};
 constexpr std::size_t most_pictures = 10;
 
-constexpr const char* style = R"(<style>
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 1280px; margin: 2em auto; padding: 0 1em; }
-table { border-collapse: collapse; margin: 1em 0; }
-td, th { padding: .2em 1em .2em 0; text-align: left; border-bottom: 1px solid #ccc; }
-td { font-variant-numeric: tabular-nums; }
-figure { display: grid; grid-template-columns: 1fr 1fr; gap: 6px; margin: 1em 0; }
-figcaption { grid-column: 1 / 3; }
-img { width: 100%; }
-.bad { color: #b00020; }
-</style>
-)";
-
-std::string number(double value, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
-
 std::string plus_minus(const Estimate& estimate, double scale, int digits) {
   return number(scale * estimate.value, digits) + " ± " +
          number(2.0 * scale * estimate.sigma, digits);
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
-
-using Rows = std::vector<std::vector<std::string>>;
-
-/// The first row is the header.
-std::string table(const Rows& rows) {
-  std::string html = "<table>\n";
-  for (const auto& row : rows) {
-    const std::string cell = &row == &rows.front() ? "th" : "td";
-    html += "<tr>";
-    for (const std::string& text : row)
-      html.append("<")
-          .append(cell)
-          .append(">")
-          .append(escaped(text))
-          .append("</")
-          .append(cell)
-          .append(">");
-    html += "</tr>\n";
-  }
-  return html + "</table>\n";
 }
 
 /// Blue where the measured point is before the robot's surface, red where it is behind.
@@ -170,9 +124,7 @@ std::string residuals(const CalibrationOf& of, const Calibration& found) {
 
 std::string calibration_page(const CalibrationOf& of, const Calibration& found) {
   std::string html =
-      "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>Calibration of " +
-      escaped(of.input) + "</title>\n" + style + "<h1>Calibration of " + escaped(of.input) +
-      "</h1>\n" + result(of, found) + residuals(of, found);
+      page_start("Calibration of " + of.input) + result(of, found) + residuals(of, found);
   html +=
       "<h2>Pictures</h2>\n<p>Left: the first guess, if there was one. Right: the result. The robot "
       "is outlined in green. Its pixels are white where the measured point is on its surface, red "

@@ -153,7 +153,9 @@ TEST_F(BadInputTest, Options) {
 
 TEST(BadInput, CommandLines) {
   const BadLines lines = {
-      {{}, "run, tune, calibrate, render, inspect, doctor, simulate, topics, play, live or view"},
+      {{},
+       "run, tune, calibrate, render, inspect, doctor, simulate, topics, play, live, view or "
+       "view-planning"},
       {{"walk"}, "walk"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},

@@ -291,6 +291,7 @@ TEST(Help, TellsExamplesOfEveryCommand) {
   for (const std::vector<std::string>& line : {std::vector<std::string>{"--help"},
                                                {"run", "--help"},
                                                {"render", "--help"},
+                                               {"view-planning", "--help"},
                                                {"inspect", "--help"},
                                                {"doctor", "--help"}}) {
     const Outcome outcome = penumbra(line);

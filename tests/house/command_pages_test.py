@@ -22,7 +22,7 @@ def completed(*words):
     return text.stdout.split()
 
 
-commands = re.findall(r"^  ([a-z]+) {2,}", help_of().split("Subcommands:")[1], re.MULTILINE)
+commands = re.findall(r"^  ([a-z-]+) {2,}", help_of().split("Subcommands:")[1], re.MULTILINE)
 assert "run" in commands and "calibrate" in commands, commands
 assert set(commands) <= set(completed("penumbra", "")), completed("penumbra", "")
 zsh = (folder / "zsh/site-functions/_penumbra").read_text()

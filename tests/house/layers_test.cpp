@@ -13,8 +13,9 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",   "mesh",    "robot",    "time",     "camera", "render",
-                          "labels", "targets", "tracking", "pipeline", "tuning", "calibration"};
+  static const Names core{"base",   "mesh",        "robot",   "time",     "camera",
+                          "render", "labels",      "targets", "tracking", "pipeline",
+                          "tuning", "calibration", "scene"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -30,6 +31,7 @@ const std::map<std::string, Names>& allowed_rooms() {
         "pipeline"}},
       {"penumbra/tuning", core},
       {"penumbra/calibration", core},
+      {"penumbra/scene", core},
       {"io", core},
       {"sim", core},
       {"apps", core},

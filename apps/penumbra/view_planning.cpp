@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/scene/view_planning.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/view_planning_report.hpp>
+#include <io/run/planning_input.hpp>
+#include <io/web/view_planning_page.hpp>
+
+namespace penumbra::app {
+namespace {
+
+std::string share_text(double share) { return fixed(100.0 * share, 1) + " %"; }
+
+void print_shares(const io::ViewPlan& plan) {
+  std::vector<std::vector<std::string>> rows{
+      {"candidate", "target", "visible", "partly hidden", "hidden", "out of view", "unknown"}};
+  for (std::size_t c = 0; c < plan.views.candidates(); ++c)
+    for (std::size_t t = 0; t < plan.views.targets(); ++t) {
+      rows.push_back({plan.candidates[c].name, plan.target(t)});
+      for (const Verdict verdict : {Verdict::visible, Verdict::partial, Verdict::hidden,
+                                    Verdict::out_of_view, Verdict::unknown})
+        rows.back().push_back(share_text(plan.views.share(c, t, verdict)));
+    }
+  print_table(std::move(rows));
+}
+
+void print_best(const io::ViewPlan& plan) {
+  std::vector<std::vector<std::string>> rows{{"cameras", "best set", "visible, mean"}};
+  for (std::size_t t = 0; t < plan.views.targets(); ++t) rows[0].push_back(plan.target(t));
+  for (const CameraSet& set : plan.best) {
+    rows.push_back({std::to_string(set.candidates.size()), plan.names(set), share_text(set.mean)});
+    for (const double share : set.visible) rows.back().push_back(share_text(share));
+  }
+  print_table(std::move(rows));
+  for (const CameraSet& set : plan.best)
+    if (set.mean < set.at_most)
+      std::cout << set.candidates.size() << " cameras: chosen greedily, at least 63 % of the best; "
+                << "no set has more than " << share_text(set.at_most) << '\n';
+}
+
+/// One line, whose reason is often that of all candidates.
+void print_unknown(const io::ViewPlan& plan) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t c = plan.views.candidates(); c-- > 0;)
+    if (!plan.views.unknown(c).empty()) ++count, first = c;
+  if (count > 0)
+    print_notes(std::vector{std::to_string(count) + " of " +
+                            std::to_string(plan.views.candidates()) +
+                            " candidates have unknown verdicts; the first is " +
+                            plan.candidates[first].name + ", " + plan.views.unknown(first)});
+}
+
+}  // namespace
+
+int execute(const ViewPlanningArguments& arguments) {
+  if (!arguments.output.empty()) make_output_folder(arguments.output);
+  const io::PlanningInput input = [&] {
+    Progress progress(0);
+    return io::read_planning_input(arguments.input, print_line, [&] { progress.step(); });
+  }();
+  print_notes(input.notes);
+  if (arguments.cameras > input.candidates.size())
+    throw InputError("--cameras " + std::to_string(arguments.cameras) + ": " +
+                     arguments.input.candidates.string() + " has only " +
+                     std::to_string(input.candidates.size()) + " candidate" +
+                     (input.candidates.size() == 1 ? "" : "s"));
+  const int threads = arguments.threads.value_or(
+      std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  const std::size_t renders = input.candidates.size() * input.motion.size();
+  const auto start = std::chrono::steady_clock::now();
+  const CandidateViews views = [&] {
+    Progress progress(renders);
+    try {
+      return judge_candidates(input.input.robot, {input.input.camera, input.input.config.rule},
+                              input.candidates, input.motion, threads, [&] { progress.step(); });
+    } catch (const LensError& error) {
+      throw InputError(input.input.camera_info.string() + ": " + error.what());
+    }
+  }();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const std::vector<CameraSet> best = best_cameras(views, arguments.cameras);
+  const io::ViewPlan plan{.input = arguments.input.input.path.string(),
+                          .seen = input.seen,
+                          .candidates = input.candidates,
+                          .motion = input.motion,
+                          .views = views,
+                          .best = best};
+  print_shares(plan);
+  std::cout << '\n';
+  print_best(plan);
+  print_unknown(plan);
+  std::cout << input.candidates.size() << " candidates x " << input.motion.size() << " frames in "
+            << fixed(elapsed.count(), 1)
+            << " s: " << fixed(static_cast<double>(renders) / elapsed.count(), 0)
+            << " per second\n";
+  if (arguments.output.empty()) return 0;
+  const std::string json = io::view_planning_json(plan) + "\n";
+  io::write_file(arguments.output / "view_planning.json", json.data(), json.size());
+  const std::string page = io::view_planning_page(plan);
+  io::write_file(arguments.output / "report.html", page.data(), page.size());
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <utility>
+
+#include <io/files/json-inl.hpp>
+#include <io/files/view_planning_report.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::array planned_verdicts = {Verdict::visible, Verdict::partial, Verdict::hidden,
+                                         Verdict::out_of_view, Verdict::unknown};
+
+/// A letter of a verdict in the texts of view_planning.json, one for each frame.
+char letter_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::visible:
+      return 'v';
+    case Verdict::partial:
+      return 'p';
+    case Verdict::hidden:
+      return 'h';
+    case Verdict::out_of_view:
+      return 'o';
+    case Verdict::unknown:
+      break;
+  }
+  return '?';
+}
+
+Json seen_json(const ViewPlan& plan, std::size_t candidate) {
+  Json targets = Json::array();
+  for (std::size_t t = 0; t < plan.views.targets(); ++t) {
+    Json json = {{"name", plan.target(t)}};
+    for (const Verdict verdict : planned_verdicts)
+      json[std::string(to_string(verdict))] = plan.views.share(candidate, t, verdict);
+    std::string by_frame;
+    for (std::size_t f = 0; f < plan.views.frames(); ++f)
+      by_frame += letter_of(plan.views.at(candidate, f, t));
+    json["by_frame"] = std::move(by_frame);
+    targets.push_back(std::move(json));
+  }
+  return targets;
+}
+
+Json candidate_json(const ViewPlan& plan, std::size_t i) {
+  const CameraCandidate& candidate = plan.candidates[i];
+  const Eigen::Vector3d at = candidate.T_link_camera.translation();
+  const Eigen::Quaterniond q(candidate.T_link_camera.linear());
+  return {{"name", candidate.name},
+          {"link", or_null(candidate.link)},
+          {"pose", {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()}},
+          {"targets", seen_json(plan, i)},
+          {"first_unknown", or_null(plan.views.unknown(i))}};
+}
+
+Json set_json(const ViewPlan& plan, const CameraSet& set) {
+  Json cameras = Json::array(), visible = Json::object();
+  for (const std::size_t c : set.candidates) cameras.push_back(plan.candidates[c].name);
+  for (std::size_t t = 0; t < set.visible.size(); ++t) visible[plan.target(t)] = set.visible[t];
+  return {{"cameras", std::move(cameras)},
+          {"visible", std::move(visible)},
+          {"mean_visible", set.mean},
+          {"at_most", set.at_most},
+          {"search", set.is_exhaustive ? "exhaustive" : "greedy"}};
+}
+
+}  // namespace
+
+std::string ViewPlan::names(const CameraSet& set) const {
+  std::string text;
+  for (const std::size_t c : set.candidates)
+    text += (text.empty() ? "" : " + ") + candidates[c].name;
+  return text;
+}
+
+std::string view_planning_json(const ViewPlan& plan) {
+  Json frames = Json::array(), candidates = Json::array(), sets = Json::array();
+  for (const MotionFrame& frame : plan.motion) frames.push_back(frame.index);
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i)
+    candidates.push_back(candidate_json(plan, i));
+  for (const CameraSet& set : plan.best) sets.push_back(set_json(plan, set));
+  const Json json = {{"input", plan.input},
+                     {"frames", std::move(frames)},
+                     {"frames_left_out", plan.seen - plan.motion.size()},
+                     {"candidates", std::move(candidates)},
+                     {"best", std::move(sets)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+#include <variant>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/files/candidates_file.hpp>
+#include <io/run/planning_input.hpp>
+
+namespace penumbra::io {
+namespace {
+
+TargetsFile open_planned_targets(const PlanningOptions& options, const RunInput& input) {
+  const auto& file = options.targets ? options.targets : input.targets;
+  if (!file)
+    throw InputError(options.input.path.string() + ": has no targets; give a file with --targets");
+  TargetsFile targets = TargetsFile::open(*file, {.robot = input.robot,
+                                                  .image = ImageSpace::raw,
+                                                  .images = input.camera.intrinsics,
+                                                  .is_bent = !input.camera.distortion.is_none(),
+                                                  .beyond_hides = true,
+                                                  .camera_frame = input.camera.frame_id});
+  if (targets.size() == 0) throw InputError(file->string() + ": has no targets");
+  return targets;
+}
+
+/// Places a shape that is given in the camera's frame.
+struct PlacedInRoot {
+  const Eigen::Isometry3d& T_root_camera;
+
+  void operator()(PointTarget& target) const {
+    if (is_elsewhere(target.frame)) return;
+    target.position = T_root_camera * target.position;
+    target.frame = ReferenceFrame::root();
+  }
+  void operator()(BoxTarget& target) const { place(target); }
+  void operator()(MeshTarget& target) const { place(target); }
+  void operator()(std::monostate) const {}
+  template <typename InPixels>
+  void operator()(const InPixels& /*target*/) const {
+    throw InputError(
+        "is given in pixels of the input's camera; other cameras need a point, box3d or mesh");
+  }
+
+ private:
+  static bool is_elsewhere(const ReferenceFrame& frame) {
+    return frame.kind != ReferenceFrame::Kind::camera;
+  }
+  void place(auto& target) const {
+    if (is_elsewhere(target.frame)) return;
+    target.pose = T_root_camera * target.pose;
+    target.frame = ReferenceFrame::root();
+  }
+};
+
+std::vector<Target> placed(std::span<const Target> given, const Eigen::Isometry3d& T_root_camera,
+                           const std::filesystem::path& file) {
+  std::vector<Target> targets(given.begin(), given.end());
+  for (Target& target : targets) {
+    target.fault = {};  // its shape is then std::monostate: not found
+    target.estimate.reset();
+    try {
+      std::visit(PlacedInRoot{T_root_camera}, target.shape);
+    } catch (const InputError& fault) {
+      throw InputError(file.string() + ": target '" + std::string(target.name) + "' " +
+                       fault.what());
+    }
+  }
+  return targets;
+}
+
+/// Returns why the robot's pose is not known in a frame; empty if it is. Depth is not needed.
+std::string why_without_pose(const Frame& frame, const Robot& robot) {
+  const bool is_ok = frame.source_status == FrameStatus::ok ||
+                     frame.source_status == FrameStatus::missing_depth ||
+                     frame.source_status == FrameStatus::bad_depth;
+  const bool has_joints = frame.joints.status == JointStatus::ok &&
+                          frame.joints.positions.size() == robot.variables().size();
+  if (is_ok && (!frame.T_root_link.empty() || has_joints)) return {};
+  if (!is_ok && !frame.source_message.empty()) return std::string(frame.source_message);
+  return is_ok ? "its joint states are missing or stale"
+               : std::string(to_string(frame.source_status));
+}
+
+}  // namespace
+
+PlanningInput read_planning_input(const PlanningOptions& options, const LineSink& print,
+                                  const std::function<void()>& step) {
+  RunInput opened = open_input(options.input, print);
+  TargetsFile targets = open_planned_targets(options, opened);
+  std::vector<CameraCandidate> candidates = read_candidates(options.candidates, opened.robot);
+  PlanningInput read{.input = std::move(opened),
+                     .targets = std::move(targets),
+                     .candidates = std::move(candidates),
+                     .motion = {},
+                     .notes = {}};
+  const Robot& robot = read.input.robot;
+  const PipelineConfig& config = read.input.config;
+  const std::size_t parent =
+      config.camera_parent.empty() ? 0 : robot.find_link(config.camera_parent).value();
+  const auto source = read.input.frames(robot);
+  FrameData data;
+  Frame frame;
+  std::string fault;
+  while (source->next(data, frame)) {
+    const std::size_t index = frame.index.value_or(read.seen);
+    ++read.seen;
+    step();
+    if (const std::string why = why_without_pose(frame, robot); !why.empty()) {
+      if (fault.empty()) fault = "frame " + std::to_string(index) + ": " + why;
+      continue;
+    }
+    MotionFrame& kept = read.motion.emplace_back();
+    kept.index = index;
+    kept.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+    if (kept.T_root_link.empty()) {
+      kept.T_root_link.resize(robot.links().size());
+      robot.forward_kinematics(frame.joints.positions, kept.T_root_link);
+    }
+    kept.attached.assign(frame.attached.begin(), frame.attached.end());
+    kept.uncertain_links.assign(frame.uncertain_links.begin(), frame.uncertain_links.end());
+    const Eigen::Isometry3d T_root_camera =
+        kept.T_root_link[parent] * frame.T_parent_camera.value_or(config.T_parent_camera);
+    kept.targets = placed(read.targets.of_frame(data.index), T_root_camera, read.targets.file());
+  }
+  read.notes = source->notes();
+  if (read.motion.empty())
+    throw InputError(options.input.path.string() + ": the robot's pose is known in no frame" +
+                     (fault.empty() ? "" : "; " + fault));
+  if (!fault.empty())
+    read.notes.push_back(std::to_string(read.seen - read.motion.size()) + " of " +
+                         std::to_string(read.seen) +
+                         " frames are left out, because the robot's pose is not known; the first "
+                         "is " +
+                         fault);
+  return read;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/scene/view_planning.hpp>
+
+namespace penumbra {
+namespace {
+
+/// Metres of an empty room's walls: behind all targets, and past all tolerances.
+constexpr float far_wall = 1e7F;
+static_assert(far_wall > max_target_distance);
+
+/// Frames of one candidate that a thread takes at a time.
+constexpr std::size_t frames_at_once = 16;
+
+std::size_t link_of_candidate(const Robot& robot, const CameraCandidate& candidate) {
+  if (candidate.link.empty()) return 0;
+  if (const auto link = robot.find_link(candidate.link)) return *link;
+  throw InputError("candidate '" + candidate.name + "': '" + candidate.link +
+                   "' is not a link of robot '" + robot.name() + "'");
+}
+
+/// Returns where a target is: the origin of its shape, in the frame of `of`.
+std::optional<std::pair<Eigen::Vector3d, ReferenceFrame>> origin_of(const TargetShape& shape) {
+  if (const auto* point = std::get_if<PointTarget>(&shape))
+    return std::pair(point->position, point->frame);
+  if (const auto* box = std::get_if<BoxTarget>(&shape))
+    return std::pair(Eigen::Vector3d(box->pose.translation()), box->frame);
+  if (const auto* mesh = std::get_if<MeshTarget>(&shape))
+    return std::pair(Eigen::Vector3d(mesh->pose.translation()), mesh->frame);
+  return std::nullopt;
+}
+
+bool is_uncertain(const MotionFrame& motion, std::size_t link) {
+  const std::vector<std::size_t>& links = motion.uncertain_links;
+  return std::find(links.begin(), links.end(), link) != links.end();
+}
+
+/// Judges frames with a pipeline of its own. What the sensor measures is the far wall everywhere:
+/// then a pixel of the robot is labelled beyond, and the judge compares its depth with the
+/// target's.
+class CandidateJudge {
+ public:
+  CandidateJudge(const Robot& robot, const PlannedCamera& planned)
+      : range_(planned.camera.range),
+        pipeline_(robot, without_range(planned.camera), config_of(planned)),
+        wall_(static_cast<std::size_t>(planned.camera.intrinsics.width()), far_wall),
+        depth_{wall_.data(), planned.camera.intrinsics.width(), planned.camera.intrinsics.height(),
+               0} {}
+
+  /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
+  std::string judge(const CameraCandidate& candidate, std::size_t link, const MotionFrame& motion,
+                    const std::function<void(std::size_t, Verdict)>& write) {
+    if (is_uncertain(motion, link)) return "the pose of its link is not known";
+    set_targets(motion.targets);
+    Frame frame;
+    frame.depth = depth_;
+    frame.T_root_link = motion.T_root_link;
+    frame.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
+    frame.targets = targets_;
+    frame.attached = motion.attached;
+    frame.uncertain_links = motion.uncertain_links;
+    frame.uncertain_reason = "not known in this frame";
+    const FrameReport& report = pipeline_.process(frame);
+    std::string why;
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const auto [verdict, reason] = verdict_of(report, motion, i);
+      write(i, verdict);
+      if (verdict == Verdict::unknown && why.empty())
+        why = std::string(targets_[i].name) + ": " + std::string(reason);
+    }
+    return why;
+  }
+
+ private:
+  static Camera without_range(Camera camera) {
+    camera.range = {};
+    return camera;
+  }
+
+  static PipelineConfig config_of(const PlannedCamera& planned) {
+    PipelineConfig config;
+    config.rule = planned.rule;
+    config.rule.front_min_width = config.rule.fringe_reach = 0;
+    config.rule.range = {};
+    return config;
+  }
+
+  void set_targets(const std::vector<Target>& targets) {
+    targets_ = targets;
+    for (Target& target : targets_) {
+      target.has_identity = false;  // each frame is judged alone
+      target.handling = {};
+      target.estimate.reset();
+      target.stamp.reset();
+      target.thresholds.beyond_hides = true;
+      target.thresholds.past_limit = 1.0;  // the wall is behind all
+    }
+  }
+
+  [[nodiscard]] std::pair<Verdict, std::string_view> verdict_of(const FrameReport& report,
+                                                                const MotionFrame& motion,
+                                                                std::size_t i) const {
+    const TargetReport& target = report.targets[i];
+    if (is_out_of_range(report, motion, targets_[i].shape)) return {Verdict::out_of_view, {}};
+    const bool seems_seen =
+        target.verdict == Verdict::visible || target.verdict == Verdict::partial;
+    if (seems_seen && !report.near_links.empty())
+      return {Verdict::unknown, "a part of the robot is too near to the camera to be drawn"};
+    return {target.verdict, target.reason};
+  }
+
+  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const MotionFrame& motion,
+                                     const TargetShape& shape) const {
+    const auto origin = origin_of(shape);
+    if (!origin || !report.T_root_camera) return false;
+    Eigen::Vector3d p = origin->first;
+    if (origin->second.kind == ReferenceFrame::Kind::link) {
+      const auto link = pipeline_.robot().find_link(origin->second.link);
+      if (!link || is_uncertain(motion, *link)) return false;
+      p = report.T_root_link[*link] * p;
+    }
+    const double z = (report.T_root_camera->inverse() * p).z();
+    return z < range_.near || z > range_.far;
+  }
+
+  DepthRange range_;
+  Pipeline pipeline_;
+  std::vector<float> wall_;  // one row for all of the image
+  ImageView<const float> depth_;
+  std::vector<Target> targets_;
+};
+
+/// The pairs of target and frame that a candidate sees, a bit each.
+using Bits = std::vector<std::uint64_t>;
+
+std::size_t count_of(const Bits& bits) {
+  return std::accumulate(bits.begin(), bits.end(), std::size_t{0}, [](std::size_t n, auto word) {
+    return n + static_cast<std::size_t>(std::popcount(word));
+  });
+}
+
+std::size_t count_with(const Bits& a, const Bits& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    count += static_cast<std::size_t>(std::popcount(a[i] | b[i]));
+  return count;
+}
+
+Bits together(Bits a, const Bits& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] |= b[i];
+  return a;
+}
+
+/// Returns n over k, or more than max_compared_sets if that is more.
+std::size_t number_of_sets(std::size_t n, std::size_t k) {
+  std::size_t sets = 1;
+  for (std::size_t i = 1; i <= std::min(k, n - k); ++i) {
+    sets = sets * (n + 1 - i) / i;  // whole in each step
+    if (sets > max_compared_sets) return sets;
+  }
+  return sets;
+}
+
+struct Chosen {
+  std::vector<std::size_t> candidates;
+  std::size_t seen = 0;     // pairs
+  std::size_t at_most = 0;  // pairs
+};
+
+/// Returns how many pairs each camera adds to those of a set.
+std::vector<std::size_t> gains_over(const Bits& so_far, const std::vector<Bits>& seen) {
+  std::vector<std::size_t> gains(seen.size());
+  std::transform(seen.begin(), seen.end(), gains.begin(),
+                 [&](const Bits& one) { return count_with(so_far, one) - count_of(so_far); });
+  return gains;
+}
+
+/// Compares all sets of one size.
+class AllSets {
+ public:
+  AllSets(const std::vector<Bits>& seen, std::size_t size)
+      : seen_(seen), size_(size), own_(gains_over(Bits(seen.front().size(), 0), seen)) {
+    extend(0, Bits(seen.front().size(), 0), 0);
+  }
+  [[nodiscard]] const Chosen& best() const { return best_; }
+
+ private:
+  /// `own`: the pairs that each camera of the set sees, summed up.
+  void extend(std::size_t first, const Bits& so_far, std::size_t own) {
+    const std::size_t missing = size_ - set_.size();
+    for (std::size_t i = first; i + missing <= seen_.size(); ++i) {
+      set_.push_back(i);
+      if (missing > 1) {
+        extend(i + 1, together(so_far, seen_[i]), own + own_[i]);
+      } else if (const std::pair worth(count_with(so_far, seen_[i]), own + own_[i]);
+                 best_.candidates.empty() || worth > worth_) {
+        best_ = {set_, worth.first, worth.first};
+        worth_ = worth;
+      }
+      set_.pop_back();
+    }
+  }
+
+  const std::vector<Bits>& seen_;
+  std::size_t size_;
+  std::vector<std::size_t> own_, set_;
+  Chosen best_;
+  std::pair<std::size_t, std::size_t> worth_;
+};
+
+std::size_t sum_of_largest(std::vector<std::size_t> values, std::size_t count) {
+  std::sort(values.begin(), values.end(), std::greater<>());
+  values.resize(count);
+  return std::accumulate(values.begin(), values.end(), std::size_t{0});
+}
+
+/// Adds the camera with the largest gain each time. With f the pairs that a set sees, S a greedy
+/// set and B the best of size k: f(B) <= f(S) + the k largest gains with respect to S.
+Chosen greedy_set(const std::vector<Bits>& seen, std::size_t size) {
+  Chosen chosen;
+  Bits so_far(seen.front().size(), 0);
+  const std::vector<std::size_t> own = gains_over(so_far, seen);
+  std::vector<std::size_t> gains = own;
+  chosen.at_most = sum_of_largest(gains, size);
+  while (chosen.candidates.size() < size) {
+    std::size_t next = seen.size();
+    for (std::size_t c = 0; c < seen.size(); ++c) {
+      const bool is_free = std::find(chosen.candidates.begin(), chosen.candidates.end(), c) ==
+                           chosen.candidates.end();
+      const auto worth = [&](std::size_t i) { return std::pair(gains[i], own[i]); };
+      if (is_free && (next == seen.size() || worth(c) > worth(next))) next = c;
+    }
+    chosen.candidates.push_back(next);
+    so_far = together(std::move(so_far), seen[next]);
+    chosen.seen = count_of(so_far);
+    gains = gains_over(so_far, seen);
+    chosen.at_most = std::min(chosen.at_most, chosen.seen + sum_of_largest(gains, size));
+  }
+  std::sort(chosen.candidates.begin(), chosen.candidates.end());
+  return chosen;
+}
+
+std::vector<Bits> seen_by(const CandidateViews& views) {
+  const std::size_t pairs = views.frames() * views.targets();
+  std::vector<Bits> all(views.candidates(), Bits((pairs + 63) / 64, 0));
+  for (std::size_t c = 0; c < views.candidates(); ++c)
+    for (std::size_t f = 0; f < views.frames(); ++f)
+      for (std::size_t t = 0; t < views.targets(); ++t)
+        if (const std::size_t bit = f * views.targets() + t; views.at(c, f, t) == Verdict::visible)
+          all[c][bit / 64] |= std::uint64_t{1} << (bit % 64);
+  return all;
+}
+
+std::vector<double> visible_shares(const CandidateViews& views,
+                                   const std::vector<std::size_t>& set) {
+  std::vector<double> shares(views.targets());
+  for (std::size_t t = 0; t < views.targets(); ++t) {
+    std::size_t frames = 0;
+    for (std::size_t f = 0; f < views.frames(); ++f)
+      frames += std::any_of(set.begin(), set.end(),
+                            [&](std::size_t c) { return views.at(c, f, t) == Verdict::visible; });
+    shares[t] = static_cast<double>(frames) / static_cast<double>(views.frames());
+  }
+  return shares;
+}
+
+}  // namespace
+
+double CandidateViews::share(std::size_t candidate, std::size_t target, Verdict verdict) const {
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < frames_; ++f) count += at(candidate, f, target) == verdict;
+  return static_cast<double>(count) / static_cast<double>(frames_);
+}
+
+CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
+                                std::span<const CameraCandidate> candidates,
+                                std::span<const MotionFrame> motion, int threads,
+                                const std::function<void()>& step) {
+  std::vector<std::size_t> links(candidates.size());
+  std::transform(candidates.begin(), candidates.end(), links.begin(),
+                 [&](const CameraCandidate& each) { return link_of_candidate(robot, each); });
+  const std::size_t targets = motion.empty() ? 0 : motion.front().targets.size();
+  for (const MotionFrame& frame : motion)
+    if (frame.targets.size() != targets || frame.T_root_link.size() != robot.links().size())
+      throw std::invalid_argument("frames of a motion have different targets or links");
+  CandidateViews views(candidates.size(), motion.size(), targets);
+  std::vector<std::size_t> first_unknown(candidates.size(), motion.size());
+  std::mutex mutex;  // of step, first_unknown and the reasons
+  const std::size_t parts = (motion.size() + frames_at_once - 1) / frames_at_once;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    CandidateJudge judge(robot, camera);
+    for (std::size_t part = next++; part < parts * candidates.size(); part = next++) {
+      const std::size_t c = part / parts, first = part % parts * frames_at_once;
+      for (std::size_t f = first; f < std::min(first + frames_at_once, motion.size()); ++f) {
+        const std::string why =
+            judge.judge(candidates[c], links[c], motion[f],
+                        [&](std::size_t t, Verdict verdict) { views.at(c, f, t) = verdict; });
+        const std::scoped_lock lock(mutex);
+        if (step) step();
+        if (why.empty() || f > first_unknown[c]) continue;
+        first_unknown[c] = f;
+        views.unknown(c) = "frame " + std::to_string(motion[f].index) + ": " + why;
+      }
+    }
+  };
+  std::vector<std::future<void>> workers;
+  const std::size_t most = std::min(static_cast<std::size_t>(threads), parts * candidates.size());
+  for (std::size_t i = 1; i < most; ++i) workers.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& worker : workers) worker.get();
+  return views;
+}
+
+std::vector<CameraSet> best_cameras(const CandidateViews& views, std::size_t most) {
+  if (most < 1 || most > views.candidates())
+    throw InputError("a set of " + std::to_string(most) + " cameras: there are " +
+                     std::to_string(views.candidates()) + " candidates");
+  const std::vector<Bits> seen = seen_by(views);
+  const auto pairs = static_cast<double>(views.frames() * views.targets());
+  std::vector<CameraSet> best;
+  for (std::size_t size = 1; size <= most; ++size) {
+    const bool all = number_of_sets(views.candidates(), size) <= max_compared_sets;
+    const Chosen chosen = all ? AllSets(seen, size).best() : greedy_set(seen, size);
+    const double at_most = std::min(1.0, static_cast<double>(chosen.at_most) / pairs);
+    best.push_back({chosen.candidates, visible_shares(views, chosen.candidates),
+                    static_cast<double>(chosen.seen) / pairs, at_most, all});
+  }
+  return best;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/target.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/time/attachments.hpp>
+
+namespace penumbra {
+
+/// A pose where a camera could be mounted.
+struct CameraCandidate {
+  std::string name;
+  std::string link;  ///< that would carry it; empty: the root
+  Eigen::Isometry3d T_link_camera = Eigen::Isometry3d::Identity();  ///< metres, optical frame
+};
+
+/// A frame of the robot's motion, and where the targets are then.
+struct MotionFrame {
+  std::size_t index = 0;                       ///< in its source
+  std::vector<Eigen::Isometry3d> T_root_link;  ///< of all links
+  std::vector<AttachedBody> attached = {};
+  std::vector<std::size_t> uncertain_links = {};  ///< as in Frame
+  /// In each frame the same number, in the same order. Their shapes are given in the root's or a
+  /// link's frame; std::monostate: not found in this frame.
+  std::vector<Target> targets = {};
+};
+
+/// What each candidate sees of each target in each frame.
+class CandidateViews {
+ public:
+  CandidateViews(std::size_t candidates, std::size_t frames, std::size_t targets)
+      : candidates_(candidates),
+        frames_(frames),
+        targets_(targets),
+        verdicts_(candidates * frames * targets, Verdict::unknown),
+        reasons_(candidates) {}
+
+  [[nodiscard]] std::size_t candidates() const { return candidates_; }
+  [[nodiscard]] std::size_t frames() const { return frames_; }
+  [[nodiscard]] std::size_t targets() const { return targets_; }
+
+  [[nodiscard]] Verdict at(std::size_t candidate, std::size_t frame, std::size_t target) const {
+    return verdicts_[(candidate * frames_ + frame) * targets_ + target];
+  }
+  [[nodiscard]] Verdict& at(std::size_t candidate, std::size_t frame, std::size_t target) {
+    return verdicts_[(candidate * frames_ + frame) * targets_ + target];
+  }
+
+  /// Returns the share of the frames in which a target has this verdict.
+  [[nodiscard]] double share(std::size_t candidate, std::size_t target, Verdict verdict) const;
+
+  /// Why a verdict of this candidate is unknown, and in which frame: the first one. Empty: none is.
+  [[nodiscard]] const std::string& unknown(std::size_t candidate) const {
+    return reasons_[candidate];
+  }
+  [[nodiscard]] std::string& unknown(std::size_t candidate) { return reasons_[candidate]; }
+
+ private:
+  std::size_t candidates_, frames_, targets_;
+  std::vector<Verdict> verdicts_;
+  std::vector<std::string> reasons_;
+};
+
+/// The camera that is planned with.
+struct PlannedCamera {
+  Camera camera;   ///< targets whose origin is outside its range are out_of_view
+  LabelRule rule;  ///< its tolerance separates robot and target
+};
+
+/// Judges each frame's targets as each candidate would see them if only the robot, and what it
+/// carries, could hide them: from renders, without depth images. Each frame is judged alone,
+/// without hysteresis. A camera inside a link, a part of the robot nearer than
+/// DepthRenderer::near_plane and a body that cannot be drawn make what would be seen unknown.
+/// `threads`: how many, at least 1; the result does not depend on it. Calls `step` after each
+/// candidate's frame, on any thread but never twice at once. Throws InputError for an unknown link
+/// and as Pipeline does, and std::invalid_argument for frames with different numbers of targets.
+[[nodiscard]] CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
+                                              std::span<const CameraCandidate> candidates,
+                                              std::span<const MotionFrame> motion, int threads,
+                                              const std::function<void()>& step = {});
+
+/// Cameras that together see more than others.
+struct CameraSet {
+  std::vector<std::size_t> candidates;  ///< indices, ascending
+  std::vector<double> visible;          ///< by target: share of frames in which one of them sees it
+  double mean = 0.0;                    ///< of `visible`
+  double at_most = 0.0;                 ///< no set of this size has a larger mean
+  bool is_exhaustive = false;  ///< all sets of this size were compared: this one is the best
+};
+
+/// Sets up to this number are all compared.
+inline constexpr std::size_t max_compared_sets = 1'000'000;
+
+/// Returns the set with the largest mean for each size from 1 to `most`. Of more than
+/// max_compared_sets sets it chooses greedily, each time the camera that adds most: the mean is
+/// then at least 1 - 1/e (63 %) of the best (Nemhauser, Wolsey and Fisher 1978), and `at_most` is
+/// the bound that the gains of the cameras left out give. Of equal sets the one whose cameras each
+/// see more wins, then the first in the candidates' order. Throws InputError for `most` outside of
+/// 1 to the number of candidates.
+[[nodiscard]] std::vector<CameraSet> best_cameras(const CandidateViews& views, std::size_t most);
+
+}  // namespace penumbra
