@@ -131,6 +131,16 @@ void scale_pixels(json& report, const std::vector<std::string>& columns, int rou
   }
 }
 
+void scale_robots(json& report, const std::vector<std::string>& columns, int rounds) {
+  Table table(report, "UR5e", columns);
+  for (const std::size_t count : {1U, 2U, 4U, 8U}) {
+    const BenchScene scene = ur5e_cell(count, frames, 7);
+    table.row(std::to_string(count), [&](const std::string& isa) {
+      return measure(scene.intrinsics, scene.bodies(), scene.path, isa, rounds);
+    });
+  }
+}
+
 void scale_threads(json& report, int rounds) {
   const BenchScene scene = ur5e_scene(Geometry::visual, 1280, 720, 915.0, frames, 7);
   Table table(report, "threads", compared_isas());
@@ -155,6 +165,7 @@ int main(int argc, char** argv) {
     scale_triangles(report, columns, rounds);
     scale_pixels(report, columns, rounds);
     scale_links(report, columns, rounds);
+    scale_robots(report, columns, rounds);
     scale_threads(report, rounds);
     if (!json_file.empty()) std::ofstream(json_file) << report.dump(1) << '\n';
     return 0;

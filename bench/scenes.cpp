@@ -61,6 +61,24 @@ TriangleMesh sphere(double radius, std::size_t triangles) {
   return mesh;
 }
 
+/// Positions of each frame: every joint swings at its own speed.
+std::vector<std::vector<double>> swings(const Robot& robot, std::size_t frames,
+                                        std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<double> phase, speed;
+  for (std::size_t i = 0; i < robot.variables().size(); ++i) {
+    phase.push_back(2 * M_PI * unit(random));
+    speed.push_back(0.5 + unit(random));
+  }
+  constexpr double frame_time = 1.0 / 30.0;
+  std::vector<std::vector<double>> all(frames, robot.rest_positions());
+  for (std::size_t frame = 0; frame < frames; ++frame)
+    for (std::size_t i = 0; i < phase.size(); ++i)
+      all[frame][i] = 1.5 * std::sin(phase[i] + speed[i] * frame_time * static_cast<double>(frame));
+  return all;
+}
+
 }  // namespace
 
 std::filesystem::path data_folder() {
@@ -81,22 +99,31 @@ BenchScene ur5e_scene(Geometry geometry, int width, int height, double f, std::s
                    Intrinsics(width, height, f, f, 0.5 * width + 7.3, 0.5 * height - 4.1),
                    robot,
                    {}};
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<double> phase, speed;
-  for (std::size_t i = 0; i < robot->variables().size(); ++i) {
-    phase.push_back(2 * M_PI * unit(random));
-    speed.push_back(0.5 + unit(random));
-  }
   const Isometry3d T_camera_root = look_at({1.15, -0.3, 0.5}, {0.0, 0.0, 0.3});
   scene.T_root_camera = T_camera_root.inverse();
   scene.load_robot = load;
-  constexpr double frame_time = 1.0 / 30.0;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    std::vector<double> positions = robot->rest_positions();
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      positions[i] = 1.5 * std::sin(phase[i] + speed[i] * frame_time * static_cast<double>(frame));
-    }
+  for (const std::vector<double>& positions : swings(*robot, frames, seed)) {
+    scene.path.push_back(link_poses(*robot, positions, T_camera_root));
+    scene.joints.push_back(positions);
+  }
+  return scene;
+}
+
+BenchScene ur5e_cell(std::size_t count, std::size_t frames, std::uint64_t seed) {
+  const Robot arm = Robot::load(data_folder() / "robots" / "ur5e" / "ur5e.urdf");
+  std::vector<PlacedRobot> arms;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = 0.9 * (static_cast<double>(i % 4) - 1.5), y = i < 4 ? 0.0 : 1.0;
+    arms.push_back({"arm" + std::to_string(i), arm, Isometry3d(Eigen::Translation3d(x, y, 0.0))});
+  }
+  auto robot = std::make_shared<const Robot>(Robot::join(arms));
+  BenchScene scene{std::to_string(count) + " UR5e",
+                   Intrinsics(1280, 720, 915.0, 915.0, 640.0, 360.0),
+                   robot,
+                   {}};
+  const Isometry3d T_camera_root = look_at({0.0, -3.4, 1.6}, {0.0, 0.5, 0.3});
+  scene.T_root_camera = T_camera_root.inverse();
+  for (const std::vector<double>& positions : swings(*robot, frames, seed)) {
     scene.path.push_back(link_poses(*robot, positions, T_camera_root));
     scene.joints.push_back(positions);
   }

@@ -39,6 +39,10 @@ struct BenchScene {
 [[nodiscard]] BenchScene ur5e_scene(Geometry geometry, int width, int height, double f,
                                     std::size_t frames, std::uint64_t seed);
 
+/// `count` UR5e, at most 8, joined (Robot::join), in two rows before a 1280x720 camera that sees
+/// all eight places.
+[[nodiscard]] BenchScene ur5e_cell(std::size_t count, std::size_t frames, std::uint64_t seed);
+
 /// The recorded xArm 7: its camera, and a path through its ten poses.
 [[nodiscard]] BenchScene xarm7_scene(std::size_t frames);
 

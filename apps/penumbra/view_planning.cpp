@@ -24,13 +24,13 @@ namespace {
 std::string share_text(double share) { return fixed(100.0 * share, 1) + " %"; }
 
 void print_shares(const io::ViewPlan& plan) {
-  std::vector<std::vector<std::string>> rows{
-      {"candidate", "target", "visible", "partly hidden", "hidden", "out of view", "unknown"}};
+  std::vector<std::vector<std::string>> rows{{"candidate", "target", "visible", "partly hidden",
+                                              "hidden", "out of view", "held", "unknown"}};
   for (std::size_t c = 0; c < plan.views.candidates(); ++c)
     for (std::size_t t = 0; t < plan.views.targets(); ++t) {
       rows.push_back({plan.candidates[c].name, plan.target(t)});
       for (const Verdict verdict : {Verdict::visible, Verdict::partial, Verdict::hidden,
-                                    Verdict::out_of_view, Verdict::unknown})
+                                    Verdict::out_of_view, Verdict::held, Verdict::unknown})
         rows.back().push_back(share_text(plan.views.share(c, t, verdict)));
     }
   print_table(std::move(rows));

@@ -8,8 +8,8 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::array planned_verdicts = {Verdict::visible, Verdict::partial, Verdict::hidden,
-                                         Verdict::out_of_view, Verdict::unknown};
+constexpr std::array planned_verdicts = {Verdict::visible,     Verdict::partial, Verdict::hidden,
+                                         Verdict::out_of_view, Verdict::held,    Verdict::unknown};
 
 /// A letter of a verdict in the texts of view_planning.json, one for each frame.
 char letter_of(Verdict verdict) {
@@ -22,6 +22,8 @@ char letter_of(Verdict verdict) {
       return 'h';
     case Verdict::out_of_view:
       return 'o';
+    case Verdict::held:
+      return 'g';
     case Verdict::unknown:
       break;
   }

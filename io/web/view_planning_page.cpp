@@ -30,6 +30,7 @@ struct VerdictLook {
 };
 constexpr std::array verdict_looks = {VerdictLook{Verdict::unknown, "unknown", "#f0e442"},
                                       VerdictLook{Verdict::out_of_view, "out of view", "#8b949e"},
+                                      VerdictLook{Verdict::held, "held", "#56b4e9"},
                                       VerdictLook{Verdict::hidden, "hidden", "#d55e00"},
                                       VerdictLook{Verdict::partial, "partly hidden", "#e69f00"},
                                       VerdictLook{Verdict::visible, "visible", "#009e73"}};
