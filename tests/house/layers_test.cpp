@@ -14,7 +14,8 @@ using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
   static const Names core{"base",   "mesh",    "robot",    "time",     "camera", "render",
-                          "labels", "targets", "tracking", "pipeline", "tuning", "calibration"};
+                          "labels", "targets", "tracking", "pipeline", "tuning", "scene",
+                          "calibration"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -29,6 +30,7 @@ const std::map<std::string, Names>& allowed_rooms() {
        {"base", "mesh", "robot", "time", "camera", "render", "labels", "targets", "tracking",
         "pipeline"}},
       {"penumbra/tuning", core},
+      {"penumbra/scene", core},
       {"penumbra/calibration", core},
       {"io", core},
       {"sim", core},
