@@ -9,6 +9,7 @@
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/pending_file.hpp>
@@ -18,8 +19,19 @@
 namespace penumbra::app {
 namespace {
 
-/// Throws InputError if results would replace anything but the results of an earlier run.
-void check_output(const RunArguments& arguments) {
+std::atomic<int> interrupted_by = 0;  // a signal's number
+
+/// Judges all frames, with a bar on the terminal.
+io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
+  Progress progress(judging.size().value_or(0));
+  return judging.run(output, [&] {
+    progress.step();
+    return !was_interrupted();
+  });
+}
+
+/// Throws InputError if results would replace the input.
+void check_place(const RunArguments& arguments) {
   std::error_code error;
   const std::filesystem::path input = std::filesystem::absolute(arguments.judging.input.path);
   const std::filesystem::path& output = arguments.output.path;
@@ -37,10 +49,10 @@ void check_output(const RunArguments& arguments) {
   if (std::filesystem::exists(output / "recording.yaml", error))
     throw InputError("--output: " + output.string() +
                      " is a recording (it has a recording.yaml); choose another folder");
-  io::check_output_folder(arguments.output);
 }
 
-/// Replaces earlier results: in a folder now, in a bag at the end.
+}  // namespace
+
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
                                            const io::Judging& judging) {
   const Pipeline& pipeline = judging.pipeline();
@@ -53,9 +65,6 @@ std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
   return std::make_unique<io::OutputFolder>(options, pipeline.rectification());
 }
 
-std::atomic<int> interrupted_by = 0;  // a signal's number
-
-/// From now on the first Ctrl-C or SIGTERM only sets interrupted_by; a second one ends the program.
 void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = [](int signal) { interrupted_by = signal; };
@@ -64,31 +73,26 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+bool was_interrupted() { return interrupted_by != 0; }
+
 int status_of(const io::RunResult& result) {
   if (result.is_stopped) return 128 + interrupted_by;
   if (!result.device_fault.empty()) return device_failed;
   return result.statistics.usable_frames() > 0 ? 0 : nothing_judged;
 }
 
-/// Judges all frames, with a bar on the terminal.
-io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
-  Progress progress(judging.size().value_or(0));
-  return judging.run(output, [&] {
-    progress.step();
-    return interrupted_by == 0;
-  });
-}
-
-}  // namespace
-
 int execute(const RunArguments& arguments) {
-  check_output(arguments);
+  check_place(arguments);
+  const std::filesystem::path& path = arguments.output.path;
+  if (arguments.judging.input.camera.empty())
+    if (const auto cameras = io::cameras_of(arguments.judging.input.path); !cameras.empty())
+      return run_cameras(arguments, cameras);
+  if (!io::is_output_bag(path)) io::check_output_folder(arguments.output);
   io::Judging judging(arguments.judging, print_line);
   const auto output = open_output(arguments.output, judging);
   catch_interrupts();
   output->begin(judging.head());
   const io::RunResult result = judge_all(judging, *output);
-  const std::filesystem::path& path = arguments.output.path;
   print_result(result, judging.pipeline().robot(),
                io::is_output_bag(path) ? "results: " + path.string()
                                        : "report: " + (path / "report.json").string());

@@ -20,6 +20,8 @@ void add_input(CLI::App& app, io::InputOptions& input) {
            "folder with metadata.yaml",
            "", input.path)
       ->required();
+  add_option(app, "--camera", "one of a recording's cameras", "NAME",
+             [&](const std::string& name) { input.camera = name; });
 }
 
 void add_sequence(CLI::App& app, io::JudgingOptions& judging) {

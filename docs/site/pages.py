@@ -3,7 +3,7 @@
 
 PAGES = {
     "Start": ["getting-started", "method"],
-    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "calibration"],
+    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "scene", "calibration"],
     "Details": ["recording", "tracking", "time"],
     "Reference": ["performance", "architecture"],
 }

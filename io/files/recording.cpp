@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -137,9 +138,11 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
   }
 }
 
+constexpr std::string_view camera_keys[] = {
+    "info",         "parent", "pose",      "sensor", "tolerance",  "front_min_width",
+    "fringe_reach", "range",  "rectified", "beyond", "depth_info", "depth_pose"};
+
 RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
-  node.allow_only({"info", "parent", "pose", "sensor", "tolerance", "front_min_width",
-                   "fringe_reach", "range", "rectified", "beyond", "depth_info", "depth_pose"});
   refuse_depth_camera(node);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
@@ -160,12 +163,58 @@ FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folde
   return node.blamed_for([&] { return FramePattern(node.text(), folder); });
 }
 
-RecordingFrames frames_of(const YamlNode& node, const std::filesystem::path& folder) {
-  node.allow_only({"joints", "depth", "color"});
-  RecordingFrames frames{file_of(node.at("joints"), folder), pattern_of(node.at("depth"), folder),
-                         std::nullopt};
-  if (const YamlNode* color = node.find("color")) frames.color = pattern_of(*color, folder);
+/// `images` has the patterns; of several cameras, one may have joints at its own stamps.
+RecordingFrames frames_of(const YamlNode& node, const YamlNode& images,
+                          const std::filesystem::path& folder) {
+  const YamlNode* const joints = images.find("joints");
+  RecordingFrames frames{file_of(joints != nullptr ? *joints : node.at("joints"), folder),
+                         pattern_of(images.at("depth"), folder), std::nullopt};
+  if (const YamlNode* color = images.find("color")) frames.color = pattern_of(*color, folder);
   return frames;
+}
+
+std::vector<std::string> names_of(const YamlNode& cameras) {
+  std::vector<std::string> names;
+  for (const YamlNode& camera : cameras.entries()) {
+    const std::string& name = names.emplace_back(camera.key());
+    if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos)
+      camera.fail("the name cannot be a folder of results");
+  }
+  if (names.empty()) cameras.fail("names no camera");
+  return names;
+}
+
+/// Returns the wanted one of several cameras; null if the recording has one only.
+const YamlNode* wanted_camera(const YamlNode& root, const std::string& wanted) {
+  const YamlNode* const cameras = root.find("cameras");
+  if (cameras == nullptr) {
+    root.allow_only({"robot", "robots", "camera", "frames", "targets", "attached"});
+    root.at("frames").allow_only({"joints", "depth", "color"});
+    root.at("camera").allow_only(camera_keys);
+    if (!wanted.empty())
+      root.at("camera").fail("the recording has one camera, without a name; leave '" + wanted +
+                             "' out");
+    return nullptr;
+  }
+  root.allow_only({"robot", "robots", "cameras", "frames", "targets", "attached"});
+  root.at("frames").allow_only({"joints"});
+  std::string known;
+  for (const std::string& name : names_of(*cameras)) known += (known.empty() ? "" : ", ") + name;
+  const YamlNode* const camera = wanted.empty() ? nullptr : cameras->find(wanted);
+  if (camera == nullptr)
+    cameras->fail((wanted.empty() ? "the recording has several; choose one by --camera"
+                                  : "there is no '" + wanted + "'") +
+                  ": " + known);
+  std::vector<std::string_view> keys(std::begin(camera_keys), std::end(camera_keys));
+  keys.insert(keys.end(), {"joints", "depth", "color", "targets"});
+  camera->allow_only(keys);
+  return camera;
+}
+
+std::filesystem::path yaml_of(const std::filesystem::path& folder_or_yaml) {
+  std::error_code error;
+  return std::filesystem::is_directory(folder_or_yaml, error) ? folder_or_yaml / "recording.yaml"
+                                                              : folder_or_yaml;
 }
 
 std::shared_ptr<const PreparedMesh> mesh_of(const YamlNode& body,
@@ -205,22 +254,27 @@ std::vector<RecordedBody> bodies_of(const YamlNode& attached, const std::filesys
 
 }  // namespace
 
-Recording Recording::open(const std::filesystem::path& folder_or_yaml) {
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::is_directory(folder_or_yaml, error)
-                                         ? folder_or_yaml / "recording.yaml"
-                                         : folder_or_yaml;
+std::vector<std::string> Recording::cameras(const std::filesystem::path& folder_or_yaml) {
+  const YamlNode root = YamlNode::read(yaml_of(folder_or_yaml));
+  const YamlNode* const cameras = root.find("cameras");
+  return cameras != nullptr ? names_of(*cameras) : std::vector<std::string>();
+}
+
+Recording Recording::open(const std::filesystem::path& folder_or_yaml, const std::string& camera) {
+  const std::filesystem::path file = yaml_of(folder_or_yaml);
   const std::filesystem::path folder = file.parent_path();
   const YamlNode root = YamlNode::read(file);
-  root.allow_only({"robot", "robots", "camera", "frames", "targets", "attached"});
+  const YamlNode* const one = wanted_camera(root, camera);
   std::optional<std::filesystem::path> targets;
   if (const YamlNode* named = root.find("targets")) targets = file_of(*named, folder);
+  if (const YamlNode* own = one != nullptr ? one->find("targets") : nullptr)
+    targets = file_of(*own, folder);
   std::vector<RecordedBody> attached;
   if (const YamlNode* bodies = root.find("attached")) attached = bodies_of(*bodies, folder);
   return {.file = file,
           .robots = robots_of(root, folder),
-          .camera = camera_of(root.at("camera"), folder),
-          .frames = frames_of(root.at("frames"), folder),
+          .camera = camera_of(one != nullptr ? *one : root.at("camera"), folder),
+          .frames = frames_of(root.at("frames"), one != nullptr ? *one : root.at("frames"), folder),
           .targets = targets,
           .attached = std::move(attached)};
 }

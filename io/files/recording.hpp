@@ -73,10 +73,17 @@ struct Recording {
   std::optional<std::filesystem::path> targets = {};  ///< the targets.yaml
   std::vector<RecordedBody> attached = {};
 
-  /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. Throws
-  /// InputError that names file, line and key for unknown, doubled or missing keys, wrong types or
-  /// values, a pose that is not rigid, and for what is not supported yet.
-  [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml);
+  /// Reads a recording.yaml, or the one in a folder, with camera_info and camera pose. `camera`:
+  /// which one, if the recording has several. Throws InputError that names file, line and key for
+  /// unknown, doubled or missing keys, wrong types or values, a pose that is not rigid, and for
+  /// what is not supported yet.
+  [[nodiscard]] static Recording open(const std::filesystem::path& folder_or_yaml,
+                                      const std::string& camera = {});
+
+  /// Returns the names of the recording's cameras; empty for one without `cameras`. Throws
+  /// InputError for a name that is no folder's name.
+  [[nodiscard]] static std::vector<std::string> cameras(
+      const std::filesystem::path& folder_or_yaml);
 
   /// Loads the robot, or joins the robots (Robot::join). Throws InputError.
   [[nodiscard]] Robot load_robot() const;

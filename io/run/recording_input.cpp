@@ -105,7 +105,7 @@ class RecordingSource final : public FrameSource {
 
 RunInput open_recording_input(const InputOptions& options) {
   check_is_recording(options.path);
-  Recording recording = Recording::open(options.path);
+  Recording recording = Recording::open(options.path, options.camera);
   if (!options.bag_option.empty())
     throw InputError(options.bag_option + ": is for bags, and " + options.path.string() +
                      " is a recording folder, which says this itself; leave it out");
@@ -140,8 +140,16 @@ void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const 
   robot.extra.insert(robot.extra.end(), own.begin(), own.end());
 }
 
+std::vector<std::string> cameras_of(const std::filesystem::path& input) {
+  if (is_bag(input)) return {};
+  check_is_recording(input);
+  return Recording::cameras(input);
+}
+
 RunInput open_input(const InputOptions& options, const LineSink& print) {
   if (!is_bag(options.path)) return open_recording_input(options);
+  if (!options.camera.empty())
+    throw InputError("--camera: is for recording folders; choose a bag's by --depth-topic");
   if (options.fps)
     throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
   return open_bag_input(options, print);

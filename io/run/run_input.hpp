@@ -28,6 +28,7 @@ struct FrameRange {
 /// A recording folder or a bag, and how it is read.
 struct InputOptions {
   std::filesystem::path path;
+  std::string camera;                 ///< which one, of a recording with several
   bool with_color = false;            ///< read colour images
   std::optional<Geometry> geometry;   ///< in place of the recording's
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
@@ -58,6 +59,10 @@ struct RunInput {
   /// Opens the frames from the first one; the robot must outlive them.
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
 };
+
+/// Returns the names of a recording's cameras; empty for a bag, or a recording with one camera.
+/// Throws InputError that names the file.
+[[nodiscard]] std::vector<std::string> cameras_of(const std::filesystem::path& input);
 
 /// Takes a line of text.
 using LineSink = std::function<void(const std::string&)>;

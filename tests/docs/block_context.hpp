@@ -5,6 +5,7 @@
 #include <penumbra/camera/registration.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/scene/target_fusion.hpp>
 #include <penumbra/time/pose_history.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
@@ -14,9 +15,9 @@ struct Arm {
 
 extern Arm arm;
 extern penumbra::Robot robot;
-extern penumbra::Pipeline pipeline;
+extern penumbra::Pipeline pipeline, left, right;
 extern penumbra::Camera depth_camera, colour_camera;
-extern penumbra::Frame frame;
+extern penumbra::Frame frame, left_frame, right_frame;
 extern penumbra::DepthView depth;
 extern penumbra::Verdict verdict;
 extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object;

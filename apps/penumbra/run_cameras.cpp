@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// `run` of a recording with several cameras: each is judged by a pipeline of its own.
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <iostream>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/run_cameras.hpp>
+#include <apps/penumbra/run_summary.hpp>
+#include <io/run/camera_views.hpp>
+#include <io/run/output_bag.hpp>
+
+namespace penumbra::app {
+namespace {
+
+/// One camera's run. Its results stay with its judging.
+struct CameraTask {
+  RunArguments arguments;
+  std::optional<io::Judging> judging = {};
+  std::optional<io::CameraRun> views = {};
+  io::RunResult result = {};
+  std::exception_ptr fault = {};
+};
+
+RunArguments arguments_of(const RunArguments& all, const std::string& camera, int threads) {
+  RunArguments one = all;
+  one.judging.input.camera = camera;
+  one.judging.renderer.threads = 1;
+  one.output.path = all.output.path / camera;
+  one.output.threads = threads;
+  return one;
+}
+
+void judge(CameraTask& task, const std::function<bool()>& go_on) {
+  task.judging.emplace(task.arguments.judging, [](const std::string&) {});
+  const auto output = open_output(task.arguments.output, *task.judging);
+  io::ViewRecorder recorder(task.arguments.judging.input.camera, task.judging->pipeline(), *output);
+  recorder.begin(task.judging->head());
+  task.result = task.judging->run(recorder, go_on);
+  task.views = recorder.run();
+}
+
+/// Judges the cameras, `workers` at a time. Throws the first camera's fault.
+void judge_all(std::vector<CameraTask>& tasks, std::size_t workers,
+               const std::function<bool()>& go_on) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> has_fault = false;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tasks.size(); i = next++) try {
+        judge(tasks[i], [&] { return go_on() && !has_fault; });
+      } catch (...) {
+        tasks[i].fault = std::current_exception();
+        has_fault = true;
+      }
+  };
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 0; i < workers; ++i) threads.emplace_back(work);
+  threads.clear();
+  for (const CameraTask& task : tasks)
+    if (task.fault) std::rethrow_exception(task.fault);
+}
+
+void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t cameras) {
+  for (const io::FusedCounts& target : targets)
+    std::cout << "target " << target.name << " over " << cameras << " cameras: " << target.visible
+              << " visible, " << target.partial << " partial, " << target.hidden << " hidden, "
+              << target.held << " held, " << target.unknown << " unknown, " << target.out_of_view
+              << " out of view; " << target.contradictions << " contradictions\n";
+}
+
+}  // namespace
+
+int run_cameras(const RunArguments& arguments, const std::vector<std::string>& cameras) {
+  const std::filesystem::path& out = arguments.output.path;
+  if (io::is_output_bag(out))
+    throw InputError("--output: " + out.string() +
+                     " is a bag, which takes one camera's results; choose a folder, or a camera "
+                     "by --camera");
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = arguments.output.threads > 0 ? arguments.output.threads : cores;
+  const int workers = std::min(threads, static_cast<int>(cameras.size()));
+  std::vector<CameraTask> tasks;
+  for (const std::string& camera : cameras) {
+    tasks.push_back({.arguments = arguments_of(arguments, camera, threads / workers)});
+    io::check_output_folder(tasks.back().arguments.output);
+  }
+  catch_interrupts();
+  judge_all(tasks, static_cast<std::size_t>(workers), [] { return !was_interrupted(); });
+
+  std::vector<io::CameraRun> runs;
+  int status = 0;
+  for (CameraTask& task : tasks) {
+    std::cout << "camera " << task.arguments.judging.input.camera << ":\n";
+    print_result(task.result, task.judging->pipeline().robot(),
+                 "report: " + (task.arguments.output.path / "report.json").string());
+    status = std::max(status, status_of(task.result));
+    runs.push_back(std::move(*task.views));
+  }
+  const std::filesystem::path views = out / "views.json";
+  print_counts(io::write_views(views, arguments.judging.input.path.string(), runs), cameras.size());
+  std::cout << "all cameras: " << views.string() << '\n';
+  return status;
+}
+
+}  // namespace penumbra::app

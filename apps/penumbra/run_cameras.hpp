@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <apps/penumbra/arguments.hpp>
+#include <io/run/judging.hpp>
+
+namespace penumbra::app {
+
+/// Judges all cameras of a recording, each into OUT/NAME, and writes OUT/views.json. The place of
+/// OUT is checked. Returns the
+/// exit status.
+int run_cameras(const RunArguments& arguments, const std::vector<std::string>& cameras);
+
+// Parts of every run, in run.cpp.
+
+/// Replaces earlier results: in a folder now, in a bag at the end.
+[[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
+                                                         const io::Judging& judging);
+
+/// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the
+/// program.
+void catch_interrupts();
+[[nodiscard]] bool was_interrupted();
+
+[[nodiscard]] int status_of(const io::RunResult& result);
+
+}  // namespace penumbra::app

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/version.hpp>
+
+#include <io/files/json-inl.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/run/camera_views.hpp>
+
+namespace penumbra::io {
+namespace {
+
+Json point_json(const std::optional<Eigen::Vector3d>& point) {
+  return point ? Json{point->x(), point->y(), point->z()} : Json(nullptr);
+}
+
+Json covariance_json(const Eigen::Matrix3d& covariance) {
+  Json values = Json::array();
+  for (const double value : covariance.reshaped<Eigen::RowMajor>()) values.push_back(value);
+  return values;
+}
+
+Json view_json(const TargetFusion& fusion, const CameraView& view) {
+  const bool is_measured = view.point.has_value();
+  return {{"camera", fusion.cameras()[view.camera].name},
+          {"stamp_ns", or_null(view.stamp)},
+          {"verdict", to_string(view.verdict)},
+          {"reason", or_null(view.reason)},
+          {"visible_fraction", view.visible_fraction},
+          {"point", point_json(view.point)},
+          {"distance_m", is_measured ? Json(view.distance) : Json(nullptr)},
+          {"angle_rad", is_measured ? Json(view.angle) : Json(nullptr)}};
+}
+
+Json target_json(const TargetFusion& fusion, const FusedTarget& target) {
+  const auto name = [&](std::size_t camera) { return fusion.cameras()[camera].name; };
+  Json contradiction, views = Json::array();
+  if (const auto& pair = target.contradiction)
+    contradiction = {{"cameras", {name(pair->first), name(pair->second)}},
+                     {"distance_m", pair->distance},
+                     {"chi_square", pair->chi_square}};
+  for (const CameraView& view : target.views) views.push_back(view_json(fusion, view));
+  return {{"name", target.name},
+          {"verdict", to_string(target.verdict)},
+          {"reason", or_null(target.reason)},
+          {"best", target.best ? Json(name(*target.best)) : Json(nullptr)},
+          {"point", point_json(target.point)},
+          {"covariance", target.point ? covariance_json(target.covariance) : Json(nullptr)},
+          {"contradiction", std::move(contradiction)},
+          {"views", std::move(views)}};
+}
+
+void count(const FusedTarget& target, FusedCounts& counts) {
+  counts.name = target.name;
+  counts.contradictions += target.contradiction ? 1 : 0;
+  switch (target.verdict) {
+    case Verdict::visible:
+      ++counts.visible;
+      break;
+    case Verdict::partial:
+      ++counts.partial;
+      break;
+    case Verdict::hidden:
+      ++counts.hidden;
+      break;
+    case Verdict::unknown:
+      ++counts.unknown;
+      break;
+    case Verdict::out_of_view:
+      ++counts.out_of_view;
+      break;
+    case Verdict::held:
+      ++counts.held;
+      break;
+  }
+}
+
+/// The frames of one stamp, with their cameras.
+using Instant = std::vector<std::pair<std::size_t, const CameraFrame*>>;
+
+std::map<std::int64_t, Instant> instants_of(std::span<const CameraRun> runs) {
+  std::map<std::int64_t, Instant> instants;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const CameraFrame& frame : runs[i].frames) instants[frame.stamp].emplace_back(i, &frame);
+  return instants;
+}
+
+TargetFusion fusion_of(std::span<const CameraRun> runs) {
+  std::vector<ViewCamera> cameras;
+  for (const CameraRun& run : runs) cameras.push_back(run.camera);
+  return TargetFusion(std::move(cameras));
+}
+
+}  // namespace
+
+void ViewRecorder::save(const FrameReport& report, const FrameData& frame,
+                        const ShownTargets& targets) {
+  if (!report.stamp)
+    throw InputError("camera '" + run_.camera.name + "': frame " + std::to_string(report.index) +
+                     " has no stamp, which matches the cameras' frames; add a column stamp to the "
+                     "joint file, or --fps");
+  run_.frames.push_back(views_of(run_.camera, report));
+  to_.save(report, frame, targets);
+}
+
+std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
+                                     std::span<const CameraRun> runs) {
+  TargetFusion fusion = fusion_of(runs);
+  Json cameras = Json::array();
+  for (const ViewCamera& camera : fusion.cameras()) cameras.push_back(camera.name);
+  std::map<std::string, FusedCounts> counts;
+  PendingFile pending(file);
+  std::ofstream out(pending.part(), std::ios::binary);
+  out << "{\"penumbra\": " << json_text(PENUMBRA_VERSION) << ", \"input\": " << json_text(input)
+      << ", \"cameras\": " << json_text(cameras) << ", \"frames\": [";
+  const char* comma = "\n";
+  for (const auto& [stamp, frames] : instants_of(runs)) {
+    std::set<std::string> judged;
+    for (const auto& [camera, frame] : frames) {
+      fusion.add(camera, *frame);
+      for (const auto& [name, view] : frame->views) judged.insert(name);
+    }
+    Json targets = Json::array();
+    for (const std::string& name : judged) {
+      const FusedTarget target = fusion.fused(name);
+      count(target, counts[name]);
+      targets.push_back(target_json(fusion, target));
+    }
+    out << std::exchange(comma, ",\n")
+        << json_text({{"stamp_ns", stamp}, {"targets", std::move(targets)}});
+  }
+  out << "\n]}\n";
+  out.close();
+  if (!out) throw InputError(file.string() + ": cannot be written");
+  pending.finish();
+  std::vector<FusedCounts> all;
+  for (auto& [name, of_target] : counts) all.push_back(std::move(of_target));
+  return all;
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/scene/target_fusion.hpp>
+
+#include <io/files/run_output.hpp>
+
+namespace penumbra::io {
+
+/// One camera's part of a run, to be fused.
+struct CameraRun {
+  ViewCamera camera;
+  std::vector<CameraFrame> frames;
+};
+
+/// Takes the results of one camera's run, keeps its targets' views and passes everything on.
+class ViewRecorder final : public RunOutput {
+ public:
+  /// `to` must outlive this.
+  ViewRecorder(std::string name, const Pipeline& pipeline, RunOutput& to)
+      : run_{{std::move(name), pipeline.intrinsics(), pipeline.rule().tolerance}, {}}, to_(to) {}
+
+  void begin(const ReportHead& head) override { to_.begin(head); }
+  /// Throws InputError for a frame without a stamp.
+  void save(const FrameReport& report, const FrameData& frame,
+            const ShownTargets& targets) override;
+  void finish(const Statistics& statistics, std::span<const std::string> notes) override {
+    to_.finish(statistics, notes);
+  }
+  [[nodiscard]] std::vector<std::string> notes() const override { return to_.notes(); }
+
+  [[nodiscard]] const CameraRun& run() const { return run_; }
+
+ private:
+  CameraRun run_;
+  RunOutput& to_;
+};
+
+/// How often a target got each verdict over all cameras.
+struct FusedCounts {
+  std::string name;
+  std::size_t visible = 0, partial = 0, hidden = 0, unknown = 0, out_of_view = 0, held = 0;
+  std::size_t contradictions = 0;
+};
+
+/// Fuses the frames of all cameras in the order of their stamps and writes views.json
+/// (docs/recording.md). Returns the counts by target. Throws InputError if the file cannot be
+/// written.
+std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
+                                     std::span<const CameraRun> runs);
+
+}  // namespace penumbra::io

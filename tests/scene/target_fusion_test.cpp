@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verdicts and points over cameras against closed forms.
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/scene/target_fusion.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t ms = 1000000;
+
+ViewCamera camera_called(const std::string& name) {
+  return {name, Intrinsics(640, 480, 600, 600, 320, 240), {.a = 0.01, .b = 0, .c = 0}};
+}
+
+/// A camera 1 m from the origin that looks at it; `angle` about z.
+Eigen::Isometry3d camera_at(double angle) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d from(std::cos(angle), std::sin(angle), 0);
+  pose.linear().col(2) = -from;
+  pose.linear().col(1) = -Eigen::Vector3d::UnitZ();
+  pose.linear().col(0) = pose.linear().col(1).cross(pose.linear().col(2));
+  pose.translation() = from;
+  return pose;
+}
+
+/// One camera's frame with one target.
+struct Shot {
+  Shot(std::int64_t stamp, Verdict verdict, std::optional<Eigen::Vector3d> point = {},
+       double visible = 1.0, double angle = 0.0) {
+    Judgement judgement;
+    judgement.verdict = verdict;
+    judgement.covered = 100;
+    judgement.clear = visible;
+    target.name = "part";
+    target.stamp = stamp;
+    target.verdict = verdict;
+    target.judgement = judgement;
+    target.point = point;
+    if (verdict == Verdict::unknown) target.reason = "not measured";
+    report.stamp = stamp;
+    report.T_root_camera = camera_at(angle);
+  }
+  [[nodiscard]] const FrameReport& get() {
+    report.targets = {&target, 1};
+    return report;
+  }
+  TargetReport target;
+  FrameReport report;
+};
+
+TargetFusion fusion_of(const std::vector<std::string>& names) {
+  std::vector<ViewCamera> cameras;
+  for (const std::string& name : names) cameras.push_back(camera_called(name));
+  return TargetFusion(cameras);
+}
+
+/// Fuses one verdict of each camera, all of one stamp.
+FusedTarget fuse(const std::vector<Verdict>& verdicts) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) names.push_back("camera" + std::to_string(i));
+  TargetFusion views = fusion_of(names);
+  for (std::size_t i = 0; i < verdicts.size(); ++i) views.add(i, Shot(0, verdicts[i]).get());
+  return views.fused("part");
+}
+
+TEST(TargetFusion, TheVerdictFollowsTheTableOfAllPairs) {
+  using enum Verdict;
+  const std::vector<Verdict> order{visible, partial, unknown, hidden, out_of_view};
+  // The first of two in that order wins.
+  for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t b = 0; b < order.size(); ++b) {
+      const FusedTarget target = fuse({order[a], order[b]});
+      EXPECT_EQ(target.verdict, order[std::min(a, b)])
+          << to_string(order[a]) << to_string(order[b]);
+      EXPECT_EQ(target.reason.empty(), target.verdict != unknown);
+      EXPECT_EQ(target.best.has_value(), std::min(a, b) < 2);
+    }
+}
+
+TEST(TargetFusion, ASilentCameraIsUnknown) {
+  TargetFusion views = fusion_of({"left", "right"});
+  views.add(0, Shot(0, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::unknown) << "the right one never had a frame";
+  views.add(1, Shot(0, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::hidden);
+  views.add(0, Shot(100 * ms, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::hidden) << "the window is 0.1 s";
+  views.add(0, Shot(101 * ms, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::unknown);
+  EXPECT_NE(views.fused("part").reason.find("'right'"), std::string::npos);
+  FrameReport without_targets;
+  without_targets.stamp = 101 * ms;
+  views.add(1, without_targets);
+  EXPECT_EQ(views.fused("part").verdict, Verdict::unknown) << "it judged the target before";
+}
+
+TEST(TargetFusion, ACameraThatNeverJudgesATargetIsNotAsked) {
+  TargetFusion views = fusion_of({"left", "right"});
+  FrameReport without_targets;
+  without_targets.stamp = 0;
+  views.add(1, without_targets);
+  views.add(0, Shot(0, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::hidden);
+  EXPECT_EQ(views.fused("part").views.size(), 1U);
+}
+
+TEST(TargetFusion, FramesMayComeInAnyOrder) {
+  TargetFusion views = fusion_of({"left"});
+  views.add(0, Shot(50 * ms, Verdict::hidden).get());
+  views.add(0, Shot(20 * ms, Verdict::visible).get());
+  EXPECT_EQ(views.fused("part").verdict, Verdict::hidden);
+  EXPECT_EQ(views.fused("part").stamp, 50 * ms);
+}
+
+TEST(TargetFusion, TheBestCameraSeesMostThenIsNearest) {
+  TargetFusion views = fusion_of({"a", "b", "c"});
+  const Eigen::Vector3d near(0.1, 0, 0);
+  views.add(0, Shot(0, Verdict::partial, near, 0.9, 0).get());
+  views.add(1, Shot(0, Verdict::visible, near, 0.97, M_PI / 2).get());
+  views.add(2, Shot(0, Verdict::visible, near, 0.98, M_PI / 4).get());
+  const FusedTarget target = views.fused("part");
+  EXPECT_EQ(target.verdict, Verdict::visible);
+  ASSERT_TRUE(target.best);
+  EXPECT_EQ(*target.best, 2U) << "0.97 and 0.98 are equal, and it is nearer";
+  EXPECT_NEAR(target.views[1].distance, std::hypot(1, 0.1), 1e-12);
+  EXPECT_NEAR(target.views[1].angle, std::atan(0.1), 1e-12);
+}
+
+TEST(TargetFusion, TwoCamerasAtRightAnglesHelpEachOther) {
+  TargetFusion views = fusion_of({"x", "y"});
+  const Eigen::Vector3d at(0, 0, 0);
+  views.add(0, Shot(0, Verdict::visible, at, 1, 0).get());
+  views.add(1, Shot(0, Verdict::visible, at, 1, M_PI / 2).get());
+  const FusedTarget target = views.fused("part");
+  ASSERT_TRUE(target.point);
+  EXPECT_LT(target.point->norm(), 1e-12);
+  // At 1 m: noise e / 2 = 5 mm along the ray, a pixel 1 / 600 m across, and the radius of a disc of
+  // 100 pixels, whole along the ray and a quarter across.
+  const double radius = std::sqrt(100 / (M_PI * 600 * 600));
+  const double along = 0.005 * 0.005 + radius * radius;
+  const double across = 1.0 / (600.0 * 600) + radius * radius / 16;
+  const double both = 1 / (1 / along + 1 / across);
+  const Eigen::Matrix3d expected = Eigen::Vector3d(both, both, across / 2).asDiagonal();
+  EXPECT_LT((target.covariance - expected).norm(), 1e-12);
+}
+
+TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
+  const auto fused_at = [](double apart) {
+    TargetFusion views = fusion_of({"left", "middle", "right"});
+    views.add(0, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0)).get());
+    views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0.4 * apart)).get());
+    views.add(2, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
+    return views.fused("part");
+  };
+  const double radius = std::sqrt(100 / (M_PI * 600 * 600));
+  const double across = std::sqrt(1.0 / (600.0 * 600) + radius * radius / 16);
+  const double limit = std::sqrt(16.27 * 2) * across;
+  EXPECT_TRUE(fused_at(0.99 * limit).point);
+  EXPECT_EQ(fused_at(0.99 * limit).verdict, Verdict::visible);
+  const FusedTarget apart = fused_at(1.01 * limit);
+  ASSERT_TRUE(apart.contradiction);
+  EXPECT_EQ(apart.contradiction->first, 0U);
+  EXPECT_EQ(apart.contradiction->second, 2U);
+  EXPECT_NEAR(apart.contradiction->distance, 1.01 * limit, 1e-12);
+  EXPECT_EQ(apart.verdict, Verdict::unknown);
+  EXPECT_FALSE(apart.point);
+  EXPECT_NE(apart.reason.find("'left' and 'right'"), std::string::npos) << apart.reason;
+}
+
+TEST(TargetFusion, FusedPointsAreAsGoodAsTheirCovarianceSays) {
+  // The squared Mahalanobis distance of N points with three degrees of freedom has the mean 3 and
+  // the standard deviation sqrt(6 / N).
+  constexpr int points = 4000;
+  constexpr unsigned seed = 7;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) {
+    TargetFusion views = fusion_of({"a", "b", "c"});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double angle = 2.0 * static_cast<double>(c);
+      Shot exact(0, Verdict::visible, Eigen::Vector3d::Zero(), 1, angle);
+      const auto frame = views_of(views.cameras()[c], exact.get());
+      const Eigen::LLT<Eigen::Matrix3d> root(frame.views.at("part").covariance);
+      const Eigen::Vector3d noise(normal(random), normal(random), normal(random));
+      views.add(c, Shot(0, Verdict::visible, root.matrixL() * noise, 1, angle).get());
+    }
+    const FusedTarget target = views.fused("part");
+    if (!target.point) continue;  // one pair in a thousand
+    sum += target.point->dot(target.covariance.inverse() * *target.point);
+  }
+  EXPECT_NEAR(sum / points, 3.0, 5 * std::sqrt(6.0 / points) + 0.02);
+}
+
+TEST(TargetFusion, RefusesWhatMeansNothing) {
+  EXPECT_THROW(fusion_of({}), InputError);
+  EXPECT_THROW(fusion_of({""}), InputError);
+  EXPECT_THROW(fusion_of({"a", "a"}), InputError);
+  EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = 0}), InputError);
+  EXPECT_THROW(
+      TargetFusion({camera_called("a")}, {.target_speed = std::numeric_limits<double>::infinity()}),
+      InputError);
+  TargetFusion views = fusion_of({"a"});
+  EXPECT_THROW(static_cast<void>(views.fused("part")), InputError);
+  EXPECT_THROW(views.add(1, Shot(0, Verdict::visible).get()), InputError);
+  EXPECT_THROW(views.add(0, FrameReport{}), InputError) << "no stamp";
+}
+
+}  // namespace
+}  // namespace penumbra::test
