@@ -13,9 +13,9 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",   "mesh",    "robot",    "time",     "camera", "render",
-                          "labels", "targets", "tracking", "pipeline", "tuning", "scene",
-                          "calibration"};
+  static const Names core{"base",   "mesh",   "robot",      "time",     "camera",
+                          "render", "labels", "targets",    "tracking", "pipeline",
+                          "tuning", "scene",  "calibration"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
