@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <system_error>
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::int64_t first_stamp = 1'700'000'000'000'000'000;  // nanoseconds
 constexpr double longest = 3600.0;                               // seconds
+constexpr double third_of_turn = 2.0 * std::numbers::pi / 3.0;   // radians
 constexpr std::uint64_t joint_stream = 21, depth_stream = 31, second_stream = 32;
 
 /// Returns a D415's colour camera at 640x480 (69 degrees of 1280x720, cropped and binned), with a
@@ -40,6 +42,7 @@ void check_options(const SimulationOptions& options) {
        options.joint_latency, "0 to 10 s");
   need(options.belt_jitter >= 0.0 && options.belt_jitter <= 0.5, "belt_jitter", options.belt_jitter,
        "0 to 0.5");
+  need(options.camera >= 0 && options.camera <= 2, "camera", options.camera, "0, 1 or 2");
   need(options.duration >= 0.0 && options.duration <= longest, "duration", options.duration,
        "0 to 3600 s");
   need(options.frame_rate > 0.0 && options.frame_rate <= 1000.0, "frame_rate", options.frame_rate,
@@ -120,9 +123,12 @@ Simulation::State::State(const std::string& name, const SimulationOptions& optio
           folder.path()),
       scene(make_scene(name)),
       stage(arm, scene->description(), folder.path(), camera.intrinsics),
-      view{camera.intrinsics, scene->description().T_base_camera},
+      view{camera.intrinsics,
+           Eigen::AngleAxisd(options_.camera * third_of_turn, Eigen::Vector3d::UnitZ()) *
+               scene->description().T_base_camera},
       second_view{camera.intrinsics, scene->description().T_base_second_camera},
-      sensor(options_.depth, camera.intrinsics.fx(), options_.seed, depth_stream),
+      sensor(options_.depth, camera.intrinsics.fx(), options_.seed,
+             depth_stream + (static_cast<std::uint64_t>(options_.camera) << 8)),
       second_sensor(options_.depth, camera.intrinsics.fx(), options_.seed, second_stream),
       duration(options_.duration > 0.0 ? options_.duration : scene->description().duration) {}
 

@@ -50,6 +50,9 @@ struct SimulationOptions {
   double joint_latency = 0.0;  ///< seconds by which reported joints are older than their stamps
   double belt_jitter = 0.0;    ///< standard deviation of the belt's speed, relative; conveyor only
   bool color = true;           ///< false: not drawn, which saves a third of the time
+  /// Which of a scene's three cameras is drawn, 0 to 2. Camera 0 is the scene's own; the others
+  /// stand 120 and 240 degrees from it around the base's z axis. The scene moves alike for all.
+  int camera = 0;
   bool second_camera = false;  ///< adds a depth camera on the other side
   double duration = 0.0;       ///< seconds; 0: the scene's own duration
   double frame_rate = 30.0;

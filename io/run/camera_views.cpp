@@ -99,11 +99,11 @@ TargetFusion fusion_of(std::span<const CameraRun> runs) {
 
 void ViewRecorder::save(const FrameReport& report, const FrameData& frame,
                         const ShownTargets& targets) {
-  if (!report.stamp)
+  if (!report.stamp && has_pose(report.status))
     throw InputError("camera '" + run_.camera.name + "': frame " + std::to_string(report.index) +
                      " has no stamp, which matches the cameras' frames; add a column stamp to the "
                      "joint file, or --fps");
-  run_.frames.push_back(views_of(run_.camera, report));
+  if (report.stamp) run_.frames.push_back(views_of(run_.camera, report));
   to_.save(report, frame, targets);
 }
 

@@ -28,7 +28,7 @@ class ViewRecorder final : public RunOutput {
       : run_{{std::move(name), pipeline.intrinsics(), pipeline.rule().tolerance}, {}}, to_(to) {}
 
   void begin(const ReportHead& head) override { to_.begin(head); }
-  /// Throws InputError for a frame without a stamp.
+  /// A faulty frame may lack a stamp: it is not fused. Throws InputError for a good one without.
   void save(const FrameReport& report, const FrameData& frame,
             const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override {

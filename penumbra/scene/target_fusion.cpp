@@ -18,8 +18,9 @@ namespace {
 
 constexpr double best_step = 0.05;      // visible fractions that differ by less are equal
 constexpr double tolerance_sigmas = 2;  // e(z) in standard deviations of the depth
-constexpr double extent_across = 0.25;  // of its radius: between a target's centre and its middle
+constexpr double extent_across = 0.25;  // of its radius, from its centre to its middle
                                         // in the image
+constexpr double cut_reach = 1.5;       // of its radius: the middle of an oblong target's end
 constexpr double extent_along = 1.0;    // between its centre and its surface
 
 /// Radius of a disc with as many pixels as the target, metres.
@@ -28,9 +29,19 @@ double radius_of(const Intrinsics& camera, std::size_t pixels, double z) {
          std::sqrt(static_cast<double>(pixels) / (std::numbers::pi * camera.fx() * camera.fy()));
 }
 
+/// Whether the image's border may cut a target of that many pixels around a point.
+bool may_be_cut(const Intrinsics& camera, std::size_t pixels, const Eigen::Vector3d& at) {
+  const double reach = cut_reach * std::sqrt(static_cast<double>(pixels) / std::numbers::pi) + 1;
+  const Eigen::Vector2d pixel = camera.project(at);
+  return pixel.minCoeff() < reach || pixel.x() > camera.width() - 1 - reach ||
+         pixel.y() > camera.height() - 1 - reach;
+}
+
+/// Sets what follows from the point, or removes it.
 void measure(const ViewCamera& camera, const Eigen::Isometry3d& T_root_camera,
              const Judgement& judgement, CameraView& view) {
   const Eigen::Vector3d at = T_root_camera.inverse() * *view.point;
+  if (may_be_cut(camera.intrinsics, judgement.covered, at)) return view.point.reset();
   const double z = at.z();
   const Eigen::Vector3d ray = at.normalized();
   view.distance = at.norm();

@@ -34,8 +34,9 @@ struct CameraView {
   std::string reason;           ///< one line if the verdict is unknown, else empty
   double visible_fraction = 0;  ///< clear and front, of the target's pixels inside the image
 
-  /// The measured point in the root link's frame, metres; null if the camera does not measure it.
-  /// The rest is valid only with a point.
+  /// The measured point in the root link's frame, metres; null if the camera does not measure it,
+  /// or if the image's border may cut the target, whose middle is elsewhere then. The rest is valid
+  /// only with a point.
   std::optional<Eigen::Vector3d> point;
   /// Of the point as the target's place, square metres: the noise of the depth along the ray, a
   /// pixel's width across, and the target's own extent, as its sides lie at different places.

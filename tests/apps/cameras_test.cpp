@@ -104,10 +104,13 @@ TEST_F(CamerasTest, BadInputIsOneLine) {
   write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,0.05\n");
   expect_refused(run(), {"left", "stamp", "--fps"});
   EXPECT_EQ(run({"--fps", "10"}).status, 0);
+  fs::remove_all(out());
+  write_file(path("joint_states.csv"), "frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n");
   write_yaml("    depht: other.png\n");
   expect_refused(run(), {"recording.yaml", "depht"});
   write_yaml("  ../up:\n    info: camera_info.yaml\n");
   expect_refused(run(), {"recording.yaml", "../up"});
+  fs::remove_all(out());
   write_tiny_recording(path());
   expect_refused(run({"--camera", "left"}), {"recording.yaml", "left"});
 }

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three cameras around MuJoCo's random arms and targets: each camera's verdicts alone and the fused
+// ones against what MuJoCo draws in the three images.
+#include "../support/run_length.hpp"
+#include "simulated.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/scene/target_fusion.hpp>
+
+#include <sim/simulation.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::size_t cameras = 3;
+constexpr double clearly_hidden = 0.99;  // fraction: above the threshold by more than edges' pixels
+
+/// What is true of a target in one image.
+struct ImageTruth {
+  bool in_view = false;
+  double hidden = 1.0;  ///< fraction of its pixels
+};
+
+ImageTruth truth_of(const sim::ObjectTruth& object) {
+  if (object.pixels_alone == 0) return {};
+  return {true,
+          1.0 - static_cast<double>(object.pixels_seen) / static_cast<double>(object.pixels_alone)};
+}
+
+/// The verdict by the thresholds' defaults on the image in which most is seen.
+Verdict verdict_of(const std::array<ImageTruth, cameras>& images) {
+  const TargetThresholds t;
+  double least = 1.0;
+  bool in_view = false;
+  for (const ImageTruth& image : images) {
+    in_view = in_view || image.in_view;
+    if (image.in_view) least = std::min(least, image.hidden);
+  }
+  if (!in_view) return Verdict::out_of_view;
+  return least > t.hidden_enter    ? Verdict::hidden
+         : least > t.partial_enter ? Verdict::partial
+                                   : Verdict::visible;
+}
+
+Target target_of(const sim::ObjectTruth& object) {
+  Target target;
+  target.name = object.name;
+  if (object.solid.kind == sim::Solid::ball)
+    target.shape = PointTarget{object.T_base_object.translation(), 0.5 * object.solid.size.x(),
+                               ReferenceFrame::root()};
+  else
+    target.shape = BoxTarget{object.T_base_object, object.solid.size, ReferenceFrame::root()};
+  return target;
+}
+
+/// Verdicts over all targets and frames, against the truth of the three images.
+struct Tally {
+  std::size_t targets = 0, same = 0, seen = 0, unknown = 0, hidden = 0;
+  std::size_t visible_and_hidden = 0;  ///< said visible or partial, and hidden in all images
+  std::vector<double> errors;          ///< of the points, from the centre, metres
+
+  void add(Verdict said, Verdict is, bool is_hidden) {
+    ++targets;
+    same += said == is ? 1 : 0;
+    const bool is_seen = said == Verdict::visible || said == Verdict::partial;
+    seen += is_seen ? 1 : 0;
+    unknown += said == Verdict::unknown ? 1 : 0;
+    hidden += said == Verdict::hidden ? 1 : 0;
+    visible_and_hidden += is_seen && is_hidden ? 1 : 0;
+  }
+  [[nodiscard]] double percent(std::size_t part) const {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(targets);
+  }
+  [[nodiscard]] double error(double quantile) {
+    std::sort(errors.begin(), errors.end());
+    return errors[static_cast<std::size_t>(quantile * static_cast<double>(errors.size() - 1))];
+  }
+  void print(const char* name) {
+    std::cout << std::setw(9) << name << std::fixed << std::setprecision(2) << " | right "
+              << percent(same) << " % | seen " << percent(seen) << " % | hidden " << percent(hidden)
+              << " % | unknown " << percent(unknown) << " % | said seen, hidden in all "
+              << visible_and_hidden << " | point from the centre: median " << 1000 * error(0.5)
+              << " mm, 95 % " << 1000 * error(0.95) << " mm\n";
+  }
+};
+
+struct Tallies {
+  std::array<Tally, cameras> alone;
+  Tally fused;
+  std::size_t rescued = 0, rescued_right = 0;  ///< hidden in image 0, visible in another
+  std::size_t contradictions = 0;
+  std::vector<double> squared;  ///< Mahalanobis distances of fused points from the centre
+};
+
+class Rig {
+ public:
+  Rig(std::uint64_t seed, bool noisy) {
+    std::vector<ViewCamera> views;
+    for (std::size_t i = 0; i < cameras; ++i) {
+      sim::SimulationOptions options = without_color(seed, noisy);
+      options.camera = static_cast<int>(i);
+      simulations_.emplace_back("random", options);
+      const sim::Simulation& simulation = simulations_.back();
+      pipelines_.emplace_back(visual_robot(simulation), simulation.camera(), config_of(simulation));
+      views.push_back(
+          {std::to_string(i), pipelines_.back().intrinsics(), pipelines_.back().rule().tolerance});
+    }
+    views_ = views;
+  }
+
+  bool next(Tallies& tallies) {
+    TargetFusion fusion(views_);  // frames have nothing to do with each other
+    std::map<std::string, std::array<ImageTruth, cameras>> truth;
+    std::map<std::string, std::array<TargetReport, cameras>> said;
+    std::array<sim::SimFrame, cameras>& frames = frames_;
+    for (std::size_t i = 0; i < cameras; ++i) {
+      if (!simulations_[i].next(frames[i])) return false;
+      std::vector<Target> targets;
+      for (const sim::ObjectTruth& object : frames[i].objects) {
+        targets.push_back(target_of(object));
+        truth[object.name][i] = truth_of(object);
+      }
+      pipelines_[i].forget_targets();
+      const FrameReport& report =
+          pipelines_[i].process({.stamp = frames[i].stamp,
+                                 .depth = std::as_const(frames[i].depth).view(),
+                                 .joints = frames[i].joints,
+                                 .targets = targets});
+      fusion.add(i, report);
+      for (const TargetReport& target : report.targets) said[std::string(target.name)][i] = target;
+    }
+    for (const sim::ObjectTruth& object : frames[0].objects)
+      add(object, truth[object.name], said[object.name], fusion.fused(object.name), tallies);
+    return true;
+  }
+
+ private:
+  static void add(const sim::ObjectTruth& object, const std::array<ImageTruth, cameras>& truth,
+                  const std::array<TargetReport, cameras>& said, const FusedTarget& fused,
+                  Tallies& tallies) {
+    const Eigen::Vector3d centre = object.T_base_object.translation();
+    const Verdict is = verdict_of(truth);
+    const bool is_hidden = std::all_of(truth.begin(), truth.end(), [](const ImageTruth& image) {
+      return image.hidden > clearly_hidden;
+    });
+    for (std::size_t i = 0; i < cameras; ++i) {
+      tallies.alone[i].add(said[i].verdict, is, is_hidden);
+      if (said[i].point) tallies.alone[i].errors.push_back((*said[i].point - centre).norm());
+    }
+    tallies.fused.add(fused.verdict, is, is_hidden);
+    tallies.contradictions += fused.contradiction ? 1 : 0;
+    if (fused.point) {
+      const Eigen::Vector3d off = *fused.point - centre;
+      tallies.fused.errors.push_back(off.norm());
+      tallies.squared.push_back(off.dot(fused.covariance.inverse() * off));
+    }
+    if (truth[0].in_view && truth[0].hidden > clearly_hidden && is == Verdict::visible) {
+      ++tallies.rescued;
+      tallies.rescued_right += fused.verdict == Verdict::visible ? 1 : 0;
+    }
+  }
+
+  std::vector<sim::Simulation> simulations_;
+  std::vector<Pipeline> pipelines_;
+  std::vector<ViewCamera> views_;
+  std::array<sim::SimFrame, cameras> frames_;
+};
+
+class CamerasTruth : public testing::TestWithParam<bool> {
+ protected:
+  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
+};
+INSTANTIATE_TEST_SUITE_P(Depth, CamerasTruth, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "Noisy" : "Exact");
+});
+
+TEST_P(CamerasTruth, TheFusedVerdictIsTheTruthOfAllImages) {
+  const int frames = measures_in_full() ? 1000 : samples(40);
+  constexpr std::uint64_t seed = 5;
+  Rig rig(seed, GetParam());
+  Tallies tallies;
+  for (int i = 0; i < frames && rig.next(tallies); ++i) {
+  }
+  std::cout << "seed " << seed << ", " << frames << " frames of " << cameras << " cameras\n";
+  for (std::size_t i = 0; i < cameras; ++i)
+    tallies.alone[i].print(("camera " + std::to_string(i)).c_str());
+  tallies.fused.print("fused");
+  std::sort(tallies.squared.begin(), tallies.squared.end());
+  const auto median = tallies.squared[tallies.squared.size() / 2];
+  const auto high = tallies.squared[tallies.squared.size() * 999 / 1000];
+  std::cout << "hidden in camera 0 and visible in another: " << tallies.rescued << ", said visible "
+            << tallies.rescued_right << "; contradictions " << tallies.contradictions
+            << "; squared Mahalanobis distance from the centre: median " << median << ", 99.9 % "
+            << high << '\n';
+
+  constexpr double least_right = 95.0;  // percent: targets at a threshold may fall to either side
+  constexpr double least_rescued = 0.95;
+  constexpr double chi_square = 16.27;  // 99.9 % of three degrees of freedom
+  EXPECT_EQ(tallies.fused.visible_and_hidden, 0U);
+  EXPECT_GT(tallies.fused.percent(tallies.fused.same), least_right);
+  for (Tally& alone : tallies.alone) {
+    EXPECT_GT(tallies.fused.same, alone.same);
+    EXPECT_LT(tallies.fused.error(0.5), alone.error(0.5));
+  }
+  EXPECT_GT(tallies.rescued, 0U);
+  EXPECT_GE(static_cast<double>(tallies.rescued_right),
+            least_rescued * static_cast<double>(tallies.rescued));
+  EXPECT_LE(high, chi_square) << "the covariance holds the distance from the centre";
+  EXPECT_LE(static_cast<double>(tallies.contradictions),
+            0.001 * static_cast<double>(tallies.fused.targets));
+}
+
+}  // namespace
+}  // namespace penumbra::test
