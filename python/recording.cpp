@@ -92,7 +92,7 @@ void bind_description(py::module_& m) {
   using R = io::Recording;
   recording
       .def_static(
-          "open", &R::open, py::arg("folder_or_yaml"), WithoutGil(),
+          "open", &R::open, py::arg("folder_or_yaml"), py::arg("camera") = "", WithoutGil(),
           "Reads a recording.yaml, or the one in a folder. Raises InputError with file, line "
           "and key.")
       .def("pipeline_config", &R::pipeline_config,
