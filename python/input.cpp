@@ -64,8 +64,10 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                                   std::optional<Geometry> geometry, bool geometry_fallback,
                                   bool allow_missing_meshes,
                                   std::optional<std::pair<std::int64_t, std::int64_t>> frames,
-                                  const std::optional<io::BagOptions>& bag) {
+                                  const std::optional<io::BagOptions>& bag,
+                                  const std::string& camera) {
   io::InputOptions options{.path = path,
+                           .camera = camera,
                            .with_color = color,
                            .geometry = geometry,
                            .geometry_fallback = geometry_fallback,
@@ -160,10 +162,11 @@ void bind_input(py::module_& m) {
         py::arg("geometry_fallback") = defaults.geometry_fallback,
         py::arg("allow_missing_meshes") = defaults.allow_missing_meshes,
         py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),
-        py::arg("bag") = std::optional<io::BagOptions>(),
+        py::arg("bag") = std::optional<io::BagOptions>(), py::arg("camera") = defaults.camera,
         "Opens what `penumbra run` takes, as its options of these names say. color: read colour "
-        "images, too; frames: (first, end) of those wanted; bag: of bags alone. Raises InputError "
-        "that names the file.");
+        "images, too; frames: (first, end) of those wanted; bag: of bags alone; camera: which one, "
+        "of "
+        "a recording with several. Raises InputError that names the file.");
 }
 
 }  // namespace penumbra::python

@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, m) {
   bind_report(m);
   bind_calibration(m);
   bind_pipeline(m);
+  bind_target_fusion(m);
   bind_recording(m);
   bind_input(m);
 }

@@ -59,7 +59,7 @@ GROUPS = {
     "Joint states": "JointBufferOptions", "Renderers": "RendererOptions", "Labels": "Tolerance",
     "Trackers": "PoseTrackerConfig", "Regions": "PixelBox", "Targets": "TargetThresholds",
     "What is said of targets": "Blame", "Frames and reports": "Frame", "The pipeline": "PipelineConfig",
-    "Files": "RecordingCamera",
+    "Several cameras": "ViewCamera", "Files": "RecordingCamera",
 }
 IDENTITY = r"array\(\[\[1\., 0\., 0\., 0\.\],[^)]*1\.\]\]\)"
 SHOWN = ("__len__", "__getitem__", "__iter__", "__next__")

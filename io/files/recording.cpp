@@ -187,17 +187,18 @@ std::vector<std::string> names_of(const YamlNode& cameras) {
 /// Returns the wanted one of several cameras; null if the recording has one only.
 const YamlNode* wanted_camera(const YamlNode& root, const std::string& wanted) {
   const YamlNode* const cameras = root.find("cameras");
+  root.allow_only({"robot", "robots", cameras != nullptr ? "cameras" : "camera", "frames",
+                   "targets", "attached"});
+  const YamlNode& frames = root.at("frames");
   if (cameras == nullptr) {
-    root.allow_only({"robot", "robots", "camera", "frames", "targets", "attached"});
-    root.at("frames").allow_only({"joints", "depth", "color"});
+    frames.allow_only({"joints", "depth", "color"});
     root.at("camera").allow_only(camera_keys);
     if (!wanted.empty())
       root.at("camera").fail("the recording has one camera, without a name; leave '" + wanted +
                              "' out");
     return nullptr;
   }
-  root.allow_only({"robot", "robots", "cameras", "frames", "targets", "attached"});
-  root.at("frames").allow_only({"joints"});
+  frames.allow_only({"joints"});
   std::string known;
   for (const std::string& name : names_of(*cameras)) known += (known.empty() ? "" : ", ") + name;
   const YamlNode* const camera = wanted.empty() ? nullptr : cameras->find(wanted);

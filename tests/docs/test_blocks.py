@@ -86,6 +86,12 @@ def recording_of(text, work):
     shown = yaml.safe_load(in_folder(text, work))
     whole = yaml.safe_load((SHIPPED / "recording.yaml").read_text())
     whole["robot"] = {"urdf": "ur5e.urdf", "packages": {"ur_description": "ur_description"}}
+    if "cameras" in shown:
+        camera = whole.pop("camera")
+        whole["frames"] = {"joints": whole["frames"]["joints"]}
+        whole["cameras"] = {name: {**camera, "depth": "examples/arm_over_table/depth/%d.png"}
+                            for name in shown["cameras"]}
+        return written(whole, work)
     for part, keys in shown.items():
         whole[part] = {**whole[part], **keys} if part in whole else keys
     whole["frames"].update({"depth": "examples/arm_over_table/depth/%d.png",
@@ -97,6 +103,10 @@ def recording_of(text, work):
         rows = [rows[0][:2] + sum(names, [])] + [row + row[2:] for row in rows[1:]]
         (work / "joints.csv").write_text("\n".join(",".join(row) for row in rows))
         whole["frames"]["joints"] = "joints.csv"
+    return written(whole, work)
+
+
+def written(whole, work):
     file = work / "recording.yaml"
     file.write_text(yaml.safe_dump(whole))
     return file
@@ -136,7 +146,8 @@ def test_yaml_is_read(block, work):
     if "targets" in shown:
         assert len(read_targets(block.text, work)) == len(shown["targets"])
         return
-    given = penumbra.open_input(recording_of(block.text, work))
+    camera = next(iter(shown.get("cameras", [""])))
+    given = penumbra.open_input(recording_of(block.text, work), camera=camera)
     prefix = "left/" if "robots" in shown else ""
     assert len(list(given)) == 12 and given.robot.find_link(prefix + "forearm_link")
 
@@ -162,7 +173,7 @@ def test_the_page_on_recordings_tells_all_keys():
     """Those that the reader allows."""
     source = (ROOT / "io" / "files" / "recording.cpp").read_text()
     keys = set()
-    for found in re.finditer(r"(\w+)\.allow_only\(\s*\{(.*?)\}\)", source, re.DOTALL):
+    for found in re.finditer(r"(\w+)(?:\.allow_only\(\s*|_keys\[\] = )\{(.*?)\}", source, re.DOTALL):
         of = found[1]
         if of in ("extra", "entry"):  # these keys stand in the row of their list
             continue
