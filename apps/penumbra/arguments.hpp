@@ -24,9 +24,15 @@
 
 namespace penumbra::app {
 
+/// A camera that is named on the command line.
+struct NamedCamera {
+  std::string name, depth_topic;
+};
+
 struct RunArguments {
   io::JudgingOptions judging;
   io::OutputOptions output;
+  std::vector<NamedCamera> cameras = {};  ///< several of a bag
 };
 
 struct RenderArguments {
@@ -110,11 +116,6 @@ struct ServerArguments {
 [[nodiscard]] io::WebOptions web_options(const ServerArguments& server);
 
 struct LiveArguments {
-  /// A camera that is named on the command line.
-  struct NamedCamera {
-    std::string name, depth_topic;
-  };
-
   io::JudgingOptions judging;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
   std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name

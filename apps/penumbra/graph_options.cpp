@@ -41,15 +41,6 @@ void check_results(const std::string& list) {
   }
 }
 
-/// Results come below the name.
-void check_camera_name(const std::string& name) {
-  try {
-    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
-  } catch (const InputError&) {
-    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
-  }
-}
-
 void add_graph(CLI::App& app, LiveArguments& live) {
   add_domain(app, live.graph);
   add_option(app, "--namespace", "put before names that do not begin with /", "NS",
@@ -89,6 +80,14 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
 }
 
 }  // namespace
+
+void check_camera_name(const std::string& name) {
+  try {
+    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
+  } catch (const InputError&) {
+    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
+  }
+}
 
 void add_topics(CLI::App& app, TopicsArguments& topics) {
   app.footer(topics_examples);

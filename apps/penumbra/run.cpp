@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <penumbra/base/error.hpp>
 
@@ -84,9 +85,11 @@ int status_of(const io::RunResult& result) {
 int execute(const RunArguments& arguments) {
   check_place(arguments);
   const std::filesystem::path& path = arguments.output.path;
-  if (arguments.judging.input.camera.empty())
-    if (const auto cameras = io::cameras_of(arguments.judging.input.path); !cameras.empty())
-      return run_cameras(arguments, cameras);
+  std::vector<NamedCamera> cameras = arguments.cameras;
+  if (cameras.empty() && arguments.judging.input.camera.empty())
+    for (const std::string& name : io::cameras_of(arguments.judging.input.path))
+      cameras.push_back({name, {}});
+  if (!cameras.empty()) return run_cameras(arguments, cameras);
   if (!io::is_output_bag(path)) io::check_output_folder(arguments.output);
   io::Judging judging(arguments.judging, print_line);
   const auto output = open_output(arguments.output, judging);

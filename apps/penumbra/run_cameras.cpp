@@ -20,6 +20,7 @@ namespace {
 
 /// One camera's run. Its results stay with its judging.
 struct CameraTask {
+  std::string name;
   RunArguments arguments;
   std::optional<io::Judging> judging = {};
   std::optional<io::CameraRun> views = {};
@@ -27,11 +28,17 @@ struct CameraTask {
   std::exception_ptr fault = {};
 };
 
-RunArguments arguments_of(const RunArguments& all, const std::string& camera, int threads) {
+RunArguments arguments_of(const RunArguments& all, const NamedCamera& camera, int threads) {
   RunArguments one = all;
-  one.judging.input.camera = camera;
+  io::InputOptions& input = one.judging.input;
+  if (camera.depth_topic.empty()) {
+    input.camera = camera.name;
+  } else {
+    input.bag.depth_topic = camera.depth_topic;
+    input.bag_option = "--camera NAME=TOPIC";
+  }
   one.judging.renderer.threads = 1;
-  one.output.path = all.output.path / camera;
+  one.output.path = all.output.path / camera.name;
   one.output.threads = threads;
   return one;
 }
@@ -39,7 +46,7 @@ RunArguments arguments_of(const RunArguments& all, const std::string& camera, in
 void judge(CameraTask& task, const std::function<bool()>& go_on) {
   task.judging.emplace(task.arguments.judging, [](const std::string&) {});
   const auto output = open_output(task.arguments.output, *task.judging);
-  io::ViewRecorder recorder(task.arguments.judging.input.camera, task.judging->pipeline(), *output);
+  io::ViewRecorder recorder(task.name, task.judging->pipeline(), *output);
   recorder.begin(task.judging->head());
   task.result = task.judging->run(recorder, go_on);
   task.views = recorder.run();
@@ -75,7 +82,7 @@ void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t camer
 
 }  // namespace
 
-int run_cameras(const RunArguments& arguments, const std::vector<std::string>& cameras) {
+int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& cameras) {
   const std::filesystem::path& out = arguments.output.path;
   if (io::is_output_bag(out))
     throw InputError("--output: " + out.string() +
@@ -85,8 +92,9 @@ int run_cameras(const RunArguments& arguments, const std::vector<std::string>& c
   const int threads = arguments.output.threads > 0 ? arguments.output.threads : cores;
   const int workers = std::min(threads, static_cast<int>(cameras.size()));
   std::vector<CameraTask> tasks;
-  for (const std::string& camera : cameras) {
-    tasks.push_back({.arguments = arguments_of(arguments, camera, threads / workers)});
+  for (const NamedCamera& camera : cameras) {
+    tasks.push_back(
+        {.name = camera.name, .arguments = arguments_of(arguments, camera, threads / workers)});
     io::check_output_folder(tasks.back().arguments.output);
   }
   catch_interrupts();
@@ -95,7 +103,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<std::string>& c
   std::vector<io::CameraRun> runs;
   int status = 0;
   for (CameraTask& task : tasks) {
-    std::cout << "camera " << task.arguments.judging.input.camera << ":\n";
+    std::cout << "camera " << task.name << ":\n";
     print_result(task.result, task.judging->pipeline().robot(),
                  "report: " + (task.arguments.output.path / "report.json").string());
     status = std::max(status, status_of(task.result));

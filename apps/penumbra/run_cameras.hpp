@@ -10,10 +10,9 @@
 
 namespace penumbra::app {
 
-/// Judges all cameras of a recording, each into OUT/NAME, and writes OUT/views.json. The place of
-/// OUT is checked. Returns the
-/// exit status.
-int run_cameras(const RunArguments& arguments, const std::vector<std::string>& cameras);
+/// Judges cameras of a recording, or of a bag if they have a topic, each into OUT/NAME, and writes
+/// OUT/views.json. The place of OUT is checked. Returns the exit status.
+int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& cameras);
 
 // Parts of every run, in run.cpp.
 

@@ -14,14 +14,34 @@ namespace {
 
 constexpr std::size_t most_planned_cameras = 1000;
 
-void add_input(CLI::App& app, io::InputOptions& input) {
+void add_path(CLI::App& app, io::InputOptions& input) {
   add_text(app, "INPUT",
            "a recording folder or its recording.yaml, or a bag of ROS 2: *.mcap, *.db3, or a "
            "folder with metadata.yaml",
            "", input.path)
       ->required();
+}
+
+void add_input(CLI::App& app, io::InputOptions& input) {
+  add_path(app, input);
   add_option(app, "--camera", "one of a recording's cameras", "NAME",
              [&](const std::string& name) { input.camera = name; });
+}
+
+void add_cameras(CLI::App& app, RunArguments& run) {
+  add_list(app, "--camera",
+           "one of a recording's cameras; or depth images of a bag, whose results come into "
+           "OUT/NAME, may be given several times",
+           "NAME|NAME=TOPIC", [&](const std::string& text) {
+             const std::size_t middle = text.find('=');
+             const std::string name = text.substr(0, middle);
+             if (middle == std::string::npos) {
+               run.judging.input.camera = name;
+               return;
+             }
+             check_camera_name(name);
+             run.cameras.push_back({name, text.substr(middle + 1)});
+           });
 }
 
 void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
@@ -264,7 +284,8 @@ void add_view_planning(CLI::App& app, ViewPlanningArguments& planning) {
 
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  add_input(app, run.judging.input);
+  add_path(app, run.judging.input);
+  add_cameras(app, run);
   add_text(app, "-o,--output",
            "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
            run.output.path)

@@ -5,6 +5,7 @@
 #include "../support/node_scripts.hpp"
 #include "simulated.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -178,6 +179,39 @@ TEST_F(SimulateBag, OfTwoArmsIsJudgedAsTheFolder) {
                                   "left", "--robot-namespace", "middle"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("/middle/joint_states"), std::string::npos) << wrong.err;
+}
+
+TEST_F(SimulateBag, OfTwoCamerasIsJudgedTogether) {
+  const Scene scene{"random", 3, 6, "target_0"};
+  ASSERT_EQ(simulate(scene, "two.mcap", {"--second-camera"}).status, 0);
+  const std::vector<std::string> run = {"run", path("two.mcap"), "--target-topic",
+                                        "/truth/target_0/pose", "-o"};
+  const auto judged = [&](const std::string& out, const std::vector<std::string>& cameras) {
+    std::vector<std::string> all = run;
+    all.push_back(path(out));
+    all.insert(all.end(), cameras.begin(), cameras.end());
+    return penumbra(all);
+  };
+  const Outcome both = judged("both", {"--camera", "a=/camera/depth/image_rect_raw", "--camera",
+                                       "b=/second_camera/depth/image_rect_raw"});
+  ASSERT_EQ(both.status, 0) << both.err;
+  const json views = json::parse(read_file(path("both") / "views.json"));
+  ASSERT_EQ(views["frames"].size(), 3U);
+  for (const auto& [name, topic] : {std::pair("a", "/camera/depth/image_rect_raw"),
+                                    {"b", "/second_camera/depth/image_rect_raw"}}) {
+    ASSERT_EQ(judged("one", {"--depth-topic", topic, "--force"}).status, 0);
+    const json one = json::parse(read_file(path("one") / "report.json"));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const json& view = views["frames"][i]["targets"].at(0)["views"];
+      const auto same = [&](const json& each) { return each["camera"] == name; };
+      const auto found = std::find_if(view.begin(), view.end(), same);
+      ASSERT_NE(found, view.end());
+      EXPECT_EQ((*found)["verdict"], one["frames"][i]["targets"].at(0)["verdict"]);
+    }
+  }
+  const Outcome wrong = judged("none", {"--camera", "a=/camera/none"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("/camera/none"), std::string::npos) << wrong.err;
 }
 
 /// What decode.mjs says of an image's bytes.
