@@ -40,6 +40,8 @@ void add_cameras(CLI::App& app, RunArguments& run) {
                return;
              }
              check_camera_name(name);
+             for (const NamedCamera& camera : run.cameras)
+               if (camera.name == name) throw InputError("--camera: " + name + " is given twice");
              run.cameras.push_back({name, text.substr(middle + 1)});
            });
 }

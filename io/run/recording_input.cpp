@@ -149,7 +149,9 @@ std::vector<std::string> cameras_of(const std::filesystem::path& input) {
 RunInput open_input(const InputOptions& options, const LineSink& print) {
   if (!is_bag(options.path)) return open_recording_input(options);
   if (!options.camera.empty())
-    throw InputError("--camera: is for recording folders; choose a bag's by --depth-topic");
+    throw InputError(
+        "--camera: is for recording folders; choose a bag's by --depth-topic, or "
+        "several by --camera NAME=TOPIC");
   if (options.fps)
     throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
   return open_bag_input(options, print);
