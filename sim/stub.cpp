@@ -33,6 +33,7 @@ bool Simulation::next(SimFrame&) { refuse_simulation(); }
 void Simulation::skip(std::size_t) { refuse_simulation(); }
 std::size_t Simulation::frames() const { refuse_simulation(); }
 const std::filesystem::path& Simulation::urdf() const { refuse_simulation(); }
+const std::vector<ArmPlace>& Simulation::arms() const { refuse_simulation(); }
 const Robot& Simulation::robot() const { refuse_simulation(); }
 const Camera& Simulation::camera() const { refuse_simulation(); }
 const Eigen::Isometry3d& Simulation::T_base_camera() const { refuse_simulation(); }
