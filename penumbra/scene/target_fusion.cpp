@@ -18,10 +18,10 @@ namespace {
 
 constexpr double best_step = 0.05;      // visible fractions that differ by less are equal
 constexpr double tolerance_sigmas = 2;  // e(z) in standard deviations of the depth
-constexpr double extent_across = 0.25;  // of its radius, from its centre to its middle
-                                        // in the image
-constexpr double cut_reach = 1.5;       // of its radius: the middle of an oblong target's end
-constexpr double extent_along = 1.0;    // between its centre and its surface
+// Parts of the target's radius: from its centre to its middle in the image; the middle of an oblong
+// target's end; and its centre behind the surface, evenly between 0 (a plate) and 1.
+constexpr double extent_across = 0.25, cut_reach = 1.5;
+constexpr double behind_surface = 0.5, behind_sigma = 0.5 * std::numbers::inv_sqrt3;
 
 /// Radius of a disc with as many pixels as the target, metres.
 double radius_of(const Intrinsics& camera, std::size_t pixels, double z) {
@@ -44,12 +44,13 @@ void measure(const ViewCamera& camera, const Eigen::Isometry3d& T_root_camera,
   if (may_be_cut(camera.intrinsics, judgement.covered, at)) return view.point.reset();
   const double z = at.z();
   const Eigen::Vector3d ray = at.normalized();
+  const double radius = radius_of(camera.intrinsics, judgement.covered, z);
   view.distance = at.norm();
   view.angle = std::acos(std::clamp(ray.z(), -1.0, 1.0));
-  const double radius = radius_of(camera.intrinsics, judgement.covered, z);
+  *view.point += behind_surface * radius * (T_root_camera.linear() * ray);
   const double noise = camera.tolerance.at(z) / tolerance_sigmas * view.distance / z;
   const double pixel = z / std::min(camera.intrinsics.fx(), camera.intrinsics.fy());
-  const double along = std::hypot(noise, judgement.point_spread, extent_along * radius);
+  const double along = std::hypot(noise, behind_sigma * radius);
   const double across = std::hypot(pixel, extent_across * radius);
   const Eigen::Matrix3d on_ray = ray * ray.transpose();
   const Eigen::Matrix3d in_camera =

@@ -34,14 +34,15 @@ struct CameraView {
   std::string reason;           ///< one line if the verdict is unknown, else empty
   double visible_fraction = 0;  ///< clear and front, of the target's pixels inside the image
 
-  /// The measured point in the root link's frame, metres; null if the camera does not measure it,
-  /// or if the image's border may cut the target, whose middle is elsewhere then. The rest is valid
-  /// only with a point.
+  /// The target's centre in the root link's frame, metres: half its radius behind the measured
+  /// surface. Its radius is that of a disc with as many pixels. Null if the camera does not measure
+  /// it, or if the image's border may cut the target, whose middle is elsewhere then. The rest is
+  /// valid only with a point.
   std::optional<Eigen::Vector3d> point;
-  /// Of the point as the target's place, square metres: the noise of the depth along the ray, a
-  /// pixel's width across, and the target's own extent, as its sides lie at different places.
+  /// Of the point, square metres. Along the ray: the noise of the depth, and the centre anywhere
+  /// between the surface and a radius behind it. Across: a pixel and a quarter of the radius.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double distance = 0;  ///< from the camera's centre, metres
+  double distance = 0;  ///< from the camera's centre to the surface, metres
   double angle = 0;     ///< from the optical axis, radians
 };
 

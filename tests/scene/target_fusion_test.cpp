@@ -30,6 +30,16 @@ Eigen::Isometry3d camera_at(double angle) {
   return pose;
 }
 
+/// Of a disc of 100 pixels at 1 m.
+const double unit_radius = std::sqrt(100 / (M_PI * 600 * 600));
+
+/// The point of the surface, seen by camera_at(angle), of a target with its centre at the origin:
+/// half its radius before it.
+Eigen::Vector3d surface_at(double angle) {
+  const double distance = 1 / (1 + unit_radius / 2);
+  return (1 - distance) * camera_at(angle).translation();
+}
+
 /// One camera's frame with one target.
 struct Shot {
   Shot(std::int64_t stamp, Verdict verdict, std::optional<Eigen::Vector3d> point = {},
@@ -135,17 +145,17 @@ TEST(TargetFusion, TheBestCameraSeesMostThenIsNearest) {
 
 TEST(TargetFusion, TwoCamerasAtRightAnglesHelpEachOther) {
   TargetFusion views = fusion_of({"x", "y"});
-  const Eigen::Vector3d at(0, 0, 0);
-  views.add(0, Shot(0, Verdict::visible, at, 1, 0).get());
-  views.add(1, Shot(0, Verdict::visible, at, 1, M_PI / 2).get());
+  views.add(0, Shot(0, Verdict::visible, surface_at(0), 1, 0).get());
+  views.add(1, Shot(0, Verdict::visible, surface_at(M_PI / 2), 1, M_PI / 2).get());
   const FusedTarget target = views.fused("part");
   ASSERT_TRUE(target.point);
   EXPECT_LT(target.point->norm(), 1e-12);
-  // At 1 m: noise e / 2 = 5 mm along the ray, a pixel 1 / 600 m across, and the radius of a disc of
-  // 100 pixels, whole along the ray and a quarter across.
-  const double radius = std::sqrt(100 / (M_PI * 600 * 600));
-  const double along = 0.005 * 0.005 + radius * radius;
-  const double across = 1.0 / (600.0 * 600) + radius * radius / 16;
+  // Noise e / 2 = 5 mm along the ray, a pixel across, and of the radius: along the ray the variance
+  // of what is evenly between 0 and 1, a twelfth; across a quarter.
+  const double distance = (camera_at(0).translation() - surface_at(0)).norm();
+  const double radius = distance * unit_radius;
+  const double along = 0.005 * 0.005 + radius * radius / 12;
+  const double across = distance * distance / (600.0 * 600) + radius * radius / 16;
   const double both = 1 / (1 / along + 1 / across);
   const Eigen::Matrix3d expected = Eigen::Vector3d(both, both, across / 2).asDiagonal();
   EXPECT_LT((target.covariance - expected).norm(), 1e-12);
@@ -159,16 +169,16 @@ TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
     views.add(2, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
     return views.fused("part");
   };
-  const double radius = std::sqrt(100 / (M_PI * 600 * 600));
-  const double across = std::sqrt(1.0 / (600.0 * 600) + radius * radius / 16);
+  const double across = std::sqrt(1.0 / (600.0 * 600) + unit_radius * unit_radius / 16);
   const double limit = std::sqrt(16.27 * 2) * across;
-  EXPECT_TRUE(fused_at(0.99 * limit).point);
-  EXPECT_EQ(fused_at(0.99 * limit).verdict, Verdict::visible);
-  const FusedTarget apart = fused_at(1.01 * limit);
+  constexpr double oblique = 0.01;  // part of the limit: the rays to the points are not parallel
+  EXPECT_TRUE(fused_at((1 - oblique) * limit).point);
+  EXPECT_EQ(fused_at((1 - oblique) * limit).verdict, Verdict::visible);
+  const FusedTarget apart = fused_at((1 + oblique) * limit);
   ASSERT_TRUE(apart.contradiction);
   EXPECT_EQ(apart.contradiction->first, 0U);
   EXPECT_EQ(apart.contradiction->second, 2U);
-  EXPECT_NEAR(apart.contradiction->distance, 1.01 * limit, 1e-12);
+  EXPECT_NEAR(apart.contradiction->distance, limit, 2 * oblique * limit);
   EXPECT_EQ(apart.verdict, Verdict::unknown);
   EXPECT_FALSE(apart.point);
   EXPECT_NE(apart.reason.find("'left' and 'right'"), std::string::npos) << apart.reason;
@@ -187,11 +197,12 @@ TEST(TargetFusion, FusedPointsAreAsGoodAsTheirCovarianceSays) {
     TargetFusion views = fusion_of({"a", "b", "c"});
     for (std::size_t c = 0; c < 3; ++c) {
       const double angle = 2.0 * static_cast<double>(c);
-      Shot exact(0, Verdict::visible, Eigen::Vector3d::Zero(), 1, angle);
+      Shot exact(0, Verdict::visible, surface_at(angle), 1, angle);
       const auto frame = views_of(views.cameras()[c], exact.get());
       const Eigen::LLT<Eigen::Matrix3d> root(frame.views.at("part").covariance);
       const Eigen::Vector3d noise(normal(random), normal(random), normal(random));
-      views.add(c, Shot(0, Verdict::visible, root.matrixL() * noise, 1, angle).get());
+      views.add(
+          c, Shot(0, Verdict::visible, surface_at(angle) + root.matrixL() * noise, 1, angle).get());
     }
     const FusedTarget target = views.fused("part");
     if (!target.point) continue;  // one pair in a thousand
