@@ -45,7 +45,7 @@ class PoseStage {
   FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link);
   FrameStatus place_links(const Frame& frame);
   FrameStatus place_uncertain();
-  Reach& reach_of(std::size_t link);
+  void add_reach(std::size_t link, Ball ball);
   FrameStatus place_bodies(std::span<const AttachedBody> bodies);
   FrameStatus place_body(const AttachedBody& body);
   [[nodiscard]] std::size_t number_of(const std::string& body);
@@ -60,7 +60,7 @@ class PoseStage {
   std::size_t parent_;
   Eigen::Isometry3d T_camera_parent_;
   CameraInsideCheck camera_inside_;
-  std::vector<double> reach_;  // of each link: reach_of_links
+  std::vector<Ball> reach_;  // of each link: reach_of_links
   PoseResult result_;
 };
 

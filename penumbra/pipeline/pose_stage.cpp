@@ -212,8 +212,10 @@ FrameStatus PoseStage::place_uncertain() {
     return fault(FrameStatus::missing_transform,
                  "the pose of link '" + robot_.links()[parent_] +
                      "', which carries the camera, is not known: " + result_.uncertain_reason);
-  for (const std::size_t link : result_.uncertain_links)
-    if (robot_.report()[link].drawn) reach_of(link);
+  for (const std::size_t link : result_.uncertain_links) {
+    const bool is_first = link == 0 || !result_.is_uncertain(robot_.joints()[link - 1].parent);
+    if (is_first && reach_[link].radius >= 0.0) add_reach(link, reach_[link]);
+  }
   for (const std::size_t link : result_.uncertain_links) {
     if (!robot_.report()[link].drawn) continue;
     result_.T_root_link[link].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -228,19 +230,23 @@ FrameStatus PoseStage::place_uncertain() {
       names + " is not drawn, and what it could hide is unknown: " + result_.uncertain_reason);
 }
 
-/// Returns the ball around the first link of unknown pose between the root and a link.
-Reach& PoseStage::reach_of(std::size_t link) {
-  while (link > 0 && result_.is_uncertain(robot_.joints()[link - 1].parent))
-    link = robot_.joints()[link - 1].parent;
-  for (Reach& reach : result_.reaches)
-    if (reach.link == link) return reach;
+/// Adds where a ball of a link can be to the reach of the first link of unknown pose above it.
+void PoseStage::add_reach(std::size_t link, Ball ball) {
+  const auto parent = [&] { return robot_.joints()[link - 1].parent; };
+  while (link > 0 && result_.is_uncertain(parent())) {
+    ball = swept(robot_.joints()[link - 1], ball);
+    link = parent();
+  }
   if (link == 0)
-    return result_.reaches.emplace_back(
-        Reach{link, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()});
-  const Joint& joint = robot_.joints()[link - 1];
-  return result_.reaches.emplace_back(
-      Reach{link, result_.T_camera_link[joint.parent] * joint.origin.translation(),
-            travel_of(joint) + reach_[link]});
+    ball.radius = std::numeric_limits<double>::infinity();
+  else
+    ball = transformed(result_.T_camera_link[parent()], swept(robot_.joints()[link - 1], ball));
+  for (Reach& reach : result_.reaches)
+    if (reach.link == link) {
+      reach.ball = ball_around(reach.ball, ball);
+      return;
+    }
+  result_.reaches.push_back({link, ball});
 }
 
 FrameStatus PoseStage::place_bodies(std::span<const AttachedBody> bodies) {
@@ -263,10 +269,8 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   if (result_.attached.size() == max_attached)
     return missing("more than " + std::to_string(max_attached) + " bodies are attached");
   if (result_.is_uncertain(*link)) {
-    const double size = body.mesh->bounds.diagonal().norm() + body.mesh->bounds.min().norm();
-    Reach& reach = reach_of(*link);
-    reach.radius =
-        std::max(reach.radius, reach_[reach.link] + body.T_link_body.translation().norm() + size);
+    const Eigen::AlignedBox3d& box = body.mesh->bounds;
+    add_reach(*link, transformed(body.T_link_body, {box.center(), 0.5 * box.diagonal().norm()}));
     return fault(FrameStatus::missing_link, "attached body '" + body.name +
                                                 "' is not drawn: the pose of link '" + body.link +
                                                 "' is not known");

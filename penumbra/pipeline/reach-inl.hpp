@@ -7,29 +7,40 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
 
-/// Where links of unknown pose can be: a ball in the optical frame, metres. Its radius may be
-/// infinite.
+// A ball of negative radius is nothing, one of infinite radius is everything.
+
+/// Returns the ball around all vertices of a mesh, its centre that of the mesh's box.
+[[nodiscard]] Ball ball_around(const PreparedMesh& mesh);
+
+/// Returns the smallest ball around two.
+[[nodiscard]] Ball ball_around(const Ball& a, const Ball& b);
+
+/// Returns a ball around another in a frame to which `T` transforms its own.
+[[nodiscard]] Ball transformed(const Eigen::Isometry3d& T, const Ball& ball);
+
+/// Returns, in the parent link's frame, a ball around all places of a ball in the child's frame:
+/// with any angle of a joint that turns, and within the limits of a prismatic one. Infinite for a
+/// planar, floating or unlimited prismatic joint.
+[[nodiscard]] Ball swept(const Joint& joint, const Ball& ball);
+
+/// Returns, of each link and in its frame, a ball around its geometry and that of its descendants.
+[[nodiscard]] std::vector<Ball> reach_of_links(const Robot& robot);
+
+/// Where links of unknown pose can be: a ball in the optical frame.
 struct Reach {
   std::size_t link;  ///< the first of the links; it is not drawn
-  Eigen::Vector3d centre;
-  double radius;
+  Ball ball;
 };
-
-/// Returns, of each link, the largest distance of geometry of it and of its descendants from its
-/// frame's origin within the joint limits, metres. Infinite for a planar, floating or unlimited
-/// prismatic joint below it.
-[[nodiscard]] std::vector<double> reach_of_links(const Robot& robot);
-
-/// Returns how far a joint moves its child's origin at most, metres.
-[[nodiscard]] double travel_of(const Joint& joint);
 
 /// Draws the near side of each ball into a virtual depth image, as the link's number. A camera
 /// inside a ball sees it at DepthRenderer::near_plane.

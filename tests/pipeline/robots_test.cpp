@@ -27,11 +27,12 @@ constexpr const char* cart_urdf = R"(<robot name="cart">
   </joint>
 </robot>)";
 
-/// Where the box's corners can be at most, metres from the rail: the joint's origin, its longer
-/// way, and half the box's diagonal.
-const double cart_reach = 0.1 + 0.2 + 0.5 * std::sqrt(0.1 * 0.1 + 0.12 * 0.12 + 0.14 * 0.14);
-
 const Eigen::Vector3d cart_place(0.25, 0.05, 1.9);
+
+/// The ball around the box on its way: around the way's middle, as half its length and half the
+/// box's diagonal.
+const Eigen::Vector3d cart_middle = cart_place + Eigen::Vector3d(0.025, -0.1, 0.0);
+const double cart_reach = 0.175 + 0.5 * std::sqrt(0.1 * 0.1 + 0.12 * 0.12 + 0.14 * 0.14);
 
 /// "slabs" stands in the world's origin, "cart" is turned by half a turn about z.
 Robot cell() {
@@ -104,7 +105,7 @@ void expect_unknown_reach(const FrameReport& report, const Image<float>& depth, 
   for (int v = 0; v < depth.height(); ++v)
     for (int u = 0; u < depth.width(); ++u) {
       const Seen known = cast_cell(k.ray(u, v), 0.0, {});
-      const double ball = enter_ball(k.ray(u, v), cart_place, radius);
+      const double ball = enter_ball(k.ray(u, v), cart_middle, radius);
       Label expected = known.link == 0 ? Label::clear : Label::occluded;
       const bool is_ball = ball > 0.0 && (known.depth == 0.0 || ball < known.depth);
       if (is_ball) expected = depth(u, v) < ball - 0.02 ? Label::front : Label::unknown;
@@ -116,8 +117,8 @@ TEST_P(RobotsTest, WhatOneOfUnknownPoseCanReachIsUnknown) {
   const Camera camera = slab_camera();
   Pipeline pipeline(cell(), camera, plain_config(GetParam()));
   Image<float> depth = scene_depth(camera, 0.0, {cart_box(0.1)});
-  for (int v = 74; v < 80; ++v)  // a thing before the ball
-    for (int u = 84; u < 90; ++u) depth(u, v) = 1.3F;
+  for (int v = 40; v < 45; ++v)  // a thing before the ball
+    for (int u = 92; u < 98; ++u) depth(u, v) = 1.3F;
   const std::vector<double> positions{0.0, 0.0};
   const std::array<std::size_t, 2> cart{4, 5};
   const std::vector<Target> targets{region("free", PixelBox{3, 3, 6, 6}),
@@ -135,7 +136,7 @@ TEST_P(RobotsTest, WhatOneOfUnknownPoseCanReachIsUnknown) {
   EXPECT_TRUE(report.missing_links.empty()) << "the mask can be trusted elsewhere";
   EXPECT_FALSE(report.T_root_link[5].matrix().allFinite());
   expect_unknown_reach(report, depth, cart_reach);
-  EXPECT_GT(report.pixels.unknown, 500U);
+  EXPECT_GT(report.pixels.unknown, 300U);
   EXPECT_GT(report.pixels.front, 10U);
   EXPECT_EQ(report.targets[0].verdict, Verdict::visible);
   EXPECT_EQ(report.targets[1].verdict, Verdict::unknown);
@@ -158,14 +159,15 @@ TEST(Robots, WhatOneOfUnknownPoseCarriesReachesFarther) {
                                                 .uncertain_links = cart,
                                                 .uncertain_reason = "stale"});
   EXPECT_EQ(report.status, FrameStatus::missing_link);
-  const double least = 0.1 + 0.2 + 0.1 + 0.5 * size.norm();  // a part's corner may be there
   const Intrinsics& k = slab_camera().intrinsics;
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) {
-      const Seen known = cast_cell(k.ray(u, v), 0.0, {});
-      if (known.link != 0 || enter_ball(k.ray(u, v), cart_place, least) <= 0.0) continue;
-      ASSERT_EQ(report.labels(u, v), unknown_label) << u << ',' << v;
-    }
+  for (const double drive : {-0.2, -0.1, 0.0, 0.1, 0.15}) {
+    const SlabBox part{cart_box(drive).centre + Eigen::Vector3d(-0.1, 0.0, 0.0), size, 7};
+    for (int v = 0; v < depth.height(); ++v)
+      for (int u = 0; u < depth.width(); ++u) {
+        if (cast_cell(k.ray(u, v), 0.0, {part}).link != 7) continue;
+        ASSERT_EQ(report.labels(u, v), unknown_label) << u << ',' << v << " at " << drive;
+      }
+  }
 }
 
 TEST(Robots, ACameraOnARobotOfUnknownPoseSeesNothing) {
