@@ -49,7 +49,7 @@ class StereoCell {
       : arm_(PENUMBRA_STUDY_ARM, visual_geometry(), folder_.path()),
         scene_(sim::make_random_targets(
             arm_, {.seed = seed, .belt_jitter = 0.0, .frame_rate = frame_rate, .duration = 0.0},
-            intrinsics())),
+            intrinsics(), false)),
         stage_(arm_, scene_->description(), folder_.path(), intrinsics()),
         renderer_(make_depth_renderer(Backend::cpu, intrinsics(), bodies_of(arm_.robot()))),
         camera_(intrinsics(), seed),

@@ -89,6 +89,8 @@ void add_simulate(CLI::App& app, SimulateArguments& simulate) {
              options.joint_latency);
   add_number(app, "--belt-jitter", "variation of the belt's speed, relative; default 0", "SHARE",
              options.belt_jitter);
+  add_number(app, "--camera", "which of the scene's three cameras draws; default 0, its own", "N",
+             options.camera, 0, 2);
   app.add_flag("--second-camera", options.second_camera,
                "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
 }

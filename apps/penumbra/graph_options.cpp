@@ -11,6 +11,7 @@
 #include <apps/penumbra/text.hpp>
 #include <io/assembly/result_encoder.hpp>
 #include <io/dds/graph_names.hpp>
+#include <io/live/live_fusion.hpp>
 #include <io/live/name_resolver.hpp>
 
 namespace penumbra::app {
@@ -34,10 +35,12 @@ void check_results(const std::string& list) {
   for (const std::string& name : split(list, ',')) {
     const bool known =
         std::any_of(io::result_topics.begin(), io::result_topics.end(),
-                    [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; });
+                    [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; }) ||
+        name == io::target_views_topic;
     if (!known)
-      refuse_option("--publish", name,
-                    "one of vdi, labels, mask, filtered_depth, points, targets, overlay");
+      refuse_option(
+          "--publish", name,
+          "one of vdi, labels, mask, filtered_depth, points, targets, target_views, overlay");
   }
 }
 
@@ -123,13 +126,14 @@ void add_play(CLI::App& app, PlayArguments& play) {
 void add_live(CLI::App& app, LiveArguments& live) {
   app.footer(live_examples);
   add_cameras(app, live);
-  add_option(app, "--publish",
-             "results to publish: of vdi,labels,mask,filtered_depth,points,targets,overlay; "
-             "default: all that somebody subscribes to",
-             "LIST", [&](const std::string& text) {
-               check_results(text);
-               live.publish = text;
-             });
+  add_option(
+      app, "--publish",
+      "results to publish: of vdi,labels,mask,filtered_depth,points,targets,target_views,overlay; "
+      "default: all that somebody subscribes to",
+      "LIST", [&](const std::string& text) {
+        check_results(text);
+        live.publish = text;
+      });
   add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
              0.0, longest_duration);
   add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);

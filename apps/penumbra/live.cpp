@@ -51,10 +51,11 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-bool is_published(const LiveArguments& arguments, const io::ResultTopic& topic) {
+/// `topic`: as it follows "/penumbra/".
+bool is_published(const LiveArguments& arguments, std::string_view topic) {
   if (!arguments.publish) return true;
   for (const std::string& name : split(*arguments.publish, ','))
-    if (topic.name.substr(0, topic.name.find('/')) == name) return true;
+    if (topic.substr(0, topic.find('/')) == name) return true;
   return false;
 }
 
@@ -156,13 +157,15 @@ class Live {
     std::vector<io::ResultSink*> sinks;
     for (const io::CameraInputOptions& camera : options.cameras) {
       results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
-        return is_published(arguments, topic) ? names.resolve(result_name(camera.name, topic))
-                                              : std::string();
+        return is_published(arguments, topic.name) ? names.resolve(result_name(camera.name, topic))
+                                                   : std::string();
       }));
       sinks.push_back(results_.back().get());
     }
     runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
     pages.watch(*runner_, options.cameras);
+    if (options.cameras.size() > 1 && is_published(arguments, io::target_views_topic))
+      fuse(options, names, graph);
     subscriptions_ = std::make_unique<LiveSubscriptions>(graph, *runner_, arguments.reliable);
   }
 
@@ -229,6 +232,7 @@ class Live {
                             {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
       });
       add_losses(message);
+      if (fusion_) add_contradictions(message);
       diagnostics.tell(message);
       next += report_period;
       auto until = next;
@@ -238,6 +242,31 @@ class Live {
       stopped = stop.wait_until(until);
     }
     return stopped;
+  }
+
+  void fuse(const io::LiveOptions& options, const io::NameResolver& names, io::Participant& graph) {
+    std::vector<std::string> cameras;
+    for (const io::CameraInputOptions& camera : options.cameras) cameras.push_back(camera.name);
+    target_views_ =
+        graph.advertise(names.resolve(target_views_name()), std::string(io::target_views_type),
+                        {.reliable = true, .depth = 10});
+    fusion_.emplace(cameras, [this](std::span<const std::byte> payload) {
+      static_cast<void>(target_views_->write(payload));
+    });
+    runner_->fuse(*fusion_);
+  }
+
+  /// Adds the targets that cameras measure at different places to the robot's status, the first
+  /// one.
+  void add_contradictions(io::DiagnosticArrayMessage& message) {
+    io::DiagnosticStatusMessage& robot = message.status.front();
+    for (const std::string& line : fusion_->contradictions()) {
+      if (robot.level == io::DiagnosticStatusMessage::ok) {
+        robot.level = io::DiagnosticStatusMessage::warn;
+        robot.message = line;
+      }
+      robot.values.push_back({"contradiction", line});
+    }
   }
 
   /// Adds the results that subscribers lost to the cameras' statuses, which are the last ones.
@@ -259,6 +288,8 @@ class Live {
   Clock::time_point begin_ = Clock::now();
   double cpu_at_start_ = cpu_seconds();
   std::vector<std::unique_ptr<GraphResults>> results_;
+  std::unique_ptr<io::Publication> target_views_;  // null with one camera
+  std::optional<io::LiveFusion> fusion_;           // likewise
   std::unique_ptr<io::LiveRunner> runner_;
   std::unique_ptr<LiveSubscriptions> subscriptions_;
   std::exception_ptr fault_;

@@ -8,6 +8,7 @@
 
 #include <apps/penumbra/live_setup.hpp>
 #include <io/files/printable.hpp>
+#include <io/live/live_fusion.hpp>
 
 namespace penumbra::app {
 
@@ -28,9 +29,12 @@ std::string result_name(const std::string& camera, const io::ResultTopic& topic)
   return "penumbra/" + (camera.empty() ? "" : camera + "/") + std::string(topic.name);
 }
 
+std::string target_views_name() { return "penumbra/" + std::string(io::target_views_topic); }
+
 void check_remaps(const io::NameResolver& names,
                   const std::vector<io::CameraInputOptions>& cameras) {
   static_cast<void>(names.resolve(diagnostics_topic));
+  static_cast<void>(names.resolve(target_views_name()));
   std::vector<std::string> of_cameras;
   of_cameras.reserve(cameras.size() + 1);
   for (const io::CameraInputOptions& camera : cameras) of_cameras.push_back(camera.name);

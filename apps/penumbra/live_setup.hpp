@@ -23,6 +23,9 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 /// Returns the topic of a camera's result before it is resolved. `camera`: empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);
 
+/// Returns the topic of the verdicts over all cameras before it is resolved.
+[[nodiscard]] std::string target_views_name();
+
 /// Throws InputError for a remapped name that no topic has. Call it after all names are resolved.
 void check_remaps(const io::NameResolver& names,
                   const std::vector<io::CameraInputOptions>& cameras);

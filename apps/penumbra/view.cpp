@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/bag/bag_reader.hpp>
+#include <io/run/camera_views.hpp>
 #include <io/run/judging.hpp>
+#include <io/web/cameras_view.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/run_folder.hpp>
 #include <io/web/stored_view.hpp>
@@ -30,17 +38,30 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* report_name = "report.json";
+constexpr const char* views_name = "views.json";
 
 void check_is_something(const fs::path& input) {
   std::error_code error;
   if (!fs::is_directory(input, error)) return;
-  for (const char* const name : {"recording.yaml", report_name})
+  for (const char* const name : {"recording.yaml", report_name, views_name})
     if (fs::exists(input / name, error)) return;
   if (io::is_bag_folder(input)) return;
   throw InputError(
       input.string() +
       ": holds neither a recording (recording.yaml), nor a bag (metadata.yaml, *.mcap, "
       "*.db3), nor the results of a run (report.json)");
+}
+
+/// Returns whether a run of several cameras wrote this folder.
+bool has_views(const fs::path& input) {
+  std::error_code error;
+  return fs::exists(input / views_name, error) && !fs::exists(input / "recording.yaml", error);
+}
+
+/// Returns the cameras to show; none for the only one, without a name.
+std::vector<std::string> cameras_of(const io::InputOptions& input) {
+  if (has_views(input.path)) return io::cameras_of_views(input.path / views_name);
+  return input.camera.empty() ? io::cameras_of(input.path) : std::vector<std::string>();
 }
 
 /// Returns whether a run wrote this folder, or it is its report.json.
@@ -54,8 +75,10 @@ bool is_run_folder(const fs::path& input) {
 /// The content of the viewer: an input, which is judged meanwhile, or the results of a run.
 class ViewSource {
  public:
-  /// `arguments` must outlive this. Throws InputError if there is nothing to show.
-  explicit ViewSource(const ViewArguments& arguments);
+  /// `cameras`: all that are shown; `camera`: this one of them. Throws InputError if there is
+  /// nothing to show.
+  ViewSource(const ViewArguments& arguments, std::vector<std::string> cameras,
+             const std::string& camera);
   ~ViewSource();
   ViewSource(const ViewSource&) = delete;
   ViewSource& operator=(const ViewSource&) = delete;
@@ -67,14 +90,18 @@ class ViewSource {
   [[nodiscard]] bool is_over() const { return over_; }
   /// Prints the result; to be called when it is over. Throws what judging threw.
   void print();
+  /// Returns the targets' views, of an input; to be called when it is over.
+  [[nodiscard]] const io::CameraRun* run() const { return recorder_ ? &recorder_->run() : nullptr; }
 
  private:
-  void open_input(const io::JudgingOptions& options);
+  void open_input(const io::JudgingOptions& options, const std::string& camera);
   void open_run(const ViewArguments& arguments);
   void judge();
 
+  std::vector<std::string> cameras_;
   std::optional<io::Judging> judging_;
   std::optional<io::FrameStore> store_;
+  std::optional<io::ViewRecorder> recorder_;  // with several cameras
   std::optional<io::RunFolder> folder_;
   std::optional<io::StoredView> view_;
   std::atomic<bool> stop_ = false, over_ = false;
@@ -83,13 +110,23 @@ class ViewSource {
   std::thread thread_;
 };
 
-ViewSource::ViewSource(const ViewArguments& arguments) {
-  const fs::path& input = arguments.judging.input.path;
-  check_is_something(input);
-  if (is_run_folder(input))
-    open_run(arguments);
+ViewSource::ViewSource(const ViewArguments& arguments, std::vector<std::string> cameras,
+                       const std::string& camera)
+    : cameras_(std::move(cameras)) {
+  ViewArguments own = arguments;
+  io::InputOptions& input = own.judging.input;
+  if (!cameras_.empty()) {
+    if (has_views(input.path))
+      input.path /= camera;
+    else
+      input.camera = camera;
+    own.judging.renderer.threads = 1;
+  }
+  check_is_something(input.path);
+  if (is_run_folder(input.path))
+    open_run(own);
   else
-    open_input(arguments.judging);
+    open_input(own.judging, camera);
 }
 
 ViewSource::~ViewSource() {
@@ -97,18 +134,20 @@ ViewSource::~ViewSource() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ViewSource::open_input(const io::JudgingOptions& options) {
+void ViewSource::open_input(const io::JudgingOptions& options, const std::string& camera) {
   judging_.emplace(options, print_line);
   const Pipeline& pipeline = judging_->pipeline();
   store_.emplace(pipeline.rectification());
   store_->begin(judging_->head());
+  if (!cameras_.empty()) recorder_.emplace(camera, pipeline, *store_);
   const auto links = pipeline.robot().links();
   view_.emplace(io::SessionInfo{.input = options.input.path.string(),
                                 .links = {links.begin(), links.end()},
                                 .camera = judging_->camera(),
                                 .image = options.image,
                                 .parts = {io::Part::color, io::Part::labels, io::Part::links,
-                                          io::Part::vdi, io::Part::depth, io::Part::cloud}},
+                                          io::Part::vdi, io::Part::depth, io::Part::cloud},
+                                .cameras = cameras_},
                 io::make_scene(pipeline.robot()), *store_, judging_->size());
 }
 
@@ -125,6 +164,7 @@ void ViewSource::open_run(const ViewArguments& arguments) {
   const std::size_t frames = report.frames.size();
   folder_.emplace(folder, std::move(report));
   info.parts = folder_->parts();
+  info.cameras = cameras_;
   view_.emplace(std::move(info), std::move(scene), *folder_, frames);
 }
 
@@ -137,7 +177,8 @@ void ViewSource::start() {
 
 void ViewSource::judge() {
   try {
-    result_ = judging_->run(*store_, [this] { return !stop_; });
+    io::RunOutput& output = recorder_ ? static_cast<io::RunOutput&>(*recorder_) : *store_;
+    result_ = judging_->run(output, [this] { return !stop_; });
   } catch (...) {
     error_ = std::current_exception();
   }
@@ -158,26 +199,54 @@ constexpr auto look_period = 100ms;
 constexpr auto long_time = 24h;
 constexpr std::uint16_t more_ports = 99;  // that are tried if the default one is in use
 
+using ViewSources = std::vector<std::unique_ptr<ViewSource>>;
+
+bool are_over(const ViewSources& sources) {
+  return std::all_of(sources.begin(), sources.end(),
+                     [](const auto& source) { return source->is_over(); });
+}
+
 /// Waits for Ctrl-C.
-void wait_for_end(StopSignal& stop, ViewSource& source) {
-  while (!source.is_over())
+void wait_for_end(StopSignal& stop, const ViewSources& sources) {
+  while (!are_over(sources))
     if (stop.wait(look_period)) return;
-  source.print();
+  for (const auto& source : sources) source->print();
   std::cout.flush();
   while (!stop.wait(long_time)) continue;
+}
+
+/// Returns the views.json of several cameras; null until all are judged.
+io::SharedBytes views_of(const io::InputOptions& input, const ViewSources& sources) {
+  if (has_views(input.path))
+    return io::shared_bytes(read_whole_file(input.path / views_name, FileLimit::data));
+  if (!are_over(sources)) return nullptr;
+  std::vector<io::CameraRun> runs;
+  for (const auto& source : sources) runs.push_back(*source->run());
+  std::ostringstream text;
+  static_cast<void>(io::write_views(text, input.path.string(), runs));
+  return io::shared_bytes(std::move(text).str());
 }
 
 }  // namespace
 
 int execute(const ViewArguments& arguments) {
   StopSignal stop;
-  ViewSource source(arguments);
+  const io::InputOptions& input = arguments.judging.input;
+  const std::vector<std::string> cameras = cameras_of(input);
+  ViewSources sources;
+  std::vector<io::CameraPage> pages;
+  for (const std::string& camera : cameras.empty() ? std::vector<std::string>(1) : cameras) {
+    sources.push_back(std::make_unique<ViewSource>(arguments, cameras, camera));
+    pages.push_back({camera, &sources.back()->view()});
+  }
   io::WebOptions options = web_options(arguments.server);
   if (!arguments.server.port) options.last_port = options.port + more_ports;
-  const io::WebServer server(options, source.view());
+  io::CamerasView views(pages, [&] { return views_of(input, sources); });
+  const io::WebServer server(
+      options, cameras.empty() ? sources.front()->view() : static_cast<io::WebHandler&>(views));
   std::cout << server.url() << std::endl;
-  source.start();
-  wait_for_end(stop, source);
+  for (const auto& source : sources) source->start();
+  wait_for_end(stop, sources);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/scene/target_fusion.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
 #include <io/files/report_json.hpp>
@@ -51,6 +52,7 @@ struct LiveOutcome {
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
   std::optional<RendererInfo> renderer;  ///< the renderer used; nothing if it could not be made
+  CameraFrame views;                     ///< of the targets, if the frame is published
 };
 
 /// The results of a camera's images.

@@ -155,6 +155,8 @@ void LiveRunner::work(std::size_t camera) {
       WithoutOverlay without_overlay(*self.sink);
       ResultSink& sink = with_overlay ? *self.sink : without_overlay;
       const LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
+      if (fusion_ != nullptr && outcome.is_published)
+        fusion_->add(camera, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
       job.color.reset();

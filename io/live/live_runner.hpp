@@ -15,6 +15,7 @@
 
 #include <penumbra/pipeline/pipeline.hpp>
 
+#include <io/live/live_fusion.hpp>
 #include <io/live/live_inbox.hpp>
 #include <io/live/live_worker.hpp>
 
@@ -45,6 +46,10 @@ class LiveRunner {
   /// Hands the camera's frames to `watcher`, which must outlive the threads. Call it before
   /// start().
   void watch(std::size_t camera, FrameWatcher& watcher) { cameras_[camera].watcher = &watcher; }
+
+  /// Hands the targets of all cameras to `fusion`, which must outlive the threads. Call it before
+  /// start().
+  void fuse(LiveFusion& fusion) { fusion_ = &fusion; }
 
   void start();
   /// Ends the threads after their current job, which may be reading a robot's meshes. Waiting
@@ -98,6 +103,7 @@ class LiveRunner {
   std::exception_ptr fault_;  // likewise
   std::atomic<bool> has_failed_ = false;
   std::vector<CameraThread> cameras_;
+  LiveFusion* fusion_ = nullptr;
   RobotMaker maker_;
   std::chrono::milliseconds robot_retry_;
   std::thread making_;

@@ -57,6 +57,8 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
   outcome.drift = tools_->watch.drift();
   if (watcher != nullptr) watcher->take(job, frame.depth, report, outcome.drift);
   outcome.is_published = true;
+  outcome.views =
+      views_of({{}, tools_->pipeline.intrinsics(), tools_->pipeline.rule().tolerance}, report);
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;

@@ -120,6 +120,7 @@ template class Decoder<PointCloud2Message>;
 template class Decoder<DiagnosticArrayMessage>;
 template class Decoder<KeypointsMessage>;
 template class Decoder<TargetsMessage>;
+template class Decoder<TargetViewsMessage>;
 template class Decoder<AttachedObjectMessage>;
 template class Decoder<PlanningSceneMessage>;
 

@@ -70,6 +70,7 @@ template void encode(const PointCloud2Message&, std::vector<std::byte>&);
 template void encode(const DiagnosticArrayMessage&, std::vector<std::byte>&);
 template void encode(const KeypointsMessage&, std::vector<std::byte>&);
 template void encode(const TargetsMessage&, std::vector<std::byte>&);
+template void encode(const TargetViewsMessage&, std::vector<std::byte>&);
 template void encode(const AttachedObjectMessage&, std::vector<std::byte>&);
 template void encode(const PlanningSceneMessage&, std::vector<std::byte>&);
 

@@ -418,4 +418,56 @@ struct TargetsMessage {
   std::vector<TargetMessage> targets = {};
 };
 
+/// The .msg file explains the fields.
+struct CameraViewMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/CameraView";
+  static auto layout(auto& m) {
+    return fields_of(m.camera, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.reason,
+                     m.visible_fraction, as<PointWire>(m.point), m.distance, m.angle);
+  }
+
+  static constexpr double none = LoosePose::none;
+
+  std::string camera = {};
+  bool has_stamp = false;
+  std::int64_t stamp = 0;
+  std::uint8_t verdict = TargetMessage::unknown;
+  std::string reason = {};
+  double visible_fraction = none;
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(none);
+  double distance = none;
+  double angle = none;
+};
+
+/// The .msg file explains the fields.
+struct TargetViewMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/TargetView";
+  static auto layout(auto& m) {
+    return fields_of(m.name, m.verdict, m.reason, m.best, as<PointWire>(m.point), m.covariance,
+                     m.contradicting, m.contradiction_distance, m.contradiction_chi_square,
+                     m.views);
+  }
+
+  static constexpr double none = LoosePose::none;
+
+  std::string name = {};
+  std::uint8_t verdict = TargetMessage::unknown;
+  std::string reason = {};
+  std::string best = {};
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(none);
+  std::array<double, 9> covariance = {none, none, none, none, none, none, none, none, none};
+  std::vector<std::string> contradicting = {};
+  double contradiction_distance = none;
+  double contradiction_chi_square = none;
+  std::vector<CameraViewMessage> views = {};
+};
+
+struct TargetViewsMessage {
+  static constexpr std::string_view ros_type = "penumbra_msgs/TargetViews";
+  static auto layout(auto& m) { return fields_of(m.header, m.targets); }
+
+  MessageHeader header = {};
+  std::vector<TargetViewMessage> targets = {};
+};
+
 }  // namespace penumbra::io

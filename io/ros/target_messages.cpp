@@ -67,6 +67,39 @@ TargetMessage target_message(const TargetReport& target, std::span<const std::st
 
 }  // namespace
 
+TargetViewMessage target_view_message(const FusedTarget& target,
+                                      std::span<const ViewCamera> cameras) {
+  TargetViewMessage message{.name = target.name,
+                            .verdict = value_of(target.verdict, verdict_values),
+                            .reason = target.reason};
+  if (target.best) message.best = cameras[*target.best].name;
+  if (target.point) {
+    message.point = *target.point;
+    Eigen::Map<Eigen::Matrix3d>(message.covariance.data()) = target.covariance;  // symmetric
+  }
+  if (const auto& pair = target.contradiction) {
+    message.contradicting = {cameras[pair->first].name, cameras[pair->second].name};
+    message.contradiction_distance = pair->distance;
+    message.contradiction_chi_square = pair->chi_square;
+  }
+  for (const CameraView& view : target.views) {
+    CameraViewMessage& told = message.views.emplace_back();
+    told.camera = cameras[view.camera].name;
+    told.verdict = value_of(view.verdict, verdict_values);
+    told.reason = view.reason;
+    if (view.stamp) {
+      told.has_stamp = true;
+      told.stamp = *view.stamp;
+      told.visible_fraction = view.visible_fraction;
+    }
+    if (!view.point) continue;
+    told.point = *view.point;
+    told.distance = view.distance;
+    told.angle = view.angle;
+  }
+  return message;
+}
+
 TargetsMessage targets_message(const FrameReport& report, std::string_view camera_frame,
                                std::string_view root_frame) {
   TargetsMessage message{.header = {report.stamp.value_or(0), std::string(camera_frame)},

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/scene/target_fusion.hpp>
 
 #include <io/ros/messages.hpp>
 
@@ -14,5 +16,9 @@ namespace penumbra::io {
 [[nodiscard]] TargetsMessage targets_message(const FrameReport& report,
                                              std::string_view camera_frame,
                                              std::string_view root_frame);
+
+/// Returns the message of a target over several cameras.
+[[nodiscard]] TargetViewMessage target_view_message(const FusedTarget& target,
+                                                    std::span<const ViewCamera> cameras);
 
 }  // namespace penumbra::io

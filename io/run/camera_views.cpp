@@ -6,6 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/version.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/files/json-inl.hpp>
 #include <io/files/pending_file.hpp>
@@ -107,14 +108,12 @@ void ViewRecorder::save(const FrameReport& report, const FrameData& frame,
   to_.save(report, frame, targets);
 }
 
-std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
+std::vector<FusedCounts> write_views(std::ostream& out, const std::string& input,
                                      std::span<const CameraRun> runs) {
   TargetFusion fusion = fusion_of(runs);
   Json cameras = Json::array();
   for (const ViewCamera& camera : fusion.cameras()) cameras.push_back(camera.name);
   std::map<std::string, FusedCounts> counts;
-  PendingFile pending(file);
-  std::ofstream out(pending.part(), std::ios::binary);
   out << "{\"penumbra\": " << json_text(PENUMBRA_VERSION) << ", \"input\": " << json_text(input)
       << ", \"cameras\": " << json_text(cameras) << ", \"frames\": [";
   const char* comma = "\n";
@@ -134,12 +133,30 @@ std::vector<FusedCounts> write_views(const std::filesystem::path& file, const st
         << json_text({{"stamp_ns", stamp}, {"targets", std::move(targets)}});
   }
   out << "\n]}\n";
-  out.close();
-  if (!out) throw InputError(file.string() + ": cannot be written");
-  pending.finish();
   std::vector<FusedCounts> all;
   for (auto& [name, of_target] : counts) all.push_back(std::move(of_target));
   return all;
+}
+
+std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
+                                     std::span<const CameraRun> runs) {
+  PendingFile pending(file);
+  std::ofstream out(pending.part(), std::ios::binary);
+  auto counts = write_views(out, input, runs);
+  out.close();
+  if (!out) throw InputError(file.string() + ": cannot be written");
+  pending.finish();
+  return counts;
+}
+
+std::vector<std::string> cameras_of_views(const std::filesystem::path& file) {
+  try {
+    const Json json = Json::parse(read_whole_file(file, FileLimit::data));
+    auto cameras = json.at("cameras").get<std::vector<std::string>>();
+    if (!cameras.empty()) return cameras;
+  } catch (const Json::exception&) {
+  }
+  throw InputError(file.string() + ": is no views.json of penumbra run");
 }
 
 }  // namespace penumbra::io

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,9 +52,15 @@ struct FusedCounts {
 };
 
 /// Fuses the frames of all cameras in the order of their stamps and writes views.json
-/// (docs/recording.md). Returns the counts by target. Throws InputError if the file cannot be
-/// written.
+/// (docs/recording.md). Returns the counts by target.
+std::vector<FusedCounts> write_views(std::ostream& out, const std::string& input,
+                                     std::span<const CameraRun> runs);
+
+/// The same into a file. Throws InputError if it cannot be written.
 std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
                                      std::span<const CameraRun> runs);
+
+/// Returns the cameras of a views.json. Throws InputError if it is none.
+[[nodiscard]] std::vector<std::string> cameras_of_views(const std::filesystem::path& file);
 
 }  // namespace penumbra::io

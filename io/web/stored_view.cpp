@@ -56,7 +56,8 @@ std::string session_json(const SessionInfo& info, std::size_t frames,
       {"penumbra", PENUMBRA_VERSION},  {"server", server_id()},          {"mode", info.mode},
       {"input", info.input},           {"complete", is_complete},        {"frames", frames},
       {"expected", or_null(expected)}, {"scene_version", scene_version}, {"links", info.links},
-      {"camera", camera_json(info)},   {"parts", std::move(parts)},      {"missing", missing}};
+      {"camera", camera_json(info)},   {"parts", std::move(parts)},      {"missing", missing},
+      {"cameras", info.cameras}};
   return json_text(json);
 }
 

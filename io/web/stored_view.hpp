@@ -20,7 +20,8 @@ struct SessionInfo {
   std::vector<std::string> links;
   std::optional<Camera> camera = {};  ///< of the parts' images
   ImageSpace image = ImageSpace::raw;
-  std::vector<Part> parts = {};  ///< available parts
+  std::vector<Part> parts = {};           ///< available parts
+  std::vector<std::string> cameras = {};  ///< of CamerasView; empty: one without a name
 };
 
 /// Returns the answer to GET /api/session.

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 
 namespace penumbra {
@@ -153,6 +154,10 @@ void TargetFusion::add(std::size_t camera, const CameraFrame& frame) {
     throw InputError("target fusion: there is no camera " + std::to_string(camera) + ", only " +
                      std::to_string(cameras_.size()));
   std::optional<std::int64_t>& newest = newest_[camera];
+  if (newest && is_clock_jump(frame.stamp, *newest)) {
+    newest_.assign(newest_.size(), std::nullopt);
+    targets_.clear();
+  }
   newest = std::max(newest.value_or(frame.stamp), frame.stamp);
   for (const auto& [name, view] : frame.views) {
     Views& views = targets_.try_emplace(name, cameras_.size()).first->second;

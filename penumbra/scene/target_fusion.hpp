@@ -112,7 +112,8 @@ class TargetFusion {
   [[nodiscard]] std::span<const ViewCamera> cameras() const { return cameras_; }
 
   /// Takes a frame of camera `camera`. Views older than earlier ones are ignored, so frames may
-  /// come in any order. Throws InputError for a camera that does not exist, and as views_of does.
+  /// come in any order. A stamp that jumps back by more than a second forgets all views. Throws
+  /// InputError for a camera that does not exist, and as views_of does.
   void add(std::size_t camera, const CameraFrame& frame);
   void add(std::size_t camera, const FrameReport& report);
 

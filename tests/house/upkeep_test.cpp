@@ -66,7 +66,7 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"assimp", "libassimp-dev"},
                                                   {"yaml-cpp", "libyaml-cpp-dev"},
                                                   {"PNG", "libpng-dev"},
-                                                  {"JPEG", "libjpeg62-turbo-dev"},
+                                                  {"JPEG", "libjpeg-dev"},
                                                   {"fastcdr", "libfastcdr-dev"},
                                                   {"fastrtps", "libfastrtps-dev"},
                                                   {"CycloneDDS", "cyclonedds-dev"},

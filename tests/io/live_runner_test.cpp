@@ -163,5 +163,80 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   EXPECT_GT(expect_true_labels(left_.published(), truth), 0U);
 }
 
+// A point 2 m before the left camera, behind the board, and beside the board for the right one.
+TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
+  using Views = io::TargetViewsMessage;
+  options_.target_topics = {"/part"};
+  std::mutex mutex;
+  std::vector<Views> told;
+  io::LiveFusion fusion({"left", "right"}, [&](std::span<const std::byte> payload) {
+    const std::lock_guard lock(mutex);
+    const auto fault = io::Decoder<Views>().decode(payload, told.emplace_back());
+    EXPECT_FALSE(fault) << *fault;
+  });
+  const auto last = [&] {
+    const std::lock_guard lock(mutex);
+    return told.empty() ? Views() : told.back();
+  };
+  io::LiveRunner runner(options_, {}, {&left_, &right_});
+  runner.fuse(fusion);
+  runner.with_inbox([&](io::LiveInbox& inbox) {
+    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+      if (inbox.topics()[i].name == "/part") inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+    return true;
+  });
+  const auto topics = topics_of(runner);
+  runner.start();
+  const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
+    tell(runner, topics, name, std::move(payload));
+  };
+  const Eigen::Isometry3d aside(Eigen::Translation3d(0.8, 0.0, 0.0));
+  say("/robot_description", encoded(io::StringMessage{live_urdf}));
+  say("/tf_static",
+      encoded(io::TfMessage{{{{0, "base"}, "optical"}, {{0, "base"}, "aside", aside}}}));
+  io::CameraInfoMessage info = live_info(0);
+  say("/left/camera_info", encoded(info));
+  info.header.frame_id = "aside";
+  say("/right/camera_info", encoded(info));
+  const Image<std::uint16_t> board(64, 48, 950), behind(64, 48, 2000);
+  std::int64_t stamp = start;
+  /// Judges frames until `is_done`, or for 10 s.
+  const auto judge_until = [&](bool with_right, const auto& is_done) {
+    for (int i = 0; i < 1000 && !is_done(last()); ++i, stamp += 20 * milliseconds) {
+      io::PoseStampedMessage part{.header = {stamp, "base"}};
+      part.pose.translation() = Eigen::Vector3d(0.0, 0.0, 2.0);
+      say("/part", encoded(part));
+      say("/left/depth",
+          encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "16UC1", board.view())));
+      if (with_right)
+        say("/right/depth",
+            encoded(io::image_message(io::MessageHeader{stamp, "aside"}, "16UC1", behind.view())));
+      for (const int later : {-10, 10})
+        say("/joint_states", live_joints(stamp + later * milliseconds));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return last();
+  };
+  const auto has_verdict = [](std::uint8_t verdict) {
+    return [verdict](const Views& views) {
+      return !views.targets.empty() && views.targets[0].views.size() == 2 &&
+             views.targets[0].verdict == verdict;
+    };
+  };
+  const Views both = judge_until(true, has_verdict(io::TargetMessage::visible));
+  ASSERT_EQ(both.targets.size(), 1U);
+  EXPECT_EQ(both.header.frame_id, "base");
+  EXPECT_EQ(both.targets[0].best, "right");
+  EXPECT_EQ(both.targets[0].verdict, io::TargetMessage::visible) << both.targets[0].reason;
+  EXPECT_EQ(both.targets[0].views.at(0).verdict, io::TargetMessage::hidden);
+  const Views left = judge_until(false, has_verdict(io::TargetMessage::unknown));
+  ASSERT_EQ(left.targets.size(), 1U);
+  EXPECT_EQ(left.targets[0].verdict, io::TargetMessage::unknown) << "the right camera is silent";
+  EXPECT_NE(left.targets[0].reason.find("'right'"), std::string::npos) << left.targets[0].reason;
+  EXPECT_TRUE(fusion.contradictions().empty());
+  runner.stop();
+  EXPECT_FALSE(runner.fault());
+}
+
 }  // namespace
 }  // namespace penumbra::test

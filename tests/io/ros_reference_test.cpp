@@ -124,6 +124,49 @@ Json targets_json() {
           {"targets", {part, target_json("wrist")}}};
 }
 
+Json target_views_json() {
+  const Json none = {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}};
+  const Json left = {{"camera", "left"},
+                     {"has_stamp", true},
+                     {"stamp", {{"sec", 5}, {"nanosec", 1}}},
+                     {"verdict", 1},
+                     {"reason", ""},
+                     {"visible_fraction", 0.75},
+                     {"point", {{"x", 1.5}, {"y", 2}, {"z", 3}}},
+                     {"distance", 0.5},
+                     {"angle", 0.125}};
+  const Json right = {{"camera", "right"},
+                      {"has_stamp", false},
+                      {"stamp", {{"sec", 0}, {"nanosec", 0}}},
+                      {"verdict", 0},
+                      {"reason", "no view of it within the window of time"},
+                      {"visible_fraction", "NaN"},
+                      {"point", none},
+                      {"distance", "NaN"},
+                      {"angle", "NaN"}};
+  const Json part = {{"name", "part"},
+                     {"verdict", 1},
+                     {"reason", ""},
+                     {"best", "left"},
+                     {"point", {{"x", 1}, {"y", 2}, {"z", 3}}},
+                     {"covariance", {1, 0.5, 0.25, 0.5, 2, 0.125, 0.25, 0.125, 3}},
+                     {"contradicting", Json::array()},
+                     {"contradiction_distance", "NaN"},
+                     {"contradiction_chi_square", "NaN"},
+                     {"views", {left, right}}};
+  const Json tool = {{"name", "tool"},
+                     {"verdict", 0},
+                     {"reason", "cameras measure it at different places"},
+                     {"best", ""},
+                     {"point", none},
+                     {"covariance", std::vector<std::string>(9, "NaN")},
+                     {"contradicting", {"left", "right"}},
+                     {"contradiction_distance", 0.25},
+                     {"contradiction_chi_square", 40},
+                     {"views", Json::array()}};
+  return {{"header", header_json()}, {"targets", {part, tool}}};
+}
+
 Json camera_json() {
   const auto info = test::sample<CameraInfoMessage>();
   return {{"header", header_json()},
@@ -211,7 +254,8 @@ std::vector<Json> wanted_messages() {
           cloud_json(),
           diagnostics_json(),
           keypoints_json(),
-          targets_json()};
+          targets_json(),
+          target_views_json()};
 }
 
 TEST(RosReference, ReadsWhatWeWrite) {

@@ -136,6 +136,29 @@ inline io::TargetsMessage sample() {
   return {sample_header(), "base_link", "stale_joints", "elbow: 0.3 s old", {target, unknown}};
 }
 
+template <>
+inline io::TargetViewsMessage sample() {
+  io::TargetViewMessage part{.name = "part"};
+  part.verdict = io::TargetMessage::visible;
+  part.best = "left";
+  part.point = {1, 2, 3};
+  part.covariance = {1, 0.5, 0.25, 0.5, 2, 0.125, 0.25, 0.125, 3};
+  part.views = {{.camera = "left"}, {.camera = "right"}};
+  part.views[0].has_stamp = true;
+  part.views[0].stamp = 5'000'000'001;
+  part.views[0].verdict = io::TargetMessage::visible;
+  part.views[0].visible_fraction = 0.75;
+  part.views[0].point = {1.5, 2, 3};
+  part.views[0].distance = 0.5;
+  part.views[0].angle = 0.125;
+  part.views[1].reason = "no view of it within the window of time";
+  io::TargetViewMessage tool{.name = "tool", .reason = "cameras measure it at different places"};
+  tool.contradicting = {"left", "right"};
+  tool.contradiction_distance = 0.25;
+  tool.contradiction_chi_square = 40;
+  return {sample_header(), {part, tool}};
+}
+
 /// Calls `call` with a sample of each type that is written.
 template <typename F>
 void for_each_sample(const F& call) {
@@ -150,6 +173,7 @@ void for_each_sample(const F& call) {
   call(sample<io::DiagnosticArrayMessage>());
   call(sample<io::KeypointsMessage>());
   call(sample<io::TargetsMessage>());
+  call(sample<io::TargetViewsMessage>());
 }
 
 template <typename M>

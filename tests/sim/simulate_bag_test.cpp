@@ -203,7 +203,7 @@ TEST_F(SimulateBag, OfTwoCamerasIsJudgedTogether) {
     const json one = json::parse(read_file(path("one") / "report.json"));
     for (std::size_t i = 0; i < 3; ++i) {
       const json& view = views["frames"][i]["targets"].at(0)["views"];
-      const auto same = [&](const json& each) { return each["camera"] == name; };
+      const auto same = [camera = name](const json& each) { return each["camera"] == camera; };
       const auto found = std::find_if(view.begin(), view.end(), same);
       ASSERT_NE(found, view.end());
       EXPECT_EQ((*found)["verdict"], one["frames"][i]["targets"].at(0)["verdict"]);

@@ -8,6 +8,7 @@ import { linkNames } from './model/labels';
 import { Throttle } from './model/throttle';
 import { isSoftwareGl, SceneView, type ScenePart } from './scene/scene_view';
 import { TimelineView } from './timeline/timeline_view';
+import { CamerasPanel } from './view/cameras_panel';
 import { byId, setText } from './view/dom';
 import { calibrationDetails, frameDetails } from './view/frame_panel';
 import { ImageView } from './view/image_view';
@@ -41,6 +42,7 @@ export class Viewer {
   private calibration: Calibration | null = null; // how far the camera has moved; null: not known
   position = 0; // of the displayed frame in the timeline
   private readonly image: ImageView;
+  private readonly cameras: CamerasPanel | null = null; // of several cameras
   private readonly isLive: boolean;
   private readonly isSlow = isSoftwareGl();
   private readonly numbers: Throttle;
@@ -66,6 +68,10 @@ export class Viewer {
       seek: (frame) => source.seek(frame),
       select: (target) => this.select(target),
     });
+    if (session.cameras?.length)
+      this.cameras = new CamerasPanel(session.cameras, (...place) =>
+        this.scene?.setPlace(...place),
+      );
     this.scene?.updateTheme();
     document.addEventListener('theme', () => this.scene?.updateTheme());
     this.setSession(session);
@@ -116,6 +122,7 @@ export class Viewer {
     this.position = position;
     if (packet.live) this.calibration = packet.live.calibration ?? null;
     this.scene?.show(packet, this.step, this.selected);
+    this.cameras?.show(packet.frame, this.selected);
     if (this.scene)
       showSceneNote(sceneNoteOf(packet, packet.live?.missing ?? this.session.missing));
     this.timeline.setCurrent(position, packet.frame);
@@ -135,6 +142,7 @@ export class Viewer {
     if (!packet) return;
     this.scene?.show(packet, this.step, target);
     this.image.select(target);
+    this.cameras?.show(packet.frame, target);
     this.showTarget(packet);
   }
 

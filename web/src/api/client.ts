@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { ownRoot, type Views } from './cameras';
 import { parseJson, parsePacket, type Packet } from './packet';
 import type { PartName, Report, SceneIndex, Session } from './types';
 
@@ -40,12 +41,16 @@ const bytes = (response: Response): Promise<ArrayBuffer> => response.arrayBuffer
 const json = async <T>(path: string, signal?: AbortSignal): Promise<T> =>
   parseJson<T>(await get(path, (response) => response.text(), signal));
 
-export const fetchSession = (signal?: AbortSignal): Promise<Session> =>
-  json<Session>('/api/session', signal);
+/** @param root of a camera */
+export const fetchSession = (signal?: AbortSignal, root = ownRoot): Promise<Session> =>
+  json<Session>(`${root}/api/session`, signal);
 
 /** @param from first frame of the answer */
-export const fetchReport = (from = 0, signal?: AbortSignal): Promise<Report> =>
-  json<Report>(`/api/report?from=${from}`, signal);
+export const fetchReport = (from = 0, signal?: AbortSignal, root = ownRoot): Promise<Report> =>
+  json<Report>(`${root}/api/report?from=${from}`, signal);
+
+/** Fetches the verdicts over all cameras; null until all frames are judged. */
+export const fetchViews = (): Promise<Views | null> => json<Views | null>('/api/views');
 
 /** @throws ApiError of status 409 if the server or its scene changed */
 export async function fetchScene(
@@ -54,8 +59,8 @@ export async function fetchScene(
 ): Promise<{ index: SceneIndex; data: ArrayBuffer }> {
   const query = `?server=${encodeURIComponent(server)}&version=${version}`;
   const [index, data] = await Promise.all([
-    json<SceneIndex>(`/api/scene${query}`),
-    get(`/api/scene.bin${query}`, bytes),
+    json<SceneIndex>(`${ownRoot}/api/scene${query}`),
+    get(`${ownRoot}/api/scene.bin${query}`, bytes),
   ]);
   return { index, data };
 }
@@ -66,7 +71,8 @@ export async function fetchPacket(
   parts: readonly PartName[],
   step: number,
   signal?: AbortSignal,
+  root = ownRoot,
 ): Promise<Packet> {
   const query = `with=${parts.join(',')}&step=${step}`;
-  return parsePacket(await get(`/api/frames/${index}/packet?${query}`, bytes, signal));
+  return parsePacket(await get(`${root}/api/frames/${index}/packet?${query}`, bytes, signal));
 }

@@ -110,6 +110,8 @@ export interface Session {
   readonly camera: CameraInfo | null;
   readonly parts: readonly PartName[];
   readonly missing: readonly string[];
+  /** Names of all cameras; empty or absent: one without a name. */
+  readonly cameras?: readonly string[];
   /** Only live. */
   readonly diagnostics?: readonly Diagnostic[];
 }

@@ -57,7 +57,7 @@ export const verdictNames: Readonly<Record<Verdict, string>> = {
 export const verdicts = Object.keys(verdictNames) as Verdict[];
 
 /** Returns the verdict; `unknown` for one that this page does not know. */
-export const verdictOf = ({ verdict }: TargetReport): Verdict =>
+export const verdictOf = ({ verdict }: Pick<TargetReport, 'verdict'>): Verdict =>
   verdict in verdictNames ? verdict : 'unknown';
 
 export type Rgb = readonly [number, number, number];

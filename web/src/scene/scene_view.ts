@@ -15,7 +15,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Packet } from '../api/packet';
-import type { CameraInfo, Pose, SceneIndex } from '../api/types';
+import type { CameraInfo, Pose, SceneIndex, Vec3 } from '../api/types';
 import { CloudModel } from './cloud';
 import { Frustum } from './frustum';
 import { applyPose, RobotModel } from './robot';
@@ -37,6 +37,12 @@ export function isSoftwareGl(): boolean {
   return softwareNames.test(String(renderer));
 }
 
+/** One of several cameras; no pose: it is not known. */
+interface PlacedCamera {
+  readonly frustum: Frustum;
+  pose: Pose | null;
+}
+
 export class SceneView {
   readonly cloud = new CloudModel();
   /** Parts that the user hides; the caller shows the frame again after a change. */
@@ -47,6 +53,7 @@ export class SceneView {
   private readonly eye = new PerspectiveCamera(overviewFov, 1, 0.02, 60);
   private readonly controls: OrbitControls;
   private readonly frustum = new Frustum();
+  private readonly cameras = new Map<string, PlacedCamera>(); // if there are several
   private readonly grid = new GridHelper(4, 20, '#fff', '#fff');
   private robot: RobotModel | null = null;
   private camera: CameraInfo | null = null;
@@ -93,8 +100,9 @@ export class SceneView {
   updateTheme(): void {
     const { backgroundColor, color } = getComputedStyle(this.canvas);
     this.scene.background = new Color(backgroundColor);
-    for (const material of [this.grid.material, this.frustum.lines.material])
-      material.color.set(color);
+    const others = [...this.cameras.values()].map(({ frustum }) => frustum);
+    const frusta = [this.frustum, ...others].map(({ lines }) => lines.material);
+    for (const material of [this.grid.material, ...frusta]) material.color.set(color);
     this.targets.setLineColor(new Color(color));
     this.invalidate();
   }
@@ -115,6 +123,31 @@ export class SceneView {
     if (camera) this.frustum.setCamera(camera, frustumLength);
   }
 
+  /** Shows one of several cameras at its place; null: it is not known. */
+  setPlace(name: string, camera: CameraInfo | null, pose: Pose | null): void {
+    let placed = this.cameras.get(name);
+    if (!placed) {
+      placed = { frustum: new Frustum(), pose };
+      this.cameras.set(name, placed);
+      this.scene.add(placed.frustum.lines);
+      this.updateTheme();
+    }
+    if (camera) placed.frustum.setCamera(camera, frustumLength);
+    placed.pose = camera && pose;
+    this.showCameras();
+    this.invalidate();
+  }
+
+  private showCameras(): void {
+    const places = new Map<string, Vec3>();
+    for (const [name, { frustum, pose }] of this.cameras) {
+      const shown = this.hidden.has('camera') ? null : pose;
+      applyPose(frustum.lines, shown);
+      if (shown) places.set(name, [shown[0], shown[1], shown[2]]);
+    }
+    this.targets.namePlaces(places);
+  }
+
   /** @param step the cloud has every step-th pixel */
   show(packet: Packet, step: number, selected: string | null): void {
     const { camera_pose: cameraPose, link_poses: linkPoses, frame } = packet;
@@ -124,6 +157,7 @@ export class SceneView {
     if (this.camera) this.cloud.uniforms.metresPerDepth.value = step / this.camera.fx;
     const points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
     this.canvas.dataset['points'] = String(points);
+    this.showCameras();
     this.targets.show(isShown('targets') ? frame.targets : [], selected);
     if (this.robot) {
       const target = frame.targets.find(({ name }) => name === selected);

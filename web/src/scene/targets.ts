@@ -20,6 +20,7 @@ import {
 } from 'three';
 import type { TargetReport, Vec3, Verdict } from '../api/types';
 import { okabeIto, verdictOf, verdicts } from '../model/labels';
+import { element } from '../view/dom';
 import { placeNames, targetName, type PlacedName } from '../view/names';
 
 const colors: Readonly<Record<Verdict, string>> = {
@@ -76,7 +77,8 @@ interface Shown {
 /** The marks of a frame's targets, and their names as text over the scene. */
 export class TargetLayer {
   readonly root = new Group();
-  private shown: readonly Shown[] = [];
+  private marks: readonly Shown[] = [];
+  private places: readonly Shown[] = [];
 
   constructor(private readonly names: HTMLElement) {}
 
@@ -84,9 +86,18 @@ export class TargetLayer {
     lineMaterial.color.copy(color);
   }
 
+  /** Names places that are no targets. */
+  namePlaces(places: ReadonlyMap<string, Vec3>): void {
+    this.places = [...places].map(([name, at]) => ({
+      name: element('span', 'target-name', name),
+      anchor: new Vector3(...at),
+    }));
+    this.listNames();
+  }
+
   show(targets: readonly TargetReport[], selected: string | null): void {
     this.root.clear();
-    this.shown = targets.flatMap((target) => {
+    this.marks = targets.flatMap((target) => {
       const isSelected = target.name === selected;
       const at = this.addMarks(target, isSelected);
       if (!at) return [];
@@ -94,13 +105,17 @@ export class TargetLayer {
       name.classList.toggle('selected', isSelected);
       return [{ name, anchor: new Vector3(...at) }];
     });
-    this.names.replaceChildren(...this.shown.map(({ name }) => name));
+    this.listNames();
+  }
+
+  private listNames(): void {
+    this.names.replaceChildren(...[...this.marks, ...this.places].map(({ name }) => name));
   }
 
   placeNames(eye: Camera, canvas: HTMLCanvasElement): void {
     const at = new Vector3();
     const placed: PlacedName[] = [];
-    for (const { name, anchor } of this.shown) {
+    for (const { name, anchor } of [...this.marks, ...this.places]) {
       at.copy(anchor).project(eye);
       name.hidden = at.z >= 1 || Math.abs(at.x) >= 1 || Math.abs(at.y) >= 1;
       if (name.hidden) continue;

@@ -4,11 +4,13 @@ import assert from 'node:assert/strict';
 import { after, before } from 'node:test';
 import { example, launch, open, serve } from './browser.mjs';
 
-/** Returns an object that has `browser`, `server` and the server's `report` when the tests run. */
-export function served() {
+/**
+ * @param input what is served
+ * Returns an object that has `browser`, `server` and the server's `report` when the tests run. */
+export function served(input = example) {
   const shared = { browser: null, server: null, report: null };
   before(async () => {
-    [shared.browser, shared.server] = await Promise.all([launch(), serve(example)]);
+    [shared.browser, shared.server] = await Promise.all([launch(), serve(input)]);
     shared.report = await (await fetch(new URL('/api/report', shared.server.url))).json();
   });
   after(async () => {
