@@ -12,8 +12,11 @@
 
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
-#include <io/run/camera_views.hpp>
+#include <io/files/camera_views.hpp>
+#include <io/files/disk_file.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/run/output_bag.hpp>
+#include <io/web/camera_views_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -60,6 +63,10 @@ void judge_all(std::vector<CameraTask>& tasks, std::size_t workers,
   const auto work = [&] {
     for (std::size_t i = next++; i < tasks.size(); i = next++) try {
         judge(tasks[i], [&] { return go_on() && !has_fault; });
+      } catch (const InputError& error) {
+        tasks[i].fault =
+            std::make_exception_ptr(InputError("camera '" + tasks[i].name + "': " + error.what()));
+        has_fault = true;
       } catch (...) {
         tasks[i].fault = std::current_exception();
         has_fault = true;
@@ -78,6 +85,12 @@ void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t camer
               << " visible, " << target.partial << " partial, " << target.hidden << " hidden, "
               << target.held << " held, " << target.unknown << " unknown, " << target.out_of_view
               << " out of view; " << target.contradictions << " contradictions\n";
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  io::PendingFile pending(file);
+  io::write_file(pending.part(), text.data(), text.size());
+  pending.finish();
 }
 
 }  // namespace
@@ -109,9 +122,11 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
     status = std::max(status, status_of(task.result));
     runs.push_back(std::move(*task.views));
   }
-  const std::filesystem::path views = out / "views.json";
-  print_counts(io::write_views(views, arguments.judging.input.path.string(), runs), cameras.size());
-  std::cout << "all cameras: " << views.string() << '\n';
+  const io::CameraViews views = io::fuse_views(arguments.judging.input.path.string(), runs);
+  print_counts(io::counts_of(views), cameras.size());
+  write(out / "views.json", io::views_json(views));
+  if (arguments.output.report_page) write(out / "report.html", io::camera_views_page(views));
+  std::cout << "all cameras: " << (out / "views.json").string() << '\n';
   return status;
 }
 

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -23,7 +22,7 @@
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/bag/bag_reader.hpp>
-#include <io/run/camera_views.hpp>
+#include <io/files/camera_views.hpp>
 #include <io/run/judging.hpp>
 #include <io/web/cameras_view.hpp>
 #include <io/web/frame_store.hpp>
@@ -58,18 +57,19 @@ bool has_views(const fs::path& input) {
   return fs::exists(input / views_name, error) && !fs::exists(input / "recording.yaml", error);
 }
 
-/// Returns the cameras to show; none for the only one, without a name.
-std::vector<std::string> cameras_of(const io::InputOptions& input) {
-  if (has_views(input.path)) return io::cameras_of_views(input.path / views_name);
-  return input.camera.empty() ? io::cameras_of(input.path) : std::vector<std::string>();
-}
-
 /// Returns whether a run wrote this folder, or it is its report.json.
 bool is_run_folder(const fs::path& input) {
   std::error_code error;
   if (!fs::is_directory(input, error)) return input.filename() == report_name;
   return fs::exists(input / report_name, error) && !fs::exists(input / "recording.yaml", error) &&
          !fs::exists(input / "metadata.yaml", error);
+}
+
+/// Returns the cameras to show; none for the only one, without a name.
+std::vector<std::string> cameras_of(const io::InputOptions& input) {
+  if (has_views(input.path)) return io::cameras_of_views(input.path / views_name);
+  if (is_run_folder(input.path) || !input.camera.empty()) return {};
+  return io::cameras_of(input.path);
 }
 
 /// The content of the viewer: an input, which is judged meanwhile, or the results of a run.
@@ -222,9 +222,7 @@ io::SharedBytes views_of(const io::InputOptions& input, const ViewSources& sourc
   if (!are_over(sources)) return nullptr;
   std::vector<io::CameraRun> runs;
   for (const auto& source : sources) runs.push_back(*source->run());
-  std::ostringstream text;
-  static_cast<void>(io::write_views(text, input.path.string(), runs));
-  return io::shared_bytes(std::move(text).str());
+  return io::shared_bytes(io::views_json(io::fuse_views(input.path.string(), runs)));
 }
 
 }  // namespace

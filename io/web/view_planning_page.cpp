@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <io/web/html-inl.hpp>
+#include <io/web/verdict_bar-inl.hpp>
 #include <io/web/view_planning_page.hpp>
 
 namespace penumbra::io {
@@ -14,35 +15,8 @@ constexpr const char* heat_style = R"(<style>
 .heat td { padding: .2em .8em; border: 1px solid #fff; text-align: right; color: #161b22; }
 .heat th { padding: .2em .8em .2em 0; font-weight: normal; white-space: nowrap; }
 .heat .set { font-weight: bold; }
-.time { width: 100%; }
-.time th { padding: 0 .8em 0 0; font-weight: normal; white-space: nowrap; width: 1%; border: 0; }
-.time td { padding: 1px 0; border: 0; }
-.time svg { display: block; width: 100%; height: 16px; background: #009e73; }
-.key { display: inline-block; width: 1em; height: 1em; margin: 0 .3em 0 1em; vertical-align: -.15em; }
 </style>
 )";
-
-/// From the least to the most that is seen, with the viewer's colours. Visible is the background.
-struct VerdictLook {
-  Verdict verdict;
-  const char* name;
-  const char* color;
-};
-constexpr std::array verdict_looks = {VerdictLook{Verdict::unknown, "unknown", "#f0e442"},
-                                      VerdictLook{Verdict::out_of_view, "out of view", "#8b949e"},
-                                      VerdictLook{Verdict::held, "held", "#56b4e9"},
-                                      VerdictLook{Verdict::hidden, "hidden", "#d55e00"},
-                                      VerdictLook{Verdict::partial, "partly hidden", "#e69f00"},
-                                      VerdictLook{Verdict::visible, "visible", "#009e73"}};
-
-constexpr std::size_t most_columns = 500;  // of time
-
-std::size_t rank_of(Verdict verdict) {
-  return static_cast<std::size_t>(
-      std::find_if(verdict_looks.begin(), verdict_looks.end(),
-                   [&](const VerdictLook& look) { return look.verdict == verdict; }) -
-      verdict_looks.begin());
-}
 
 std::string percent(double share) { return number(100.0 * share, 1) + " %"; }
 
@@ -106,55 +80,32 @@ std::string heat_map(const ViewPlan& plan) {
   return html + "</table>\n";
 }
 
-/// The least that the cameras together see in each column of time.
+/// What the cameras together see in each frame.
 std::vector<std::size_t> ranks_of(const ViewPlan& plan, const std::vector<std::size_t>& cameras,
-                                  std::size_t target, std::size_t frames_each) {
-  std::vector<std::size_t> ranks;
-  for (std::size_t f = 0; f < plan.views.frames(); ++f) {
-    std::size_t most = 0;
-    for (const std::size_t c : cameras) most = std::max(most, rank_of(plan.views.at(c, f, target)));
-    if (f % frames_each == 0)
-      ranks.push_back(most);
-    else
-      ranks.back() = std::min(ranks.back(), most);
-  }
+                                  std::size_t target) {
+  std::vector<std::size_t> ranks(plan.views.frames(), 0);
+  for (std::size_t f = 0; f < ranks.size(); ++f)
+    for (const std::size_t c : cameras)
+      ranks[f] = std::max(ranks[f], rank_of(plan.views.at(c, f, target)));
   return ranks;
 }
 
-std::string time_row(const std::vector<std::size_t>& ranks) {
-  std::string svg = "<svg viewBox=\"0 0 " + std::to_string(ranks.size()) +
-                    " 1\" preserveAspectRatio=\"none\" shape-rendering=\"crispEdges\">";
-  for (std::size_t i = 0; i < ranks.size();) {
-    std::size_t end = i;
-    while (end < ranks.size() && ranks[end] == ranks[i]) ++end;
-    const VerdictLook& look = verdict_looks[ranks[i]];
-    if (look.verdict != Verdict::visible)
-      svg += "<rect x=\"" + std::to_string(i) + "\" width=\"" + std::to_string(end - i) +
-             "\" height=\"1\" fill=\"" + look.color + "\"/>";
-    i = end;
-  }
-  return svg + "</svg>";
-}
-
 std::string over_time(const ViewPlan& plan) {
-  const std::size_t frames_each = (plan.views.frames() + most_columns - 1) / most_columns;
+  const std::size_t each = frames_each(plan.views.frames());
   std::string html = "<h2>Over time</h2>\n<p>Frame " + std::to_string(plan.motion.front().index) +
                      " to " + std::to_string(plan.motion.back().index) +
                      ", from left to right. The best set shows the camera that "
                      "sees most.";
-  if (frames_each > 1)
-    html += " Each step is " + std::to_string(frames_each) +
+  if (each > 1)
+    html += " Each step is " + std::to_string(each) +
             " frames, and shows the one in which least is seen.";
-  for (auto look = verdict_looks.rbegin(); look != verdict_looks.rend(); ++look)
-    html += std::string("<span class=\"key\" style=\"background:") + look->color + "\"></span>" +
-            look->name;
-  html += "</p>\n";
+  html += verdict_key() + "</p>\n";
   for (std::size_t t = 0; t < plan.views.targets(); ++t) {
     html += "<h3>" + escaped(plan.target(t)) +
             "</h3>\n<table class=\"time heat\">\n<tr><th class=\"set\">best set</th><td>" +
-            time_row(ranks_of(plan, plan.best.back().candidates, t, frames_each)) + "</td></tr>\n";
+            verdict_bar(ranks_of(plan, plan.best.back().candidates, t)) + "</td></tr>\n";
     for (std::size_t c = 0; c < plan.candidates.size(); ++c)
-      html += "<tr>" + name_cell(plan, c) + "<td>" + time_row(ranks_of(plan, {c}, t, frames_each)) +
+      html += "<tr>" + name_cell(plan, c) + "<td>" + verdict_bar(ranks_of(plan, {c}, t)) +
               "</td></tr>\n";
     html += "</table>\n";
   }
@@ -164,7 +115,7 @@ std::string over_time(const ViewPlan& plan) {
 }  // namespace
 
 std::string view_planning_page(const ViewPlan& plan) {
-  std::string html = page_start("View planning for " + plan.input) + heat_style;
+  std::string html = page_start("View planning for " + plan.input) + verdict_bar_style + heat_style;
   if (plan.seen > plan.motion.size())
     html += "<p class=\"bad\">" + std::to_string(plan.seen - plan.motion.size()) + " of " +
             std::to_string(plan.seen) +

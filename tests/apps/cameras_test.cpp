@@ -79,7 +79,26 @@ TEST_F(CamerasTest, HiddenInOneCameraAndSeenInAnotherIsVisible) {
   EXPECT_EQ(target["best"], "left");
   EXPECT_EQ(target["covariance"].size(), 9U);
   ASSERT_EQ(target["point"].size(), 3U);
-  EXPECT_NEAR(target["point"][2], 0.5, 0.001) << "the depth image's";
+  constexpr double radius = 0.03, rounding = 0.001;  // metres; of whole pixels
+  EXPECT_NEAR(target["point"][2], 0.5 + radius / 2, rounding) << "behind the depth image's";
+}
+
+TEST_F(CamerasTest, TheReportHasAllCameras) {
+  write_yaml("    targets: behind.yaml\n");
+  ASSERT_EQ(run({"--report"}).status, 0);
+  const std::string page = read_file(out() / "report.html");
+  const char* const counts = "<td>part</td><td>2</td><td>0</td><td>0</td><td>0</td><td>0</td>";
+  for (const char* part : {counts, "href=\"left/report.html\"", "href=\"right/report.html\""})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_TRUE(fs::exists(out() / "right" / "report.html"));
+}
+
+TEST_F(CamerasTest, ViewRefusesWhatIsNotWhole) {
+  ASSERT_EQ(run().status, 0);
+  fs::remove_all(out() / "right");
+  expect_refused(penumbra({"view", out(), "--port", "0"}), {"right"});
+  write_file(out() / "views.json", "{");
+  expect_refused(penumbra({"view", out(), "--port", "0"}), {"views.json"});
 }
 
 TEST_F(CamerasTest, EachImageIsJudgedAtItsOwnStamp) {

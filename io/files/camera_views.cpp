@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
 #include <map>
 #include <set>
 #include <utility>
@@ -8,9 +7,8 @@
 #include <penumbra/base/version.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
+#include <io/files/camera_views.hpp>
 #include <io/files/json-inl.hpp>
-#include <io/files/pending_file.hpp>
-#include <io/run/camera_views.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -25,9 +23,9 @@ Json covariance_json(const Eigen::Matrix3d& covariance) {
   return values;
 }
 
-Json view_json(const TargetFusion& fusion, const CameraView& view) {
+Json view_json(const std::vector<std::string>& cameras, const CameraView& view) {
   const bool is_measured = view.point.has_value();
-  return {{"camera", fusion.cameras()[view.camera].name},
+  return {{"camera", cameras[view.camera]},
           {"stamp_ns", or_null(view.stamp)},
           {"verdict", to_string(view.verdict)},
           {"reason", or_null(view.reason)},
@@ -37,14 +35,14 @@ Json view_json(const TargetFusion& fusion, const CameraView& view) {
           {"angle_rad", is_measured ? Json(view.angle) : Json(nullptr)}};
 }
 
-Json target_json(const TargetFusion& fusion, const FusedTarget& target) {
-  const auto name = [&](std::size_t camera) { return fusion.cameras()[camera].name; };
+Json target_json(const std::vector<std::string>& cameras, const FusedTarget& target) {
+  const auto name = [&](std::size_t camera) { return cameras[camera]; };
   Json contradiction, views = Json::array();
   if (const auto& pair = target.contradiction)
     contradiction = {{"cameras", {name(pair->first), name(pair->second)}},
                      {"distance_m", pair->distance},
                      {"chi_square", pair->chi_square}};
-  for (const CameraView& view : target.views) views.push_back(view_json(fusion, view));
+  for (const CameraView& view : target.views) views.push_back(view_json(cameras, view));
   return {{"name", target.name},
           {"verdict", to_string(target.verdict)},
           {"reason", or_null(target.reason)},
@@ -108,45 +106,44 @@ void ViewRecorder::save(const FrameReport& report, const FrameData& frame,
   to_.save(report, frame, targets);
 }
 
-std::vector<FusedCounts> write_views(std::ostream& out, const std::string& input,
-                                     std::span<const CameraRun> runs) {
+CameraViews fuse_views(const std::string& input, std::span<const CameraRun> runs) {
   TargetFusion fusion = fusion_of(runs);
-  Json cameras = Json::array();
-  for (const ViewCamera& camera : fusion.cameras()) cameras.push_back(camera.name);
-  std::map<std::string, FusedCounts> counts;
-  out << "{\"penumbra\": " << json_text(PENUMBRA_VERSION) << ", \"input\": " << json_text(input)
-      << ", \"cameras\": " << json_text(cameras) << ", \"frames\": [";
-  const char* comma = "\n";
+  CameraViews views{.input = input, .cameras = {}, .frames = {}};
+  for (const ViewCamera& camera : fusion.cameras()) views.cameras.push_back(camera.name);
   for (const auto& [stamp, frames] : instants_of(runs)) {
     std::set<std::string> judged;
     for (const auto& [camera, frame] : frames) {
       fusion.add(camera, *frame);
       for (const auto& [name, view] : frame->views) judged.insert(name);
     }
-    Json targets = Json::array();
-    for (const std::string& name : judged) {
-      const FusedTarget target = fusion.fused(name);
-      count(target, counts[name]);
-      targets.push_back(target_json(fusion, target));
-    }
-    out << std::exchange(comma, ",\n")
-        << json_text({{"stamp_ns", stamp}, {"targets", std::move(targets)}});
+    FusedFrame& fused = views.frames.emplace_back(FusedFrame{stamp, {}});
+    for (const std::string& name : judged) fused.targets.push_back(fusion.fused(name));
   }
-  out << "\n]}\n";
+  return views;
+}
+
+std::vector<FusedCounts> counts_of(const CameraViews& views) {
+  std::map<std::string, FusedCounts> counts;
+  for (const FusedFrame& frame : views.frames)
+    for (const FusedTarget& target : frame.targets) count(target, counts[target.name]);
   std::vector<FusedCounts> all;
   for (auto& [name, of_target] : counts) all.push_back(std::move(of_target));
   return all;
 }
 
-std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
-                                     std::span<const CameraRun> runs) {
-  PendingFile pending(file);
-  std::ofstream out(pending.part(), std::ios::binary);
-  auto counts = write_views(out, input, runs);
-  out.close();
-  if (!out) throw InputError(file.string() + ": cannot be written");
-  pending.finish();
-  return counts;
+std::string views_json(const CameraViews& views) {
+  std::string text = "{\"penumbra\": " + json_text(PENUMBRA_VERSION) +
+                     ", \"input\": " + json_text(views.input) +
+                     ", \"cameras\": " + json_text(views.cameras) + ", \"frames\": [";
+  const char* comma = "\n";
+  for (const FusedFrame& frame : views.frames) {
+    Json targets = Json::array();
+    for (const FusedTarget& target : frame.targets)
+      targets.push_back(target_json(views.cameras, target));
+    text += std::exchange(comma, ",\n");
+    text += json_text({{"stamp_ns", frame.stamp}, {"targets", std::move(targets)}});
+  }
+  return text + "\n]}\n";
 }
 
 std::vector<std::string> cameras_of_views(const std::filesystem::path& file) {

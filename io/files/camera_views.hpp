@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,14 +51,26 @@ struct FusedCounts {
   std::size_t contradictions = 0;
 };
 
-/// Fuses the frames of all cameras in the order of their stamps and writes views.json
-/// (docs/recording.md). Returns the counts by target.
-std::vector<FusedCounts> write_views(std::ostream& out, const std::string& input,
-                                     std::span<const CameraRun> runs);
+/// The targets that were judged at one stamp, over all cameras.
+struct FusedFrame {
+  std::int64_t stamp;  ///< nanoseconds
+  std::vector<FusedTarget> targets;
+};
 
-/// The same into a file. Throws InputError if it cannot be written.
-std::vector<FusedCounts> write_views(const std::filesystem::path& file, const std::string& input,
-                                     std::span<const CameraRun> runs);
+/// What a run of several cameras says of its targets.
+struct CameraViews {
+  std::string input;
+  std::vector<std::string> cameras;
+  std::vector<FusedFrame> frames;  ///< in the order of their stamps
+};
+
+[[nodiscard]] CameraViews fuse_views(const std::string& input, std::span<const CameraRun> runs);
+
+/// Returns the counts by target.
+[[nodiscard]] std::vector<FusedCounts> counts_of(const CameraViews& views);
+
+/// Returns the content of views.json (docs/scene.md).
+[[nodiscard]] std::string views_json(const CameraViews& views);
 
 /// Returns the cameras of a views.json. Throws InputError if it is none.
 [[nodiscard]] std::vector<std::string> cameras_of_views(const std::filesystem::path& file);
