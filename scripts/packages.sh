@@ -5,7 +5,7 @@
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
 # matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
-# page's tests), docs (the site), bench, lint.
+# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh).
 # OpenGL is tested on Mesa's software driver; the driver of a GPU next to libegl1 and libopengl0
 # also works.
 set -euo pipefail
@@ -21,11 +21,12 @@ research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
       clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-ros
-      python3-catkin-pkg python3-pytest python3-mypy python3-yaml python3-pil)
+      python3-catkin-pkg python3-distributed python3-pytest python3-mypy python3-yaml python3-pil)
 web=(chromium fonts-dejavu-core nodejs npm)
 docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
+cross=(crossbuild-essential-arm64 qemu-user-static)
 
 install=false
 if [[ ${1:-} == --install ]]; then
@@ -40,12 +41,12 @@ fi
 packages=()
 for group in "$@"; do
   case $group in
-    build | ros | python | sim | research | test | web | docs | bench | lint)
+    build | ros | python | sim | research | test | web | docs | bench | lint | cross)
       declare -n of_group=$group
       packages+=("${of_group[@]}")
       ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, ros, python, sim, research, test, web, docs, bench, lint)" >&2
+      echo "packages.sh: unknown group '$group' (build, ros, python, sim, research, test, web, docs, bench, lint, cross)" >&2
       exit 2
       ;;
   esac
