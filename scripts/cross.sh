@@ -25,6 +25,10 @@ if [[ ! -e $sysroot/complete ]]; then
   for package in "$apt"/cache/archives/*.deb; do
     dpkg-deb --fsys-tarfile "$package" | tar -x -C "$sysroot" --keep-directory-symlink
   done
+  # As Debian's alternatives do.
+  for library in blas lapack; do
+    ln -s "$library/lib$library.so.3" "$sysroot/usr/lib/aarch64-linux-gnu/lib$library.so.3"
+  done
   # Absolute paths would lead out of it.
   find "$sysroot/usr" -name '*.cmake' -exec sed -i -E "s#(^|[^[:alnum:]_.}/-])/usr/(lib|include)#\1$PWD/$sysroot/usr/\2#g" {} +
   find "$sysroot" -type l -lname '/*' | while read -r link; do

@@ -2,8 +2,8 @@
 """Which pages there are, in which order."""
 
 PAGES = {
-    "Start": ["getting-started", "method"],
-    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "scene", "calibration"],
+    "Start": ["getting-started", "install", "method"],
+    "Use": ["cloud", "targets", "ros2", "viewer", "python", "cpp", "tuning", "scene", "calibration", "batch"],
     "Details": ["recording", "tracking", "time"],
     "Reference": ["performance", "architecture"],
 }

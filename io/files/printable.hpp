@@ -7,7 +7,9 @@
 namespace penumbra::io {
 
 /// Returns whether a character ends a line or controls a terminal.
-[[nodiscard]] constexpr bool is_control(char c) { return (c >= 0 && c < ' ') || c == 127; }
+[[nodiscard]] constexpr bool is_control(char c) {
+  return static_cast<unsigned char>(c) < ' ' || c == 127;
+}
 
 /// Returns a foreign text for a message of one line: question marks for everything but visible
 /// ASCII, cut after 80 characters.

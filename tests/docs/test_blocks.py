@@ -35,8 +35,12 @@ def check_detector(out):
     assert len(re.findall(r"^cylinder_7 (?:visible|partial|hidden|unknown)", out, re.MULTILINE)) == 12
 
 
+def check_batch(out):
+    assert out.endswith("arm_over_table done 12\n")
+
+
 # What the programs of a document print, read once more.
-SAID = {"targets.md": check_detector, "python.md": check_manual}
+SAID = {"batch.md": check_batch, "targets.md": check_detector, "python.md": check_manual}
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS

@@ -26,6 +26,7 @@ NOT_RUN = {
     r"python3 -m venv|~/penumbra-python/bin/pip": "a wheel: tests/python/test_wheel.py",
     r"build/dev/bench/": "a benchmark on real recordings",
     r"ros2 |rviz2 |colcon |rosdep |git clone |sudo apt ": "ROS 2's own: scripts/test_ros.sh",
+    r"python3 -m penumbra\.batch": "tests/python/test_batch.py",
     r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",
     r"sudo sysctl|echo net\.core": "the machine's settings",
 }
