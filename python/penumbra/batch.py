@@ -243,13 +243,16 @@ def _on_cluster(
         with client:
             print(f"dashboard: {client.dashboard_link}", file=sys.stderr)
             path_of = {client.submit(_judge, *job, pure=False): job[0] for job in jobs}
-            for future in distributed.as_completed(path_of):
+            for future in distributed.as_completed(list(path_of)):
+                path = path_of.pop(future)
                 try:
-                    yield future.result()
+                    record = future.result()
                 except distributed.scheduler.KilledWorker:
                     fault = "its workers died, all of them"
-                    path = path_of[future]
-                    yield {"input": path, "result": "", "status": "failed", "fault": fault}
+                    record = {"input": path, "result": "", "status": "failed", "fault": fault}
+                # Or the death of the worker that holds it would have it made again.
+                future.release()
+                yield record
 
 
 def _print_progress(done: int, all_inputs: int, record: dict[str, Any]) -> None:
