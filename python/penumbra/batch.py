@@ -7,6 +7,7 @@ python3 -m penumbra.batch INPUT... -o OUT [-- options of penumbra run]
 from __future__ import annotations
 
 import argparse
+import collections
 import csv
 import ctypes
 import glob
@@ -31,6 +32,8 @@ __all__ = ["run"]
 program = pathlib.Path(__file__).parent.absolute() / "bin" / "penumbra"
 record_name = "batch.json"
 part_mark = ".part-"
+nothing_judged = 2  # exit status of penumbra run
+libc = ctypes.CDLL(None)
 # A worker that dies is not the input's fault: the scheduler gives the input to another one.
 most_deaths = 100
 
@@ -65,20 +68,21 @@ def _result_name(path: pathlib.Path) -> str:
 
 def _die_with_parent() -> None:
     set_death_signal = 1
-    ctypes.CDLL(None).prctl(set_death_signal, signal.SIGKILL)
+    libc.prctl(set_death_signal, signal.SIGKILL)
 
 
-def _numbers(report: pathlib.Path) -> dict[str, Any]:
-    with report.open(encoding="utf-8") as file:
-        summary = json.load(file)["summary"]
-    numbers = {"frames": summary["frames"], "bad_frames": summary["bad_frames"]}
-    for label, count in summary["pixels"].items():
-        numbers[f"pixels_{label}"] = count
-    numbers["targets"] = len(summary["targets"])
-    for target in summary["targets"]:
-        for verdict, count in target["verdicts"].items():
-            numbers[verdict] = numbers.get(verdict, 0) + count
-    return numbers
+def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
+    """The sums over the reports, one of each camera."""
+    numbers: collections.Counter[str] = collections.Counter()
+    for report in reports:
+        with report.open(encoding="utf-8") as file:
+            summary = json.load(file)["summary"]
+        numbers.update({"frames": summary["frames"], "bad_frames": summary["bad_frames"]})
+        numbers.update({f"pixels_{label}": n for label, n in summary["pixels"].items()})
+        numbers.update({"targets": len(summary["targets"])})
+        for target in summary["targets"]:
+            numbers.update(target["verdicts"])
+    return dict(numbers)
 
 
 def _judge(path: str, options: Sequence[str], output: str, fingerprint: str) -> dict[str, Any]:
@@ -92,13 +96,15 @@ def _judge(path: str, options: Sequence[str], output: str, fingerprint: str) -> 
     start = time.monotonic()
     done = subprocess.run(
         [program, "run", path, "-o", part / "run", *threads, *options],
-        capture_output=True, text=True, errors="replace", preexec_fn=_die_with_parent, check=False,
+        capture_output=True, text=True, errors="replace", preexec_fn=_die_with_parent,
+        start_new_session=True, check=False,
     )  # fmt: skip
+    if done.returncode not in (0, nothing_judged):  # not the input's fault: it is tried again
+        shutil.rmtree(part, ignore_errors=True)
+        raise RuntimeError(f"{path}: penumbra run ended with status {done.returncode}")
     record = {"input": path, "result": folder.name, "status": "done", "penumbra": __version__}
     if done.returncode == 0:
-        reports = sorted((part / "run").rglob("report.json"))
-        if len(reports) == 1:
-            record |= _numbers(reports[0])
+        record |= _numbers((part / "run").rglob("report.json"))
     else:
         lines = done.stderr.strip().splitlines() or [f"exit status {done.returncode}"]
         record |= {"status": "failed", "fault": lines[-1].removeprefix("penumbra: ")}
@@ -135,11 +141,12 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
             for line in lines:
                 words = shlex.split(line, comments=True)
                 if words:
-                    found[os.path.abspath(pathlib.Path(name).parent / words[0])] = words[1:]
+                    path = os.path.abspath(pathlib.Path(name).parent / words[0])
+                    found[path.removesuffix("/recording.yaml")] = words[1:]
             continue
         paths = [name] if os.path.lexists(name) else sorted(glob.glob(name))
         for path in paths or [name]:  # `penumbra run` says what is wrong
-            found[os.path.abspath(path)] = []
+            found[os.path.abspath(path).removesuffix("/recording.yaml")] = []
     if not found:
         raise InputError("no input is given")
     return list(found.items())
@@ -247,9 +254,8 @@ def _on_cluster(
                 path = path_of.pop(future)
                 try:
                     record = future.result()
-                except distributed.scheduler.KilledWorker:
-                    fault = "its workers died, all of them"
-                    record = {"input": path, "result": "", "status": "failed", "fault": fault}
+                except Exception as error:  # its workers died, a disk is full: not kept
+                    record = {"input": path, "result": "", "status": "failed", "fault": str(error)}
                 # Or the death of the worker that holds it would have it made again.
                 future.release()
                 yield record
@@ -303,4 +309,6 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    from penumbra import batch  # workers import it by this name
+
+    sys.exit(batch.main())
