@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
 set(libraries penumbra)
-if(TARGET penumbra_live)
+if(TARGET penumbra_live AND PENUMBRA_INSTALL_LIVE)
   # Penumbra::live is for ros/penumbra_ros alone: its headers may change at any time.
   list(APPEND libraries penumbra_live)
   foreach(room files ros mcap bag assembly live)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes man pages and completions for bash and zsh from what `penumbra --help` prints.
 
-command_pages.py PROGRAM FOLDER writes man/man1/*.1, bash-completion/completions/penumbra and
-zsh/site-functions/_penumbra below FOLDER.
+command_pages.py FOLDER [EMULATOR...] PROGRAM writes man/man1/*.1,
+bash-completion/completions/penumbra and zsh/site-functions/_penumbra below FOLDER.
 """
 
 import pathlib
@@ -28,8 +28,8 @@ class Help(NamedTuple):
     notes: str
 
 
-def read_help(program: str, *command: str) -> Help:
-    text = subprocess.run([program, *command, "--help"], check=True, capture_output=True, text=True)
+def read_help(program: list[str], *command: str) -> Help:
+    text = subprocess.run([*program, *command, "--help"], check=True, capture_output=True, text=True)
     lines = text.stdout.splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith("Usage: "))
     about = " ".join(lines[:at]).strip()
@@ -127,8 +127,8 @@ _penumbra "$@"
 
 
 def main() -> None:
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
-    version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True)
+    folder, program = pathlib.Path(sys.argv[1]), sys.argv[2:]
+    version = subprocess.run([*program, "--version"], check=True, capture_output=True, text=True)
     top = read_help(program)
     commands = {option.names[0]: read_help(program, option.names[0])
                 for option in top.groups["Subcommands"]}

@@ -5,7 +5,8 @@
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
 # matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
-# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh).
+# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh), deb (Debian packages, with
+# build, ros, sim and python).
 # OpenGL is tested on Mesa's software driver; the driver of a GPU next to libegl1 and libopengl0
 # also works.
 set -euo pipefail
@@ -15,7 +16,7 @@ build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshopt
        libjpeg-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
 ros=(cyclonedds-dev nettle-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
-        python3-matplotlib)
+        python3-matplotlib patchelf)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev
@@ -27,6 +28,7 @@ docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 cross=(crossbuild-essential-arm64 qemu-user-static)
+deb=(dpkg-dev debhelper dh-python lintian)
 
 install=false
 if [[ ${1:-} == --install ]]; then
@@ -34,22 +36,19 @@ if [[ ${1:-} == --install ]]; then
   shift
 fi
 if (($# == 0)); then
-  sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 
+groups=" build ros python sim research test web docs bench lint cross deb "
 packages=()
 for group in "$@"; do
-  case $group in
-    build | ros | python | sim | research | test | web | docs | bench | lint | cross)
-      declare -n of_group=$group
-      packages+=("${of_group[@]}")
-      ;;
-    *)
-      echo "packages.sh: unknown group '$group' (build, ros, python, sim, research, test, web, docs, bench, lint, cross)" >&2
-      exit 2
-      ;;
-  esac
+  if [[ $groups != *" $group "* ]]; then
+    echo "packages.sh: unknown group '$group' (one of:${groups% })" >&2
+    exit 2
+  fi
+  declare -n of_group=$group
+  packages+=("${of_group[@]}")
 done
 
 if ! $install; then

@@ -119,7 +119,7 @@ check_tidy() {
 }
 
 groups=(build ros python sim research test web lint)
-! $full || groups+=(bench docs)
+! $full || groups+=(bench docs deb)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
 
 require=opengl,simulation
@@ -177,6 +177,7 @@ check "build (release)" build release all "${everything[@]}" "$not_in_release" "
 if $full; then
   check "page in a browser" page
   check "docs" scripts/docs.sh build/docs/html build/release
+  check "Debian packages" scripts/deb.sh
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   check "a great bag is streamed" build/release/bench/mcap_benchmark 5
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
