@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the wheel: CMake makes the module and the command line that is shipped beside it.
 
-The version is CMake's; CMake options go into the environment variable CMAKE_ARGS.
+The version is CMake's; CMake options go into the environment variable CMAKE_ARGS. The libraries that
+a Linux machine may lack are in the wheel.
 """
 
 import os
 import pathlib
+import platform
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -17,12 +20,29 @@ from setuptools.command.build_ext import build_ext
 ROOT = pathlib.Path(__file__).parent.absolute()
 PARTS = ["-DPENUMBRA_BUILD_TESTS=OFF", "-DPENUMBRA_BUILD_BENCHMARKS=OFF", "-DPENUMBRA_BUILD_EXAMPLES=OFF",
          "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON"]
+# Every machine has these: the policy of manylinux (PEP 600).
+SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|gcc_s|stdc\+\+|z))\.so\b.*")
 
 
 def version() -> str:
     found = re.search(r"project\(Penumbra VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
     assert found, "CMakeLists.txt tells no version"
     return found[1]
+
+
+def bundle(*programs: pathlib.Path) -> None:
+    """Copies the shared libraries of programs beside them, where the programs look for them."""
+    folder = programs[0].parent / "lib"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for program in programs:
+        told = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
+        for name, path in re.findall(r"(\S+) => (/\S+)", told):
+            if not SYSTEM.fullmatch(name):
+                shutil.copy(path, folder / name)
+    for file in [*programs, *folder.iterdir()]:
+        found_in = "$ORIGIN/" + os.path.relpath(folder, file.parent)
+        subprocess.run(["patchelf", "--set-rpath", found_in, file], check=True)
 
 
 class CMakeBuild(build_ext):
@@ -39,7 +59,10 @@ class CMakeBuild(build_ext):
                        check=True)
         subprocess.run(["cmake", "--install", build, "--component", "python", "--strip", "--prefix",
                         module.parent.parent], check=True)
+        bundle(module, module.parent / "bin" / "penumbra")
 
 
 setup(version=version(), ext_modules=[Extension("penumbra._core", sources=[])],
-      cmdclass={"build_ext": CMakeBuild})
+      cmdclass={"build_ext": CMakeBuild},
+      options={"bdist_wheel": {"plat_name": "manylinux_{}_{}".format(
+          platform.libc_ver()[1].replace(".", "_"), platform.machine())}})

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`pip install --no-build-isolation .` in a virtual environment, without the net."""
+"""A wheel, made and installed in a virtual environment without the net, brings its libraries along."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -34,7 +35,11 @@ def test_the_wheel_is_built_offline_and_works(tmp_path):
 
     step(sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv")
     python = tmp_path / "venv" / "bin" / "python"
-    step(python, "-m", "pip", "install", "--no-build-isolation", ROOT)
+    step(python, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "-w", tmp_path, ROOT)
+    step(python, "-m", "pip", "install", *tmp_path.glob("penumbra-*manylinux*.whl"))
+    libraries = step(python, "-m", "penumbra", "doctor").split("LOADED FROM")[1]
+    loaded = re.findall(r"/\S+", libraries)
+    assert len(loaded) >= 5 and all(path.startswith(str(tmp_path)) for path in loaded), libraries
     assert int(step(python, "-c", CHECK, SHIPPED)) > 200_000
     told = step(python, "-m", "penumbra", "run", SHIPPED, "-o", tmp_path / "out")
     assert "12" in told and (tmp_path / "out" / "report.json").exists()
