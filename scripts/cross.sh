@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # scripts/cross.sh [CTEST OPTION...]: builds for 64-bit ARM and runs the tests under qemu. Without
-# OpenGL, the simulation and Python. Debian 12; root only if packages are missing.
+# OpenGL, the simulation and Python. Debian 12; root only if packages are missing or the kernel does
+# not know qemu.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sysroot=build/arm64-sysroot
@@ -40,4 +41,12 @@ fi
 
 cmake --preset arm64
 cmake --build --preset arm64
+
+# Tests start programs for arm64. systemd lets the kernel run these with qemu; a container may lack it.
+export QEMU_LD_PREFIX=$PWD/$sysroot
+kernel=/proc/sys/fs/binfmt_misc
+if [[ ! -e $kernel/qemu-aarch64 ]]; then
+  [[ -e $kernel/register ]] || mount -t binfmt_misc none $kernel
+  cat /usr/lib/binfmt.d/qemu-aarch64.conf >$kernel/register
+fi
 ctest --preset arm64 "$@"

@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # scripts/deb.sh [OPTION OF dpkg-buildpackage...]: Debian packages of the last commit in build/deb,
-# checked by lintian. docs/install.md tells how to cross-build them for arm64.
+# checked by lintian. To cross-build: scripts/deb.sh -aarm64 -Pcross
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# To cross-build, apt-get build-dep gets the libraries.
-(($#)) || scripts/packages.sh --install build ros sim python deb
-rm -rf build/deb
+scripts/packages.sh --install deb
+rm -rf build/deb/penumbra
 git clone -q . build/deb/penumbra
 cd build/deb/penumbra
-dpkg-buildpackage -us -uc -b "$@"
+if ! dpkg-checkbuilddeps "$@" 2>/dev/null; then
+  as_root=()
+  ((EUID == 0)) || as_root=(sudo)
+  "${as_root[@]}" apt-get build-dep -qq -y --no-install-recommends "$@" ./ >/dev/null
+fi
+DEB_BUILD_OPTIONS=noautodbgsym dpkg-buildpackage -us -uc -b "$@"
 lintian --fail-on error ../penumbra_*.changes
 ls -l ../*.deb

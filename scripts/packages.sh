@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# All Debian package names are here.
+# The names of Debian's packages.
 #   scripts/packages.sh GROUP...            prints the packages of the groups
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
 # matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
-# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh), deb (Debian packages, with
-# build, ros, sim and python).
+# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh), deb (scripts/deb.sh; what
+# the packages are built with is in debian/control).
 # OpenGL is tested on Mesa's software driver; the driver of a GPU next to libegl1 and libopengl0
 # also works.
 set -euo pipefail
@@ -28,7 +28,7 @@ docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 cross=(crossbuild-essential-arm64 qemu-user-static)
-deb=(dpkg-dev debhelper dh-python lintian)
+deb=(dpkg-dev lintian)
 
 install=false
 if [[ ${1:-} == --install ]]; then

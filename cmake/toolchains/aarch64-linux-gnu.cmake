@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# Builds for 64-bit ARM with Debian's cross compiler. PENUMBRA_SYSROOT: a folder with the libraries for
-# arm64, as scripts/cross.sh makes it.
+# Builds for 64-bit ARM with Debian's cross compiler and the libraries that scripts/cross.sh unpacks.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(PENUMBRA_SYSROOT "${CMAKE_CURRENT_LIST_DIR}/../../build/arm64-sysroot" CACHE PATH "Libraries for arm64")
-list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PENUMBRA_SYSROOT)
-get_filename_component(CMAKE_SYSROOT ${PENUMBRA_SYSROOT} ABSOLUTE)
+get_filename_component(CMAKE_SYSROOT ${CMAKE_CURRENT_LIST_DIR}/../../build/arm64-sysroot ABSOLUTE)
 
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
