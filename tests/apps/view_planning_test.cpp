@@ -123,7 +123,7 @@ TEST_F(ViewPlanningTest, RefusesWithOneLine) {
        {"targets.yaml", "'cup'", "pixels"}},
       {one, "targets:\n- {name: cup, keypoint: [1, 1]}\n", {}, {"targets.yaml", "'cup'", "pixels"}},
       {one, "targets: []\n", {}, {"targets.yaml", "no targets"}},
-      {one, hole, {"--cameras", "2"}, {"--cameras 2", "poses.csv", "1 candidate"}},
+      {one, hole, {"--cameras", "2"}, {"--cameras", "poses.csv", "candidates, 1"}},
       {one, hole, {"--cameras", "0"}, {"--cameras"}},
       {one, hole, {"--target-topic", "/found"}, {"--target-topic"}},
       {one, hole, {"--threads", "0"}, {"--threads"}}};
