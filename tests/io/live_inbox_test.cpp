@@ -415,26 +415,5 @@ TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
   EXPECT_NE(judge(start + 10 * seconds), "ok") << "the last received pose is too old";
 }
 
-TEST(LiveTargets, ComeWithTheNextImage) {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/wrist"};
-  LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-  bench.tell_all();
-  bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
-  io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-  bench.tell("/wrist", encoded(pose));
-  bench.tell_joints(start);
-  bench.tell_depth(start);
-  EXPECT_EQ(bench.work(), 1U);
-  const auto targets = bench.results.last<io::TargetsMessage>(io::Result::targets).targets;
-  ASSERT_EQ(targets.size(), 1U);
-  EXPECT_EQ(targets[0].name, "/wrist");
-  EXPECT_EQ(targets[0].verdict, io::TargetMessage::visible);
-}
-
 }  // namespace
 }  // namespace penumbra::test
