@@ -136,7 +136,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_attached(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& message, const auto&, std::int64_t now) {
-    const std::string fault = robot_.take_attached(message);
+    const std::string fault = robot_.take_attached(message, topics_[topic].robot);
     if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
   });
 }
