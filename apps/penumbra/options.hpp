@@ -133,7 +133,8 @@ void add_judging(CLI::App& app, io::JudgingOptions& judging,
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
 /// Refuses a name below which results cannot come.
-void check_camera_name(const std::string& name);
+void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
+                const std::string& depth_topic);
 
 /// Refuses options that the chosen renderer does not use.
 void check_renderer(Backend backend, const RendererOptions& options);
