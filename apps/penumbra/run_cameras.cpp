@@ -81,10 +81,13 @@ void judge_all(std::vector<CameraTask>& tasks, std::size_t workers,
 
 void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t cameras) {
   for (const io::FusedCounts& target : targets)
-    std::cout << "target " << target.name << " over " << cameras << " cameras: " << target.visible
-              << " visible, " << target.partial << " partial, " << target.hidden << " hidden, "
-              << target.held << " held, " << target.unknown << " unknown, " << target.out_of_view
-              << " out of view; " << target.contradictions << " contradictions\n";
+    std::cout << "target " << target.name << " over " << cameras
+              << " cameras: " << target.times(Verdict::visible) << " visible, "
+              << target.times(Verdict::partial) << " partial, " << target.times(Verdict::hidden)
+              << " hidden, " << target.times(Verdict::unknown) << " unknown, "
+              << target.times(Verdict::out_of_view) << " out of view, "
+              << target.times(Verdict::held) << " held; " << target.contradictions
+              << " contradictions\n";
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
