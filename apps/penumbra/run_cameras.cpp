@@ -6,6 +6,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include <penumbra/base/error.hpp>
@@ -90,6 +91,16 @@ void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t camer
               << " contradictions\n";
 }
 
+/// Removes what an earlier run says over all cameras, as this run may fail.
+void remove_former(const std::filesystem::path& out) {
+  std::error_code error;
+  const std::filesystem::path views = out / "views.json";
+  if (std::filesystem::remove(views, error)) std::filesystem::remove(out / "report.html", error);
+  if (error)
+    throw InputError(views.string() + ": of an earlier run, cannot be removed (" + error.message() +
+                     "); choose another folder with -o");
+}
+
 void write(const std::filesystem::path& file, const std::string& text) {
   io::PendingFile pending(file);
   io::write_file(pending.part(), text.data(), text.size());
@@ -113,6 +124,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
         {.name = camera.name, .arguments = arguments_of(arguments, camera, threads / workers)});
     io::check_output_folder(tasks.back().arguments.output);
   }
+  remove_former(out);
   catch_interrupts();
   judge_all(tasks, static_cast<std::size_t>(workers), [] { return !was_interrupted(); });
 
