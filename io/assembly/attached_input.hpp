@@ -20,9 +20,9 @@ class AttachedInput {
   /// Shapes whose prepared meshes are kept, so that an object attached again costs nothing.
   static constexpr std::size_t max_kept = 32;
 
-  /// `robot`: of several robots, its name, which begins the names of its links and objects.
   /// Return what cannot be drawn and why, one line; empty: nothing. Such a body is attached without
-  /// a mesh, which makes its frames `missing_link`.
+  /// a mesh, which makes its frames `missing_link`. `robot`: of several robots, the name that
+  /// begins those of its links and objects.
   std::string take(const AttachedObjectMessage& message, std::int64_t now, Attachments& to,
                    const std::string& robot = {});
   std::string take(const PlanningSceneMessage& message, std::int64_t now, Attachments& to,
