@@ -71,16 +71,13 @@ void bind_target_fusion(py::module_& m) {
   bind_views(m);
   py::class_<TargetFusionConfig> config(m, "TargetFusionConfig", "When views belong together.");
   using C = TargetFusionConfig;
-  bind_fields(config, Field{"window", &C::window, "Seconds: older views count as unknown."},
-              Field{"target_speed", &C::target_speed, "Metres per second, at most."},
-              Field{"contradiction_bound", &C::contradiction_bound,
-                    "Chi-square of 3 degrees of freedom beyond which points contradict."});
+  bind_fields(config, Field{"window", &C::window, "Seconds: older views count as unknown."});
   py::class_<TargetFusion>(m, "TargetFusion",
                            "Combines what several cameras say of the same targets into one verdict "
                            "for each name: docs/scene.md.")
       .def(py::init<std::vector<ViewCamera>, const TargetFusionConfig&>(), py::arg("cameras"),
            py::arg("config") = TargetFusionConfig(),
-           "Raises InputError for no camera, a name used twice and settings that are not positive.")
+           "Raises InputError for no camera, a name used twice and a window that is not positive.")
       .def_property_readonly(
           "cameras", [](const TargetFusion& self) { return shown(self.cameras()); },
           "In the given order.")

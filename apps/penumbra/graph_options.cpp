@@ -63,8 +63,7 @@ void add_cameras(CLI::App& app, LiveArguments& live) {
            "several times. Default: the only one, found by type and name",
            "NAME=TOPIC", [&](const std::string& text) {
              const auto [name, topic] = to_pair("--camera", text, "NAME=TOPIC of depth images");
-             check_camera_name(name);
-             live.cameras.push_back({name, topic});
+             add_camera(live.cameras, name, topic);
            });
 }
 
@@ -84,12 +83,16 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
 
 }  // namespace
 
-void check_camera_name(const std::string& name) {
+void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
+                const std::string& depth_topic) {
   try {
     static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
   } catch (const InputError&) {
     refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
   }
+  for (const NamedCamera& camera : cameras)
+    if (camera.name == name) throw InputError("--camera: " + name + " is given twice");
+  cameras.push_back({name, depth_topic});
 }
 
 void add_topics(CLI::App& app, TopicsArguments& topics) {
@@ -154,10 +157,6 @@ void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   if (live.cameras.empty()) return;
   if (topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");
-  for (std::size_t i = 0; i < live.cameras.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (live.cameras[i].name == live.cameras[j].name)
-        throw InputError("--camera: the name '" + live.cameras[i].name + "' is given twice");
   if (live.cameras.size() == 1) return;
   const auto refuse = [](const char* option) {
     throw InputError(

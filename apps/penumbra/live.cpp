@@ -111,13 +111,13 @@ std::optional<io::CameraInputOptions> find_camera(const LiveArguments& arguments
                                                   const io::CameraInputOptions& common,
                                                   Diagnostics& diagnostics, StopSignal& stop) {
   const Clock::time_point begin = Clock::now();
-  Clock::time_point told = begin;
+  Clock::time_point reported = begin;
   while (!stop.wait(discovery_step)) {
-    if (const auto chosen = search.look()) return found_camera(*chosen, common);
+    if (const auto chosen = search.find()) return found_camera(*chosen, common);
     if (arguments.duration && Clock::now() - begin > to_duration(*arguments.duration))
       throw InputError("no camera was found: " + search.why());
-    if (Clock::now() - told < report_period) continue;
-    told = Clock::now();
+    if (Clock::now() - reported < report_period) continue;
+    reported = Clock::now();
     diagnostics.tell_waiting(search.why());
   }
   return std::nullopt;

@@ -85,7 +85,7 @@ io::BagOptions searched_topics(const LiveArguments& arguments, const io::NameRes
 CameraSearch::CameraSearch(const io::Participant& graph, io::BagOptions topics)
     : graph_(graph), topics_(std::move(topics)), since_(Clock::now()) {}
 
-std::optional<io::BagTopics> CameraSearch::look() {
+std::optional<io::BagTopics> CameraSearch::find() {
   const auto topics = published_topics(graph_);
   if (std::string now = names_of(topics); now != seen_) {
     seen_ = std::move(now);

@@ -34,7 +34,7 @@ class CameraSearch {
 
   /// Returns the camera's topics when the graph no longer changes. Nothing: not yet; why() says
   /// what is missing. Throws io::AmbiguousTopics if there are several for some seconds.
-  [[nodiscard]] std::optional<io::BagTopics> look();
+  [[nodiscard]] std::optional<io::BagTopics> find();
   [[nodiscard]] const std::string& why() const { return why_; }
 
  private:

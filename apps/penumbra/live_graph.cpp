@@ -87,13 +87,13 @@ void LiveSubscriptions::follow(bool with_color) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     io::InputTopic& topic = topics_[i];
-    const std::string told = type_on_graph(topic.name, all);
+    const std::string type = type_on_graph(topic.name, all);
     if (topic.type.empty()) {
       const auto types = io::LiveInbox::target_types();
-      if (std::find(types.begin(), types.end(), told) != types.end()) {
-        topic.type = told;
+      if (std::find(types.begin(), types.end(), type) != types.end()) {
+        topic.type = type;
         runner_.with_inbox([&](io::LiveInbox& inbox) {
-          inbox.set_type(i, told);
+          inbox.set_type(i, type);
           return true;
         });
       }
@@ -102,7 +102,7 @@ void LiveSubscriptions::follow(bool with_color) {
         !topic.type.empty() && (topic.role != io::TopicRole::color || with_color);
     if (is_wanted && !subscriptions_[i]) open(i);
     if (!is_wanted) close(i);
-    other_types_[i] = told == topic.type ? "" : told;
+    other_types_[i] = type == topic.type ? "" : type;
   }
 }
 

@@ -60,8 +60,8 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   options.description_topics = {names.resolve("robot_description")};
   options.transform_topic = names.resolve("/tf");
   options.static_transform_topic = names.resolve("/tf_static");
-  options.planning_scene_topic = names.resolve("monitored_planning_scene");
-  options.attached_topic = names.resolve("attached_collision_object");
+  options.planning_scene_topics = {names.resolve("monitored_planning_scene")};
+  options.attached_topics = {names.resolve("attached_collision_object")};
   options.joint_topics = {names.resolve("joint_states")};
   if (!topics.robot_namespaces.empty())
     io::set_robots(options, topics.robot_namespaces,

@@ -132,8 +132,9 @@ void add_judging(CLI::App& app, io::JudgingOptions& judging,
 /// Which topics run, tune, view and live use, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
-/// Refuses a name below which results cannot come.
-void check_camera_name(const std::string& name);
+/// Adds a camera. Refuses a name below which results cannot come, and one that is given already.
+void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
+                const std::string& depth_topic);
 
 /// Refuses options that the chosen renderer does not use.
 void check_renderer(Backend backend, const RendererOptions& options);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include <penumbra/base/error.hpp>
@@ -81,10 +82,23 @@ void judge_all(std::vector<CameraTask>& tasks, std::size_t workers,
 
 void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t cameras) {
   for (const io::FusedCounts& target : targets)
-    std::cout << "target " << target.name << " over " << cameras << " cameras: " << target.visible
-              << " visible, " << target.partial << " partial, " << target.hidden << " hidden, "
-              << target.held << " held, " << target.unknown << " unknown, " << target.out_of_view
-              << " out of view; " << target.contradictions << " contradictions\n";
+    std::cout << "target " << target.name << " over " << cameras
+              << " cameras: " << target.times(Verdict::visible) << " visible, "
+              << target.times(Verdict::partial) << " partial, " << target.times(Verdict::hidden)
+              << " hidden, " << target.times(Verdict::unknown) << " unknown, "
+              << target.times(Verdict::out_of_view) << " out of view, "
+              << target.times(Verdict::held) << " held; " << target.contradictions
+              << " contradictions\n";
+}
+
+/// Removes what an earlier run says over all cameras, as this run may fail.
+void remove_former(const std::filesystem::path& out) {
+  std::error_code error;
+  const std::filesystem::path views = out / "views.json";
+  if (std::filesystem::remove(views, error)) std::filesystem::remove(out / "report.html", error);
+  if (error)
+    throw InputError(views.string() + ": of an earlier run, cannot be removed (" + error.message() +
+                     "); choose another folder with -o");
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -110,6 +124,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
         {.name = camera.name, .arguments = arguments_of(arguments, camera, threads / workers)});
     io::check_output_folder(tasks.back().arguments.output);
   }
+  remove_former(out);
   catch_interrupts();
   judge_all(tasks, static_cast<std::size_t>(workers), [] { return !was_interrupted(); });
 

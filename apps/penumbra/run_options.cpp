@@ -39,10 +39,7 @@ void add_cameras(CLI::App& app, RunArguments& run) {
                run.judging.input.camera = name;
                return;
              }
-             check_camera_name(name);
-             for (const NamedCamera& camera : run.cameras)
-               if (camera.name == name) throw InputError("--camera: " + name + " is given twice");
-             run.cameras.push_back({name, text.substr(middle + 1)});
+             add_camera(run.cameras, name, text.substr(middle + 1));
            });
 }
 

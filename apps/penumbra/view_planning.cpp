@@ -25,12 +25,11 @@ std::string share_text(double share) { return fixed(100.0 * share, 1) + " %"; }
 
 void print_shares(const io::ViewPlan& plan) {
   std::vector<std::vector<std::string>> rows{{"candidate", "target", "visible", "partly hidden",
-                                              "hidden", "out of view", "held", "unknown"}};
+                                              "hidden", "unknown", "out of view", "held"}};
   for (std::size_t c = 0; c < plan.views.candidates(); ++c)
     for (std::size_t t = 0; t < plan.views.targets(); ++t) {
       rows.push_back({plan.candidates[c].name, plan.target(t)});
-      for (const Verdict verdict : {Verdict::visible, Verdict::partial, Verdict::hidden,
-                                    Verdict::out_of_view, Verdict::held, Verdict::unknown})
+      for (const Verdict verdict : all_verdicts)
         rows.back().push_back(share_text(plan.views.share(c, t, verdict)));
     }
   print_table(std::move(rows));
@@ -44,10 +43,6 @@ void print_best(const io::ViewPlan& plan) {
     for (const double share : set.visible) rows.back().push_back(share_text(share));
   }
   print_table(std::move(rows));
-  for (const CameraSet& set : plan.best)
-    if (set.mean < set.at_most)
-      std::cout << set.candidates.size() << " cameras: chosen greedily, at least 63 % of the best; "
-                << "no set has more than " << share_text(set.at_most) << '\n';
 }
 
 /// One line, whose reason is often that of all candidates.
@@ -71,11 +66,11 @@ int execute(const ViewPlanningArguments& arguments) {
     return io::read_planning_input(arguments.input, print_line, [&] { progress.step(); });
   }();
   print_notes(input.notes);
-  if (arguments.cameras > input.candidates.size())
-    throw InputError("--cameras " + std::to_string(arguments.cameras) + ": " +
-                     arguments.input.candidates.string() + " has only " +
-                     std::to_string(input.candidates.size()) + " candidate" +
-                     (input.candidates.size() == 1 ? "" : "s"));
+  try {
+    check_camera_sets(input.candidates.size(), arguments.cameras);
+  } catch (const InputError& fault) {
+    throw InputError("--cameras, " + arguments.input.candidates.string() + ": " + fault.what());
+  }
   const int threads = arguments.threads.value_or(
       std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   const std::size_t renders = input.candidates.size() * input.motion.size();

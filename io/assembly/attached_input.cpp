@@ -84,6 +84,16 @@ TriangleMesh mesh_of(const AttachedObjectMessage& message) {
   return mesh;
 }
 
+/// Detaches all bodies of a robot, or those of one link.
+void detach_all(const std::string& prefix, const std::string& link, std::int64_t stamp,
+                Attachments& to) {
+  std::vector<AttachedBody> bodies;
+  to.at(stamp, bodies);
+  for (const AttachedBody& body : bodies)
+    if (body.link.starts_with(prefix) && (link.empty() || body.link == prefix + link))
+      to.detach(stamp, body.name);
+}
+
 bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
   return a.triangles == b.triangles && a.vertices == b.vertices;
 }
@@ -99,19 +109,18 @@ std::shared_ptr<const PreparedMesh> AttachedInput::prepared(TriangleMesh mesh) {
 }
 
 std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64_t now,
-                                Attachments& to) {
+                                Attachments& to, const std::string& robot) {
+  const std::string prefix = robot.empty() ? "" : robot + "/";
   const CollisionObjectMessage& object = message.object;
   const std::int64_t stamp = object.header.stamp > 0 ? object.header.stamp : now;
   if (object.operation == CollisionObjectMessage::remove) {
-    std::vector<AttachedBody> bodies;
-    to.at(stamp, bodies);
-    for (const AttachedBody& body : bodies)  // without an id: all, or all of the link
-      if (object.id.empty() && (message.link_name.empty() || body.link == message.link_name))
-        to.detach(stamp, body.name);
-    if (!object.id.empty()) to.detach(stamp, object.id);
+    if (object.id.empty())
+      detach_all(prefix, message.link_name, stamp, to);
+    else
+      to.detach(stamp, prefix + object.id);
     return {};
   }
-  AttachedBody body{.name = object.id, .link = message.link_name, .mesh = {}};
+  AttachedBody body{.name = prefix + object.id, .link = prefix + message.link_name, .mesh = {}};
   std::string fault;
   try {
     body.mesh = prepared(mesh_of(message));
@@ -127,18 +136,15 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
 /// A state that is no difference holds all that is attached. MoveIt sends an empty one with changes
 /// of the world alone.
 std::string AttachedInput::take(const PlanningSceneMessage& message, std::int64_t now,
-                                Attachments& to) {
+                                Attachments& to, const std::string& robot) {
   const RobotStateMessage& state = message.robot_state;
   const std::int64_t of_state = state.joints.header.stamp;
   const std::int64_t stamp = of_state > 0 ? of_state : now;
-  if (!state.is_diff && !(state.joints.names.empty() && state.other_joints.joint_names.empty())) {
-    std::vector<AttachedBody> bodies;
-    to.at(stamp, bodies);
-    for (const AttachedBody& body : bodies) to.detach(stamp, body.name);
-  }
+  if (!state.is_diff && !(state.joints.names.empty() && state.other_joints.joint_names.empty()))
+    detach_all(robot.empty() ? "" : robot + "/", {}, stamp, to);
   std::string fault;
   for (const AttachedObjectMessage& attached : state.attached)
-    if (std::string one = take(attached, stamp, to); !one.empty()) fault = std::move(one);
+    if (std::string one = take(attached, stamp, to, robot); !one.empty()) fault = std::move(one);
   return fault;
 }
 

@@ -21,9 +21,12 @@ class AttachedInput {
   static constexpr std::size_t max_kept = 32;
 
   /// Return what cannot be drawn and why, one line; empty: nothing. Such a body is attached without
-  /// a mesh, which makes its frames `missing_link`.
-  std::string take(const AttachedObjectMessage& message, std::int64_t now, Attachments& to);
-  std::string take(const PlanningSceneMessage& message, std::int64_t now, Attachments& to);
+  /// a mesh, which makes its frames `missing_link`. `robot`: of several robots, the name that
+  /// begins those of its links and objects.
+  std::string take(const AttachedObjectMessage& message, std::int64_t now, Attachments& to,
+                   const std::string& robot = {});
+  std::string take(const PlanningSceneMessage& message, std::int64_t now, Attachments& to,
+                   const std::string& robot = {});
 
  private:
   [[nodiscard]] std::shared_ptr<const PreparedMesh> prepared(TriangleMesh mesh);

@@ -136,7 +136,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_attached(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& message, const auto&, std::int64_t now) {
-    const std::string fault = robot_.take_attached(message);
+    const std::string fault = robot_.take_attached(message, topics_[topic].robot);
     if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
   });
 }
@@ -178,16 +178,18 @@ MessageHandler FrameAssembler::handler_of_targets(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_targets_as(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& found, const auto&, auto) {
-    // Pixel coordinates belong to the camera that the message names. If no camera has that frame,
-    // all cameras take the message and report the mismatch.
-    const auto is_named = [&](const std::unique_ptr<CameraInput>& camera) {
-      return is_of_pixels<M> && camera->setup() != nullptr &&
-             frame_name(camera->setup()->cameras.judged.frame_id) ==
-                 frame_name(found.header.frame_id);
+    // A message is for the cameras that know its frame. One that no camera knows may be for a
+    // camera without setup; if all have one, all take the message and report the mismatch.
+    const auto knows = [&](const std::unique_ptr<CameraInput>& camera) {
+      return camera->setup() != nullptr &&
+             camera->setup()->targets.knows(found.header.frame_id, is_of_pixels<M>);
     };
-    const bool any_is_named = std::any_of(cameras_.begin(), cameras_.end(), is_named);
+    const auto lacks_setup = [](const auto& camera) { return camera->setup() == nullptr; };
+    const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), knows);
+    const bool is_early = std::any_of(cameras_.begin(), cameras_.end(), lacks_setup);
     for (const auto& camera : cameras_)
-      if (!any_is_named || is_named(camera)) camera->take_targets(topics_[topic].name, found);
+      if (is_known ? knows(camera) : !is_early || lacks_setup(camera))
+        camera->take_targets(topics_[topic].name, found);
   });
 }
 

@@ -106,10 +106,10 @@ class RobotInput {
             std::int64_t now);
   void take(const TfMessage& message, bool is_static, std::string_view source, std::int64_t now);
   /// Receives what is attached (`M`: AttachedObjectMessage, PlanningSceneMessage). Returns what
-  /// cannot be drawn, one line, or nothing.
+  /// cannot be drawn, one line, or nothing. `robot`: its name among several.
   template <typename M>
-  std::string take_attached(const M& message) {
-    std::string fault = attached_.take(message, newest_stamp_, attachments_);
+  std::string take_attached(const M& message, const std::string& robot) {
+    std::string fault = attached_.take(message, newest_stamp_, attachments_, robot);
     if (posed_) posed_->history.attachments() = attachments_;
     return fault;
   }

@@ -53,31 +53,6 @@ Json target_json(const std::vector<std::string>& cameras, const FusedTarget& tar
           {"views", std::move(views)}};
 }
 
-void count(const FusedTarget& target, FusedCounts& counts) {
-  counts.name = target.name;
-  counts.contradictions += target.contradiction ? 1 : 0;
-  switch (target.verdict) {
-    case Verdict::visible:
-      ++counts.visible;
-      break;
-    case Verdict::partial:
-      ++counts.partial;
-      break;
-    case Verdict::hidden:
-      ++counts.hidden;
-      break;
-    case Verdict::unknown:
-      ++counts.unknown;
-      break;
-    case Verdict::out_of_view:
-      ++counts.out_of_view;
-      break;
-    case Verdict::held:
-      ++counts.held;
-      break;
-  }
-}
-
 /// The frames of one stamp, with their cameras.
 using Instant = std::vector<std::pair<std::size_t, const CameraFrame*>>;
 
@@ -125,7 +100,12 @@ CameraViews fuse_views(const std::string& input, std::span<const CameraRun> runs
 std::vector<FusedCounts> counts_of(const CameraViews& views) {
   std::map<std::string, FusedCounts> counts;
   for (const FusedFrame& frame : views.frames)
-    for (const FusedTarget& target : frame.targets) count(target, counts[target.name]);
+    for (const FusedTarget& target : frame.targets) {
+      FusedCounts& of_target = counts[target.name];
+      of_target.name = target.name;
+      ++of_target.verdicts[static_cast<std::size_t>(target.verdict)];
+      of_target.contradictions += target.contradiction ? 1 : 0;
+    }
   std::vector<FusedCounts> all;
   for (auto& [name, of_target] : counts) all.push_back(std::move(of_target));
   return all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -47,8 +48,12 @@ class ViewRecorder final : public RunOutput {
 /// How often a target got each verdict over all cameras.
 struct FusedCounts {
   std::string name;
-  std::size_t visible = 0, partial = 0, hidden = 0, unknown = 0, out_of_view = 0, held = 0;
+  std::array<std::size_t, all_verdicts.size()> verdicts{};  ///< instants by Verdict
   std::size_t contradictions = 0;
+
+  [[nodiscard]] std::size_t times(Verdict verdict) const {
+    return verdicts[static_cast<std::size_t>(verdict)];
+  }
 };
 
 /// The targets that were judged at one stamp, over all cameras.

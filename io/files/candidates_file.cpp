@@ -20,55 +20,47 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::array<std::string_view, 9> candidate_columns = {"name", "x",  "y",  "z",   "qx",
-                                                               "qy",   "qz", "qw", "link"};
-constexpr std::string_view candidate_header =
-    "the header name,x,y,z,qx,qy,qz,qw with or without ,link is wanted";
+constexpr std::string_view candidate_header = "name,x,y,z,qx,qy,qz,qw";  // then ,link or nothing
+constexpr std::array number_columns = {"x", "y", "z", "qx", "qy", "qz", "qw"};  // from 1 on
+constexpr std::size_t link_column = 1 + number_columns.size();
 
-/// The cells of a row by their column.
-using CandidateRow = std::map<std::string_view, std::string_view>;
+using Cells = std::vector<std::string_view>;
 
-void check_candidate_header(const std::vector<std::string_view>& header) {
-  for (auto at = header.begin(); at != header.end(); ++at) {
-    if (std::find(candidate_columns.begin(), candidate_columns.end(), *at) ==
-        candidate_columns.end())
-      throw InputError("'" + printable(*at) + "' is no column; " + std::string(candidate_header));
-    if (std::find(header.begin(), at, *at) != at)
-      throw InputError("column '" + printable(*at) + "' is there twice; keep one");
-  }
-  for (const std::string_view column : candidate_columns)
-    if (column != "link" && std::find(header.begin(), header.end(), column) == header.end())
-      throw InputError("has no column '" + std::string(column) + "'; " +
-                       std::string(candidate_header));
+[[noreturn]] void refuse_header(const std::string& what) {
+  throw InputError(what + "; the header " + std::string(candidate_header) +
+                   " with or without ,link is wanted");
 }
 
-double number_of(const CandidateRow& row, std::string_view column) {
-  const std::string_view cell = row.at(column);
-  const auto value = parse_number<double>(cell);
-  if (!value)
-    throw InputError(std::string(column) + " is '" + printable(cell) + "'; a number is wanted");
-  return *value;
+void check_candidate_header(const Cells& cells) {
+  std::string header;
+  for (const std::string_view cell : cells) header += (header.empty() ? "" : ",") + printable(cell);
+  if (header != candidate_header && header != std::string(candidate_header) + ",link")
+    refuse_header("the header is '" + header + "'");
 }
 
-CameraCandidate candidate_of(const CandidateRow& row, const Robot& robot) {
+CameraCandidate candidate_of(const Cells& row, const Robot& robot) {
   CameraCandidate candidate;
-  candidate.name = row.at("name");
+  candidate.name = row.front();
   if (candidate.name.empty() ||
       std::any_of(candidate.name.begin(), candidate.name.end(), is_control))
     throw InputError("the name is '" + printable(candidate.name) +
                      "'; letters and digits are "
                      "wanted");
   std::vector<double> numbers;
-  for (const std::string_view column : {"x", "y", "z", "qx", "qy", "qz", "qw"})
-    numbers.push_back(number_of(row, column));
+  for (std::size_t i = 0; i < number_columns.size(); ++i) {
+    const auto value = parse_number<double>(row[1 + i]);
+    if (!value)
+      throw InputError(std::string(number_columns[i]) + " is '" + printable(row[1 + i]) +
+                       "'; a number is wanted");
+    numbers.push_back(*value);
+  }
   candidate.T_link_camera = isometry_of(numbers);
   if (candidate.T_link_camera.translation().cwiseAbs().maxCoeff() > max_target_distance)
     throw InputError("is more than 1000 km away; metres are wanted");
-  const auto link = row.find("link");
-  if (link == row.end() || link->second.empty()) return candidate;
-  candidate.link = link->second;
-  const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
-  if (!robot.find_link(candidate.link))
+  if (row.size() == link_column) return candidate;
+  candidate.link = row[link_column];
+  const Cells known(robot.links().begin(), robot.links().end());
+  if (!candidate.link.empty() && !robot.find_link(candidate.link))
     throw InputError("'" + printable(candidate.link) + "' is no link of the robot" +
                      near_names(candidate.link, known));
   return candidate;
@@ -80,20 +72,17 @@ std::vector<CameraCandidate> read_candidates(const std::filesystem::path& file,
                                              const Robot& robot) {
   const std::string text = read_csv(file);
   CsvLines lines(text);
-  if (!lines.next())
-    throw InputError(file.string() + ": is empty; " + std::string(candidate_header));
+  if (!lines.next()) refuse_header(file.string() + ": is empty");
   std::vector<CameraCandidate> candidates;
   std::map<std::string, std::size_t, std::less<>> line_of;  // by name
   try {
-    const std::vector<std::string_view> header = lines.cells();
-    check_candidate_header(header);
+    check_candidate_header(lines.cells());
+    const std::size_t columns = lines.cells().size();
     while (lines.next()) {
-      if (lines.cells().size() != header.size())
+      if (lines.cells().size() != columns)
         throw InputError("has " + std::to_string(lines.cells().size()) + " cells, the header " +
-                         std::to_string(header.size()));
-      CandidateRow row;
-      for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = lines.cells()[i];
-      CameraCandidate candidate = candidate_of(row, robot);
+                         std::to_string(columns));
+      CameraCandidate candidate = candidate_of(lines.cells(), robot);
       const auto [known, is_new] = line_of.emplace(candidate.name, lines.line());
       if (!is_new)
         throw InputError("the name '" + candidate.name + "' is that of line " +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
 #include <io/files/json-inl.hpp>
@@ -8,37 +9,19 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::array planned_verdicts = {Verdict::visible,     Verdict::partial, Verdict::hidden,
-                                         Verdict::out_of_view, Verdict::held,    Verdict::unknown};
-
-/// A letter of a verdict in the texts of view_planning.json, one for each frame.
-char letter_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::visible:
-      return 'v';
-    case Verdict::partial:
-      return 'p';
-    case Verdict::hidden:
-      return 'h';
-    case Verdict::out_of_view:
-      return 'o';
-    case Verdict::held:
-      return 'g';
-    case Verdict::unknown:
-      break;
-  }
-  return '?';
-}
+/// The verdicts' letters in view_planning.json, in the order of Verdict; g: held.
+constexpr std::string_view verdict_letters = "vph?og";
+static_assert(verdict_letters.size() == all_verdicts.size());
 
 Json seen_json(const ViewPlan& plan, std::size_t candidate) {
   Json targets = Json::array();
   for (std::size_t t = 0; t < plan.views.targets(); ++t) {
     Json json = {{"name", plan.target(t)}};
-    for (const Verdict verdict : planned_verdicts)
+    for (const Verdict verdict : all_verdicts)
       json[std::string(to_string(verdict))] = plan.views.share(candidate, t, verdict);
     std::string by_frame;
     for (std::size_t f = 0; f < plan.views.frames(); ++f)
-      by_frame += letter_of(plan.views.at(candidate, f, t));
+      by_frame += verdict_letters[static_cast<std::size_t>(plan.views.at(candidate, f, t))];
     json["by_frame"] = std::move(by_frame);
     targets.push_back(std::move(json));
   }
@@ -60,11 +43,8 @@ Json set_json(const ViewPlan& plan, const CameraSet& set) {
   Json cameras = Json::array(), visible = Json::object();
   for (const std::size_t c : set.candidates) cameras.push_back(plan.candidates[c].name);
   for (std::size_t t = 0; t < set.visible.size(); ++t) visible[plan.target(t)] = set.visible[t];
-  return {{"cameras", std::move(cameras)},
-          {"visible", std::move(visible)},
-          {"mean_visible", set.mean},
-          {"at_most", set.at_most},
-          {"search", set.is_exhaustive ? "exhaustive" : "greedy"}};
+  return {
+      {"cameras", std::move(cameras)}, {"visible", std::move(visible)}, {"mean_visible", set.mean}};
 }
 
 }  // namespace

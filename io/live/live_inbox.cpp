@@ -23,6 +23,8 @@ void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces
   for (const std::string& robot : namespaces) {
     options.description_topics.push_back(resolve(robot + "/robot_description"));
     options.joint_topics.push_back(resolve(robot + "/joint_states"));
+    options.planning_scene_topics.push_back(resolve(robot + "/monitored_planning_scene"));
+    options.attached_topics.push_back(resolve(robot + "/attached_collision_object"));
   }
 }
 
@@ -55,12 +57,17 @@ void LiveInbox::add_topics_of_robot() {
              .name = options_.static_transform_topic,
              .type = message_type<TfMessage>(),
              .latched = true});
-  add_topic({.role = TopicRole::attached,
-             .name = options_.planning_scene_topic,
-             .type = message_type<PlanningSceneMessage>()});
-  add_topic({.role = TopicRole::attached,
-             .name = options_.attached_topic,
-             .type = message_type<AttachedObjectMessage>()});
+  for (std::size_t i = 0; i < options_.attached_topics.size(); ++i) {
+    const std::string robot = i == 0 ? "" : robots[i - 1];
+    add_topic({.role = TopicRole::attached,
+               .robot = robot,
+               .name = options_.planning_scene_topics[i],
+               .type = message_type<PlanningSceneMessage>()});
+    add_topic({.role = TopicRole::attached,
+               .robot = robot,
+               .name = options_.attached_topics[i],
+               .type = message_type<AttachedObjectMessage>()});
+  }
   for (const std::string& name : options_.target_topics)
     add_topic({.role = TopicRole::targets, .name = name});
 }

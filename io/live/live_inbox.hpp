@@ -29,8 +29,9 @@ struct LiveOptions {
   std::vector<std::string> joint_topics = {"/joint_states"};
   std::string transform_topic = "/tf";
   std::string static_transform_topic = "/tf_static";
-  std::string planning_scene_topic = "/monitored_planning_scene";  ///< MoveIt's
-  std::string attached_topic = "/attached_collision_object";       ///< likewise
+  /// MoveIt's: of all robots, then, of several robots, one for each.
+  std::vector<std::string> planning_scene_topics = {"/monitored_planning_scene"};
+  std::vector<std::string> attached_topics = {"/attached_collision_object"};  ///< likewise
   std::vector<std::string> target_topics = {};
   std::vector<CameraInputOptions> cameras = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning

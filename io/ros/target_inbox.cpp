@@ -160,12 +160,19 @@ void TargetInbox::add(const std::string& topic, const PoseStampedMessage& messag
   one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
 }
 
+bool TargetInbox::knows(std::string_view frame, bool of_pixels) const {
+  frame = without_slash(frame);
+  if (frame == without_slash(camera_frame_)) return true;
+  return !of_pixels && frame.starts_with(frame_prefix_) &&
+         robot_.find_link(frame.substr(frame_prefix_.size()));
+}
+
 ReferenceFrame TargetInbox::resolve_frame(Waiting& waiting) const {
-  waiting.link_frame = std::exchange(waiting.image_frame, {});
-  if (waiting.link_frame.empty() || waiting.link_frame == without_slash(camera_frame_)) return {};
-  const std::string frame = waiting.link_frame;
+  const std::string frame = std::exchange(waiting.image_frame, {});
+  if (frame.empty() || frame == without_slash(camera_frame_)) return {};
+  waiting.link_frame = frame;
   if (frame.starts_with(frame_prefix_)) waiting.link_frame.erase(0, frame_prefix_.size());
-  if (!frame.starts_with(frame_prefix_) || !robot_.find_link(waiting.link_frame))
+  if (!knows(frame, false))
     waiting.fault =
         "its frame '" + printable(frame) + "' is neither the camera's nor a link of the robot";
   return ReferenceFrame::of_link(waiting.link_frame);

@@ -44,6 +44,9 @@ class TargetInbox {
   TargetInbox(const Robot& robot, std::string_view camera_frame, std::string_view frame_prefix = {},
               HiddenTargets hidden = HiddenTargets::not_handled);
 
+  /// Returns whether a message's frame is the camera's or, unless it holds pixels, a link's.
+  [[nodiscard]] bool knows(std::string_view frame, bool of_pixels) const;
+
   /// Adds a detector's boxes: regions of the visible part (Extent::modal).
   void add(const std::string& topic, const Detection2DArrayMessage& message);
   /// Adds boxes in the frame of the camera or of a link.

@@ -83,19 +83,19 @@ TargetViewMessage target_view_message(const FusedTarget& target,
     message.contradiction_chi_square = pair->chi_square;
   }
   for (const CameraView& view : target.views) {
-    CameraViewMessage& told = message.views.emplace_back();
-    told.camera = cameras[view.camera].name;
-    told.verdict = value_of(view.verdict, verdict_values);
-    told.reason = view.reason;
+    CameraViewMessage& sent = message.views.emplace_back();
+    sent.camera = cameras[view.camera].name;
+    sent.verdict = value_of(view.verdict, verdict_values);
+    sent.reason = view.reason;
     if (view.stamp) {
-      told.has_stamp = true;
-      told.stamp = *view.stamp;
-      told.visible_fraction = view.visible_fraction;
+      sent.has_stamp = true;
+      sent.stamp = *view.stamp;
+      sent.visible_fraction = view.visible_fraction;
     }
     if (!view.point) continue;
-    told.point = *view.point;
-    told.distance = view.distance;
-    told.angle = view.angle;
+    sent.point = *view.point;
+    sent.distance = view.distance;
+    sent.angle = view.angle;
   }
   return message;
 }

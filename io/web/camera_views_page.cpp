@@ -10,13 +10,12 @@ namespace penumbra::io {
 namespace {
 
 std::string counts_table(const CameraViews& views) {
-  Rows rows = {{"target", "visible", "partly hidden", "hidden", "held", "unknown", "out of view",
+  Rows rows = {{"target", "visible", "partly hidden", "hidden", "unknown", "out of view", "held",
                 "contradictions"}};
   for (const FusedCounts& target : counts_of(views)) {
     rows.push_back({target.name});
-    for (const std::size_t number : {target.visible, target.partial, target.hidden, target.held,
-                                     target.unknown, target.out_of_view, target.contradictions})
-      rows.back().push_back(std::to_string(number));
+    for (const std::size_t times : target.verdicts) rows.back().push_back(std::to_string(times));
+    rows.back().push_back(std::to_string(target.contradictions));
   }
   return table(rows);
 }

@@ -22,32 +22,32 @@ inline constexpr const char* verdict_bar_style = R"(<style>
 )";
 
 /// From the least to the most that is seen, with the viewer's colours. Visible is the background.
-struct VerdictLook {
+struct VerdictStyle {
   Verdict verdict;
   const char* name;
   const char* color;
 };
-inline constexpr std::array verdict_looks = {
-    VerdictLook{Verdict::unknown, "unknown", "#f0e442"},
-    VerdictLook{Verdict::out_of_view, "out of view", "#8b949e"},
-    VerdictLook{Verdict::held, "held", "#56b4e9"},
-    VerdictLook{Verdict::hidden, "hidden", "#d55e00"},
-    VerdictLook{Verdict::partial, "partly hidden", "#e69f00"},
-    VerdictLook{Verdict::visible, "visible", "#009e73"}};
+inline constexpr std::array verdict_styles = {
+    VerdictStyle{Verdict::unknown, "unknown", "#f0e442"},
+    VerdictStyle{Verdict::out_of_view, "out of view", "#8b949e"},
+    VerdictStyle{Verdict::held, "held", "#56b4e9"},
+    VerdictStyle{Verdict::hidden, "hidden", "#d55e00"},
+    VerdictStyle{Verdict::partial, "partly hidden", "#e69f00"},
+    VerdictStyle{Verdict::visible, "visible", "#009e73"}};
 
 inline std::size_t rank_of(Verdict verdict) {
   return static_cast<std::size_t>(
-      std::find_if(verdict_looks.begin(), verdict_looks.end(),
-                   [&](const VerdictLook& look) { return look.verdict == verdict; }) -
-      verdict_looks.begin());
+      std::find_if(verdict_styles.begin(), verdict_styles.end(),
+                   [&](const VerdictStyle& style) { return style.verdict == verdict; }) -
+      verdict_styles.begin());
 }
 
 /// Returns what the colours mean.
 inline std::string verdict_key() {
   std::string html;
-  for (auto look = verdict_looks.rbegin(); look != verdict_looks.rend(); ++look)
-    html += std::string("<span class=\"key\" style=\"background:") + look->color + "\"></span>" +
-            look->name;
+  for (auto style = verdict_styles.rbegin(); style != verdict_styles.rend(); ++style)
+    html += std::string("<span class=\"key\" style=\"background:") + style->color + "\"></span>" +
+            style->name;
   return html;
 }
 
@@ -71,10 +71,10 @@ inline std::string verdict_bar(const std::vector<std::size_t>& of_frames) {
   for (std::size_t i = 0; i < ranks.size();) {
     std::size_t end = i;
     while (end < ranks.size() && ranks[end] == ranks[i]) ++end;
-    const VerdictLook& look = verdict_looks[ranks[i]];
-    if (look.verdict != Verdict::visible)
+    const VerdictStyle& style = verdict_styles[ranks[i]];
+    if (style.verdict != Verdict::visible)
       svg += "<rect x=\"" + std::to_string(i) + "\" width=\"" + std::to_string(end - i) +
-             "\" height=\"1\" fill=\"" + look.color + "\"/>";
+             "\" height=\"1\" fill=\"" + style.color + "\"/>";
     i = end;
   }
   return svg + "</svg>";

@@ -24,11 +24,7 @@ std::string sets_table(const ViewPlan& plan) {
   Rows rows = {{"cameras", "best set", "visible, mean"}};
   for (std::size_t t = 0; t < plan.views.targets(); ++t) rows[0].push_back(plan.target(t));
   for (const CameraSet& set : plan.best) {
-    rows.push_back({std::to_string(set.candidates.size()), plan.names(set),
-                    percent(set.mean) +
-                        (set.mean == set.at_most
-                             ? ""
-                             : " (greedy; no set has more than " + percent(set.at_most) + ")")});
+    rows.push_back({std::to_string(set.candidates.size()), plan.names(set), percent(set.mean)});
     for (const double share : set.visible) rows.back().push_back(percent(share));
   }
   return "<h2>Best sets</h2>\n<p>The share of the frames in which at least one camera of the set "
@@ -45,9 +41,9 @@ std::string heat_color(double share) {
 
 std::string shares_text(const ViewPlan& plan, std::size_t candidate, std::size_t target) {
   std::string text;
-  for (auto look = verdict_looks.rbegin(); look != verdict_looks.rend(); ++look)
-    text += (text.empty() ? "" : ", ") + std::string(look->name) + " " +
-            percent(plan.views.share(candidate, target, look->verdict));
+  for (const Verdict verdict : all_verdicts)
+    text += (text.empty() ? "" : ", ") + std::string(verdict_styles[rank_of(verdict)].name) + " " +
+            percent(plan.views.share(candidate, target, verdict));
   return text;
 }
 

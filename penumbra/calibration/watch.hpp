@@ -15,7 +15,7 @@
 
 namespace penumbra {
 
-/// Beyond which a camera's motion is told.
+/// Beyond which a camera's motion is reported.
 struct DriftLimits {
   double position = 0.002;   ///< metres
   double rotation = 0.0017;  ///< rad; 0.1 degrees

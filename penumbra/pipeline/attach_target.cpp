@@ -11,27 +11,16 @@
 namespace penumbra {
 namespace {
 
-/// What a target's shape says of it.
-struct GivenShape {
-  TriangleMesh mesh;
-  Eigen::Isometry3d pose;  // in `frame`
-  ReferenceFrame frame;
-};
-
-GivenShape given_shape(const TargetShape& shape) {
+TriangleMesh mesh_of(const TargetShape& shape) {
   check_shape(shape);
-  if (const auto* point = std::get_if<PointTarget>(&shape))
-    return {make_sphere(point->radius), Eigen::Isometry3d(Eigen::Translation3d(point->position)),
-            point->frame};
-  if (const auto* box = std::get_if<BoxTarget>(&shape))
-    return {make_box(box->size), box->pose, box->frame};
-  if (const auto* mesh = std::get_if<MeshTarget>(&shape))
-    return {*mesh->mesh, mesh->pose, mesh->frame};
+  if (const auto* point = std::get_if<PointTarget>(&shape)) return make_sphere(point->radius);
+  if (const auto* box = std::get_if<BoxTarget>(&shape)) return make_box(box->size);
+  if (const auto* mesh = std::get_if<MeshTarget>(&shape)) return *mesh->mesh;
   throw InputError("it is no 3-D shape; give it as a point with a radius, a 3-D box or a mesh");
 }
 
 /// Returns T_root_target at the frame's stamp.
-Eigen::Isometry3d current_pose(const Target& target, const GivenShape& given,
+Eigen::Isometry3d current_pose(const Target& target, const ShapePlacement& given,
                                const PoseResult& poses, const TargetReport& report,
                                const Robot& robot) {
   if (const PlacedBody* const body = find_body(poses, target.name))
@@ -65,12 +54,13 @@ const PlacedBody* find_body(const PoseResult& poses, std::string_view name) {
 AttachedBody attach_target(const Target& target, std::string_view link, const PoseResult& poses,
                            const TargetReport& report, const Robot& robot) try {
   if (!poses.known()) throw InputError("the robot's pose is not known: " + poses.message);
-  const GivenShape given = given_shape(target.shape);
+  const TriangleMesh mesh = mesh_of(target.shape);
   const Eigen::Isometry3d T_root_link = pose_of(ReferenceFrame::of_link(link), poses, robot);
-  const Eigen::Isometry3d T_root_target = current_pose(target, given, poses, report, robot);
+  const Eigen::Isometry3d T_root_target =
+      current_pose(target, placement_of(target.shape).value(), poses, report, robot);
   return {.name = std::string(target.name),
           .link = std::string(link),
-          .mesh = std::make_shared<const PreparedMesh>(given.mesh),
+          .mesh = std::make_shared<const PreparedMesh>(mesh),
           .T_link_body = T_root_link.inverse() * T_root_target};
 } catch (const InputError& fault) {
   throw InputError("target '" + std::string(target.name) + "' is not attached: " + fault.what());

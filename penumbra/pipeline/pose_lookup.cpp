@@ -130,9 +130,16 @@ void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
   JointStatus& status = answer.joints.status;
   auto& gaps = answer.joints.gaps;
   auto& disputes = answer.joints.disputes;
+  const auto mark = [&](const auto& all) {
+    for (const auto& unknown : all)
+      if (moves_needed_[unknown.variable])
+        mark_robot_uncertain(variable_links_[unknown.variable], answer);
+  };
+  mark(gaps);
+  mark(disputes);
   const auto is_needed = [&](const auto& unknown) {
     return moves_needed_[unknown.variable] &&
-           !doubt_robot_of(variable_links_[unknown.variable], answer);
+           !holds(answer.uncertain_links, variable_links_[unknown.variable]);
   };
   if (std::any_of(gaps.begin(), gaps.end(), is_needed) ||
       std::any_of(disputes.begin(), disputes.end(), is_needed)) {
@@ -169,7 +176,8 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
         joint.type != JointType::fixed || transforms.knows(frames_[is_mount ? 0 : joint.child]);
     const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
                                                       frames_[joint.child], answer);
-    if (!is_found && leads_to_needed_[joint.child] && !doubt_robot_of(joint.child, answer)) return;
+    if (!is_found && leads_to_needed_[joint.child] && !mark_robot_uncertain(joint.child, answer))
+      return;
     answer.T_root_link[joint.child] =
         answer.T_root_link[joint.parent] *
         (is_given && is_found ? transform_.T_target_source : joint.origin);
@@ -200,7 +208,7 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
 
 /// Makes all links of a link's robot uncertain. Returns false if the frame cannot do without that
 /// robot: it is the only one, or carries the camera.
-bool PoseLookup::doubt_robot_of(std::size_t link, PoseAnswer& answer) const {
+bool PoseLookup::mark_robot_uncertain(std::size_t link, PoseAnswer& answer) const {
   const RobotPart* const part = robot_.part_of(link);
   if (part == nullptr || part == robot_.part_of(camera_parent_)) return false;
   for (std::size_t i = part->first_link; i < part->end_link; ++i) add_to(answer.uncertain_links, i);
@@ -224,7 +232,7 @@ void PoseLookup::compare(PoseAnswer& answer) {
   const auto text = [&](const Disagreement& most) {
     return disagreement_text(robot_.links()[most.link], most.distance);
   };
-  if (needed.distance > agreement && doubt_robot_of(needed.link, answer)) {
+  if (needed.distance > agreement && mark_robot_uncertain(needed.link, answer)) {
     add_part(answer.uncertain_reason, text(needed));
     compare(answer);  // the other robots
   } else if (needed.distance > agreement) {

@@ -70,7 +70,7 @@ class PoseLookup {
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void compare(PoseAnswer& answer);
-  bool doubt_robot_of(std::size_t link, PoseAnswer& answer) const;
+  bool mark_robot_uncertain(std::size_t link, PoseAnswer& answer) const;
   bool find_transform(const TransformBuffer& transforms, std::int64_t stamp,
                       std::string_view target, std::string_view source, PoseAnswer& answer);
 

@@ -90,6 +90,14 @@ struct EstimateCheck {
 
 }  // namespace
 
+std::optional<ShapePlacement> placement_of(const TargetShape& shape) {
+  if (const auto* point = std::get_if<PointTarget>(&shape))
+    return {{Eigen::Isometry3d(Eigen::Translation3d(point->position)), point->frame}};
+  if (const auto* box = std::get_if<BoxTarget>(&shape)) return {{box->pose, box->frame}};
+  if (const auto* mesh = std::get_if<MeshTarget>(&shape)) return {{mesh->pose, mesh->frame}};
+  return std::nullopt;
+}
+
 bool is_rendered(const TargetShape& shape) {
   return std::holds_alternative<BoxTarget>(shape) || std::holds_alternative<MeshTarget>(shape);
 }

@@ -115,6 +115,15 @@ struct Target {
   std::string_view fault = {};  ///< a fault that its source reports; empty: none
 };
 
+/// The place of a 3-D shape.
+struct ShapePlacement {
+  Eigen::Isometry3d pose;  ///< in `frame`; of a point: without rotation
+  ReferenceFrame frame;
+};
+
+/// Returns the place of a point, 3-D box or mesh; null for other shapes.
+[[nodiscard]] std::optional<ShapePlacement> placement_of(const TargetShape& shape);
+
 /// Returns whether a shape is rendered alone.
 [[nodiscard]] bool is_rendered(const TargetShape& shape);
 

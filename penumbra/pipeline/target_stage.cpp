@@ -85,12 +85,11 @@ double seen_fraction(const std::optional<Judgement>& judgement) {
 
 /// Returns the estimate that replaces a missing one, of the target's stamp.
 std::optional<TargetEstimate> own_estimate(const Target& target, const TargetReport& report) {
-  if (const auto* point = std::get_if<PointTarget>(&target.shape))
-    return TargetEstimate{.value = point->position, .frame = point->frame};
-  if (const auto* box = std::get_if<BoxTarget>(&target.shape))
-    return TargetEstimate{.value = box->pose, .frame = box->frame};
-  if (const auto* mesh = std::get_if<MeshTarget>(&target.shape))
-    return TargetEstimate{.value = mesh->pose, .frame = mesh->frame};
+  if (const auto placement = placement_of(target.shape)) {
+    TargetEstimate estimate{.value = placement->pose, .frame = placement->frame};
+    if (!is_rendered(target.shape)) estimate.value.emplace<1>(placement->pose.translation());
+    return estimate;
+  }
   if (!report.point) return std::nullopt;
   return TargetEstimate{.value = *report.point, .frame = ReferenceFrame::root()};
 }

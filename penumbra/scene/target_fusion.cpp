@@ -19,6 +19,9 @@ namespace {
 
 constexpr double best_step = 0.05;      // visible fractions that differ by less are equal
 constexpr double tolerance_sigmas = 2;  // e(z) in standard deviations of the depth
+constexpr double target_speed = 0.5;    // m/s at most: covariances grow by it times a view's age
+constexpr double contradiction_bound = 16.27;  // chi-square of 3 degrees of freedom, 99.9 %
+constexpr double kept_windows = 10;            // in which a target is in no frame
 // Parts of the target's radius: from its centre to its middle in the image; the middle of an oblong
 // target's end; and its centre behind the surface, evenly between 0 (a plate) and 1.
 constexpr double extent_across = 0.25, cut_reach = 1.5;
@@ -71,8 +74,8 @@ auto rank(const CameraView& view) {
                     view.point ? view.distance : far, view.point ? view.angle : far);
 }
 
-Eigen::Matrix3d moved(const CameraView& view, std::int64_t stamp, double speed) {
-  const double by = speed * 1e-9 * static_cast<double>(stamp - *view.stamp);
+Eigen::Matrix3d moved(const CameraView& view, std::int64_t stamp) {
+  const double by = target_speed * 1e-9 * static_cast<double>(stamp - *view.stamp);
   return view.covariance + by * by * Eigen::Matrix3d::Identity();
 }
 
@@ -84,21 +87,21 @@ const CameraView* find(const std::vector<CameraView>& views, Verdict verdict) {
 }
 
 /// Sets the point, or the contradiction.
-void fuse_points(FusedTarget& target, const TargetFusionConfig& config) {
+void fuse_points(FusedTarget& target) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < target.views.size(); ++i) {
     const CameraView& view = target.views[i];
     if (!view.point) continue;
-    const Eigen::Matrix3d covariance = moved(view, target.stamp, config.target_speed);
+    const Eigen::Matrix3d covariance = moved(view, target.stamp);
     for (std::size_t j = 0; j < i; ++j) {
       const CameraView& other = target.views[j];
       if (!other.point) continue;
-      const Eigen::Matrix3d both = covariance + moved(other, target.stamp, config.target_speed);
+      const Eigen::Matrix3d both = covariance + moved(other, target.stamp);
       const Eigen::Vector3d apart = *view.point - *other.point;
       const double chi_square = apart.dot(both.inverse() * apart);
       if (chi_square >
-          (target.contradiction ? target.contradiction->chi_square : config.contradiction_bound))
+          (target.contradiction ? target.contradiction->chi_square : contradiction_bound))
         target.contradiction = {other.camera, view.camera, apart.norm(), chi_square};
     }
     information += covariance.inverse();
@@ -120,13 +123,9 @@ TargetFusion::TargetFusion(std::vector<ViewCamera> cameras, const TargetFusionCo
     if (!names.insert(camera.name).second)
       throw InputError("target fusion: two cameras are called '" + camera.name + "'");
   }
-  const auto is_positive = [](double value) { return std::isfinite(value) && value > 0; };
-  if (!is_positive(config.window) || !is_positive(config.contradiction_bound) ||
-      !(std::isfinite(config.target_speed) && config.target_speed >= 0))
-    throw InputError("target fusion: a window of " + std::to_string(config.window) +
-                     " s, a speed of " + std::to_string(config.target_speed) +
-                     " m/s and a bound of " + std::to_string(config.contradiction_bound) +
-                     " must be finite and positive");
+  if (!(std::isfinite(config.window) && config.window > 0))
+    throw InputError("target fusion: the window is " + std::to_string(config.window) +
+                     " s; expected a finite number above 0");
 }
 
 CameraFrame views_of(const ViewCamera& camera, const FrameReport& report) {
@@ -159,9 +158,15 @@ void TargetFusion::add(std::size_t camera, const CameraFrame& frame) {
     targets_.clear();
   }
   newest = std::max(newest.value_or(frame.stamp), frame.stamp);
+  const std::int64_t now = **std::max_element(newest_.begin(), newest_.end());
+  std::erase_if(targets_, [&](const auto& target) {
+    return 1e-9 * static_cast<double>(now - target.second.judged) > kept_windows * config_.window;
+  });
   for (const auto& [name, view] : frame.views) {
-    Views& views = targets_.try_emplace(name, cameras_.size()).first->second;
-    std::optional<CameraView>& stored = views[camera];
+    Record& record =
+        targets_.try_emplace(name, Record{Views(cameras_.size()), frame.stamp}).first->second;
+    record.judged = std::max(record.judged, frame.stamp);
+    std::optional<CameraView>& stored = record.views[camera];
     if (stored && *stored->stamp > *view.stamp) continue;
     stored = view;
     stored->camera = camera;
@@ -190,7 +195,7 @@ FusedTarget TargetFusion::fuse(const std::string& name, const Views& views) cons
                               .reason = "no view of it within the window of time",
                               .point = {}});
   }
-  fuse_points(target, config_);
+  fuse_points(target);
   const CameraView* best = nullptr;
   for (const CameraView& view : target.views)
     if (is_seen(view) && (best == nullptr || rank(view) < rank(*best))) best = &view;
@@ -219,12 +224,12 @@ FusedTarget TargetFusion::fused(std::string_view name) const {
   const auto found = targets_.find(name);
   if (found == targets_.end())
     throw InputError("target fusion: no camera has judged a target '" + std::string(name) + "'");
-  return fuse(found->first, found->second);
+  return fuse(found->first, found->second.views);
 }
 
 std::vector<FusedTarget> TargetFusion::fused() const {
   std::vector<FusedTarget> all;
-  for (const auto& [name, views] : targets_) all.push_back(fuse(name, views));
+  for (const auto& [name, record] : targets_) all.push_back(fuse(name, record.views));
   return all;
 }
 

@@ -72,12 +72,6 @@ struct TargetFusionConfig {
   /// Seconds. A camera whose newest view of a target is older than the target's newest view by
   /// more than this is unknown.
   double window = 0.1;
-  /// Largest speed of a target, metres per second. The views' covariances grow by it times their
-  /// difference in stamps.
-  double target_speed = 0.5;
-  /// Points contradict beyond this chi-square of 3 degrees of freedom. The default is its 99.9 %
-  /// quantile.
-  double contradiction_bound = 16.27;
 };
 
 /// The targets of one camera's frame, independent of its report.
@@ -105,31 +99,37 @@ struct CameraFrame {
 /// their inverse covariances.
 class TargetFusion {
  public:
-  /// Throws InputError for no camera, a name that is empty or used twice, and settings that are not
-  /// finite and positive (a speed may be 0).
+  /// Throws InputError for no camera, a name that is empty or used twice, and a window that is not
+  /// finite and positive.
   explicit TargetFusion(std::vector<ViewCamera> cameras, const TargetFusionConfig& config = {});
 
   [[nodiscard]] std::span<const ViewCamera> cameras() const { return cameras_; }
 
   /// Takes a frame of camera `camera`. Views older than earlier ones are ignored, so frames may
-  /// come in any order. A stamp that jumps back by more than a second forgets all views. Throws
-  /// InputError for a camera that does not exist, and as views_of does.
+  /// come in any order. A target that was in no frame for ten windows is forgotten. A stamp that
+  /// jumps back by more than a second forgets all of them. Throws InputError for a camera that does
+  /// not exist, and as views_of does.
   void add(std::size_t camera, const CameraFrame& frame);
   void add(std::size_t camera, const FrameReport& report);
 
-  /// Returns a target's result. Throws InputError for a target that no camera has judged.
+  /// Returns a target's result. Throws InputError for a target that no camera has judged, or that
+  /// is forgotten.
   [[nodiscard]] FusedTarget fused(std::string_view name) const;
   /// Returns the results of all targets, by name.
   [[nodiscard]] std::vector<FusedTarget> fused() const;
 
  private:
   using Views = std::vector<std::optional<CameraView>>;  // by camera
+  struct Record {
+    Views views;
+    std::int64_t judged;  // stamp of the newest frame with it
+  };
   [[nodiscard]] FusedTarget fuse(const std::string& name, const Views& views) const;
 
   std::vector<ViewCamera> cameras_;
   TargetFusionConfig config_;
   std::vector<std::optional<std::int64_t>> newest_;  // frame of each camera
-  std::map<std::string, Views, std::less<>> targets_;
+  std::map<std::string, Record, std::less<>> targets_;
 };
 
 }  // namespace penumbra

@@ -23,25 +23,11 @@ namespace {
 constexpr float far_wall = 1e7F;
 static_assert(far_wall > max_target_distance);
 
-/// Frames of one candidate that a thread takes at a time.
-constexpr std::size_t frames_at_once = 16;
-
 std::size_t link_of_candidate(const Robot& robot, const CameraCandidate& candidate) {
   if (candidate.link.empty()) return 0;
   if (const auto link = robot.find_link(candidate.link)) return *link;
   throw InputError("candidate '" + candidate.name + "': '" + candidate.link +
                    "' is not a link of robot '" + robot.name() + "'");
-}
-
-/// Returns where a target is: the origin of its shape, in the frame of `of`.
-std::optional<std::pair<Eigen::Vector3d, ReferenceFrame>> origin_of(const TargetShape& shape) {
-  if (const auto* point = std::get_if<PointTarget>(&shape))
-    return std::pair(point->position, point->frame);
-  if (const auto* box = std::get_if<BoxTarget>(&shape))
-    return std::pair(Eigen::Vector3d(box->pose.translation()), box->frame);
-  if (const auto* mesh = std::get_if<MeshTarget>(&shape))
-    return std::pair(Eigen::Vector3d(mesh->pose.translation()), mesh->frame);
-  return std::nullopt;
 }
 
 bool is_uncertain(const MotionFrame& motion, std::size_t link) {
@@ -125,11 +111,11 @@ class CandidateJudge {
 
   [[nodiscard]] bool is_out_of_range(const FrameReport& report, const MotionFrame& motion,
                                      const TargetShape& shape) const {
-    const auto origin = origin_of(shape);
-    if (!origin || !report.T_root_camera) return false;
-    Eigen::Vector3d p = origin->first;
-    if (origin->second.kind == ReferenceFrame::Kind::link) {
-      const auto link = pipeline_.robot().find_link(origin->second.link);
+    const auto placement = placement_of(shape);
+    if (!placement || !report.T_root_camera) return false;
+    Eigen::Vector3d p = placement->pose.translation();
+    if (placement->frame.kind == ReferenceFrame::Kind::link) {
+      const auto link = pipeline_.robot().find_link(placement->frame.link);
       if (!link || is_uncertain(motion, *link)) return false;
       p = report.T_root_link[*link] * p;
     }
@@ -165,38 +151,17 @@ Bits together(Bits a, const Bits& b) {
   return a;
 }
 
-/// Returns n over k, or more than max_compared_sets if that is more.
-std::size_t number_of_sets(std::size_t n, std::size_t k) {
-  std::size_t sets = 1;
-  for (std::size_t i = 1; i <= std::min(k, n - k); ++i) {
-    sets = sets * (n + 1 - i) / i;  // whole in each step
-    if (sets > max_compared_sets) return sets;
-  }
-  return sets;
-}
-
-struct Chosen {
-  std::vector<std::size_t> candidates;
-  std::size_t seen = 0;     // pairs
-  std::size_t at_most = 0;  // pairs
-};
-
-/// Returns how many pairs each camera adds to those of a set.
-std::vector<std::size_t> gains_over(const Bits& so_far, const std::vector<Bits>& seen) {
-  std::vector<std::size_t> gains(seen.size());
-  std::transform(seen.begin(), seen.end(), gains.begin(),
-                 [&](const Bits& one) { return count_with(so_far, one) - count_of(so_far); });
-  return gains;
-}
-
 /// Compares all sets of one size.
 class AllSets {
  public:
   AllSets(const std::vector<Bits>& seen, std::size_t size)
-      : seen_(seen), size_(size), own_(gains_over(Bits(seen.front().size(), 0), seen)) {
+      : seen_(seen), size_(size), own_(seen.size()) {
+    std::transform(seen.begin(), seen.end(), own_.begin(), count_of);
     extend(0, Bits(seen.front().size(), 0), 0);
   }
-  [[nodiscard]] const Chosen& best() const { return best_; }
+  [[nodiscard]] const std::vector<std::size_t>& best() const { return best_; }
+  /// Returns how many pairs the best set sees.
+  [[nodiscard]] std::size_t pairs() const { return worth_.first; }
 
  private:
   /// `own`: the pairs that each camera of the set sees, summed up.
@@ -207,8 +172,8 @@ class AllSets {
       if (missing > 1) {
         extend(i + 1, together(so_far, seen_[i]), own + own_[i]);
       } else if (const std::pair worth(count_with(so_far, seen_[i]), own + own_[i]);
-                 best_.candidates.empty() || worth > worth_) {
-        best_ = {set_, worth.first, worth.first};
+                 best_.empty() || worth > worth_) {
+        best_ = set_;
         worth_ = worth;
       }
       set_.pop_back();
@@ -217,42 +182,9 @@ class AllSets {
 
   const std::vector<Bits>& seen_;
   std::size_t size_;
-  std::vector<std::size_t> own_, set_;
-  Chosen best_;
+  std::vector<std::size_t> own_, set_, best_;
   std::pair<std::size_t, std::size_t> worth_;
 };
-
-std::size_t sum_of_largest(std::vector<std::size_t> values, std::size_t count) {
-  std::sort(values.begin(), values.end(), std::greater<>());
-  values.resize(count);
-  return std::accumulate(values.begin(), values.end(), std::size_t{0});
-}
-
-/// Adds the camera with the largest gain each time. With f the pairs that a set sees, S a greedy
-/// set and B the best of size k: f(B) <= f(S) + the k largest gains with respect to S.
-Chosen greedy_set(const std::vector<Bits>& seen, std::size_t size) {
-  Chosen chosen;
-  Bits so_far(seen.front().size(), 0);
-  const std::vector<std::size_t> own = gains_over(so_far, seen);
-  std::vector<std::size_t> gains = own;
-  chosen.at_most = sum_of_largest(gains, size);
-  while (chosen.candidates.size() < size) {
-    std::size_t next = seen.size();
-    for (std::size_t c = 0; c < seen.size(); ++c) {
-      const bool is_free = std::find(chosen.candidates.begin(), chosen.candidates.end(), c) ==
-                           chosen.candidates.end();
-      const auto worth = [&](std::size_t i) { return std::pair(gains[i], own[i]); };
-      if (is_free && (next == seen.size() || worth(c) > worth(next))) next = c;
-    }
-    chosen.candidates.push_back(next);
-    so_far = together(std::move(so_far), seen[next]);
-    chosen.seen = count_of(so_far);
-    gains = gains_over(so_far, seen);
-    chosen.at_most = std::min(chosen.at_most, chosen.seen + sum_of_largest(gains, size));
-  }
-  std::sort(chosen.candidates.begin(), chosen.candidates.end());
-  return chosen;
-}
 
 std::vector<Bits> seen_by(const CandidateViews& views) {
   const std::size_t pairs = views.frames() * views.targets();
@@ -298,47 +230,53 @@ CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
     if (frame.targets.size() != targets || frame.T_root_link.size() != robot.links().size())
       throw std::invalid_argument("frames of a motion have different targets or links");
   CandidateViews views(candidates.size(), motion.size(), targets);
-  std::vector<std::size_t> first_unknown(candidates.size(), motion.size());
-  std::mutex mutex;  // of step, first_unknown and the reasons
-  const std::size_t parts = (motion.size() + frames_at_once - 1) / frames_at_once;
+  std::mutex mutex;  // of step
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     CandidateJudge judge(robot, camera);
-    for (std::size_t part = next++; part < parts * candidates.size(); part = next++) {
-      const std::size_t c = part / parts, first = part % parts * frames_at_once;
-      for (std::size_t f = first; f < std::min(first + frames_at_once, motion.size()); ++f) {
+    for (std::size_t c = next++; c < candidates.size(); c = next++)
+      for (std::size_t f = 0; f < motion.size(); ++f) {
         const std::string why =
             judge.judge(candidates[c], links[c], motion[f],
                         [&](std::size_t t, Verdict verdict) { views.at(c, f, t) = verdict; });
+        if (!why.empty() && views.unknown(c).empty())
+          views.unknown(c) = "frame " + std::to_string(motion[f].index) + ": " + why;
         const std::scoped_lock lock(mutex);
         if (step) step();
-        if (why.empty() || f > first_unknown[c]) continue;
-        first_unknown[c] = f;
-        views.unknown(c) = "frame " + std::to_string(motion[f].index) + ": " + why;
       }
-    }
   };
   std::vector<std::future<void>> workers;
-  const std::size_t most = std::min(static_cast<std::size_t>(threads), parts * candidates.size());
+  const std::size_t most = std::min(static_cast<std::size_t>(threads), candidates.size());
   for (std::size_t i = 1; i < most; ++i) workers.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& worker : workers) worker.get();
   return views;
 }
 
+void check_camera_sets(std::size_t candidates, std::size_t most) {
+  if (most < 1 || most > candidates)
+    throw InputError("a set of " + std::to_string(most) +
+                     " cameras; expected 1 to the number of candidates, " +
+                     std::to_string(candidates));
+  std::size_t of_size = 1, all = 0;
+  for (std::size_t size = 1; size <= most; ++size) {
+    of_size = of_size * (candidates + 1 - size) / size;  // whole in each step
+    if (all += of_size; all > max_compared_sets)
+      throw InputError(std::to_string(candidates) + " candidates have more than " +
+                       std::to_string(max_compared_sets) + " sets of up to " +
+                       std::to_string(most) + " cameras; give fewer candidates or fewer cameras");
+  }
+}
+
 std::vector<CameraSet> best_cameras(const CandidateViews& views, std::size_t most) {
-  if (most < 1 || most > views.candidates())
-    throw InputError("a set of " + std::to_string(most) + " cameras: there are " +
-                     std::to_string(views.candidates()) + " candidates");
+  check_camera_sets(views.candidates(), most);
   const std::vector<Bits> seen = seen_by(views);
   const auto pairs = static_cast<double>(views.frames() * views.targets());
   std::vector<CameraSet> best;
   for (std::size_t size = 1; size <= most; ++size) {
-    const bool all = number_of_sets(views.candidates(), size) <= max_compared_sets;
-    const Chosen chosen = all ? AllSets(seen, size).best() : greedy_set(seen, size);
-    const double at_most = std::min(1.0, static_cast<double>(chosen.at_most) / pairs);
-    best.push_back({chosen.candidates, visible_shares(views, chosen.candidates),
-                    static_cast<double>(chosen.seen) / pairs, at_most, all});
+    const AllSets sets(seen, size);
+    best.push_back({sets.best(), visible_shares(views, sets.best()),
+                    static_cast<double>(sets.pairs()) / pairs});
   }
   return best;
 }

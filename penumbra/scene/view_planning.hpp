@@ -95,19 +95,19 @@ struct CameraSet {
   std::vector<std::size_t> candidates;  ///< indices, ascending
   std::vector<double> visible;          ///< by target: share of frames in which one of them sees it
   double mean = 0.0;                    ///< of `visible`
-  double at_most = 0.0;                 ///< no set of this size has a larger mean
-  bool is_exhaustive = false;  ///< all sets of this size were compared: this one is the best
 };
 
-/// Sets up to this number are all compared.
-inline constexpr std::size_t max_compared_sets = 1'000'000;
+/// All sets are compared, up to this number: on one core that takes 10 s for 1,000 frames with
+/// three targets, and 45 s for 5,000.
+inline constexpr std::size_t max_compared_sets = 100'000'000;
 
-/// Returns the set with the largest mean for each size from 1 to `most`. Of more than
-/// max_compared_sets sets it chooses greedily, each time the camera that adds most: the mean is
-/// then at least 1 - 1/e (63 %) of the best (Nemhauser, Wolsey and Fisher 1978), and `at_most` is
-/// the bound that the gains of the cameras left out give. Of equal sets the one whose cameras each
-/// see more wins, then the first in the candidates' order. Throws InputError for `most` outside of
-/// 1 to the number of candidates.
+/// Throws InputError for `most` outside of 1 to the number of candidates, and for more than
+/// max_compared_sets sets of up to `most` candidates.
+void check_camera_sets(std::size_t candidates, std::size_t most);
+
+/// Returns the set with the largest mean for each size from 1 to `most`. Of equal sets the one
+/// whose cameras each see more wins, then the first in the candidates' order. Throws as
+/// check_camera_sets does.
 [[nodiscard]] std::vector<CameraSet> best_cameras(const CandidateViews& views, std::size_t most);
 
 }  // namespace penumbra

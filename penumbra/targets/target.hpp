@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -111,6 +112,10 @@ enum class Verdict {
   out_of_view,
   held  ///< a link carries it: an attached body has its name, and no pixels are judged
 };
+
+/// In their order.
+inline constexpr std::array all_verdicts = {Verdict::visible, Verdict::partial,     Verdict::hidden,
+                                            Verdict::unknown, Verdict::out_of_view, Verdict::held};
 
 /// The verdict's name in report.json.
 [[nodiscard]] std::string_view to_string(Verdict verdict);

@@ -93,6 +93,14 @@ TEST_F(CamerasTest, TheReportHasAllCameras) {
   EXPECT_TRUE(fs::exists(out() / "right" / "report.html"));
 }
 
+TEST_F(CamerasTest, AFailedRunLeavesNoEarlierResultOverAllCameras) {
+  ASSERT_EQ(run({"--report"}).status, 0);
+  write_yaml("    targets: none.yaml\n");
+  EXPECT_NE(run().status, 0);
+  EXPECT_FALSE(fs::exists(out() / "views.json"));
+  EXPECT_FALSE(fs::exists(out() / "report.html"));
+}
+
 TEST_F(CamerasTest, ViewRefusesWhatIsNotWhole) {
   ASSERT_EQ(run().status, 0);
   fs::remove_all(out() / "right");

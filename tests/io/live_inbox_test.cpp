@@ -267,13 +267,47 @@ TEST(LiveRobots, HaveNamespacesAndFailAlone) {
   EXPECT_EQ(bench.work(), 1U);
   EXPECT_EQ(status(), "ok");
 
+  // Both MoveIts attach an object called part; one removes all of its own.
+  io::AttachedObjectMessage part{.link_name = "board"};
+  part.object.header = {start + milliseconds, "board"};
+  part.object.id = "part";
+  part.object.pose = {{0.5, 0, 0}, {0, 0, 0, 1}};
+  part.object.primitives = {
+      {.type = io::SolidPrimitiveMessage::box, .dimensions = {0.3, 0.3, 0.3}}};
+  part.object.primitive_poses = {{{0, 0, 0}, {0, 0, 0, 1}}};
+  const auto pixels = [&](std::int64_t stamp) {
+    for (const char* const topic : {"/a/joint_states", "/b/joint_states"})
+      tell_joints(topic, stamp);
+    bench.tell_depth(stamp);
+    EXPECT_EQ(bench.work(), 1U);
+    EXPECT_EQ(status(), "ok");
+    const auto mask = bench.results.last<io::ImageMessage>(io::Result::mask);
+    return std::count(mask.data.begin(), mask.data.end(), std::byte{255});
+  };
+  const auto bare = pixels(start + 40 * milliseconds);
+  for (const char* const robot : {"/a", "/b"})
+    bench.tell(robot + std::string("/attached_collision_object"), encoded(part));
+  const auto remove_all = [&](const char* topic) {
+    io::AttachedObjectMessage none;
+    none.object.header.stamp = start + 90 * milliseconds;
+    none.object.operation = io::CollisionObjectMessage::remove;
+    bench.tell(topic, encoded(none));
+  };
+  constexpr int least = 100;  // pixels of the box
+  EXPECT_GT(pixels(start + 80 * milliseconds), bare + least);
+  remove_all("/b/attached_collision_object");
+  EXPECT_GT(pixels(start + 120 * milliseconds), bare + least) << "that of a stays";
+  remove_all("/a/attached_collision_object");
+  EXPECT_LT(pixels(start + 160 * milliseconds), bare + least);
+  bench.results.published.clear();
+
   const std::int64_t later = start + seconds;
   tell_joints("/a/joint_states", later);  // and b is silent
   bench.tell_depth(later);
   bench.now += seconds;
   EXPECT_EQ(bench.work(), 1U);
   EXPECT_EQ(status(), "missing_link");
-  EXPECT_EQ(expect_true_labels(bench.results.published, truth), 2U);
+  EXPECT_EQ(expect_true_labels(bench.results.published, truth), 1U);
 
   tell_joints("/b/joint_states", later + seconds);  // and a, which carries the camera, is silent
   bench.tell_depth(later + seconds);
@@ -413,27 +447,6 @@ TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
   }
   EXPECT_EQ(expect_true_labels(bench.results.published, truth_), 30U);
   EXPECT_NE(judge(start + 10 * seconds), "ok") << "the last received pose is too old";
-}
-
-TEST(LiveTargets, ComeWithTheNextImage) {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/wrist"};
-  LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-  bench.tell_all();
-  bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
-  io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-  bench.tell("/wrist", encoded(pose));
-  bench.tell_joints(start);
-  bench.tell_depth(start);
-  EXPECT_EQ(bench.work(), 1U);
-  const auto targets = bench.results.last<io::TargetsMessage>(io::Result::targets).targets;
-  ASSERT_EQ(targets.size(), 1U);
-  EXPECT_EQ(targets[0].name, "/wrist");
-  EXPECT_EQ(targets[0].verdict, io::TargetMessage::visible);
 }
 
 }  // namespace

@@ -49,18 +49,22 @@ INSTANTIATE_TEST_SUITE_P(Backends, AttachedTo,
                          testing::Values(Backend::cpu, Backend::gl, Backend::reference),
                          [](const auto& test) { return std::string(to_string(test.param)); });
 
+/// One on the root link is a fixture of the cell: it stands still.
 TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
   const Camera camera = slab_camera();
   Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
-  const std::vector<AttachedBody> both{part(), body("lid", "plate", {0.0, 0.0, -0.2})};
+  const Eigen::Vector3d post(-0.3, -0.1, 1.2);
+  const std::vector<AttachedBody> all{part(), body("lid", "plate", {0.0, 0.0, -0.2}),
+                                      body("post", "base", post)};
   for (const double slide : {0.0, 0.3, -0.2})
-    for (const std::size_t count : {2U, 0U, 1U}) {
-      std::vector<SlabBox> boxes{part_box(slide), {{0.5, 0.1, 1.3}, part_size, 5}};
+    for (const std::size_t count : {3U, 0U, 1U}) {
+      std::vector<SlabBox> boxes{
+          part_box(slide), {{0.5, 0.1, 1.3}, part_size, 5}, {post, part_size, 6}};
       boxes.resize(count);
       const Image<float> depth = scene_depth(camera, slide, boxes);
       const std::vector<double> positions{slide};
       const FrameReport& report = pipeline.process(
-          {.depth = depth.view(), .joints = positions, .attached = std::span(both).first(count)});
+          {.depth = depth.view(), .joints = positions, .attached = std::span(all).first(count)});
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       ASSERT_EQ(report.attached.size(), count);
       for (int v = 0; v < depth.height(); ++v)
@@ -73,7 +77,7 @@ TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
         }
       EXPECT_EQ(report.pixels.front + report.pixels.unknown, 0U);
       for (const std::size_t i : report.attached)
-        EXPECT_EQ(report.links[i], both[i - slab_robot().links().size()].name);
+        EXPECT_EQ(report.links[i], all[i - slab_robot().links().size()].name);
     }
 }
 

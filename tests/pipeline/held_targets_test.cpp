@@ -252,24 +252,5 @@ TEST(HeldTargets, NeedThePoseOnly) {
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::held);
 }
 
-/// A body on the root link stands still while the robot moves, and hides as a link does.
-TEST(AttachedToTheRoot, IsAFixture) {
-  Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  const AttachedBody post{"post", "base", std::make_shared<PreparedMesh>(make_box(cup_size)),
-                          Eigen::Isometry3d(Eigen::Translation3d(picked))};
-  for (const double slide : {0.0, 0.4, -0.3}) {
-    const std::vector<SlabBox> boxes{{picked, cup_size, 4}};
-    const Image<float> depth = scene_depth(slab_camera(), slide, boxes);
-    const std::array positions{slide};
-    const FrameReport& report = pipeline.process({.depth = depth.view(),
-                                                  .joints = std::span<const double>(positions),
-                                                  .attached = {&post, 1}});
-    for (int v = 0; v < depth.height(); ++v)
-      for (int u = 0; u < depth.width(); ++u)
-        ASSERT_EQ(report.virtual_depth.links(u, v),
-                  cast(slab_camera().intrinsics.ray(u, v), slide, boxes).link);
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::test

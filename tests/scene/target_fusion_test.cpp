@@ -121,6 +121,31 @@ TEST(TargetFusion, ACameraThatNeverJudgesATargetIsNotAsked) {
   EXPECT_EQ(views.fused("part").views.size(), 1U);
 }
 
+/// A tracker gives new names for ever, and the last views of an old one may contradict each other.
+TEST(TargetFusion, ATargetThatIsJudgedNoLongerIsForgotten) {
+  TargetFusion views = fusion_of({"left", "right"});
+  views.add(0, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0)).get());
+  views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0.1)).get());
+  EXPECT_TRUE(views.fused("part").contradiction);
+  FrameReport without_targets;
+  for (std::int64_t stamp = 0; stamp <= 1000 * ms; stamp += 100 * ms) {
+    without_targets.stamp = stamp;
+    views.add(0, without_targets);
+    EXPECT_EQ(views.fused().size(), 1U) << "ten windows have not passed";
+  }
+  without_targets.stamp = 1001 * ms;
+  views.add(0, without_targets);
+  EXPECT_TRUE(views.fused().empty());
+  views.add(1, Shot(500 * ms, Verdict::hidden).get());
+  EXPECT_EQ(views.fused("part").stamp, 500 * ms) << "of a camera that lags behind";
+  Shot late(1002 * ms, Verdict::hidden);  // found in an old image
+  late.target.stamp = -9000 * ms;
+  views.add(0, late.get());
+  without_targets.stamp = 1003 * ms;
+  views.add(1, without_targets);
+  EXPECT_EQ(views.fused().size(), 1U);
+}
+
 TEST(TargetFusion, FramesMayComeInAnyOrder) {
   TargetFusion views = fusion_of({"left"});
   views.add(0, Shot(50 * ms, Verdict::hidden).get());
@@ -217,7 +242,7 @@ TEST(TargetFusion, RefusesWhatMeansNothing) {
   EXPECT_THROW(fusion_of({"a", "a"}), InputError);
   EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = 0}), InputError);
   EXPECT_THROW(
-      TargetFusion({camera_called("a")}, {.target_speed = std::numeric_limits<double>::infinity()}),
+      TargetFusion({camera_called("a")}, {.window = std::numeric_limits<double>::infinity()}),
       InputError);
   TargetFusion views = fusion_of({"a"});
   EXPECT_THROW(static_cast<void>(views.fused("part")), InputError);

@@ -10,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <set>
@@ -284,7 +283,10 @@ TEST(ViewPlanning, RefusesUnknownLinksAndSets) {
       {"slap"});
   const CandidateViews views(3, 1, 1);
   for (const std::size_t most : {0U, 4U})
-    expect_refused([&] { static_cast<void>(best_cameras(views, most)); }, {"3 candidates"});
+    expect_refused([&] { static_cast<void>(best_cameras(views, most)); }, {"candidates, 3"});
+  EXPECT_NO_THROW(check_camera_sets(60, 6)) << "56 million";
+  expect_refused([&] { check_camera_sets(60, 7); }, {"60 candidates", "fewer cameras"});
+  expect_refused([&] { check_camera_sets(1000, 1000); }, {"1000 candidates", "fewer candidates"});
 }
 
 CandidateViews random_views(std::mt19937_64& random, std::size_t candidates, double share) {
@@ -324,7 +326,7 @@ void expect_consistent(const CandidateViews& views, const CameraSet& set, std::s
   EXPECT_NEAR(set.mean, sum / static_cast<double>(set.visible.size()), 1e-12);
 }
 
-TEST(ViewPlanning, SmallSetsAreTheBest) {
+TEST(ViewPlanning, SetsAreTheBest) {
   std::mt19937_64 random = seeded_random(20262);
   for (int round = 0; round < 20; ++round) {
     const CandidateViews views = random_views(random, 8, 0.15);
@@ -340,44 +342,9 @@ TEST(ViewPlanning, SmallSetsAreTheBest) {
       }
       const CameraSet& found = best[size - 1];
       expect_consistent(views, found, size);
-      EXPECT_TRUE(found.is_exhaustive);
       EXPECT_EQ(worth_of(views, found.candidates), most) << size;
-      EXPECT_EQ(found.mean, found.at_most);
     }
   }
-}
-
-/// Six cameras that share all there is to see among the others, which see at random.
-TEST(ViewPlanning, LargeSetsKeepTheirBound) {
-  std::mt19937_64 random = seeded_random(20263);
-  constexpr double guaranteed = 1.0 - 1.0 / std::numbers::e;
-  for (int round = 0; round < 10; ++round) {
-    CandidateViews views = random_views(random, 60, 0.2);
-    std::vector<std::size_t> planted;
-    for (std::size_t i = 0; i < 6; ++i) planted.push_back(10 * i + static_cast<std::size_t>(round));
-    for (std::size_t f = 0; f < views.frames(); ++f)
-      for (std::size_t t = 0; t < views.targets(); ++t)
-        for (std::size_t i = 0; i < 6; ++i)
-          views.at(planted[i], f, t) = f % 6 == i ? Verdict::visible : Verdict::hidden;
-    ASSERT_DOUBLE_EQ(mean_of(views, planted), 1.0);
-    const CameraSet found = best_cameras(views, 6).back();
-    expect_consistent(views, found, 6);
-    EXPECT_FALSE(found.is_exhaustive) << "60 over 6 are 50 million";
-    EXPECT_GE(found.mean, guaranteed);
-    EXPECT_EQ(found.at_most, 1.0) << "the planted set has it";
-  }
-  // Few see anything: the bound is below 1, and no set is above it. Those without gain fill up.
-  const CandidateViews views = random_views(random, 60, 0.01);
-  const CameraSet found = best_cameras(views, 6).back();
-  expect_consistent(views, found, 6);
-  EXPECT_LT(found.at_most, 1.0);
-  std::vector<std::size_t> all(60);
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  for (int i = 0; i < 500; ++i) {
-    std::shuffle(all.begin(), all.end(), random);
-    EXPECT_LE(mean_of(views, {all.begin(), all.begin() + 6}), found.at_most);
-  }
-  expect_consistent(CandidateViews(60, 4, 2), best_cameras(CandidateViews(60, 4, 2), 6).back(), 6);
 }
 
 }  // namespace

@@ -171,8 +171,8 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
   live.description_topics = {resolved(node, "robot_description")};
   live.transform_topic = resolved(node, "/tf");
   live.static_transform_topic = resolved(node, "/tf_static");
-  live.planning_scene_topic = resolved(node, "monitored_planning_scene");
-  live.attached_topic = resolved(node, "attached_collision_object");
+  live.planning_scene_topics = {resolved(node, "monitored_planning_scene")};
+  live.attached_topics = {resolved(node, "attached_collision_object")};
   live.joint_topics =
       resolved(node, declare("joint_topics", Texts{"joint_states"}, "topics of joint states"));
   const Texts robots =
