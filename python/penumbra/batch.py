@@ -12,6 +12,8 @@ import csv
 import ctypes
 import glob
 import hashlib
+import importlib
+import itertools
 import json
 import os
 import pathlib
@@ -22,7 +24,7 @@ import subprocess
 import sys
 import time
 import uuid
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 from penumbra import InputError, __version__
@@ -31,11 +33,13 @@ __all__ = ["run"]
 
 program = pathlib.Path(__file__).parent.absolute() / "bin" / "penumbra"
 record_name = "batch.json"
-part_mark = ".part-"
+part_name = ".part"  # folder of unfinished results
 nothing_judged = 2  # exit status of penumbra run
 libc = ctypes.CDLL(None)
 # A worker that dies is not the input's fault: the scheduler gives the input to another one.
 most_deaths = 100
+# Enough for all workers of a cluster; neither client nor scheduler holds a million jobs.
+most_waiting = 1000
 
 columns = (
     "input", "result", "status", "fault", "frames", "bad_frames", "seconds", "bytes",
@@ -45,25 +49,31 @@ columns = (
 )  # fmt: skip
 
 
-def _files_of(path: pathlib.Path) -> Iterable[pathlib.Path]:
-    return sorted(p for p in path.rglob("*") if p.is_file()) if path.is_dir() else [path]
+# Input, options, working folder for their relative paths, fingerprint and the result's folder.
+_Job = tuple[str, list[str], str, str, pathlib.Path]
 
 
-def _fingerprint(path: pathlib.Path, options: Sequence[str]) -> str:
+def _files_of(path: str | os.PathLike[str]) -> list[pathlib.Path]:
+    if not os.path.isdir(path):
+        return [pathlib.Path(path)]
+    return sorted(pathlib.Path(at, name) for at, _, names in os.walk(path) for name in names)
+
+
+def _fingerprint(path: str, options: Sequence[str]) -> str:
     """Of the input's own files by name, size and time, the options and this version."""
-    hashed = hashlib.sha256(json.dumps([__version__, str(path), list(options)]).encode())
+    hashed = hashlib.sha256(json.dumps([__version__, path, options]).encode())
     for file in _files_of(path):
         try:
             stat = file.stat()
-        except FileNotFoundError:
+        except OSError:  # `penumbra run` says what is wrong
             continue
         hashed.update(f"{file}\0{stat.st_size}\0{stat.st_mtime_ns}\n".encode())
     return hashed.hexdigest()
 
 
-def _result_name(path: pathlib.Path) -> str:
+def _result_name(path: str) -> str:
     """Two inputs of one name have results of two."""
-    return f"{path.name}-{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    return f"{pathlib.Path(path).name}-{hashlib.sha256(path.encode()).hexdigest()[:8]}"
 
 
 def _die_with_parent() -> None:
@@ -85,38 +95,47 @@ def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
     return dict(numbers)
 
 
-def _judge(path: str, options: Sequence[str], output: str, fingerprint: str) -> dict[str, Any]:
+def _remove_parts(output: pathlib.Path) -> None:
+    """Renames them first, so that no job that still runs can complete a half-removed result."""
+    if (output / part_name).exists():
+        removed = output / f"{part_name}-{uuid.uuid4().hex}"
+        (output / part_name).rename(removed)
+        shutil.rmtree(removed, ignore_errors=True)
+
+
+def _judge(
+    path: str, options: list[str], working_folder: str, fingerprint: str, folder: pathlib.Path
+) -> dict[str, Any]:
     """Runs on a worker. Replaces the input's result, whole, and returns its record."""
-    folder = pathlib.Path(output) / _result_name(pathlib.Path(path))
-    for former in folder.parent.glob(f".{glob.escape(folder.name)}{part_mark}*"):
-        shutil.rmtree(former, ignore_errors=True)  # of a worker that died
-    part = folder.parent / f".{folder.name}{part_mark}{uuid.uuid4().hex[:8]}"
-    part.mkdir(parents=True)
+    part = folder.parent / part_name / f"{folder.name}-{uuid.uuid4().hex}"
+    part.mkdir()
+    (part / record_name).touch()
     threads = [] if "--threads" in options else ["--threads", "1"]
     start = time.monotonic()
     done = subprocess.run(
         [program, "run", path, "-o", part / "run", *threads, *options],
         capture_output=True, text=True, errors="replace", preexec_fn=_die_with_parent,
-        start_new_session=True, check=False,
+        start_new_session=True, check=False, cwd=working_folder,
     )  # fmt: skip
-    if done.returncode not in (0, nothing_judged):  # not the input's fault: it is tried again
+    fault = (done.stderr.strip().splitlines() or ["no message"])[-1].removeprefix("penumbra: ")
+    if done.returncode not in (0, nothing_judged):  # not the input's fault: it is not kept
         shutil.rmtree(part, ignore_errors=True)
-        raise RuntimeError(f"{path}: penumbra run ended with status {done.returncode}")
-    record = {"input": path, "result": folder.name, "status": "done", "penumbra": __version__}
+        raise RuntimeError(f"penumbra run ended with status {done.returncode}: {fault}")
+    record: dict[str, Any] = {"input": path, "result": folder.name, "penumbra": __version__}
     if done.returncode == 0:
-        record |= _numbers((part / "run").rglob("report.json"))
+        record |= {"status": "done", **_numbers((part / "run").rglob("report.json"))}
     else:
-        lines = done.stderr.strip().splitlines() or [f"exit status {done.returncode}"]
-        record |= {"status": "failed", "fault": lines[-1].removeprefix("penumbra: ")}
+        record |= {"status": "failed", "fault": fault}
         shutil.rmtree(part / "run", ignore_errors=True)
     record["seconds"] = round(time.monotonic() - start, 3)
     record["bytes"] = sum(file.stat().st_size for file in _files_of(part))
-    text = json.dumps({"fingerprint": fingerprint, "record": record}, indent=1)
-    (part / record_name).write_text(text, encoding="utf-8")
+    with (part / record_name).open("r+", encoding="utf-8") as file:  # fails if it was removed
+        json.dump({"fingerprint": fingerprint, "record": record}, file, indent=1)
+    former = part.with_name(f"{part.name}-former")
     if folder.exists():
-        folder.rename(part.with_name(f"{part.name}-former"))
+        folder.rename(former)
     part.rename(folder)
-    shutil.rmtree(part.with_name(f"{part.name}-former"), ignore_errors=True)
+    shutil.rmtree(former, ignore_errors=True)
     return record
 
 
@@ -134,17 +153,19 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
     found: dict[str, list[str]] = {}
     for name in given:
         if name.endswith(".txt"):
+            place = name
             try:
                 lines = pathlib.Path(name).read_text(encoding="utf-8").splitlines()
-            except (OSError, UnicodeDecodeError) as error:
-                raise InputError(f"{name}: the list cannot be read: {error}") from None
-            for line in lines:
-                words = shlex.split(line, comments=True)
-                if words:
-                    path = os.path.abspath(pathlib.Path(name).parent / words[0])
-                    found[path.removesuffix("/recording.yaml")] = words[1:]
+                for number, line in enumerate(lines, 1):
+                    place = f"{name}:{number}"
+                    words = shlex.split(line, comments=True)
+                    if words:
+                        path = os.path.abspath(pathlib.Path(name).parent / words[0])
+                        found[path.removesuffix("/recording.yaml")] = words[1:]
+            except (OSError, ValueError) as error:
+                raise InputError(f"{place}: the list cannot be read: {error}") from None
             continue
-        paths = [name] if os.path.lexists(name) else sorted(glob.glob(name))
+        paths = [name] if os.path.lexists(name) else sorted(glob.glob(name, recursive=True))
         for path in paths or [name]:  # `penumbra run` says what is wrong
             found[os.path.abspath(path).removesuffix("/recording.yaml")] = []
     if not found:
@@ -153,20 +174,11 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
 
 
 def _write_summary(file: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
-    part = file.with_name(f".{file.name}{part_mark}{os.getpid()}")
-    if file.suffix == ".parquet":
-        try:
-            import pyarrow
-            import pyarrow.parquet
-        except ImportError:
-            raise InputError(f"{file}: needs Python's pyarrow; choose a name in .csv") from None
-        table = pyarrow.table({name: [r.get(name) for r in records] for name in columns})
-        pyarrow.parquet.write_table(table, part)
-    else:
-        with part.open("w", encoding="utf-8", newline="") as out:
-            writer = csv.DictWriter(out, columns, extrasaction="ignore")
-            writer.writeheader()
-            writer.writerows(records)
+    part = file.with_name(f".{file.name}")
+    with part.open("w", encoding="utf-8", newline="") as out:
+        writer = csv.DictWriter(out, columns, extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(records)
     part.replace(file)
 
 
@@ -177,21 +189,22 @@ def run(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    summary: str = "summary.csv",
+    retry_failed: bool = False,
     told: Callable[[int, int, dict[str, Any]], None] = lambda done, all_inputs, record: None,
 ) -> list[dict[str, Any]]:
     """Runs `penumbra run` on each input and returns a record of each, in their order.
 
-    inputs: recordings, bags, patterns ("day1/*.mcap") and lists (*.txt: an input a line, with
-        options of its own behind it).
-    output: a folder. Each input's result is in output/NAME-HASH: run/ as `penumbra run` writes it
-        and batch.json. A result appears whole or not at all. A valid one is not made again: its
-        input's files, the options and Penumbra's version are as they were.
+    inputs: recordings, bags, patterns ("day1/**/*.mcap") and lists (*.txt: an input a line,
+        followed by options of its own, quoted as in a shell).
+    output: a folder, of one call at a time. Each input's result is in output/NAME-HASH: run/ as
+        `penumbra run` writes it and batch.json. A result appears whole or not at all. A valid one
+        is not made again: its input's files, the options and Penumbra's version are as they were.
+        summary.csv has a line per input of this call.
     options: of `penumbra run`, for all inputs.
     workers: processes on this machine, each with one thread; None: one per core.
     scheduler: the address of a running Dask scheduler, "tcp://HOST:PORT", in place of `workers`.
-        Its workers see inputs and output under the same paths.
-    summary: file in output, in .csv or .parquet: a line per input.
+        Its workers see the inputs, the output and the working folder under the same paths.
+    retry_failed: does inputs again whose kept result is "failed".
     told: called with the number of finished inputs, that of all, and the newest record.
 
     A record has "status": "done" or "failed" with a "fault"; "seconds", "bytes" of the result,
@@ -199,58 +212,74 @@ def run(
     Raises InputError for no input, an output that cannot be written, and a scheduler that does not
     answer.
     """
-    jobs = _inputs(str(name) for name in inputs)
+    given = _inputs(str(name) for name in inputs)
     if not program.exists():
         raise InputError(f"{program} is not there; install the package again")
     folder = pathlib.Path(output).absolute()
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        _remove_parts(folder)
+        (folder / part_name).mkdir()
     except OSError as error:
-        raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
+        raise InputError(f"{folder}: cannot be written: {error.strerror}") from None
     records: dict[str, dict[str, Any]] = {}
-    waiting = []
-    for path, own in jobs:
-        all_options = [*options, *own]
-        fingerprint = _fingerprint(pathlib.Path(path), all_options)
-        former = _former_record(folder / _result_name(pathlib.Path(path)), fingerprint)
-        if former:
-            records[path] = former
-            told(len(records), len(jobs), former)
-        else:
-            waiting.append((path, all_options, str(folder), fingerprint))
-    if waiting:
-        for record in _on_cluster(waiting, workers, scheduler):
-            records[record["input"]] = record
-            told(len(records), len(jobs), record)
-    ordered = [records[path] for path, _ in jobs]
-    _write_summary(folder / summary, ordered)
+
+    def keep(record: dict[str, Any]) -> None:
+        records[record["input"]] = record
+        told(len(records), len(given), record)
+
+    def jobs() -> Iterator[_Job]:
+        for path, own in given:
+            all_options = [*options, *own]
+            fingerprint = _fingerprint(path, all_options)
+            result = folder / _result_name(path)
+            former = _former_record(result, fingerprint)
+            if former and not (retry_failed and former["status"] == "failed"):
+                keep(former)
+            else:
+                yield path, all_options, os.getcwd(), fingerprint, result
+
+    try:
+        _run_on_cluster(jobs(), keep, workers, scheduler)
+    finally:
+        _remove_parts(folder)
+    ordered = [records[path] for path, _ in given]
+    _write_summary(folder / "summary.csv", ordered)
     return ordered
 
 
-def _on_cluster(
-    jobs: Sequence[tuple[str, list[str], str, str]], workers: int | None, scheduler: str | None
-) -> Iterable[dict[str, Any]]:
-    try:
-        import dask
-        import distributed
+def _run_on_cluster(
+    jobs: Iterator[_Job], keep: Callable[[dict[str, Any]], None], workers: int | None,
+    scheduler: str | None,
+) -> None:  # fmt: skip
+    """Starts nothing if there is no job."""
+    first = next(jobs, None)
+    if first is None:
+        return
+    try:  # as modules of any type: few of their functions have types
+        dask = importlib.import_module("dask")
+        distributed = importlib.import_module("distributed")
     except ImportError:
-        raise InputError("needs Dask: python3-distributed, or pip install penumbra[batch]") from None
+        raise InputError("needs Dask: install python3-distributed, or penumbra[batch]") from None
     with dask.config.set({"distributed.scheduler.allowed-failures": most_deaths}):
+        local = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
         try:
-            client = (
-                distributed.Client(scheduler, timeout="10s")
-                if scheduler
-                else distributed.Client(
-                    n_workers=workers or os.cpu_count(), threads_per_worker=1, processes=True,
-                    dashboard_address="127.0.0.1:0",
-                )
-            )  # fmt: skip
-        except (OSError, ValueError) as error:
-            raise InputError(f"scheduler {scheduler}: does not answer ({error})") from None
+            client = distributed.Client(scheduler, timeout="10s", **({} if scheduler else local))
+        except (OSError, ValueError, RuntimeError) as error:
+            raise InputError(f"{scheduler or 'local workers'}: no answer ({error})") from None
         with client:
             print(f"dashboard: {client.dashboard_link}", file=sys.stderr)
-            path_of = {client.submit(_judge, *job, pure=False): job[0] for job in jobs}
-            for future in distributed.as_completed(list(path_of)):
+            finished = distributed.as_completed([])
+            path_of = {}
+
+            def submit(more: Iterable[_Job]) -> None:
+                for job in more:
+                    future = client.submit(_judge, *job, pure=False)
+                    path_of[future] = job[0]
+                    finished.add(future)
+
+            submit(itertools.chain([first], itertools.islice(jobs, most_waiting - 1)))
+            for future in finished:
                 path = path_of.pop(future)
                 try:
                     record = future.result()
@@ -258,7 +287,8 @@ def _on_cluster(
                     record = {"input": path, "result": "", "status": "failed", "fault": str(error)}
                 # Or the death of the worker that holds it would have it made again.
                 future.release()
-                yield record
+                keep(record)
+                submit(itertools.islice(jobs, 1))
 
 
 def _print_progress(done: int, all_inputs: int, record: dict[str, Any]) -> None:
@@ -274,20 +304,20 @@ def _print_progress(done: int, all_inputs: int, record: dict[str, Any]) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python3 -m penumbra.batch",
-        usage="%(prog)s INPUT... -o OUT [--workers N | --scheduler ADDRESS] [-- OPTION...]",
+        usage="%(prog)s INPUT... -o OUT [OPTION...] [-- OPTION of penumbra run...]",
         description="Judges many recordings and bags with `penumbra run`, on all cores or on a "
         "cluster of Dask's. What is done and unchanged is not done again.",
-        epilog="Options behind -- are those of `penumbra run`: -- --save labels. Exit status: 0; "
-        "1 if an input failed; 2 if all failed or the arguments are wrong.",
+        epilog="Options after -- are those of `penumbra run`: -- --save labels. Exit status: 0; "
+        "1 if an input failed; 2 if all failed or the arguments are wrong; 130 after Ctrl-C.",
         allow_abbrev=False,
     )
     parser.add_argument("inputs", nargs="*", metavar="INPUT",
-                        help="recording, bag, 'pattern*.mcap', or list.txt: an input a line, with "
-                        "options of its own behind it")  # fmt: skip
+                        help="recording, bag, 'pattern*.mcap', or list.txt: an input a line, "
+                        "followed by options of its own")  # fmt: skip
     parser.add_argument("-o", "--output", required=True, help="folder for results and summary")
     parser.add_argument("--workers", type=int, help="processes here; default: one per core")
     parser.add_argument("--scheduler", help="tcp://HOST:PORT of a running cluster instead")
-    parser.add_argument("--summary", default="summary.csv", help="its name: *.csv or *.parquet")
+    parser.add_argument("--retry-failed", action="store_true", help="do failed inputs again")
     arguments = sys.argv[1:]
     end = arguments.index("--") if "--" in arguments else len(arguments)
     known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
@@ -295,7 +325,7 @@ def main() -> int:
         parser.error("--workers: 1 or more")
     try:
         records = run(known.inputs, known.output, options, workers=known.workers,
-                      scheduler=known.scheduler, summary=known.summary,
+                      scheduler=known.scheduler, retry_failed=known.retry_failed,
                       told=_print_progress)  # fmt: skip
     except InputError as error:
         print(f"penumbra: {error}", file=sys.stderr)
@@ -303,8 +333,7 @@ def main() -> int:
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
     failed = sum(record["status"] == "failed" for record in records)
-    summary = pathlib.Path(known.output) / known.summary
-    print(f"{len(records) - failed} done, {failed} failed: {summary}")
+    print(f"{len(records) - failed} done, {failed} failed: {known.output}/summary.csv")
     return 0 if failed == 0 else 2 if failed == len(records) else 1
 
 

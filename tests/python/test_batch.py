@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Many inputs on Dask's workers, some of which are killed."""
+"""Many inputs on Dask's workers."""
 
 import csv
 import json
@@ -17,18 +17,21 @@ import pytest
 import penumbra.batch
 from conftest import PROGRAM, SHIPPED
 
-pytest.importorskip("distributed")
+distributed = pytest.importorskip("distributed")
 
 IN_FULL = bool(os.environ.get("PENUMBRA_FULL"))
 INPUTS = 200 if IN_FULL else 12
 BROKEN = 5
-SECONDS_BETWEEN_KILLS = 5.0 if IN_FULL else 1.5
-OPTIONS = ["--save", "labels"]
+RESULTS_BETWEEN_KILLS = 20 if IN_FULL else 4
+OPTIONS = ["--save", "labels,overlay"]
+TARGETS = "targets: [{name: it, box: [460, 172, 38, 98], expected_depth: 1.87, depth_margin: 0.1}]"
+NO_SCHEDULER = "tcp://127.0.0.1:1"
 
 
-def make_inputs(folder):
+def make_inputs(folder, count):
     """The shipped recording with its joints moved, and broken ones."""
-    for i in range(INPUTS):
+    folder.mkdir()
+    for i in range(count):
         made = folder / f"{'broken' if i < BROKEN else 'recording'}_{i}"
         made.mkdir()
         for part in SHIPPED.iterdir():
@@ -42,40 +45,45 @@ def make_inputs(folder):
     return folder
 
 
-def start(folder, out, *more):
+def start(folder, out, where=("--workers", "2")):
     command = [sys.executable, "-m", "penumbra.batch", str(folder / "*"), "-o", str(out),
-               "--workers", "2", *more, "--", *OPTIONS]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+               *where, "--", *OPTIONS]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
-def workers_of(pid):
-    """Dask's worker processes."""
-    found = []
+def busy_workers_of(pid):
+    """Dask's worker processes that run `penumbra run`. Dask may not replace one that starts up."""
+    parents = {}
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
-            parent = int((process / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            if parent == pid and b"spawn_main" in (process / "cmdline").read_bytes():
-                found.append(int(process.name))
-        except (OSError, ValueError):
+            stat = (process / "stat").read_text()
+            parents[int(process.name)] = int(stat.rsplit(")", 1)[1].split()[1])
+        except OSError:
             continue
-    return found
-
-
-def finish(batch, rng=None):
-    """Waits for it, while a worker is killed every few seconds. Returns the number of kills."""
-    kills, next_kill = 0, time.monotonic() + SECONDS_BETWEEN_KILLS
-    while batch.poll() is None:
-        time.sleep(0.05)
-        workers = workers_of(batch.pid) if rng and time.monotonic() > next_kill else []
-        if workers:
-            os.kill(rng.choice(workers), signal.SIGKILL)
-            kills, next_kill = kills + 1, time.monotonic() + SECONDS_BETWEEN_KILLS
-    batch.out, batch.err = batch.communicate()
-    return kills
+    return sorted({parent for parent in parents.values() if parents.get(parent) == pid})
 
 
 def rows_of(out):
     return list(csv.DictReader((out / "summary.csv").open()))
+
+
+def times_of(out):
+    """When each result was made."""
+    return {path.parent.name: path.stat().st_mtime_ns for path in out.glob("*/batch.json")}
+
+
+def finish(batch, out=None, rng=None):
+    """Waits for it, and with rng kills workers now and then. Returns the number of kills."""
+    kills = 0
+    while batch.poll() is None:
+        time.sleep(0.02)
+        due = rng and len(times_of(out)) > kills * RESULTS_BETWEEN_KILLS
+        workers = busy_workers_of(batch.pid) if due else []
+        if workers:
+            os.kill(rng.choice(workers), signal.SIGKILL)
+            kills += 1
+    batch.err = batch.communicate()[1]
+    return kills
 
 
 def without_times(report):
@@ -92,22 +100,19 @@ def expect_single_run(row, out, folder):
     subprocess.run([PROGRAM, "run", row["input"], "-o", alone, *OPTIONS], check=True,
                    capture_output=True)
     result = out / row["result"] / "run"
+    names = {path.relative_to(alone) for path in alone.rglob("*.*")}
+    assert names == {path.relative_to(result) for path in result.rglob("*.*")}
+    assert len(names) > 3
+    for name in names - {pathlib.Path("report.json")}:
+        assert (alone / name).read_bytes() == (result / name).read_bytes()
     assert without_times(result / "report.json") == without_times(alone / "report.json")
-    images = sorted((alone / "labels").iterdir())
-    assert images
-    for image in images:
-        assert image.read_bytes() == (result / "labels" / image.name).read_bytes()
     shutil.rmtree(alone)
 
 
 def test_each_input_has_one_result_though_workers_die(tmp_path):
-    seed = 4
-    print("seed", seed)
-    (tmp_path / "in").mkdir()
-    folder, out = make_inputs(tmp_path / "in"), tmp_path / "out"
+    folder, out = make_inputs(tmp_path / "in", INPUTS), tmp_path / "out"
     batch = start(folder, out)
-    kills = finish(batch, random.Random(seed))
-    print(kills, "workers killed")
+    kills = finish(batch, out, random.Random(4))
     assert batch.returncode == 1, batch.err
     assert kills > 0
     rows = rows_of(out)
@@ -115,30 +120,43 @@ def test_each_input_has_one_result_though_workers_die(tmp_path):
     failed = [row for row in rows if row["status"] == "failed"]
     assert len(failed) == BROKEN
     assert all("joint_states.csv" in row["fault"] for row in failed)
-    results = {path.name for path in out.iterdir()}
-    assert results == {row["result"] for row in rows} | {"summary.csv"}, "nothing is left over"
+    left = {path.name for path in out.iterdir()}
+    assert left == {row["result"] for row in rows} | {"summary.csv"}
     good = [row for row in rows if row["status"] == "done"]
     assert len(good) == INPUTS - BROKEN
-    for row in good[:: 20 if IN_FULL else 3]:
+    for row in good:
         expect_single_run(row, out, tmp_path)
 
-    times = {path: (out / path / "batch.json").stat().st_mtime_ns for path in results
-             if path != "summary.csv"}
-    again = start(folder, out)
+    times = times_of(out)
+    again = start(folder, out, ["--scheduler", NO_SCHEDULER])
     finish(again)
-    assert again.returncode == 1
-    assert "dashboard" not in again.err, "no worker was started"
-    changed = pathlib.Path(good[0]["input"]) / "joint_states.csv"
-    os.utime(changed)
+    assert again.returncode == 1, "no cluster is needed where nothing is to be done"
+    os.utime(pathlib.Path(good[0]["input"]) / "joint_states.csv")
     finish(start(folder, out))
-    now = {path: (out / path / "batch.json").stat().st_mtime_ns for path in times}
-    assert [path for path in times if now[path] != times[path]] == [good[0]["result"]]
+    now = times_of(out)
+    assert [name for name in times if now[name] != times[name]] == [good[0]["result"]]
     assert rows_of(out)[-1] == rows[-1]
+
+
+def test_after_an_interrupt_only_the_rest_is_done(tmp_path):
+    folder, out = make_inputs(tmp_path / "in", 12), tmp_path / "out"
+    batch = start(folder, out)
+    while not times_of(out) and batch.poll() is None:
+        time.sleep(0.01)
+    os.killpg(batch.pid, signal.SIGINT)
+    finish(batch)
+    assert batch.returncode == 128 + signal.SIGINT, batch.err
+    kept = times_of(out)
+    assert 0 < len(kept) < 12
+    finish(start(folder, out))
+    now = times_of(out)
+    assert len(now) == 12 and kept.items() <= now.items()
+    assert {row["result"] for row in rows_of(out)} == set(now)
 
 
 def test_a_list_has_options_and_a_function_does_the_same(tmp_path):
     inputs = tmp_path / "inputs.txt"
-    inputs.write_text(f"# two of it\n{SHIPPED} --frames 0:2\n")
+    inputs.write_text(f"# a comment\n{SHIPPED} --frames 0:2\n")
     told = []
     records = penumbra.batch.run([inputs], tmp_path / "out", workers=1,
                                  told=lambda done, all_inputs, record: told.append(done))
@@ -146,15 +164,55 @@ def test_a_list_has_options_and_a_function_does_the_same(tmp_path):
     assert told == [1]
 
 
+@pytest.fixture(scope="module")
+def scheduler():
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1,
+                                  dashboard_address="127.0.0.1:0") as cluster:
+        yield cluster.scheduler_address
+
+
+def test_a_scheduler_has_few_inputs_at_a_time_and_relative_paths(tmp_path, scheduler, monkeypatch):
+    for name in ("a", "b/deep", "c"):
+        (tmp_path / "in" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "in" / name).symlink_to(SHIPPED)
+    (tmp_path / "relative.yaml").write_text(TARGETS)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(penumbra.batch, "most_waiting", 1)
+    records = penumbra.batch.run(["in/**/recording.yaml"], "out", ["--targets", "relative.yaml"],
+                                 scheduler=scheduler)
+    assert [(pathlib.Path(record["input"]).name, record["status"]) for record in records] == [
+        ("a", "done"), ("deep", "done"), ("c", "done")]
+
+
+def test_failed_inputs_are_done_again_if_asked(tmp_path, scheduler):
+    targets = tmp_path / "targets.yaml"
+
+    def status(**options):
+        [record] = penumbra.batch.run([SHIPPED], tmp_path / "out", ["--targets", str(targets)],
+                                      scheduler=scheduler, **options)
+        return record["status"]
+
+    assert status() == "failed"
+    targets.write_text(TARGETS)
+    assert status() == "failed"
+    assert status(retry_failed=True) == "done"
+    targets.unlink()
+    assert status(retry_failed=True) == "done", "it did not fail"
+
+
 @pytest.mark.parametrize("arguments, words", [
     (["-o", "out"], ["no input"]),
     (["none.txt", "-o", "out"], ["none.txt"]),
-    ([str(SHIPPED), "-o", "out", "--scheduler", "tcp://127.0.0.1:1"], ["127.0.0.1:1", "answer"]),
+    (["quote.txt", "-o", "out"], ["quote.txt:2"]),
+    (["loop", "-o", "out"], ["loop"]),
+    ([str(SHIPPED), "-o", "out", "--scheduler", NO_SCHEDULER], [NO_SCHEDULER]),
     ([str(SHIPPED), "-o", "out", "--workers", "0"], ["--workers"]),
     ([str(SHIPPED), "-o", "/dev/null/out"], ["/dev/null/out"]),
     (["nothing_here", "-o", "out"], ["nothing_here"]),
 ])
 def test_bad_arguments_are_one_line(arguments, words, tmp_path):
+    (tmp_path / "quote.txt").write_text("recording\nanother's\n")
+    (tmp_path / "loop").symlink_to("loop")
     done = subprocess.run([sys.executable, "-m", "penumbra.batch", *arguments], cwd=tmp_path,
                           capture_output=True, text=True)
     assert done.returncode == 2
